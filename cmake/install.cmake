@@ -2,7 +2,7 @@
 # Linkwright::linkwright, which is all of them without the extras (Linkwright::pagmo_adapters); add_subdirectory gives the same names.
 
 get_property(modules GLOBAL PROPERTY LINKWRIGHT_MODULES)
-list(REMOVE_ITEM modules linkwright_cli)
+list(REMOVE_ITEM modules linkwright_cli linkwright_serve)
 get_property(extras GLOBAL PROPERTY LINKWRIGHT_EXTRAS)
 add_library(linkwright_all INTERFACE)
 target_link_libraries(linkwright_all INTERFACE ${modules})

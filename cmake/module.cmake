@@ -17,7 +17,11 @@ if(LINKWRIGHT_SANITIZE)
                          -fno-sanitize-recover=all)
   target_link_options(linkwright_flags INTERFACE -fsanitize=${LINKWRIGHT_SANITIZE})
 endif()
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+if(EMSCRIPTEN)
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+else()
+  set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+endif()
 
 # linkwright_module(<module> SOURCES <files> [DEPENDS <modules or libraries>])
 function(linkwright_module module)
@@ -37,9 +41,9 @@ function(linkwright_library module)
   target_include_directories(linkwright_${module} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(linkwright_${module} PUBLIC cxx_std_20)
-  # Reading and reporting take milliseconds a run and two thirds of the compiler's time.
-  if(module MATCHES "_studies$|^study$|^report$|^app$|^cli$")
-    target_compile_options(linkwright_${module} PRIVATE $<$<CONFIG:Release>:-O1>)
+  # Reading and reporting take milliseconds a run and two thirds of the compiler's time; a page loads them over the network.
+  if(module MATCHES "_studies$|^study$|^report$|^app$|^serve$|^cli$")
+    target_compile_options(linkwright_${module} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O1>>)
   endif()
   # Our programs and tests take the flags from the modules; other people's code keeps its own.
   if(PROJECT_IS_TOP_LEVEL)

@@ -19,7 +19,8 @@ LAYERS = [
     ["planar", "flexible", "suspension", "parallel", "report"],
     ["clearance"],
     ["app"],
-    ["cli", "serve"],
+    ["serve"],
+    ["cli", "wasm"],
 ]
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}

@@ -33,6 +33,7 @@ NO_TEST = {
     "math/detail/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
     "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
     "math/detail/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
+    "serve/page.h": "the bytes of a page, asked for in server_test.cpp and opened by web/tests/workbench.mjs",
     "report/detail/canvas.h": "part of svg, tested in svg_test.cpp",
     "report/detail/svg_arrows.h": "part of svg, tested in svg_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",

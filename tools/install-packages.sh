@@ -1,18 +1,18 @@
 #!/bin/sh
 # Installs the Debian packages that are missing; does nothing, quickly, when all are there.
 #   tools/install-packages.sh run    what the program needs to be built
-#   tools/install-packages.sh test   that, and what the tests and benchmarks need
+#   tools/install-packages.sh test   that, and what the tests, the benchmarks and the workbench need
 set -eu
 
 packages="g++ cmake ninja-build ccache
 libfmt-dev libeigen3-dev libtbb-dev librandom123-dev libxsimd-dev libtomlplusplus-dev
 nlohmann-json3-dev libcli11-dev libexpected-dev libsundials-dev libnlopt-dev libnlopt-cxx-dev
-libpagmo-dev zlib1g-dev
+libpagmo-dev zlib1g-dev libcpp-httplib-dev pkgconf
 nodejs npm"
 case "${1:-}" in
   run) ;;
   test) packages="$packages
-git clang-format pkgconf libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema" ;;
+git clang-format libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema emscripten" ;;
   *) echo "usage: tools/install-packages.sh run|test" >&2; exit 2 ;;
 esac
 

@@ -4,7 +4,8 @@
     tools/report_sizes.py LINKWRIGHT FOLDER [--time-limit S] [--chromium PROGRAM] [--most MB]
 
 Writes the reports into FOLDER, where those that are there already are kept, and a line for each: bytes, and the
-milliseconds until something of it was painted and until the viewer stood. Exit code 1 when a report is larger than MB.
+milliseconds until something of it was painted and until the viewer stood, and those of script in a frame of its animation:
+median, 95 %, and mean time of the processor, which does not depend on what else runs. Exit code 1 when a report is larger than MB.
 """
 
 import argparse
@@ -34,9 +35,9 @@ def reports(options):
             yield name, report
 
 
-def load_times(chromium, files):
-    """[first paint, viewer] in ms for each file."""
-    out = subprocess.run(["node", "tests/load_times.mjs", chromium], input="\n".join(str(f.resolve()) for f in files),
+def measured(script, chromium, files):
+    """Times in ms for each file: load_times.mjs gives [first paint, viewer], frame_cost.mjs [median, 95 %, processor] of a frame."""
+    out = subprocess.run(["node", f"tests/{script}.mjs", chromium], input="\n".join(str(f.resolve()) for f in files),
                          capture_output=True, text=True, check=True, cwd=ROOT / "web")
     return json.loads(out.stdout)
 
@@ -55,9 +56,12 @@ def main():
     options = parser.parse_args()
     found = list(reports(options))
     sizes = [report.stat().st_size for _, report in found]
-    times = load_times(options.chromium, [report for _, report in found]) if options.chromium else [None] * len(found)
-    for (name, _), size, time in sorted(zip(found, sizes, times), key=lambda row: -row[1]):
-        print(f"{size / 1e6:7.2f} MB  {'' if time is None else f'{time[0]:6.0f} ms {time[1]:6.0f} ms  '}{name}")
+    files = [report for _, report in found]
+    times, frames = ([measured(script, options.chromium, files) if options.chromium else [None] * len(found)
+                      for script in ("load_times", "frame_cost")])
+    for (name, _), size, time, frame in sorted(zip(found, sizes, times, frames), key=lambda row: -row[1]):
+        in_browser = "" if time is None else f"{time[0]:6.0f} ms {time[1]:6.0f} ms {frame[0]:6.1f} ms {frame[1]:6.1f} ms {frame[2]:6.1f} ms  "
+        print(f"{size / 1e6:7.2f} MB  {in_browser}{name}")
 
     def line(what, values, unit, digits):
         print(f"{what}: median {statistics.median(values):.{digits}f} {unit}, 95 % {at_share(values, 0.95):.{digits}f} {unit}, "
@@ -67,6 +71,9 @@ def main():
     if options.chromium:
         line("first paint", [t[0] for t in times], "ms", 0)
         line("viewer", [t[1] for t in times], "ms", 0)
+        line("script of a frame", [f[0] for f in frames], "ms", 1)
+        line("script of one frame in twenty", [f[1] for f in frames], "ms", 1)
+        line("processor time of the script of a frame", [f[2] for f in frames], "ms", 1)
     return 1 if max(sizes) > options.most * 1e6 else 0
 
 

@@ -24,9 +24,14 @@ const space = { entry: "src/space.ts", name: "linkwrightSpace", file: "space", p
 // What unpacks these and the data of the report.
 const boot = { entry: "src/boot.ts", name: "linkwrightBoot", file: "boot", parts: "" };
 
+// The workbench, and what runs beside it.
+const workbench = { ...viewer, entry: "src/workbench/workbench.tsx", name: "linkwrightWorkbench", file: "workbench" };
+const worker = { entry: "src/workbench/worker.ts", name: "linkwrightWorker", file: "worker", parts: "" };
+const bundles: Record<string, typeof viewer> = { space, boot, workbench, worker };
+
 // One script and one style sheet that run from disk in any current browser.
 export default defineConfig(({ mode }) => {
-  const bundle = mode === "space" ? space : mode === "boot" ? boot : viewer;
+  const bundle = bundles[mode] ?? viewer;
   return {
     define: { "process.env.NODE_ENV": '"production"' },
     esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "inline" },
@@ -38,6 +43,6 @@ export default defineConfig(({ mode }) => {
     },
     // A test reads the units of the printed form.
     server: { fs: { allow: [".."] } },
-    test: { include: ["tests/*.test.ts"] },
+    test: { include: ["tests/*.test.ts"], setupFiles: ["tests/units.ts"] },
   } as UserConfig;
 });

@@ -8,8 +8,11 @@
 #include <fstream>
 #include <utility>
 
+#include "linkwright/app/catalogue.h"
+#include "linkwright/app/examples.h"
 #include "linkwright/app/run.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
 
@@ -122,6 +125,7 @@ TEST(Compare, CurvesOfOtherInputsAreRowsOfEachStudy) {
   EXPECT_THAT(table->find("angle_rad")->values, ElementsAre(0, 1, 0, 1, 2));
   ASSERT_EQ(result.plots.size(), 1u);
   EXPECT_EQ(result.plots[0].group, "study");
+  EXPECT_THAT(result.plots[0].group_names, ElementsAre("short", "long"));
   EXPECT_EQ(result.plots[0].scene, "");
   // Nor can one be drawn behind the other.
   ASSERT_EQ(result.scenes.size(), 2u);
@@ -130,37 +134,32 @@ TEST(Compare, CurvesOfOtherInputsAreRowsOfEachStudy) {
   EXPECT_EQ(result.scenes[0].bodies.size(), 2u);
 }
 
-TEST(Compare, ManyCurvesGetADiagramForEachColumn) {
-  std::vector<Compared> all;
-  for (const char* name : {"a", "b", "c"}) {
-    all.push_back(mechanism(name, 400, {0, 1}));
-    study::Result& result = all.back().result;
-    for (const char* key : {"depth_m", "width_m"}) {
-      result.tables[0].add(key, std::string(key) + " (m)", {0, 1});
-      result.plots[0].y.emplace_back(key);
-    }
-  }
-  const study::Result result = compare(all);
-  ASSERT_EQ(result.plots.size(), 4u);
-  EXPECT_EQ(result.plots[0].name, "height-height_m");
-  EXPECT_EQ(result.plots[0].title, "Height: height");
-  EXPECT_THAT(result.plots[0].y, ElementsAre("height_1_m", "height_2_m", "height_3_m"));
-}
-
-TEST(Compare, TheOthersAreLinesBehindTheFirst) {
+TEST(Compare, TheOthersAreGhostsBehindTheFirst) {
   const std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
   const study::Result result = compare(all);
   ASSERT_EQ(result.scenes.size(), 1u);
   const study::Scene& scene = result.scenes[0];
-  EXPECT_EQ(scene.title, "short, the others dash-dotted");
+  EXPECT_EQ(scene.title, "short");
+  EXPECT_THAT(scene.runs, ElementsAre("short", "long"));
   ASSERT_EQ(scene.points.size(), 4u);
   ASSERT_EQ(scene.bodies.size(), 3u);  // the ground of the other is left out
   EXPECT_EQ(scene.bodies[2].name, "lever of long");
-  EXPECT_EQ(scene.bodies[2].style, study::Scene::BodyStyle::ground);
+  EXPECT_EQ(scene.bodies[1].run, 0);
+  EXPECT_EQ(scene.bodies[2].run, 1);
   EXPECT_THAT(scene.bodies[2].points, ElementsAre(2, 3));
   ASSERT_EQ(scene.traces.size(), 2u);
   EXPECT_EQ(scene.traces[1].name, "A of long");
   EXPECT_EQ(scene.traces[1].point, 3);
+  EXPECT_EQ(scene.traces[1].run, 1);
+}
+
+TEST(Compare, AGhostHasTheNumberOfItsCurve) {
+  const std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("other", 450, {0, 1, 2}),
+                                     mechanism("long", 500, {0, 1})};
+  const study::Result result = compare(all);
+  ASSERT_EQ(result.scenes.size(), 2u);
+  EXPECT_THAT(result.scenes[0].runs, ElementsAre("short", "other", "long"));
+  EXPECT_EQ(result.scenes[0].bodies[2].run, 2);
 }
 
 TEST(Compare, IsAsGoodAsTheWorst) {
@@ -170,6 +169,27 @@ TEST(Compare, IsAsGoodAsTheWorst) {
   EXPECT_EQ(result.status, Status::no_assembly);
   EXPECT_EQ(result.facts[1].text, "long: no_assembly");
   EXPECT_EQ(result.facts[1].verdict, study::Fact::Verdict::bad);
+}
+
+TEST(Compare, TheStudyInEveryResultIsReadBack) {
+  const std::span<const study::Kind> kinds = catalogue();
+  const fs::path folder = LINKWRIGHT_SOURCE_DIR "/examples";
+  std::size_t count = 0;
+  for (const EmbeddedFile& file : example_files()) {
+    if (!file.path.ends_with(".toml")) continue;
+    SCOPED_TRACE(file.path);
+    Diagnostics diagnostics;
+    const auto study = load_study(folder / file.path, {}, kinds, diagnostics);
+    ASSERT_TRUE(study);
+    // As it stands in result.json: numbers with all digits, no comments and no places in a file.
+    const std::string text = study::to_json(study->canonical);
+    const Value document = study::read_text(text, study::Syntax::json, "result.json", diagnostics);
+    diagnostics.clear();
+    const auto again = study::prepare(document, "result.json", {}, kinds, diagnostics);
+    EXPECT_TRUE(again.has_value()) << (diagnostics.empty() ? "" : to_string(diagnostics.front()));
+    ++count;
+  }
+  EXPECT_GE(count, 80u);
 }
 
 /// Studies and results on the disk.
@@ -188,7 +208,8 @@ class LoadCompared : public ::testing::Test {
     const auto study = load_study(folder_ / "s.toml", {}, kinds_, diagnostics);
     study::Result result;
     result.status = status;
-    std::ofstream(folder_ / "out/result.json") << study::to_json_readable(result_json(*study, result, {}));
+    std::ofstream(folder_ / "out/result.json")
+        << study::to_json_readable(result_json(*study, presented(*study, result), {}));
   }
   std::string refusal(const fs::path& path) {
     Diagnostics diagnostics;

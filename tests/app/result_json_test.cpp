@@ -22,7 +22,7 @@ TEST(ResultJson, HoldsWhatItsReadersCountOn) {
   const study::Study study = example(kinds);
   RunContext context;
   const RunOutcome outcome = run_and_record(study, context);
-  const Value v = result_json(study, outcome.result, outcome.record);
+  const Value v = result_json(study, presented(study, outcome.result), outcome.record);
   std::string keys;
   for (const Value::Member& member : v.as_object()) keys += member.key + " ";
   EXPECT_EQ(keys,
@@ -49,7 +49,7 @@ TEST(ResultJson, CarriesTheAnswer) {
   RunContext context;
   const RunOutcome outcome = run_and_record(study, context);
   EXPECT_EQ(
-      study::to_json(*result_json(study, outcome.result, outcome.record).find("answer")),
+      study::to_json(*result_json(study, presented(study, outcome.result), outcome.record).find("answer")),
       R"({"headline":"The lever turns","verdict":"passed","reasons":[],)"
       R"("first_trouble":{"what":"no_assembly","where":{"angle_rad":0.7853981633974483},"why":"1 of 3 rows of 'sweep' are no_assembly"},)"
       R"("worst_trouble":{"what":"no_assembly","where":{"angle_rad":0.7853981633974483},"why":"1 of 3 rows of 'sweep' are no_assembly"},)"
@@ -63,7 +63,7 @@ TEST(ResultJson, InTheUnitsAndDigitsThatTheStudyAsksFor) {
   study.common.output.digits = study::Digits::six;
   RunContext context;
   const RunOutcome outcome = run_and_record(study, context);
-  const Value v = result_json(study, outcome.result, outcome.record);
+  const Value v = result_json(study, presented(study, outcome.result), outcome.record);
   EXPECT_EQ(study::to_json(*v.find("best")->find("parameters")), R"({"length_mm":400.0})");
   EXPECT_EQ(study::to_json(*v.find("best")->find("objectives")), R"({"height_mm":400.0})");
   EXPECT_EQ(study::to_json(*v.find("tables")->as_array()[0].find("data")),
@@ -78,7 +78,8 @@ TEST(ResultJson, TwoRunsDifferOnlyInRun) {
   RunContext one, other;
   other.set_threads(2);
   const RunOutcome a = run_and_record(study, one), b = run_and_record(study, other);
-  Value first = result_json(study, a.result, a.record), second = result_json(study, b.result, b.record);
+  Value first = result_json(study, presented(study, a.result), a.record),
+        second = result_json(study, presented(study, b.result), b.record);
   EXPECT_FALSE(first == second);
   first["run"] = second["run"] = nullptr;
   EXPECT_EQ(study::to_json(first), study::to_json(second));
@@ -88,7 +89,7 @@ TEST(ResultJson, NoSolution) {
   const auto kinds = study::sample::kinds();
   study::Result result;
   result.status = Status::no_assembly;
-  const Value v = result_json(example(kinds), result, {});
+  const Value v = result_json(example(kinds), presented(example(kinds), result), {});
   EXPECT_TRUE(v.find("best")->is_null());
   EXPECT_EQ(v.find("status")->as_string(), "no_assembly");
   EXPECT_EQ(study::to_json(*v.find("solutions")), "[]");

@@ -91,6 +91,31 @@ TEST_F(Run, WritesWhatTheStudyAsksFor) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep/out"), fs::directory_iterator()), 1);
 }
 
+TEST_F(Run, WritesTheStudiesOfDesigns) {
+  const auto study = load({.out = {}, .seed = {}, .set = {"output.formats=['csv']"}});
+  ASSERT_TRUE(study) << message();
+  RunContext context;
+  RunOutcome outcome = run_and_record(*study, context);
+  ASSERT_EQ(outcome.result.solutions.size(), 1u);
+  outcome.result.solutions.resize(3, outcome.result.solutions[0]);
+  for (const std::size_t i : {0u, 2u}) {  // the second one has none
+    outcome.result.solutions[i].study["kind"] = "analysis";
+    outcome.result.solutions[i].study["mechanism"]["type"] = "lever";
+  }
+  ASSERT_TRUE(prepare_folder(folder_ / "out", diagnostics_));
+  const auto written = write_results(*study, outcome, folder_ / "out", diagnostics_);
+  EXPECT_EQ(written, (std::vector<fs::path>{folder_ / "out/sweep.csv", folder_ / "out/designs/1-lever.toml",
+                                            folder_ / "out/designs/3-lever.toml"}));
+  ASSERT_EQ(written.size(), 3u) << message();
+  EXPECT_EQ(read(written[2]), "#:schema ./analysis-lever.schema.json\n# Solution 3 of \"" + title_of(*study) +
+                                  "\", found by linkwright 0.1.0: lever\nkind = \"analysis\"\n\n"
+                                  "[mechanism]\ntype = \"lever\"\n");
+  const Value solutions =
+      *result_json(*study, presented(*study, outcome.result), outcome.record).find("solutions");
+  EXPECT_EQ(*solutions.as_array()[0].find("study"), outcome.result.solutions[0].study);
+  EXPECT_EQ(solutions.as_array()[1].find("study"), nullptr);
+}
+
 TEST_F(Run, UnwritableFolders) {
   EXPECT_FALSE(prepare_folder(folder_ / "s.toml" / "below", diagnostics_));
   EXPECT_THAT(message(), HasSubstr("s.toml/below: error: the folder cannot be made: Not a directory"));

@@ -1,6 +1,7 @@
 #include "linkwright/app/write_whole.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,6 +37,17 @@ TEST_F(WriteWhole, ReplacesAndLeavesNothingElse) {
     found << std::ifstream(folder_ / "a", std::ios::binary).rdbuf();
     EXPECT_EQ(found.str(), text);
     EXPECT_EQ(names(), std::set<std::string>{"a"});
+  }
+}
+
+TEST_F(WriteWhole, KeepsThePermissionsOfWhatItReplaces) {
+  for (const mode_t mode : {0600u, 0640u, 0755u}) {
+    std::ofstream(folder_ / "a") << "x";
+    ASSERT_EQ(::chmod((folder_ / "a").c_str(), mode), 0);
+    EXPECT_EQ(write_whole(folder_ / "a", "y"), "");
+    struct stat now = {};
+    ASSERT_EQ(::stat((folder_ / "a").c_str(), &now), 0);
+    EXPECT_EQ(now.st_mode & 07777, mode);
   }
 }
 

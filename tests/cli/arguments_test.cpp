@@ -52,6 +52,12 @@ TEST(Arguments, TheOtherCommands) {
   EXPECT_EQ(parse({"new", "analysis", "f.toml"}).file, "f.toml");
   EXPECT_EQ(parse({"schema"}).command, Command::schema);
   EXPECT_EQ(parse({"schema", "-o", "x.json"}).out, "x.json");
+  EXPECT_EQ(parse({"serve"}).command, Command::serve);
+  EXPECT_EQ(parse({"serve"}).study, "");
+  const Arguments serve = parse({"serve", "s.toml", "--port", "8080", "--open"});
+  EXPECT_EQ(serve.study, "s.toml");
+  EXPECT_EQ(serve.port, 8080);
+  EXPECT_TRUE(serve.open);
   EXPECT_EQ(parse({"catalogue"}).command, Command::catalogue);
   EXPECT_EQ(parse({"catalogue", "four", "path"}).words, (std::vector<std::string>{"four", "path"}));
   EXPECT_EQ(parse({"samples", "leg"}).command, Command::samples);
@@ -100,6 +106,7 @@ TEST(Arguments, WrongUsage) {
   EXPECT_THAT(wrong({"run", "s.toml", "--seed", "x"}), HasSubstr("--seed: Value x not in range"));
   EXPECT_THAT(wrong({"run", "s.toml", "--time-limit", "0"}),
               HasSubstr("--time-limit: is '0', must be a number of seconds, more than 0"));
+  EXPECT_THAT(wrong({"serve", "--port", "65536"}), HasSubstr("--port: Value 65536 not in range"));
   EXPECT_THAT(wrong({"run"}), HasSubstr("STUDY is required"));
 }
 
@@ -111,6 +118,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
             "  run         run a study and write its results\n"
             "  check       read and validate a study, without running it\n"
             "  compare     put the results of several studies of one kind side by side\n"
+            "  serve       open the workbench: a page of this machine, with this program behind it\n"
             "  examples    list the examples that come with the program, or copy one\n"
             "  new         write a study of a kind, to start from\n"
             "  catalogue   list the kinds of studies\n"
@@ -124,7 +132,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
 
 TEST(Arguments, CommandsDescribeThemselves) {
   const std::vector<CommandHelp> commands = command_help();
-  ASSERT_EQ(commands.size(), 11u);
+  ASSERT_EQ(commands.size(), 12u);
   const CommandHelp& run = commands.front();
   EXPECT_EQ(run.name, "run");
   ASSERT_EQ(run.positionals.size(), 1u);

@@ -279,6 +279,18 @@ std::vector<Row> syntax() {
        {{"s.toml", workbook}},
        "s.toml: error: this is an Excel workbook or another packed file, a study is a text file; save its "
        "tables as CSV and name them in a study\n"},
+      {"TOML in a file named JSON",
+       nullptr,
+       {},
+       {{"s.json", "schema = 1\nkind = \"analysis\"\n"}},
+       "s.json: error: the text is TOML, but the name of the file says JSON; let it end in .toml\n",
+       {"check", "s.json"}},
+      {"JSON in a file named TOML",
+       nullptr,
+       {},
+       {{"s.toml", "{\"schema\": 1, \"kind\": \"analysis\"}"}},
+       "s.toml:1:1: error: mechanism: this key is missing\n"},
+      {"CRLF", four_bar, {{"schema = 1\n", "schema = 1\r\n"}}, {}, ""},
       {"xlsx as study by its name",
        nullptr,
        {},
@@ -335,9 +347,29 @@ std::vector<Row> spreadsheets() {
        path,
        {{all_points, "points_file = \"path.csv\""}},
        {{"path.csv", "x,y\r\n0.5,0.5\r\n100.5,50.5\r\n200.5,80.5\r\n300.5,50.5\r\n400.5,0.5\r\n"}},
-       "s.toml:18:15: error: target.points_file: 'path.csv' has no column x_m; name the columns x_m,y_m (or "
-       "x_mm,y_mm, ...)\ns.toml:18:15: error: target.points_file: 'path.csv' has no column y_m; name the "
-       "columns x_m,y_m (or x_mm,y_mm, ...)\n2 errors\n"},
+       "s.toml:18:15: error: target.points_file: 'path.csv' has the columns x, y, but needs x, y, each with "
+       "a "
+       "unit of length; name them x_mm,y_mm; a heading like X [mm] will do, too\n"},
+      {"other columns",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "Breite [mm];Tiefe [mm]\r\n0,5;0,5\r\n100,5;50,5\r\n200,5;80,5\r\n"}},
+       "s.toml:18:15: error: target.points_file: 'path.csv' has the columns breite_mm, tiefe_mm, but needs "
+       "x, y, "
+       "each with a unit of length; name them x_mm,y_mm; a heading like X [mm] will do, too\n"},
+      {"one column of another name",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "X [mm],Z [mm]\r\n0.5,0.5\r\n100.5,50.5\r\n200.5,80.5\r\n"}},
+       "s.toml:18:15: error: target.points_file: 'path.csv' has the columns x_mm, z_mm, but needs x, y, each "
+       "with a unit of length; name them x_mm,y_mm; a heading like X [mm] will do, too\n"},
+      {"gates",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "from_x_mm,from_y_mm,to_x_mm\r\n0,0,1\r\n"}},
+       "s.toml:18:15: error: target.points_file: 'path.csv' has the columns from_x_mm, from_y_mm, to_x_mm, "
+       "but needs from_x, from_y, to_x, to_y, each with a unit of length; name them "
+       "from_x_mm,from_y_mm,to_x_mm,to_y_mm; a heading like X [mm] will do, too\n"},
       {"no header",
        path,
        {{all_points, "points_file = \"path.csv\""}},
@@ -524,6 +556,28 @@ std::vector<Row> linkages() {
   };
 }
 
+// Built-in linkages.
+std::vector<Row> samples() {
+  const std::string begin = "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\n";
+  const std::string all =
+      "four_bar, slider_crank, offset_slider_crank, inverted_slider_crank, scotch_yoke, whitworth, "
+      "toggle_press, hoeken, chebyshev, watt_1, watt_2, stephenson_2, stephenson_3, triad, klann_leg, "
+      "jansen_leg, peaucellier, pantograph, geared_five_bar, andrews_squeezer, arm, four_bar_chain";
+  return {
+      {"sample misspelt",
+       nullptr,
+       {},
+       {{"s.toml", begin + "sample = \"jansen_lag\"\n"}},
+       "s.toml:5:10: error: mechanism.sample: is 'jansen_lag', must be one of: " + all +
+           "; did you mean 'jansen_leg'?\n"},
+      {"key of the sample misspelt",
+       nullptr,
+       {},
+       {{"s.toml", begin + "sampl = \"jansen_leg\"\n"}},
+       "s.toml:5:1: error: mechanism.sampl: unknown key; did you mean 'sample'?\n"},
+  };
+}
+
 // Hard points and links.
 std::vector<Row> suspensions() {
   return {
@@ -674,6 +728,7 @@ TEST_F(Messages, Syntax) { expect(syntax()); }
 TEST_F(Messages, Spreadsheets) { expect(spreadsheets()); }
 TEST_F(Messages, Paths) { expect(paths()); }
 TEST_F(Messages, Linkages) { expect(linkages()); }
+TEST_F(Messages, Samples) { expect(samples()); }
 TEST_F(Messages, Suspensions) { expect(suspensions()); }
 TEST_F(Messages, CommandLine) { expect(command_line()); }
 

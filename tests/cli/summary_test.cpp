@@ -30,6 +30,12 @@ TEST(Summary, EndsWithTheReportToOpen) {
             "result.json\n");
 }
 
+TEST(Summary, FilesOfFoldersStandWithThem) {
+  EXPECT_EQ(summary("", doubtful(), {"out/s/result.json", "out/s/designs/1-open.toml"}, false),
+            "  It turns\n  status  done\n  length  0.4 m\n  angle   3 deg  (!)\nresults in out/s:\n"
+            "  result.json\n  designs/1-open.toml\n");
+}
+
 TEST(Summary, ColoursFollowTheVerdict) {
   EXPECT_EQ(summary("A", doubtful(), {}, true),
             "\033[1mA\033[0m\n  It turns\n  status  \033[33mdone\033[0m\n  length  0.4 m\n"

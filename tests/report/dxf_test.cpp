@@ -54,6 +54,14 @@ TEST(Dxf, SpringsGuidesAndCirclesAreDrawnAndArrowsAreNot) {
   EXPECT_THAT(dxf(scene), HasSubstr("CIRCLE\n  8\nLINKS\n 10\n0\n 20\n0\n 30\n0\n 40\n250\n"));
 }
 
+TEST(Dxf, ComparedMechanismsAreLeftOut) {
+  study::Scene scene = test::sample_compared().scenes.at(0);
+  const std::string together = dxf(scene, {});
+  std::erase_if(scene.bodies, [](const auto& body) { return body.run > 0; });
+  std::erase_if(scene.traces, [](const auto& trace) { return trace.run > 0; });
+  EXPECT_TRUE(together == dxf(scene, {}));
+}
+
 TEST(Dxf, SpatialScenesAreDrawnInSpace) {
   study::Scene scene;
   scene.input = {0};

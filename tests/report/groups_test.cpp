@@ -28,6 +28,19 @@ TEST(Groups, ValuesInRisingOrderWithTheirRows) {
   EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{0, 3}));
 }
 
+TEST(Groups, MayHaveNames) {
+  Table table;
+  table.add("study", "study", {2, 1, 3});
+  study::Plot plot;
+  plot.group = "study";
+  plot.group_names = {"before", "after"};
+  const auto groups = groups_of(plot, table);
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].label, "before");
+  EXPECT_EQ(groups[1].label, "after");
+  EXPECT_EQ(groups[2].label, "study 3");
+}
+
 TEST(Groups, AreNamedInTheUnitThatIsShown) {
   const auto named = [](const char* key, const char* label, double value) {
     Table table;

@@ -57,6 +57,44 @@ std::vector<std::pair<double, double>> corners(const std::string& picture) {
   return out;
 }
 
+// A force that swings between -10 N and 10 N, but for one impact at 50 s.
+Table with_impact(double impact) {
+  Table table{.name = "sweep"};
+  std::vector<double> time, force;
+  for (int i = 0; i <= 100; ++i) {
+    time.push_back(i);
+    force.push_back(i == 50 ? impact : 10 * std::sin(0.3 * i));
+  }
+  table.add("time_s", "time (s)", time);
+  table.add("force_N", "force (N)", force);
+  return table;
+}
+
+Plot over_time() {
+  Plot out = plot(Plot::Style::line, {"force_N"});
+  out.x = "time_s";
+  return out;
+}
+
+TEST(PlotSvg, AnImpactDoesNotOwnTheAxis) {
+  const std::string picture = plot_svg(over_time(), with_impact(-1241));
+  EXPECT_THAT(picture, HasSubstr(">peak -1241 N at 50 s is outside</text>"));
+  // The swings fill the diagram, and the impact leaves it.
+  double low = 0, high = infinity;
+  for (const auto& [x, y] : corners(picture))
+    if (y < 1000) low = std::max(low, y), high = std::min(high, y);
+  EXPECT_GT(low - high, 150);
+  EXPECT_EQ(count(picture, "<svg "), 2U);
+  const auto inner = picture.find("<svg ", 1), curve = picture.find("class=\"curve\"");
+  EXPECT_LT(inner, curve) << "what is outside of the axes is not seen";
+}
+
+TEST(PlotSvg, ACommonLargeValueStays) {
+  const std::string picture = plot_svg(over_time(), with_impact(-40));
+  EXPECT_THAT(picture, Not(HasSubstr("is outside")));
+  EXPECT_EQ(count(picture, "<svg "), 1U);
+}
+
 TEST(PlotSvg, PolarDiagramsHaveEqualAxesAndTheirOrigin) {
   const std::string picture = plot_svg(plot(Plot::Style::polar, {"O1_x_N", "O1_y_N"}), turning());
   EXPECT_EQ(test::fault_of_xml(picture), "");
@@ -212,6 +250,15 @@ TEST(PlotSvg, HistogramsAndPointsAreDrawn) {
   EXPECT_EQ(test::fault_of_xml(bars), "");
   EXPECT_EQ(corners(bars).size(), 19u);  // six bars for 37 values; three corners in a line are two
   EXPECT_THAT(bars, HasSubstr(">count</text>"));
+}
+
+TEST(PlotSvg, HistogramsOfEachLieOverEachOther) {
+  const study::Result result = test::sample_compared();
+  const std::string bars = plot_svg(result.plots.at(2), *result.table("draws-of-each"));
+  EXPECT_EQ(test::fault_of_xml(bars), "");
+  for (const char* name : {">short</text>", ">middle</text>", ">long</text>", ">length (mm)</text>"})
+    EXPECT_THAT(bars, HasSubstr(name));
+  EXPECT_THAT(bars, HasSubstr("stroke=\"#D55E00\" stroke-width=\"1.8\" stroke-dasharray=\"8 4\""));
 }
 
 TEST(PlotSvg, NothingToDrawSaysSo) {

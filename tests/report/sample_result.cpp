@@ -157,6 +157,13 @@ study::Result sample_result() {
     solution.classification["branch"] = "open";
     solution.classification["transmission_angle_min_rad"] = 0.3 + 0.1 * number;
     solution.defects = defects;
+    if (number < 3) {  // the last one has no study
+      solution.study["schema"] = 1;
+      solution.study["kind"] = "analysis";
+      solution.study["title"] = "Four-bar through 18 points: " + std::string(label);
+      solution.study["mechanism"]["type"] = "planar.four_bar";
+      solution.study["mechanism"]["parameters"]["crank_mm"] = 1000 * l.crank;
+    }
     result.solutions.push_back(solution);
     study::Plot path{"coupler",
                      "Coupler point over the turn",
@@ -183,7 +190,8 @@ study::Result sample_result() {
   result.headline =
       fmt::format("A crank-rocker follows the 18 points with a sum of squared distances of {:.6g} m²", best);
   result.facts = {{"path error (sum of squares)", fmt::format("{:.6g} m²", best), study::Fact::Verdict::good},
-                  {"largest distance", "40.1 mm", study::Fact::Verdict::plain},
+                  {"largest distance", "40.1 mm at point 7; root mean square of all points 22.4 mm",
+                   study::Fact::Verdict::plain},
                   {"type", "crank-rocker, open", study::Fact::Verdict::plain},
                   {"smallest transmission angle", "22.9°", study::Fact::Verdict::bad},
                   {"closure residual", "1.1e-16 m", study::Fact::Verdict::plain}};
@@ -344,6 +352,72 @@ study::Result sample_maps() {
   };
   slices("slices", {-0.9, -0.8, -0.7, -0.5});
   slices("slice", {-0.7});
+  return result;
+}
+
+study::Result sample_compared() {
+  study::Result result;
+  result.headline = "3 studies compared: 1 of 2 results differ.";
+  study::Scene scene;
+  scene.name = "turn";
+  scene.title = "short";
+  scene.input_key = "crank_angle_rad";
+  scene.input_label = "crank angle";
+  scene.runs = {"short", "middle", "long"};
+  Table sweep, draws;
+  sweep.name = "sweep";
+  draws.name = "draws-of-each";
+  for (int i = 0; i <= 36; ++i) scene.input.push_back(i * pi / 18);
+  sweep.add("crank_angle_rad", "crank angle (rad)", scene.input);
+  std::vector<double> study, few, many;
+  study::Plot heights;
+  heights.name = "height";
+  heights.title = "Height";
+  heights.table = "sweep";
+  heights.x = "crank_angle_rad";
+  heights.scene = "turn";
+  for (int run = 0; run < 3; ++run) {
+    const double length = 0.1 + 0.02 * run;
+    study::Scene::Point tip{"A", {}, {}};
+    for (const double angle : scene.input) {
+      tip.x.push_back(length * std::cos(angle));
+      tip.y.push_back(length * std::sin(angle));
+    }
+    const int first = static_cast<int>(scene.points.size());
+    scene.points.push_back({"O", {0}, {0}});
+    scene.points.push_back(tip);
+    scene.points.push_back({"B", {0.5 * length}, {0.8 * length}});
+    const auto style = run == 1 ? study::Scene::BodyStyle::plate : study::Scene::BodyStyle::bar;
+    std::vector<int> points = {first, first + 1};
+    if (run == 1) points.push_back(first + 2);
+    scene.bodies.push_back({"crank of " + scene.runs[static_cast<std::size_t>(run)], points, style, run});
+    scene.traces.push_back({first + 1, "A", true, run});
+    const std::string key = "height_" + std::to_string(run + 1) + "_m";
+    sweep.add(key, scene.runs[static_cast<std::size_t>(run)] + ": height (m)", tip.y);
+    heights.y.push_back(key);
+    for (int k = 0; k < 80; ++k) {
+      study.push_back(run + 1);
+      few.push_back(k < 4 ? length + 0.001 * k : nan);
+      many.push_back(length + 0.01 * std::sin(k));
+    }
+  }
+  scene.joints = {{"O", 0, study::Scene::JointStyle::ground_pivot}};
+  result.scenes.push_back(scene);
+  draws.add("study", "study", study);
+  draws.add("few_m", "length (m)", few);
+  draws.add("many_m", "length (m)", many);
+  result.tables = {sweep, draws};
+  result.plots.push_back(heights);
+  for (const char* key : {"few_m", "many_m"}) {
+    study::Plot plot;
+    plot.name = plot.title = key;
+    plot.table = draws.name;
+    plot.y = {key};
+    plot.style = study::Plot::Style::histogram;
+    plot.group = "study";
+    plot.group_names = scene.runs;
+    result.plots.push_back(plot);
+  }
   return result;
 }
 

@@ -22,6 +22,10 @@ study::Result sample_simulation();
 /// alone.
 study::Result sample_maps();
 
+/// Three cranks over each other: two ghosts, curves of each, histograms of each with few and with many
+/// values.
+study::Result sample_compared();
+
 /// Diagrams that are hard to draw, over the turn of a crank: an angle that grows from 0 to 360°, seven curves
 /// and nine, costs of 1e-30 from two seeds and as a column, three pairs of forces without a scene.
 study::Result sample_diagrams();

@@ -45,6 +45,13 @@ TEST(StaticPage, BannerCountsChecks) {
   EXPECT_THAT(page(result), HasSubstr("1 of 2 checks passed"));
 }
 
+TEST(StaticPage, FactsBeginWithTheirFigure) {
+  EXPECT_THAT(
+      page(test::sample_result()),
+      HasSubstr("<dt>largest distance</dt><dd>40.1 mm at point 7<small>; root mean square of all points "
+                "22.4 mm</small></dd>"));
+}
+
 TEST(StaticPage, LongTablesAreThinnedAndSaySo) {
   EXPECT_THAT(page(test::sample_result()), HasSubstr("One row in 10, of 361 in all."));
 }

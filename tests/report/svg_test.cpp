@@ -3,6 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "tests/report/sample_result.h"
@@ -38,6 +45,28 @@ TEST(Svg, OptionsLeaveThingsOut) {
   EXPECT_THAT(bare, Not(HasSubstr("<text")));
   options.ghosts = 4;
   EXPECT_EQ(count(svg(result.scenes[0], options), "class=\"body\""), 20u);
+}
+
+TEST(Svg, RolesHaveTheColoursOfThePage) {
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/report.css");
+  const std::string css(std::istreambuf_iterator<char>(file), {});
+  study::Scene scene;
+  scene.input = {0};
+  const std::string light = css.substr(0, css.find("prefers-color-scheme: dark"));
+  const std::regex colour("--c[0-9]+: (#[0-9a-f]{6});");
+  std::vector<std::string> wanted;
+  for (std::sregex_iterator c(light.begin(), light.end(), colour), end; c != end; ++c) {
+    std::string upper = (*c)[1];
+    for (char& letter : upper) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    wanted.push_back(upper);
+    const int n = static_cast<int>(scene.points.size());
+    scene.points.push_back({"", {0.1 * n}, {0}});
+    scene.points.push_back({"", {0.1 * n}, {0.1}});
+    scene.bodies.push_back({std::string(1, static_cast<char>('a' + n / 2)) + " body", {n, n + 1}});
+  }
+  ASSERT_EQ(wanted.size(), 18U);
+  const std::string picture = svg(scene);
+  for (const std::string& one : wanted) EXPECT_EQ(count(picture, "stroke=\"" + one + "\""), 1U) << one;
 }
 
 // A crank of 0.5 m with everything that is drawn of forces and machine parts.
@@ -183,6 +212,21 @@ TEST(Svg, UnassembledSamplesAreLeftOut) {
   EXPECT_THAT(picture, Not(HasSubstr("nan")));
   // Ground and crank stay; what hangs on the open loop is gone.
   EXPECT_EQ(count(picture, "class=\"body\""), 2u);
+}
+
+TEST(Svg, ComparedMechanismsAreThinAndNamed) {
+  const std::string picture = svg(test::sample_compared().scenes.at(0), {});
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  for (const char* name : {">short</text>", ">middle</text>", ">long</text>"})
+    EXPECT_THAT(picture, HasSubstr(name));
+  EXPECT_THAT(picture,
+              HasSubstr("stroke=\"#D55E00\" stroke-width=\"1.6\" stroke-dasharray=\"8 4\"><title>crank of "
+                        "middle</title>"));
+  EXPECT_THAT(picture,
+              HasSubstr("stroke=\"#009E73\" stroke-width=\"1.6\" stroke-dasharray=\"2 3\"><title>crank of "
+                        "long</title>"));
+  // Their paths have their colours.
+  EXPECT_THAT(picture, HasSubstr("stroke=\"#009E73\" stroke-width=\"1.4\""));
 }
 
 TEST(Svg, AGapIsDashedAndSaysHowLongItIs) {

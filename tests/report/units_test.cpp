@@ -5,10 +5,12 @@
 
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/display_units.h"
 
 namespace linkwright::report {
 namespace {
@@ -37,18 +39,63 @@ TEST(Units, EveryUnitOfKeysIsShown) {
       EXPECT_FALSE(display_unit("a_" + std::string(unit.suffix)).symbol.empty()) << unit.suffix;
 }
 
-// The list of the viewer is made from the one here: when this fails, the file must become `made`.
-TEST(Units, TheViewerHasTheSameUnits) {
+// The units with which the viewer's own tests work; when this fails, the file must become `made`.
+TEST(Units, TheViewerIsTestedWithTheseUnits) {
   std::string made =
-      "// How numbers are shown, by the suffix of their key: [suffix, factor, symbol]. Made from "
-      "core/units;\n"
+      "// The units of a report for which none were chosen, for the tests here. Made from core/units;\n"
       "// tests/report/units_test.cpp fails when it is not up to date, and prints what it must be.\n"
-      "export const suffixes: [string, number, string][] = [\n";
-  for (const SuffixUnit& s : suffix_units())
-    made += fmt::format("  [\"{}\", {}, \"{}\"],\n", s.suffix, s.factor, s.symbol);
-  made += "];\n";
-  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/suffixes.ts");
+      "import { useUnits } from \"../src/units\";\n\nexport const units = [\n";
+  for (const ShownSuffix& s : shown_suffixes({}))
+    made += fmt::format(
+        "  {{ suffix: \"{}\", symbol: \"{}\", factor: {}, key: \"{}\", steps: [{}, {}, {}, {}], by_size: {} "
+        "}},\n",
+        s.suffix, s.symbol, s.factor, s.key, s.from.multiply, s.from.divide, s.to.divide, s.to.multiply,
+        s.by_size);
+  made += "];\nuseUnits(units);\n";
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/tests/units.ts");
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), made);
+}
+
+const ShownSuffix& shown(const std::vector<ShownSuffix>& all, std::string_view suffix) {
+  for (const ShownSuffix& s : all)
+    if (s.suffix == suffix) return s;
+  throw std::runtime_error("no such suffix");
+}
+
+TEST(Units, ThoseThatWereChosenAreShown) {
+  study::DisplayUnits units;
+  for (const char* key : {"crank_mm", "start_deg", "speed_rpm"}) units.choose(*split_unit(key));
+  units.follow();
+  const auto all = shown_suffixes(units);
+  EXPECT_EQ(shown(all, "_m").symbol, "mm");
+  EXPECT_EQ(shown(all, "_m").key, "_mm");
+  EXPECT_FALSE(shown(all, "_m").by_size);
+  EXPECT_EQ(shown(all, "_rad_per_s").symbol, "rpm");
+  EXPECT_DOUBLE_EQ(shown(all, "_rad_per_s").factor, 30 / pi);
+  EXPECT_EQ(shown(all, "_rad_per_s2").symbol, "°/s²");
+  EXPECT_EQ(shown(all, "_rad_per_m").symbol, "°/100 mm");
+  EXPECT_EQ(shown(all, "_rad_per_m").key, "_deg_per_100mm");
+  EXPECT_DOUBLE_EQ(shown(all, "_rad_per_m").factor, 18 / pi);
+  EXPECT_EQ(shown(all, "_N_per_m").symbol, "N/mm");
+  EXPECT_EQ(shown(all, "_N_m").symbol, "N m");
+  EXPECT_EQ(shown(all, "_m3").symbol, "m³");
+  // A file has the very numbers of a table that the program writes in these units.
+  const ShownSuffix& speed = shown(all, "_rad_per_s");
+  const Table table =
+      study::in_units({.name = "t", .columns = {{"motor_rad_per_s", "motor (rad/s)", {0.1, 7.3}}}}, units);
+  EXPECT_EQ(table.columns[0].key, "motor_rpm");
+  EXPECT_EQ(table.columns[0].values[1],
+            7.3 * speed.from.multiply / speed.from.divide * speed.to.divide / speed.to.multiply);
+}
+
+TEST(Units, WithoutAChoiceDegreesAndTheSizeOfLengths) {
+  const auto all = shown_suffixes({});
+  EXPECT_EQ(shown(all, "_rad").symbol, "°");
+  EXPECT_EQ(shown(all, "_rad").key, "_deg");
+  EXPECT_TRUE(shown(all, "_m").by_size);
+  EXPECT_EQ(shown(all, "_m").key, "_m");
+  EXPECT_TRUE(shown(all, "_Pa").by_size);
+  EXPECT_FALSE(shown(all, "_mm").by_size);
 }
 
 TEST(Units, SizesDecideForLengthsAndStresses) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "linkwright/study/answer.h"
+#include "linkwright/study/design.h"
 #include "linkwright/study/write.h"
 #include "tests/report/sample_result.h"
 
@@ -22,6 +23,7 @@ namespace {
 
 Value data(const study::Result& result) {
   return view_data({.result = result,
+                    .units = {},
                     .study_toml = {},
                     .title = "T",
                     .source = {},
@@ -77,6 +79,22 @@ TEST(ViewData, ArrowsCouplesCirclesAndPolarPlots) {
   EXPECT_EQ(out.find("plots")->as_array()[0].find("style")->as_string(), "polar");
 }
 
+TEST(ViewData, ArrowsAreInTheUnitsThatAreShown) {
+  study::Result result;
+  study::Scene scene;
+  scene.vectors = {{"v", study::Scene::Quantity::velocity, "m/s", 3, {1.5}, {-0.25}, "vA"},
+                   {"f", study::Scene::Quantity::force, "N", 3, {2}, {3}, "F"}};
+  result.scenes = {scene};
+  ReportInput input{.result = result};
+  input.units.choose(*split_unit("crank_mm"));
+  input.units.follow();
+  const Value out = view_data(input);
+  EXPECT_EQ(
+      study::to_json(*out.find("scenes")->as_array()[0].find("vectors")),
+      R"([{"name":"v","quantity":"velocity","unit":"mm/s","point":3,"x":[1500.0],"y":[-250.0],"symbol":"vA"},)"
+      R"({"name":"f","quantity":"force","unit":"N","point":3,"x":[2.0],"y":[3.0],"symbol":"F"}])");
+}
+
 TEST(ViewData, SpatialScenesAndTheirPlots) {
   study::Result result;
   study::Scene scene;
@@ -124,6 +142,21 @@ TEST(ViewData, NamesOfStylesAndStatus) {
   EXPECT_EQ(out.find("solution_scenes")->as_array()[2].as_string(), "solution-3");
 }
 
+TEST(ViewData, DesignsAreFilesOfTheirSolutions) {
+  const study::Result result = test::sample_result();
+  const Value out = data(result);
+  const auto& designs = out.find("designs")->as_array();
+  ASSERT_EQ(designs.size(), 2u) << "the third solution has no study";
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const study::Solution& solution = result.solutions[i];
+    EXPECT_EQ(designs[i].find("solution")->as_integer(), static_cast<std::int64_t>(i));
+    EXPECT_EQ(designs[i].find("name")->as_string(), study::design_name(solution, i + 1));
+    EXPECT_EQ(
+        designs[i].find("toml")->as_string(),
+        study::design_toml(solution, i + 1, out.find("title")->as_string(), out.find("tool")->as_string()));
+  }
+}
+
 // The types of the viewer, without comments.
 std::string viewer_types() {
   std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/data.ts");
@@ -151,49 +184,59 @@ std::set<std::string> keys_of(const Value& object) {
 }
 
 TEST(ViewData, TheViewerHasTheSameKeys) {
+  const auto first_of = [](const Value& object, std::string_view key) -> const Value& {
+    return object.find(key)->as_array().at(0);
+  };
   study::Result result;
   study::Scene scene;
   scene.second = {1};
   scene.second_key = "rack_m";
   scene.points = {{"A", {1}, {2}, {3}}};
-  scene.bodies.resize(1);
+  scene.runs = {"before", "after"};
+  scene.bodies = {{"crank", {0}, study::Scene::BodyStyle::bar, 1}};
   scene.joints.resize(1);
-  scene.traces.resize(1);
+  scene.traces = {{0, "A", false, 1}};
   scene.targets.resize(1);
   scene.circles.resize(1);
   scene.discs.resize(1);
+  scene.frames.resize(1);
+  scene.handles.resize(1);
   scene.vectors = {{"f", study::Scene::Quantity::force, "N", 0, {1}, {2}, "F", {3}}};
   scene.moments.resize(1);
   result.scenes = {scene};
   study::Plot plot;
   plot.group = plot.baseline = "some";
+  plot.group_names = {"before", "after"};
   plot.bands.resize(1);
   plot.upright = true;
   result.plots = {plot};
-  result.facts.resize(1);
+  result.facts = {{"contact", "kept: minimum tension 2.008 N, at a crank angle of 55.0 deg"}};
   result.solutions.resize(1);
   result.solutions[0].parameters.resize(1);
+  result.solutions[0].study["mechanism"]["type"] = "planar.four_bar";
   result.changes.resize(1);
   result.comparisons.resize(1);
-  const Value out = data(result);
+  // What a report leaves out, a page with the program behind it has.
+  EXPECT_EQ(first_of(data(result), "scenes").find("handles"), nullptr);
+  std::vector<double> numbers;
+  const Value out = view_data({.result = result, .lists = NumberLists(numbers)});
   const std::string types = viewer_types();
   const auto expect = [&](const std::string& type, const Value& written) {
     const std::size_t at = types.find(type + " {");
     ASSERT_NE(at, std::string::npos) << type;
     EXPECT_EQ(keys_of(std::string_view(types).substr(at)), keys_of(written)) << type;
   };
-  const auto first = [](const Value& object, std::string_view key) -> const Value& {
-    return object.find(key)->as_array().at(0);
-  };
   expect("interface View", out);
-  for (const auto& [key, type] : {std::pair{"facts", "facts:"},
+  for (const auto& [key, type] : {std::pair{"facts", "interface Fact"},
+                                  {"units", "interface ShownSuffix"},
                                   {"scenes", "interface Scene"},
                                   {"plots", "interface Plot"},
+                                  {"designs", "interface Design"},
                                   {"changes", "interface Change"},
                                   {"comparisons", "interface Comparison"}})
-    expect(type, first(out, key));
+    expect(type, first_of(out, key));
   expect("interface Parameter", out.find("parameters")->as_array().at(0).as_array().at(0));
-  expect("bands?:", first(first(out, "plots"), "bands"));
+  expect("bands?:", first_of(first_of(out, "plots"), "bands"));
   for (const auto& [key, type] : {std::pair{"points", "points:"},
                                   {"bodies", "bodies:"},
                                   {"joints", "joints:"},
@@ -202,8 +245,10 @@ TEST(ViewData, TheViewerHasTheSameKeys) {
                                   {"circles", "circles:"},
                                   {"discs", "interface Disc"},
                                   {"vectors", "interface Vector"},
-                                  {"moments", "interface Moment"}})
-    expect(type, first(first(out, "scenes"), key));
+                                  {"moments", "interface Moment"},
+                                  {"frames", "frames?:"},
+                                  {"handles", "handles?:"}})
+    expect(type, first_of(first_of(out, "scenes"), key));
 }
 
 template <class E>

@@ -1,5 +1,6 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html, DIR/nowhere.html,
+// DIR/simulation.html, DIR/units.html with DIR/units.csv, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html,
+// DIR/nowhere.html,
 // DIR/hostile.html, DIR/empty.html, DIR/scene.dxf, DIR/scene.svg, and DIR/report.json with the tables of the
 // first report as CSV.
 
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/report/dxf.h"
 #include "linkwright/report/html.h"
 #include "linkwright/report/svg.h"
@@ -54,6 +56,19 @@ int main(int count, char** arguments) {
                                           .command = {},
                                           .result_json = report::test::sample_json(simulation)}));
 
+  study::DisplayUnits units;
+  for (const char* key : {"length_mm", "angle_deg", "speed_rpm"}) units.choose(*split_unit(key));
+  units.follow();
+  write(folder / "units.html", html({.result = result,
+                                     .units = units,
+                                     .study_toml = {},
+                                     .title = "Four-bar in mm, deg and rpm",
+                                     .source = {},
+                                     .tool = "linkwright 0.1.0",
+                                     .command = {},
+                                     .result_json = report::test::sample_json(result)}));
+  write(folder / "units.csv", to_csv(study::in_units(result.tables.front(), units)));
+
   const study::Result maps = report::test::sample_maps();
   write(folder / "maps.html", html({.result = maps,
                                     .study_toml = {},
@@ -72,6 +87,15 @@ int main(int count, char** arguments) {
                                         .command = {},
                                         .result_json = report::test::sample_json(diagrams)}));
 
+  const study::Result compared = report::test::sample_compared();
+  write(folder / "compared.html", html({.result = compared,
+                                        .study_toml = {},
+                                        .title = "short | middle | long",
+                                        .source = {},
+                                        .tool = "linkwright 0.1.0",
+                                        .command = {},
+                                        .result_json = report::test::sample_json(compared)}));
+
   study::Result nowhere = report::test::sample_diagrams();
   nowhere.status = Status::no_assembly;
   nowhere.diagnostics.push_back({.severity = Diagnostic::Severity::warning,
@@ -81,10 +105,10 @@ int main(int count, char** arguments) {
                                  .message = "361 of 361 positions do not assemble",
                                  .hint = "the rocker is too short"});
   for (auto& point : nowhere.scenes[0].points)
-    point.x = point.y = std::vector<double>(nowhere.scenes[0].input.size(), nan);
+    point.x = point.y = std::vector<double>(nowhere.scenes[0].input.size(), linkwright::nan);
   for (Table& table : nowhere.tables)
     for (std::size_t i = 1; i < table.columns.size(); ++i)
-      std::fill(table.columns[i].values.begin(), table.columns[i].values.end(), nan);
+      std::fill(table.columns[i].values.begin(), table.columns[i].values.end(), linkwright::nan);
   write(folder / "nowhere.html", html({.result = nowhere,
                                        .study_toml = {},
                                        .title = "Rocker too short",

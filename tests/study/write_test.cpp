@@ -96,6 +96,11 @@ body = { near = [1.0, 2.0], box = 0.1 }
   EXPECT_EQ(read_good(to_toml(read_good(to_json_readable(v), Syntax::json)), Syntax::toml), v);
 }
 
+TEST(WriteToml, TablesOfTheDocumentAreSections) {
+  const Value v = read_good("[sweep]\nrange = { min = 0, max = 1 }\n[empty]\n", Syntax::toml);
+  EXPECT_EQ(to_toml(v), "empty = {}\n\n[sweep]\nrange = { min = 0, max = 1 }\n");
+}
+
 TEST(WriteToml, OnlyTables) { EXPECT_THROW(to_toml(Value(1)), ContractError); }
 
 /// Members in alphabetical order: TOML writes plain values before tables, so the order of the members may

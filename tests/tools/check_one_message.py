@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Spoils every value of every template, one at a time, and counts the error messages: one mistake, one message.
+"""Spoils every value of every template and of some examples, one at a time, misspells every key, table and word of them, and
+counts the error messages: one mistake, one message.
 
-usage: check_one_message.py LINKWRIGHT [EVERY]
-EVERY = n takes each n-th value only (default 1).
+usage: check_one_message.py LINKWRIGHT EXAMPLES [EVERY]
+EVERY = n takes each n-th mistake only (default 1).
 """
 import json
 import pathlib
@@ -12,7 +13,10 @@ import sys
 import tempfile
 
 program = sys.argv[1]
-every = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+examples = pathlib.Path(sys.argv[2])
+every = int(sys.argv[3]) if len(sys.argv) > 3 else 1
+# With built-in mechanisms, of which templates have none.
+with_samples = ["studies/jansen-leg", "studies/four-bar-chain-2", "studies/tolerances-hoeken"]
 
 
 def run(*arguments):
@@ -33,13 +37,34 @@ def spoilt(text):
         yield line.strip(), "\n".join([*lines[:i], match.group(1) + wrong, *lines[i + 1:]]) + "\n"
 
 
+def misspelt(text):
+    """The lines of a study with one key, one name of a table or one word misspelt."""
+    lines = text.splitlines()
+    for i, line in enumerate(lines):
+        def but(there):
+            return "\n".join([*lines[:i], there, *lines[i + 1:]]) + "\n"
+
+        if match := re.match(r"^(\s*)([A-Za-z_0-9]+)(\s*=.*)$", line):
+            key = match.group(2)
+            if len(key.split("_")[0]) > 3:  # "x_m" is another key, not a misspelt one
+                yield f"key {line.strip()}", but(match.group(1) + key[:2] + key[3:] + match.group(3))
+        if match := re.match(r"^(\s*\[+(?:[a-z_]+\.)*)([a-z_]{4,})(\]+.*)$", line):
+            name = match.group(2)
+            yield f"table {line.strip()}", but(match.group(1) + name[:2] + name[3:] + match.group(3))
+        # A name may be any, and every reference to it is then a mistake of its own; what a check asks for is looked up in the result.
+        if match := re.match(r'^(\s*(?!name|title|source|quantity)[a-z_]+\s*=\s*)"([^"]+)"(.*)$', line):
+            yield f"word {line.strip()}", but(f'{match.group(1)}"{match.group(2)}x"{match.group(3)}')
+
+
 def main():
     kinds = [one["name"] for one in json.loads(run("catalogue", "--json").stdout)]
     count = failures = 0
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "study.toml"
-        for kind in kinds:
-            for line, text in spoilt(run("new", kind, "-").stdout):
+        studies = [(kind, run("new", kind, "-").stdout) for kind in kinds]
+        studies += [(name, (examples / f"{name}.toml").read_text()) for name in with_samples]
+        for kind, study in studies:
+            for line, text in (*spoilt(study), *misspelt(study)):
                 count += 1
                 if count % every:
                     continue
@@ -51,7 +76,7 @@ def main():
                     print(f"{kind}: {line}")
                     for error in errors[:6] or [f"exit code {answer.returncode}, no error"]:
                         print("    " + error.split("study.toml:")[-1][:200])
-    print(f"{count} values, every {every}: {failures} with other than one message")
+    print(f"{count} mistakes, every {every}: {failures} with other than one message")
     return 1 if failures or count < 100 else 0
 
 

@@ -2,7 +2,7 @@
 import type { BodyStyle, Moment, Num, Quantity, Scene, Vector } from "./data";
 import { isSpatial, samplesOf } from "./grid";
 import { placeNear, type Place } from "./motion";
-import { format } from "./units";
+import { format, spaced } from "./units";
 import { bounds3, sizeOf } from "./space_view";
 import { bounds, niceStep, type Box } from "./view";
 
@@ -166,8 +166,7 @@ export function symbolLines(style: BodyStyle, a: Place, b: Place, width: number)
   })];
 }
 
-const unitText = (unit: string) => unit.replace(/2\b/, "²");
-const withUnit = (value: Num, unit: string, digits = 5) => `${format(value, digits)}\u202f${unitText(unit)}`;
+const withUnit = (value: Num, unit: string, digits = 5) => `${format(value, digits)}\u202f${spaced(unit)}`;
 
 export interface Reading {
   name: string;

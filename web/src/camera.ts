@@ -26,7 +26,7 @@ export function heightAt(width: number): number {
   const wanted = (tallest.value ?? 0.6) * (width - around) + around;
   return Math.round(Math.min(most, Math.max(least, wanted)));
 }
-const tallest = computed(() => state.view.scenes.reduce<number | null>((most, scene) => {
+const tallest = computed(() => (state.revision.value ? state.view.scenes : []).reduce<number | null>((most, scene) => {
   const box = isSpatial(scene) ? null : boundsWith(scene, quantities.map((quantity) => ({ quantity, scale: arrowScale(scene, quantity) })).filter((s) => state.showArrows[s.quantity].peek()));
   if (!box) return most;
   const shape = (box.top - box.bottom) / Math.max(1e-9, box.right - box.left);

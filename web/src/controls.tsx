@@ -31,12 +31,12 @@ export function WheelHint() {
 }
 
 /** Button that copies a text; one that changes is asked for when it is pressed. */
-export function Copy({ text }: { text: string | (() => string) }) {
+export function Copy({ text, label }: { text: string | (() => string); label?: string }) {
   const [done, setDone] = useState(false);
   const copy = async () => {
     await navigator.clipboard.writeText(typeof text === "string" ? text : text());
     setDone(true);
     setTimeout(() => setDone(false), 1500);
   };
-  return <button type="button" class="copy screen-only" onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
+  return <button type="button" class="copy screen-only" aria-label={done ? undefined : label} onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
 }

@@ -1,5 +1,7 @@
 // The data that the report file carries; null = missing (NaN or no bound).
 import type { Num } from "./packed";
+import { prose } from "./prose";
+import { useUnits } from "./units";
 export type { Num };
 
 export interface Scene {
@@ -14,14 +16,18 @@ export interface Scene {
   second?: number[];
   status: string[];
   points: { name: string; x: Num[]; y: Num[]; z?: Num[] }[]; // a scene with any z is spatial
-  bodies: { name: string; points: number[]; style: BodyStyle }[];
+  runs?: string[]; // names of the mechanisms that are drawn over each other; the first is the mechanism itself
+  bodies: { name: string; points: number[]; style: BodyStyle; run?: number }[];
   joints: { name: string; point: number; style: "ground_pivot" | "pivot" | "tracer" }[];
-  traces: { point: number; name: string; closed: boolean }[];
+  traces: { point: number; name: string; closed: boolean; run?: number }[];
   targets: Target[];
   circles: { name: string; centre: number; rim: number }[];
   discs?: Disc[];
   vectors: Vector[];
   moments: Moment[];
+  /** Of pages with the program behind them: the numbers of the study that points and targets show, and the frames these are in. */
+  frames?: { x: Num[]; y: Num[]; angle: Num[] }[];
+  handles?: { key: string; measure: "place" | "x" | "y" | "length" | "angle"; frame: number; point: number; target: number; index: number; from: number; held: boolean }[];
 }
 
 export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide" | "axis" | "gap";
@@ -84,6 +90,7 @@ export interface Plot {
   logarithmic_y: boolean;
   scene: string;
   group?: string; // column whose values split the rows into curves
+  group_names?: string[]; // what its values 1, 2, ... are called
   bands?: { lower: string; upper: string; label: string }[];
   baseline?: string; // table drawn pale behind
   upright?: boolean; // x points up
@@ -111,6 +118,30 @@ export interface Comparison {
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type JsonObject = { [key: string]: Json };
 
+/** How numbers are shown whose keys end in a suffix; longer suffixes come first. */
+export interface ShownSuffix {
+  suffix: string; // "_rad_per_s"
+  symbol: string; // "rpm"
+  factor: number; // from the number of the data to the one that is shown
+  key: string; // in files: "_rpm", and the number times and by these, by turns
+  steps: number[];
+  by_size: boolean; // whether the size of the numbers decides
+}
+
+/** A solution as a study of its own. */
+export interface Design {
+  solution: number;
+  name: string; // of its file, without ending
+  toml: string;
+}
+
+export interface Fact {
+  label: string;
+  text: string; // short, and stands alone
+  rest?: string; // goes on from there
+  verdict: "plain" | "good" | "bad";
+}
+
 export interface View {
   title: string;
   source: string;
@@ -119,10 +150,12 @@ export interface View {
   study_toml: string;
   status: string;
   headline: string;
+  units: ShownSuffix[];
   verdict: "passed" | "doubtful" | "incomplete" | "failed";
-  facts: { label: string; text: string; verdict: "plain" | "good" | "bad" }[];
+  facts: Fact[];
   parameters: Parameter[][]; // one list a solution
   solution_scenes: string[];
+  designs: Design[];
   scenes: Scene[];
   plots: Plot[];
   comparisons: Comparison[];
@@ -162,12 +195,23 @@ export interface Result {
   }[];
 }
 
-// What the report carries, unpacked by boot.ts; a result of null = it carries none.
-declare const linkwright: { view: View; result: Partial<Omit<Result, "tables">> & { tables?: RawTable[] } | null; resultText: () => string };
+/** What a report carries, unpacked by boot.ts, and what the engine of the workbench gives; a result of null = there is none. */
+export interface Carried {
+  view: View;
+  result: (Partial<Omit<Result, "tables">> & { tables?: RawTable[] }) | null;
+  resultText: () => string;
+}
+let carries: Carried;
 /** The text of result.json as the program writes it. */
-export const resultText = () => linkwright.resultText();
-export const hasResult = () => linkwright.result !== null;
-export const readView = () => linkwright.view;
+export const resultText = () => carries.resultText();
+export const hasResult = () => carries.result !== null;
+const said = <T,>(text: T) => (typeof text === "string" ? prose(text) : text);
+export function readView(carried: Carried): View {
+  carries = carried;
+  const { view } = carried;
+  useUnits(view.units);
+  return { ...view, headline: prose(view.headline), facts: view.facts.map((f) => ({ ...f, label: prose(f.label), text: prose(f.text), rest: f.rest && prose(f.rest) })) };
+}
 
 type RawTable = { name: string; names?: string[]; columns: { key: string; label: string }[]; data: (Num | string)[][] };
 
@@ -185,15 +229,15 @@ export function readTable({ name, names, columns, data }: RawTable): Table {
   };
 }
 
-export const readResult = (): Result => {
-  const result = linkwright.result ?? {};
+export const readResult = (carried: Carried): Result => {
+  const result = carried.result ?? {};
   return {
-    checks: result.checks ?? [],
-    solutions: result.solutions ?? [],
+    checks: (result.checks ?? []).map((c) => ({ ...c, message: said(c.message) })),
+    solutions: (result.solutions ?? []).map((s) => ({ ...s, label: prose(s.label), defects: s.defects?.map(said) ?? null })),
     statistics: result.statistics ?? null,
     log: result.log ?? null,
     tables: (result.tables ?? []).map(readTable),
-    diagnostics: result.diagnostics ?? [],
+    diagnostics: (result.diagnostics ?? []).map((d) => ({ ...d, message: prose(d.message), hint: said(d.hint) })),
   };
 };
 

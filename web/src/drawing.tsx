@@ -4,14 +4,16 @@ import type { JSX } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { isSymbol, symbolLines } from "./arrows";
 import { camera, extent, fitView, heightAt, moved, screen, size, thickness, zoomBy } from "./camera";
+import { Sign } from "./chart";
 import { WheelHint } from "./controls";
 import type { Scene } from "./data";
 import { Arrows, Card, Key } from "./forces";
 import { placeLabels } from "./labels";
+import { lookOf } from "./look";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
 import { beyond } from "./space_view";
 import * as state from "./state";
-import { format, lengthUnit } from "./units";
+import { format, lengthUnit, quantity, unitOf } from "./units";
 import { bodyColours, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
 
 /** How many times larger the whiskers are drawn. */
@@ -70,6 +72,8 @@ function Traces({ scene }: { scene: Scene }) {
       {scene.traces.map((trace, k) => {
         const places = scene.input.map((_, i) => (state.motion.value.ok[i] ? screen(placeAt(scene, trace.point, i)) : null));
         const whole = pathOf(places, trace.closed);
+        const run = trace.run ?? 0;
+        if (scene.runs && (run || !coloured)) return <path class={run ? "trace thin" : "trace"} style={{ stroke: runLook(run).stroke }} d={whole}><title>{trace.name}</title></path>;
         if (!coloured) return <path class="trace" d={whole}><title>{trace.name}</title></path>;
         const strokes = cividis.map(() => "");
         places.forEach((p, i) => {
@@ -94,8 +98,8 @@ export function SpeedLegend() {
   const scene = state.scene.value;
   if (!scene || !state.showSpeed.value || !state.showTrace.value || !scene.traces.length) return null;
   const { low, high } = speedRange(scene);
-  const per = scene.input_key.endsWith("_rad") ? "rad" : state.motion.value.timed ? "s" : "m";
-  const text = (v: number) => `${format(v * (extent.value < 1 ? 1000 : 1), 3)} ${extent.value < 1 ? "mm" : "m"}/${per}`;
+  const [unit, per] = [lengthUnit(extent.value), unitOf(scene.input_key)];
+  const text = (v: number) => `${format((v * unit.factor) / per.factor, 3)}\u202f${unit.symbol}/${per.symbol}`;
   return (
     <div class="speed-legend">
       <span>{text(low)}</span>
@@ -122,7 +126,7 @@ function Targets({ scene }: { scene: Scene }) {
                 : screen({ x: p.x + factor * (target.achieved_x[i]! - p.x), y: p.y + factor * (target.achieved_y[i]! - p.y) });
               return (
                 <g class="target" data-index={i}>
-                  <title>{`${target.name} ${i + 1}: missed by ${format((distance[i] ?? NaN) * 1000, 4)} mm`}</title>
+                  <title>{`${target.name} ${i + 1}: missed by ${quantity("_m", distance[i], 4)}`}</title>
                   {end && <path class="whisker" d={`M${at.x.toFixed(2)} ${at.y.toFixed(2)}L${end.x.toFixed(2)} ${end.y.toFixed(2)}`} />}
                   <circle cx={at.x} cy={at.y} r={3.6} />
                 </g>
@@ -175,6 +179,19 @@ function Gap({ name, ends: [a, b] }: { name: string; ends: Place[] }) {
   );
 }
 
+/** How a mechanism is drawn that others are compared with: like its curves in the diagrams. */
+function runLook(run: number): { stroke: string; strokeDasharray: string } {
+  const { stroke, dash } = lookOf(run);
+  return { stroke: `var(${stroke})`, strokeDasharray: dash.join(" ") };
+}
+
+/** Whose the mechanisms are that are drawn over each other. */
+export function Runs() {
+  const runs = state.scene.value?.runs;
+  if (!runs) return null;
+  return <ul class="runs">{runs.map((name, run) => <li><Sign look={lookOf(run)} />{name}</li>)}</ul>;
+}
+
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
   const colours = bodyColours(scene.bodies);
@@ -190,6 +207,7 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
         const plate = body.style === "plate" && places.length > 2;
         if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
         const d = pathOf(places, plate);
+        if (body.run) return <path class="other" data-body={body.name} style={runLook(body.run)} d={d}><title>{body.name}</title></path>;
         if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
         if (body.style === "axis") return <path class="ground axis" d={pathOf(beyond(places as Place[]), false)}><title>{body.name}</title></path>;
         if (body.style === "gap") return <Gap name={body.name} ends={[0, 1].map((end) => placeNear(scene, body.points[end], at)!)} />;
@@ -257,7 +275,7 @@ function Pose({ scene, under }: { scene: Scene; under: boolean }) {
 }
 
 // A press on a moving joint drags the mechanism along its motion; elsewhere it moves the sheet.
-type Gesture = { kind: "joint"; point: number } | { kind: "sheet"; from: Place; camera: Camera };
+type Gesture = { kind: "hand" } | { kind: "joint"; point: number } | { kind: "sheet"; from: Place; camera: Camera };
 
 export function Drawing(): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
@@ -295,6 +313,12 @@ export function Drawing(): JSX.Element {
     const target = pickOf(event);
     if (target) state.picked.value = state.picked.value === target && !target.startsWith("joint") ? "" : target;
     if (target.startsWith("vector") || target.startsWith("moment")) return;
+    if (state.hand.now?.down(scene, toWorld(camera.value, size.value, at), 14 / camera.value.scale)) {
+      moved.value = camera.value; // the sheet stays while the mechanism changes
+      gesture.current = { kind: "hand" };
+      (event.currentTarget as Element).setPointerCapture(event.pointerId);
+      return;
+    }
     const joint = scene.joints.find((j) => {
       const p = screen(placeNear(scene, j.point, state.position.value));
       return p && !isFixed(scene, j.point) && Math.hypot(p.x - at.x, p.y - at.y) < 16;
@@ -307,17 +331,22 @@ export function Drawing(): JSX.Element {
     const g = gesture.current;
     if (!g || !scene) return;
     const at = here(event);
-    if (g.kind === "joint")
+    if (g.kind === "hand") state.hand.now?.move(toWorld(camera.value, size.value, at), event.altKey);
+    else if (g.kind === "joint")
       state.scrub(nearestSample(scene, state.motion.value, g.point, state.position.value, toWorld(camera.value, size.value, at)));
     else
       moved.value = { ...g.camera, x: g.camera.x - (at.x - g.from.x) / g.camera.scale, y: g.camera.y + (at.y - g.from.y) / g.camera.scale };
+  };
+  const up = () => {
+    if (gesture.current?.kind === "hand") state.hand.now?.up();
+    gesture.current = null;
   };
   const pickOf = (event: Event) => (event.target as Element).closest<SVGElement>("[data-pick]")?.dataset.pick ?? "";
   const { width, height } = size.value;
   return (
     <div class="stage" ref={box} style={{ height: `${height}px` }}>
-      <svg id="drawing" viewBox={`0 0 ${width} ${height}`} role="img" tabIndex={0} aria-label={`Drawing of the mechanism: ${scene?.title ?? "none"}`}
-        onPointerDown={down} onPointerMove={move} onPointerOver={(e) => (state.hovered.value = pickOf(e))} onPointerLeave={() => (state.hovered.value = "")} onPointerUp={() => (gesture.current = null)} onPointerCancel={() => (gesture.current = null)}
+      <svg id="drawing" viewBox={`0 0 ${width} ${height}`} role="img" tabindex={0} aria-label={`Drawing of the mechanism: ${scene?.title ?? "none"}`}
+        onPointerDown={down} onPointerMove={move} onPointerOver={(e) => (state.hovered.value = pickOf(e))} onPointerLeave={() => (state.hovered.value = "")} onPointerUp={up} onPointerCancel={up}
         onDblClick={fitView}>
         <rect class="paper" width={width} height={height} />
         <Grid />

@@ -2,10 +2,11 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
 import { drawingSvg, dxf, png, save, slug } from "./exports";
+import type { Design } from "./data";
 import { fragment } from "./link";
 import { isAssembled } from "./motion";
 import { space, still } from "./space_stage";
-import { motion, position, scene, spatial, view } from "./state";
+import { designShown, motion, position, scene, spatial, view } from "./state";
 
 // In space the drawing is the three views of the printed page, and the picture what is on the screen.
 const svg = () => (spatial.value ? new XMLSerializer().serializeToString(still()!) : drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!));
@@ -22,6 +23,11 @@ async function copyLink(): Promise<string> {
   return "link copied";
 }
 
+async function copyDesign(design: Design): Promise<string> {
+  await navigator.clipboard.writeText(design.toml);
+  return "study copied";
+}
+
 export function ExportMenu() {
   const box = useRef<HTMLDetailsElement>(null);
   const [said, say] = useState("");
@@ -34,6 +40,7 @@ export function ExportMenu() {
     return () => document.removeEventListener("pointerdown", outside);
   }, []);
   const name = slug(view.title);
+  const design = designShown.value;
   /** Runs a choice; the menu closes, and what went wrong is said beside it. */
   const choose = async (act: () => string | void | Promise<string | void>) => {
     box.current!.open = false;
@@ -66,6 +73,8 @@ export function ExportMenu() {
           <button type="button" class="get" data-download="dxf" onClick={() => choose(() => save(`${name}.dxf`, dxf(scene.value!, sample()), "application/dxf"))}>Drawing (DXF, 1:1 mm)</button>
           {moves && <button type="button" class="get" data-download="gif" onClick={() => choose(film(gif, "gif"))}>Animation (GIF)</button>}
           {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
+          {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
+          {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
         </div>
       </details>
     </>

@@ -5,6 +5,7 @@ import { decimal } from "./decimal";
 import { isSpatial } from "./grid";
 import { analyse, placeAt, type Place } from "./motion";
 import { beyond, helix, wheelCircle } from "./space_view";
+import { inFile } from "./units";
 import { targetErrors } from "./view";
 
 const quote = (text: string) => (/[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
@@ -17,6 +18,13 @@ export function csv(table: Table): string {
   for (let row = 0; row < rows; ++row)
     lines.push([...(table.names ? [quote(table.names[row])] : []), ...table.data.map((c) => number(c[row])), quote(table.status[row] ?? "done")].join(","));
   return lines.join("\r\n") + "\r\n";
+}
+
+/** The table in the units that are shown; nothing when it is in them already. */
+export function tableInFile(table: Table): Table | undefined {
+  const made = table.columns.map((c, i) => inFile(c.key, table.data[i]));
+  if (made.every((column, i) => column.key === table.columns[i].key)) return undefined;
+  return { ...table, columns: table.columns.map((c, i) => ({ ...c, key: made[i].key })), data: made.map((column) => column.values) };
 }
 
 /** How far each target is missed, as a table. */
@@ -72,7 +80,7 @@ export function dxf(scene: Scene, sample: number): string {
   for (const [name, colour, type] of layers) put(0, "LAYER", 2, name, 70, 0, 62, colour, 6, type);
   put(0, "ENDTAB", 0, "ENDSEC", 0, "SECTION", 2, "ENTITIES");
   for (const body of scene.bodies) {
-    if (body.style === "gap") continue;
+    if (body.style === "gap" || body.run) continue;
     const places = body.points.map((p) => placeAt(scene, p, sample)).filter((p): p is Place => p !== null);
     if (places.length < body.points.length) continue;
     const layer = body.style === "ground" || body.style === "guide" ? "GROUND" : "LINKS";
@@ -110,6 +118,7 @@ export function dxf(scene: Scene, sample: number): string {
   }
   const { ok } = analyse(scene);
   for (const trace of scene.traces) {
+    if (trace.run) continue;
     let run: Place[] = [];
     let whole = true;
     const flush = (closed: boolean) => {

@@ -25,7 +25,7 @@ const spatialKey = (quantity: Quantity) => {
   const value = niceStep((0.25 * extent.value) / scale);
   return { value, length: value * scale };
 };
-const unitOfAll = (scene: Scene, quantity: Quantity) => (scene.vectors.find((v) => v.quantity === quantity)?.unit ?? "").replace(/2\b/, "²");
+const unitOfAll = (scene: Scene, quantity: Quantity) => (scene.vectors.find((v) => v.quantity === quantity)?.unit ?? "");
 
 const narrow = 480; // px: below it the names of arrows hide what they name
 

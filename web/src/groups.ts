@@ -31,7 +31,7 @@ export function groupsOf(plot: Plot, table: Table): Group[] {
   const unit = unitOf(key, values.reduce((most, v) => Math.max(most, Math.abs(v)), 0));
   const name = labelWith(label, key, unit).replace(/ \([^()]*\)$/, "");
   return values.map((value) => ({
-    label: `${name} ${format(value * unit.factor, 5)}${unit.symbol ? `${unit.symbol === "°" ? "" : " "}${unit.symbol}` : ""}`,
+    label: plot.group_names?.[value - 1] ?? `${name} ${format(value * unit.factor, 5)}${unit.symbol ? `${unit.symbol === "°" ? "" : " "}${unit.symbol}` : ""}`,
     value,
     rows: table.data[at].flatMap((v, row) => (v === value ? [row] : [])),
   }));

@@ -64,8 +64,9 @@ export interface Dots {
   dots: { index: number; share: number; level: number }[]; // share 0 to 1 along the axis, level = height in the stack
 }
 
-/** A dot a seed, stacked where they would cover each other. The axis is logarithmic when values differ more than tenfold. */
-export function stackDots(values: (number | null)[], bins: number): Dots {
+/** A dot a seed, stacked where they would cover each other. The axis is logarithmic when values differ more than tenfold. Of a part of the
+ *  axis, from one share of its length to another, come the dots that lie on it. */
+export function stackDots(values: (number | null)[], bins: number, [from, to]: [number, number] = [0, 1]): Dots {
   const known = values.filter((v): v is number => v !== null);
   let low = Math.min(...known);
   let high = Math.max(...known);
@@ -76,12 +77,15 @@ export function stackDots(values: (number | null)[], bins: number): Dots {
     const half = Math.abs(middle) * 0.01 || 1;
     [low, high] = [middle - half, middle + half];
   }
-  const scale = logarithmic ? Math.log : (v: number) => v;
+  const [scale, value] = logarithmic ? [Math.log, Math.exp] : [(v: number) => v, (v: number) => v];
+  const along = (share: number) => (share === 0 ? low : share === 1 ? high : value(scale(low) + share * (scale(high) - scale(low))));
+  [low, high] = [along(from), along(to)];
   const levels = new Map<number, number>();
   const dots: Dots["dots"] = [];
   values.forEach((v, index) => {
     if (v === null) return;
     const bin = Math.round(((scale(v) - scale(low)) / (scale(high) - scale(low))) * bins);
+    if (bin < 0 || bin > bins) return;
     const level = levels.get(bin) ?? 0;
     levels.set(bin, level + 1);
     dots.push({ index, share: bin / bins, level });
@@ -89,15 +93,19 @@ export function stackDots(values: (number | null)[], bins: number): Dots {
   return { logarithmic, low, high, dots };
 }
 
-/** Equal bins over the values: middles and counts. */
-export function histogram(values: (number | null)[]): { middles: number[]; counts: number[] } {
-  const known = values.filter((v): v is number => v !== null);
-  if (known.length === 0) return { middles: [], counts: [] };
+/** Equal bins over the values of all lists: middles, and the counts of each list. */
+export function histogram(lists: (number | null)[][]): { middles: number[]; counts: number[][] } {
+  const known = lists.flat().filter((v): v is number => v !== null);
+  if (known.length === 0) return { middles: [], counts: lists.map(() => []) };
   const low = known.reduce((a, b) => Math.min(a, b));
   const high = known.reduce((a, b) => Math.max(a, b));
-  const bins = high > low ? Math.max(5, Math.ceil(Math.sqrt(known.length))) : 1;
+  const most = lists.reduce((n, list) => Math.max(n, list.filter((v) => v !== null).length), 0);
+  const bins = high > low ? Math.max(5, Math.ceil(Math.sqrt(most))) : 1;
   const width = high > low ? (high - low) / bins : 1;
-  const counts = new Array<number>(bins).fill(0);
-  for (const v of known) counts[Math.min(bins - 1, Math.floor((v - low) / width))]++;
-  return { middles: counts.map((_, i) => (high > low ? low + (i + 0.5) * width : low)), counts };
+  const counts = lists.map((list) => {
+    const own = new Array<number>(bins).fill(0);
+    for (const v of list) if (v !== null) own[Math.min(bins - 1, Math.floor((v - low) / width))]++;
+    return own;
+  });
+  return { middles: Array.from({ length: bins }, (_, i) => (high > low ? low + (i + 0.5) * width : low)), counts };
 }

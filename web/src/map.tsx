@@ -1,9 +1,13 @@
 // Maps of values over places, such as slices of a workspace: small multiples with one cursor and one bar of colours.
+import type { RefObject } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { Reset } from "./chart";
 import { at, classColour, classes, classOf, countOf, indexOf, mapsOf, pathsOf, scaledOf, sizeOf, type Level, type Maps } from "./cells";
 import type { Plot, Table } from "./data";
+import { boxWithin, listen, type Spot } from "./gestures";
 import { format } from "./units";
-import { niceStep, ticks } from "./view";
+import { niceStep, ticks, type Box } from "./view";
+import { boxAbout, nearer, shifted, type Range } from "./zoom";
 
 const margin = { left: 50, right: 10, top: 4, bottom: 40 };
 const gap = 16;
@@ -13,6 +17,11 @@ interface Place {
   i: number;
   j: number;
 }
+
+/** The gestures of a map, which has no fixed cursor. */
+export const mapHint = "Drag: zoom. Shift + drag: move. Ctrl + wheel, or two fingers: zoom. Double click: show all. With the keyboard: + − 0, arrows read values.";
+
+const wholeOf = ({ x, y }: Maps): Box => ({ left: x.low - x.pitch / 2, right: x.high + x.pitch / 2, bottom: y.low - y.pitch / 2, top: y.high + y.pitch / 2 });
 
 /** Size of each map: as many side by side as have room and fill the last row best. */
 function layoutOf(maps: Maps, width: number): { scale: number; width: number; height: number } {
@@ -31,6 +40,7 @@ export function MapPlot({ plot, table }: { plot: Plot; table: Table }) {
   const box = useRef<HTMLDivElement>(null);
   const [room, setRoom] = useState(500);
   const [place, setPlace] = useState<Place | null>(null);
+  const [part, setPart] = useState<Box | null>(null); // that is zoomed into, in all maps
   const maps = useMemo(() => mapsOf(plot, table), [plot, table]);
   useEffect(() => {
     const measure = () => setRoom(box.current!.clientWidth || 500);
@@ -43,13 +53,29 @@ export function MapPlot({ plot, table }: { plot: Plot; table: Table }) {
   if (!maps || !layout) return <div ref={box}><p class="note">No values.</p></div>;
   const [nx, ny] = [countOf(maps.x), countOf(maps.y)];
   const show = (i: number, j: number) => setPlace({ i: Math.min(nx - 1, Math.max(0, i)), j: Math.min(ny - 1, Math.max(0, j)) });
+  const whole = wholeOf(maps);
+  const seen = part ?? whole;
+  /** The part moves with the place that is read by keys. */
+  const follow = ({ i, j }: Place) => {
+    const beyond = (axis: typeof maps.x, index: number, low: number, high: number) => {
+      const v = at(axis, Math.min(countOf(axis) - 1, Math.max(0, index)));
+      return Math.min(0, v - axis.pitch / 2 - low) + Math.max(0, v + axis.pitch / 2 - high);
+    };
+    if (!part) return;
+    const [dx, dy] = [beyond(maps.x, i, part.left, part.right), beyond(maps.y, j, part.bottom, part.top)];
+    if (dx || dy) setPart({ left: part.left + dx, right: part.right + dx, bottom: part.bottom + dy, top: part.top + dy });
+  };
+  const go = (i: number, j: number) => {
+    show(i, j);
+    follow({ i, j });
+  };
   const onKey = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const step = event.shiftKey ? 10 : 1;
     const now = place ?? { i: Math.floor(nx / 2), j: Math.floor(ny / 2) };
     const moves: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
     const move = moves[event.key];
-    if (move) place ? show(now.i + move[0], now.j + move[1]) : show(now.i, now.j);
+    if (move) place ? go(now.i + move[0], now.j + move[1]) : go(now.i, now.j);
     else if (event.key === "Escape" && place) setPlace(null);
     else return;
     event.preventDefault();
@@ -65,14 +91,17 @@ export function MapPlot({ plot, table }: { plot: Plot; table: Table }) {
   };
   return (
     <>
-      <div class={`map${alone ? "" : " several"}`} ref={box} tabIndex={0} role="group" aria-label={`${plot.title}: map of ${maps.valueLabel}; the arrow keys read its values`}
+      <div class="diagram">
+      <div class={`map${alone ? "" : " several"}`} ref={box} tabIndex={0} role="group" aria-label={`${plot.title}: map of ${maps.valueLabel}; the arrow keys read its values`} aria-description={mapHint}
         onKeyDown={onKey} onPointerLeave={(e) => e.pointerType === "mouse" && setPlace(null)}>
         {maps.levels.map((level, k) => (
           <figure style={{ width: `${layout.width}px` }}>
             {!alone && <figcaption>{level.label}{place && <b>{valueText(maps, values[k])}</b>}</figcaption>}
-            <Panel maps={maps} level={level} layout={layout} place={place} show={show} label={`${level.label || plot.title}: ${range(level)}, equal axes`} />
+            <Panel maps={maps} level={level} layout={layout} place={place} show={show} whole={whole} seen={seen} zoom={setPart} keys={k === 0 ? box : undefined} label={`${level.label || plot.title}: ${range(level)}, equal axes`} />
           </figure>
         ))}
+      </div>
+      {part && <Reset onClick={() => setPart(null)} />}
       </div>
       <Bar maps={maps} marks={values.flatMap((v) => (v == null ? [] : [v]))} />
       <p class="note read" aria-live="polite">{where
@@ -82,40 +111,90 @@ export function MapPlot({ plot, table }: { plot: Plot; table: Table }) {
   );
 }
 
-function Panel({ maps, level, layout, place, show, label }: {
-  maps: Maps; level: Level; layout: { scale: number; width: number; height: number }; place: Place | null; show: (i: number, j: number) => void; label: string;
+function Panel({ maps, level, layout, place, show, whole, seen, zoom, keys, label }: {
+  maps: Maps; level: Level; layout: { scale: number; width: number; height: number }; place: Place | null; show: (i: number, j: number) => void;
+  whole: Box; seen: Box; zoom: (part: Box | null) => void; keys?: RefObject<HTMLDivElement>; label: string;
 }) {
-  const { scale, width, height } = layout;
-  const paths = useMemo(() => pathsOf(maps, level, scale), [maps, level, scale]);
-  const [left, bottom] = [maps.x.low - maps.x.pitch / 2, maps.y.low - maps.y.pitch / 2];
-  const x = (v: number) => margin.left + (v - left) * scale;
-  const y = (v: number) => height - margin.bottom - (v - bottom) * scale;
+  const { width, height } = layout;
+  const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
+  const svg = useRef<SVGSVGElement>(null);
+  const [drag, setDrag] = useState<[Spot, Spot] | null>(null);
+  const paths = useMemo(() => pathsOf(maps, level, layout.scale), [maps, level, layout.scale]);
+  const scale = w / (seen.right - seen.left);
+  const x = (v: number) => margin.left + (v - seen.left) * scale;
+  const y = (v: number) => height - margin.bottom - (v - seen.bottom) * scale;
   const step = niceStep(110 / scale); // 44 px or more, since steps grow by 2.5 at most
   const named = (v: number) => format(Math.abs(v) < step * 1e-6 ? 0 : v, 6);
-  const [w, h] = [maps.x.pitch * scale, maps.y.pitch * scale];
+  const live = useRef(seen);
+  live.current = seen;
+  useEffect(() => {
+    const element = svg.current!;
+    /** Of px on the screen, where the drawing may be smaller, within the axes. */
+    const within = (p: Spot): Spot => {
+      const drawn = width / (element.clientWidth || width);
+      return { x: p.x * drawn - margin.left, y: p.y * drawn - margin.top };
+    };
+    const placeOf = (p: Spot) => {
+      const { left, right, bottom, top } = live.current;
+      return { x: left + (p.x / w) * (right - left), y: top - (p.y / h) * (top - bottom) };
+    };
+    const [wholeX, wholeY] = [[whole.left, whole.right], [whole.bottom, whole.top]] as Range[];
+    const nowX = () => [live.current.left, live.current.right] as Range;
+    const nowY = () => [live.current.bottom, live.current.top] as Range;
+    const part = (across: Range | null, up: Range | null) => zoom(across && up && { left: across[0], right: across[1], bottom: up[0], top: up[1] });
+    return listen(element, keys?.current ?? (element as unknown as HTMLElement), {
+      zoomed: () => false, // the arrows read values
+      box: (from, to, done) => {
+        setDrag(done ? null : [from, to].map(within) as [Spot, Spot]);
+        if (!done) return;
+        const [a, b] = [placeOf(within(from)), placeOf(within(to))];
+        const box = boxAbout({ left: Math.min(a.x, b.x), right: Math.max(a.x, b.x), bottom: Math.min(a.y, b.y), top: Math.max(a.y, b.y) }, whole);
+        part(box.x, box.y);
+      },
+      cancel: () => setDrag(null),
+      zoom: (factor, about) => {
+        const p = placeOf(about ? within(about) : { x: w / 2, y: h / 2 });
+        part(nearer(nowX(), wholeX, p.x, factor), nearer(nowY(), wholeY, p.y, factor));
+      },
+      move: (dx, dy) => part(shifted(nowX(), wholeX, -dx / w), shifted(nowY(), wholeY, dy / h)),
+      reset: () => zoom(null),
+      click: () => {},
+      mark: () => {},
+      unmark: () => {},
+    });
+  }, [whole.left, whole.right, whole.bottom, whole.top, width, height, keys]);
   const read = (event: PointerEvent) => {
+    if (event.buttons && event.pointerType === "mouse") return; // a drag
     const box = (event.currentTarget as Element).getBoundingClientRect();
-    const zoom = width / (box.width || width);
-    const [px, py] = [(event.clientX - box.left) * zoom, (event.clientY - box.top) * zoom];
-    show(indexOf(maps.x, left + (px - margin.left) / scale), indexOf(maps.y, bottom + (height - margin.bottom - py) / scale));
+    const zoomed = width / (box.width || width);
+    const [px, py] = [(event.clientX - box.left) * zoomed, (event.clientY - box.top) * zoomed];
+    show(indexOf(maps.x, seen.left + (px - margin.left) / scale), indexOf(maps.y, seen.bottom + (height - margin.bottom - py) / scale));
   };
+  // Cells were drawn for all of the map; what is seen of them is a part of it.
+  const shown = `${(seen.left - whole.left) * layout.scale} ${(whole.top - seen.top) * layout.scale} ${(seen.right - seen.left) * layout.scale} ${(seen.top - seen.bottom) * layout.scale}`;
+  const plane = { x: margin.left, y: margin.top, width: w, height: h };
+  const [cw, ch] = [maps.x.pitch * scale, maps.y.pitch * scale];
+  const dragged = drag && boxWithin(drag[0], drag[1], w, h);
   return (
-    <svg viewBox={`0 0 ${width.toFixed(1)} ${height.toFixed(1)}`} role="img" aria-label={label} onPointerMove={read} onPointerDown={read}>
-      <g class="cells" transform={`translate(${margin.left},${margin.top})`} shape-rendering="crispEdges">
+    <svg ref={svg} viewBox={`0 0 ${width.toFixed(1)} ${height.toFixed(1)}`} role="img" aria-label={label} onPointerMove={read} onPointerDown={read}>
+      <svg class="cells" {...plane} viewBox={shown} preserveAspectRatio="none" shape-rendering="crispEdges">
         {paths.map((d, k) => d && <path d={d} class={k < classes ? undefined : "none"} fill={k < classes ? classColour(k) : undefined} />)}
-      </g>
+      </svg>
       <g class="axes">
-        <path d={`M${margin.left} ${margin.top}H${width - margin.right}V${height - margin.bottom}H${margin.left}z${ticks(left, left + sizeOf(maps.x), step).map((t) => `M${x(t).toFixed(1)} ${height - margin.bottom}v4`).join("")}${ticks(bottom, bottom + sizeOf(maps.y), step).map((t) => `M${margin.left} ${y(t).toFixed(1)}h-4`).join("")}`} />
-        {ticks(left, left + sizeOf(maps.x), step).map((t) => <text x={x(t)} y={height - margin.bottom + 16} text-anchor="middle">{named(t)}</text>)}
-        {ticks(bottom, bottom + sizeOf(maps.y), step).map((t) => <text x={margin.left - 7} y={y(t) + 4} text-anchor="end">{named(t)}</text>)}
+        <path d={`M${margin.left} ${margin.top}H${width - margin.right}V${height - margin.bottom}H${margin.left}z${ticks(seen.left, seen.right, step).map((t) => `M${x(t).toFixed(1)} ${height - margin.bottom}v4`).join("")}${ticks(seen.bottom, seen.top, step).map((t) => `M${margin.left} ${y(t).toFixed(1)}h-4`).join("")}`} />
+        {ticks(seen.left, seen.right, step).map((t) => <text x={x(t)} y={height - margin.bottom + 16} text-anchor="middle">{named(t)}</text>)}
+        {ticks(seen.bottom, seen.top, step).map((t) => <text x={margin.left - 7} y={y(t) + 4} text-anchor="end">{named(t)}</text>)}
         <text class="name" x={(margin.left + width - margin.right) / 2} y={height - 6} text-anchor="middle">{maps.xLabel}</text>
         <text class="name" transform={`translate(11,${(height - margin.bottom) / 2}) rotate(-90)`} text-anchor="middle">{maps.yLabel}</text>
       </g>
       {place && (
-        <g class="at" transform={`translate(${x(at(maps.x, place.i)).toFixed(2)},${y(at(maps.y, place.j)).toFixed(2)})`}>
-          {["halo", "line"].map((name) => <rect class={name} x={-w / 2 - 1} y={-h / 2 - 1} width={w + 2} height={h + 2} />)}
-        </g>
+        <svg {...plane} viewBox={`${margin.left} ${margin.top} ${w} ${h}`} class="within-axes">
+          <g class="at" transform={`translate(${x(at(maps.x, place.i)).toFixed(2)},${y(at(maps.y, place.j)).toFixed(2)})`}>
+            {["halo", "line"].map((name) => <rect class={name} x={-cw / 2 - 1} y={-ch / 2 - 1} width={cw + 2} height={ch + 2} />)}
+          </g>
+        </svg>
       )}
+      {dragged && <rect class="drag" x={margin.left + dragged.left} y={margin.top + dragged.top} width={dragged.right - dragged.left} height={dragged.bottom - dragged.top} />}
     </svg>
   );
 }

@@ -1,16 +1,16 @@
 // Everything on the page that is text and tables.
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { hasResult, isObject, resultText, type Change, type Json, type JsonObject, type Num, type Table } from "./data";
+import { hasResult, isObject, resultText, type Change, type Design, type Fact, type Json, type JsonObject, type Num } from "./data";
 import { Copy } from "./controls";
-import { csv, save, slug, targetTable } from "./exports";
+import { save, targetTable } from "./exports";
+import { Masonry } from "./masonry";
 import { positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
-import { motion, reason, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
+import { designOf, goOn, motion, reason, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
+import { DataTable } from "./tables";
 import { targetErrors } from "./view";
-
-const failed = result.checks.filter((c) => !c.passed).length;
 
 const marks = { passed: "✓", doubtful: "!", incomplete: "!", failed: "✗" };
 
@@ -37,6 +37,7 @@ function Fold({ text }: { text: string }) {
 
 /** What was studied and how it ended: one strip, so that the mechanism stands on the first screen. */
 export function Banner() {
+  const failed = result.checks.filter((c) => !c.passed).length;
   const checks = result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`;
   return (
     <header class={`verdict ${view.verdict}`}>
@@ -50,12 +51,24 @@ export function Banner() {
   );
 }
 
+/** A figure, and its explanation for those who ask. */
+function FactText({ fact }: { fact: Fact }) {
+  const [open, setOpen] = useState(false);
+  if (!fact.rest) return <>{fact.text}</>;
+  return (
+    <>
+      {fact.text}<small class={open ? "" : "print-only"}>{fact.rest}</small>{" "}
+      <button type="button" class="link screen-only" aria-expanded={open} aria-label={`${open ? "less" : "more"} about ${fact.label}`} onClick={() => setOpen(!open)}>{open ? "less" : "more"}</button>
+    </>
+  );
+}
+
 /** The key figures, beside the mechanism. */
 export function Facts() {
   if (!view.facts.length) return null;
   return (
     <dl class="facts">
-      {view.facts.map((f) => <div class={`${f.verdict}${f.text.length > 34 ? " long" : ""}`}><dt>{f.label}</dt><dd><Fold text={f.text} /></dd></div>)}
+      {view.facts.map((f) => <div class={`${f.verdict}${f.text.length + (f.rest ? 5 : 0) > 34 ? " long" : ""}`}><dt>{f.label}</dt><dd><FactText fact={f} /></dd></div>)}
     </dl>
   );
 }
@@ -113,7 +126,7 @@ const texts = (defects: Json[] | null) => (defects ?? []).map((d) => (typeof d =
 
 export function display(key: string, value: Json | undefined): string {
   if (value === null || value === undefined) return "–";
-  if (typeof value === "number") return key.includes("rate") && value >= 0 && value <= 1 ? `${format(value * 100, 4)} %` : quantity(key, value, 7);
+  if (typeof value === "number") return key.includes("rate") && value >= 0 && value <= 1 ? `${format(value * 100, 4)}\u202f%` : quantity(key, value);
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (typeof value === "string") return value.replace(/_/g, " ");
   if (Array.isArray(value)) return value.length > 12 ? `${value.length} values` : value.map((v) => display(key, v)).join(", ");
@@ -122,9 +135,10 @@ export function display(key: string, value: Json | undefined): string {
 
 const keysOf = (objects: (JsonObject | null)[]) => [...new Set(objects.flatMap((o) => Object.keys(o ?? {})))];
 /** Scenes of no solution: of a balancing, the first design. */
-const others = view.scenes.flatMap((s, i) => (view.solution_scenes.includes(s.name) ? [] : [i]));
+const otherScenes = () => view.scenes.flatMap((s, i) => (view.solution_scenes.includes(s.name) ? [] : [i]));
 
 export function SolutionPicker() {
+  const others = otherScenes();
   const choices = result.solutions.length
     ? [
         ...result.solutions.map((s, i) => ({ label: s.label, scene: sceneOf(i), note: display("", firstOf(s.objectives)), defects: texts(s.defects), i })),
@@ -155,7 +169,18 @@ const heading = (key: string, size = Infinity) => {
   return nameOf(key) + (unit.symbol ? ` (${unit.symbol})` : "");
 };
 const bare = (key: string, value: Json | undefined) =>
-  typeof value === "number" ? format(value * unitOf(key).factor, 7) : display(key, value);
+  typeof value === "number" ? format(value * unitOf(key).factor) : display(key, value);
+
+/** Takes a design out of the report, to run it or to change it. */
+function TakeDesign({ design }: { design: Design }) {
+  return (
+    <span class="take">
+      <button type="button" class="get" data-design={design.solution} aria-label={`Study of solution ${design.solution + 1}`} onClick={() => save(`${design.name}.toml`, design.toml)}>study</button>
+      <Copy text={design.toml} label={`copy the study of solution ${design.solution + 1}`} />
+      {goOn.now && <button type="button" data-go-on={design.solution} aria-label={`Go on with solution ${design.solution + 1}`} onClick={() => goOn.now!(`${design.name}.toml`, design.toml)}>go on</button>}
+    </span>
+  );
+}
 
 export function Solutions() {
   if (!result.solutions.length) return null;
@@ -165,15 +190,17 @@ export function Solutions() {
     <Section title={result.solutions.length > 1 ? "Distinct solutions" : "Solution"} id="solutions">
       <div class="scroll">
         <table class="choose">
-          <thead><tr><th scope="col">#</th><th scope="col">solution</th>{objectives.map((k) => <th scope="col" class="num">{heading(k)}</th>)}{classes.map((k) => <th scope="col">{heading(k)}</th>)}<th scope="col">defects</th></tr></thead>
+          <thead><tr><th scope="col">#</th><th scope="col">solution</th>{view.designs.length > 0 && <th scope="col" class="screen-only">study</th>}{objectives.map((k) => <th scope="col" class="num">{heading(k)}</th>)}{classes.map((k) => <th scope="col">{heading(k)}</th>)}<th scope="col">defects</th></tr></thead>
           <tbody>
             {result.solutions.map((s, i) => {
               const at = sceneOf(i);
               const defects = texts(s.defects);
+              const design = designOf(i);
               return (
                 <tr class={at >= 0 && at === sceneIndex.value ? "current" : ""} onClick={() => showScene(at)}>
                   <td>{i + 1}</td>
                   <th scope="row">{at >= 0 ? <button type="button" class="link" onClick={() => showScene(at)}>{s.label}</button> : s.label}</th>
+                  {view.designs.length > 0 && <td class="screen-only" onClick={(e) => e.stopPropagation()}>{design && <TakeDesign design={design} />}</td>}
                   {objectives.map((k) => <td class="num">{bare(k, s.objectives?.[k])}</td>)}
                   {classes.map((k) => <td>{bare(k, s.classification?.[k])}</td>)}
                   <td>{defects.length ? <span class="defect">{defects.join(", ")}</span> : "none"}</td>
@@ -211,7 +238,7 @@ export function Parameters() {
               const free = p.lower === null && p.upper === null;
               const fixed = !free && p.lower === p.upper;
               const unit = unitOf(p.key, largest);
-              const show = (v: Num, digits = 9) => (v === null ? "–" : format(v * unit.factor, digits) + (unit.symbol === "°" ? "°" : unit.symbol ? `\u202f${unit.symbol}` : ""));
+              const show = (v: Num, digits = 6) => (v === null ? "–" : format(v * unit.factor, digits) + (unit.symbol === "°" ? "°" : unit.symbol ? `\u202f${unit.symbol}` : ""));
               const span = p.lower !== null && p.upper !== null ? p.upper - p.lower : Math.abs(p.value ?? 1);
               const near = (b: Num) => !fixed && b !== null && p.value !== null && Math.abs(p.value - b) <= 1e-6 * span;
               const active = near(p.lower) ? "at lower bound" : near(p.upper) ? "at upper bound" : "";
@@ -235,7 +262,7 @@ export function Parameters() {
 
 function Distribution() {
   const values = runs.map((r) => r.final);
-  if (hasHistogram || values.filter((v) => v !== null).length < 2) return null;
+  if (hasHistogram() || values.filter((v) => v !== null).length < 2) return null;
   return (
     <div class="card plot">
       <h3>Final value of each seed</h3>
@@ -246,10 +273,10 @@ function Distribution() {
 
 export function Runs() {
   const statistics = Object.entries(isObject(result.statistics) ? result.statistics : {});
-  if (!runs.length && !statistics.length && !hasLoosePlots) return null;
+  if (!runs.length && !statistics.length && !hasLoosePlots()) return null;
   return (
     <Section title={runs.length ? "Search" : "Overview"} id="search">
-      <div class="grid-2"><LoosePlots /><Convergence runs={runs} /><Distribution /></div>
+      <Masonry><LoosePlots /><Convergence runs={runs} /><Distribution /></Masonry>
       {statistics.length > 0 && <dl class="facts across">{statistics.map(([k, v]) => <div><dt>{nameOf(k)}</dt><dd>{display(k, v)}</dd></div>)}</dl>}
       {runs.length > 0 && (
         <details>
@@ -270,7 +297,7 @@ export function Changes() {
   if (!view.changes.length) return null;
   const wanted = view.changes.filter((c) => c.wanted);
   const rows = all || !wanted.length ? view.changes : wanted;
-  const percent = (c: Change) => c.percent === null ? "" : `${c.percent > 0 ? "+" : ""}${format(c.percent, 4)} %`;
+  const percent = (c: Change) => c.percent === null ? "" : `${c.percent > 0 ? "+" : ""}${format(c.percent, 4)}\u202f%`;
   return (
     <Section title="Before and after" id="changes">
       <div class="scroll"><table>
@@ -299,36 +326,14 @@ export function Comparisons() {
   );
 }
 
-const remarks = result.diagnostics.filter((d) => d !== reason); // it stands where the mechanism would
-
 export function Remarks() {
+  const remarks = result.diagnostics.filter((d) => d !== reason); // it stands where the mechanism would
   if (!remarks.length) return null;
   return (
     <Section title="Remarks" id="remarks">
       <ul class="remarks">{remarks.map((d) => (
         <li class={d.severity}><b>{d.severity}</b><span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span></li>))}</ul>
     </Section>
-  );
-}
-
-function DataTable({ table }: { table: Table }) {
-  const [open, setOpen] = useState(false);
-  const rows = table.data[0]?.length ?? 0;
-  const shown = Math.min(rows, 2000);
-  return (
-    <div class="data-table">
-    <button type="button" class="get" data-download={`${table.name}.csv`} aria-label={`${table.name} as CSV`} onClick={() => save(`${slug(table.name)}.csv`, csv(table), "text/csv")}>CSV</button>
-    <details onToggle={(e) => setOpen(e.currentTarget.open)}>
-      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span></summary>
-      {open && (
-        <div class="scroll tall"><table>
-          <thead><tr>{table.names && <th scope="col">name</th>}{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
-          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.names && <th scope="row">{table.names[r]}</th>}{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
-        </table></div>
-      )}
-      {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}
-    </details>
-    </div>
   );
 }
 

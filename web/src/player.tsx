@@ -2,7 +2,7 @@
 import { useEffect } from "preact/hooks";
 import { extent, fitView, zoomBy } from "./camera";
 import { Switch, toggle } from "./controls";
-import { Drawing, SpeedLegend, whiskerFactor } from "./drawing";
+import { Drawing, Runs, SpeedLegend, whiskerFactor } from "./drawing";
 import { ExportMenu } from "./export_menu";
 import { ArrowBar, Values } from "./forces";
 import { rowsOf } from "./grid";
@@ -153,6 +153,7 @@ export function Machine() {
   return (
     <section class="machine card" aria-label="Mechanism">
       {spatial ? <SpaceDrawing /> : <><Drawing /><SpeedLegend /></>}
+      <Runs />
       {!still && (
         <div class="controls">
           <button type="button" id="play" class="play" aria-label={state.playing.value ? "Pause" : "Play"} title="Play or pause (space)" onClick={play}>

@@ -1,20 +1,22 @@
 // Diagrams. Their cursor and the animation follow each other.
 import { computed } from "@preact/signals";
-import { useMemo } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
-import { Chart, type Curve, type Link } from "./chart";
+import { Chart, Reset, Sign, type Curve, type Link } from "./chart";
 import type { Num, Plot, Table } from "./data";
-import { gestureHint } from "./gestures";
+import { gestureHint, listen, type Spot } from "./gestures";
 import { aligned, groupsOf, inputOf, linesOf, presentGroup } from "./groups";
 import { histogram, stackDots, type Run } from "./log";
 import { logarithms, rounding } from "./logarithm";
-import { mostNamed } from "./look";
-import { MapPlot } from "./map";
+import { lookOf, mostNamed } from "./look";
+import { MapPlot, mapHint } from "./map";
+import { Masonry } from "./masonry";
 import { inputAt, positionOf, turnOf } from "./motion";
 import { Polar } from "./polar";
 import { sortedRows } from "./rows";
 import * as state from "./state";
 import { format, labelWith, unitOf } from "./units";
+import { between, nearer, shifted, type Range } from "./zoom";
 
 const firstInput = (factor: number): Link => ({
   now: () => inputAt(state.motion.peek(), state.position.peek()) * factor,
@@ -117,44 +119,85 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
 }
 
 const maximumOfDots = 200;
+const w = 520; // of the drawing of dots
 
 function Histogram({ plot, table }: { plot: Plot; table: Table }) {
   const made = useMemo(() => {
     const columns = table.columns.flatMap((c, i) => (plot.y.includes(c.key) ? [i] : []));
     const unit = unitOf(plot.y[0] ?? "", largest(columns.map((i) => table.data[i])));
-    const values = scaled(columns.flatMap((i) => table.data[i]), unit.factor);
     const label = columns.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit)).join(", ");
-    const { middles, counts } = histogram(values);
-    return { values, x: { label, symbol: unit.symbol }, data: [middles, counts] as uPlot.AlignedData, curves: [{ name: "count", kind: "bars" }] as Curve[] };
+    const groups = groupsOf(plot, table);
+    const lists = groups.map(({ rows }) => scaled(columns.flatMap((i) => rows.map((row) => table.data[i][row])), unit.factor));
+    const { middles, counts } = histogram(lists);
+    const one = groups.length === 1;
+    return {
+      lists, groups, x: { label, symbol: unit.symbol }, data: [middles, ...counts] as uPlot.AlignedData,
+      curves: groups.map((g): Curve => (one ? { name: "count", kind: "bars" } : { name: g.label, kind: "curve", stepped: true })),
+    };
   }, [plot, table]);
-  if (made.values.length <= maximumOfDots)
-    return <Dots values={made.values} names={made.values.map((_, i) => `row ${i + 1}`)} label={made.x.label} />;
+  if (made.lists.flat().length <= maximumOfDots)
+    return <Dots values={made.lists.flat()} label={made.x.label} groups={made.groups.length > 1 ? made.groups.map((g) => g.label) : undefined}
+      of={made.lists.flatMap((list, k) => list.map(() => k))} names={made.lists.flatMap((list) => list.map((_, i) => `row ${i + 1}`))} />;
   return <Chart label={plot.title} data={made.data} curves={made.curves} x={made.x} y={{ label: "count", symbol: "" }} range={(_, high) => [0, Math.max(1, high * 1.1)]} />;
 }
 
-/** A dot a value: shows how often a search comes to the same answer. */
-export function Dots({ values, names, label }: { values: Num[]; names: string[]; label: string }) {
+const dotsHint = "Drag: zoom. Shift + drag: move. Ctrl + wheel, or two fingers: zoom. Double click: show all. With the keyboard: + − arrows 0.";
+
+/** A dot a value: shows how often a search comes to the same answer. Dots of several groups have the colours of their curves. */
+export function Dots({ values, names, label, groups, of }: { values: Num[]; names: string[]; label: string; groups?: string[]; of?: number[] }) {
+  const svg = useRef<SVGSVGElement>(null);
+  const [part, setPart] = useState<Range | null>(null); // shares of the axis that are zoomed into
+  const [drag, setDrag] = useState<Range | null>(null); // px
+  const live = useRef<Range>([0, 1]);
+  live.current = part ?? [0, 1];
   const known = values.filter((v): v is number => v !== null);
+  useEffect(() => {
+    const element = svg.current;
+    if (!element) return;
+    /** Of px on the screen: the place in the drawing, and on the axis. */
+    const across = (p: Spot) => (p.x * w) / (element.clientWidth || w);
+    const share = (p: Spot) => live.current[0] + ((across(p) - 16) / (w - 32)) * (live.current[1] - live.current[0]);
+    const all: Range = [0, 1];
+    return listen(element, element as unknown as HTMLElement, {
+      zoomed: () => live.current[1] - live.current[0] < 1,
+      box: (from, to, done) => {
+        setDrag(done ? null : [Math.min(across(from), across(to)), Math.max(across(from), across(to))]);
+        if (done) setPart(between(share(from), share(to), all));
+      },
+      cancel: () => setDrag(null),
+      zoom: (factor, about) => setPart(nearer(live.current, all, about ? share(about) : (live.current[0] + live.current[1]) / 2, factor)),
+      move: (dx) => setPart(shifted(live.current, all, -dx / (element.clientWidth || w))),
+      reset: () => setPart(null),
+      click: () => {},
+      mark: () => {},
+      unmark: () => {},
+    });
+  }, [known.length > 0]);
   if (known.length === 0) return <p class="note">No values.</p>;
-  const { logarithmic, low, high, dots } = stackDots(values, 60);
-  const tallest = Math.max(...dots.map((d) => d.level)) + 1;
-  const w = 520;
+  const { logarithmic, low, high, dots } = stackDots(values, 60, live.current);
+  // The height is that of all dots, so that nothing else on the page moves.
+  const tallest = stackDots(values, 60).dots.reduce((most, d) => Math.max(most, d.level), 0) + 1;
   const h = Math.min(190, Math.max(70, tallest * 11 + 16));
   const pitch = Math.min(11, (h - 16) / tallest);
   const middle = logarithmic ? Math.sqrt(low * high) : (low + high) / 2;
   const spread = known.reduce((a, b) => Math.max(a, b)) - known.reduce((a, b) => Math.min(a, b));
   return (
     <>
-      <svg class="dots" viewBox={`0 0 ${w} ${h + 50}`} role="img" aria-label={`${dots.length} values of ${label} from ${format(low)} to ${format(high)}`}>
+      <div class="diagram">
+      <svg ref={svg} class="dots" viewBox={`0 0 ${w} ${h + 50}`} role="img" tabindex={0} aria-description={dotsHint} aria-label={`${dots.length} values of ${label} from ${format(low)} to ${format(high)}`}>
         <path class="axis" d={`M10 ${h}H${w - 10}M10 ${h}v5M${w / 2} ${h}v5M${w - 10} ${h}v5`} />
         <text x={10} y={h + 20}>{format(low, 5)}</text>
         <text x={w / 2} y={h + 20} text-anchor="middle">{format(middle, 5)}</text>
         <text x={w - 10} y={h + 20} text-anchor="end">{format(high, 5)}</text>
         <text x={w / 2} y={h + 42} text-anchor="middle">{label}</text>
         {dots.map((d) => (
-          <circle cx={16 + d.share * (w - 32)} cy={h - 7 - d.level * pitch} r={Math.min(4.6, pitch / 2)}><title>{`${names[d.index]}: ${format(values[d.index], 9)}`}</title></circle>
+          <circle cx={16 + d.share * (w - 32)} cy={h - 7 - d.level * pitch} r={Math.min(4.6, pitch / 2)} style={groups && { fill: `var(${lookOf(of![d.index]).stroke})` }}><title>{`${groups ? `${groups[of![d.index]]}, ` : ""}${names[d.index]}: ${format(values[d.index], 9)}`}</title></circle>
         ))}
+        {drag && <rect class="drag" x={drag[0]} y={0} width={drag[1] - drag[0]} height={h} />}
       </svg>
+      {part && <Reset onClick={() => setPart(null)} />}
+      </div>
+      {groups && <ul class="runs">{groups.map((name, k) => <li><Sign look={lookOf(k)} points />{name}</li>)}</ul>}
       <p class="note">{known.length > 1 && spread <= 1e-9 * Math.abs(known[0]) ? `All ${known.length} have the same value to nine digits.` : `${known.length} values, one dot each${logarithmic ? ", logarithmic axis" : ""}.`}{known.length < values.length && ` ${values.length - known.length} without a value.`}</p>
     </>
   );
@@ -173,7 +216,7 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
   <>
     {withTable(plots).map(({ plot, table }) => (
       <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
-        <h3 title={plot.style === "map" ? undefined : gestureHint}>{plot.title}</h3>
+        <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
         {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.style === "map" ? <MapPlot plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
       </div>
     ))}
@@ -191,32 +234,32 @@ export function Plots() {
       <h2 id="h-plots">Over the motion</h2>
       <p class="note screen-only">Point at a diagram and the mechanism moves there. Drag to zoom (Shift moves, double click shows all); click to set a cursor A and read differences.</p>
       {without.length > 0 && <p class="note">Without values, and so not drawn: {without.map((p) => p.title).join(", ")}.</p>}
-      <div class="grid-2"><Cards plots={shown} /></div>
+      <Masonry><Cards plots={shown} /></Masonry>
     </section>
   );
 }
 
-const unlinked = state.view.plots.filter((p) => p.scene === "");
+const unlinked = () => state.view.plots.filter((p) => p.scene === "");
 // A plot of solutions is a front to pick from.
 const isFront = (plot: Plot) => state.result.tables.some((t) => t.name === plot.table && t.columns.some((c) => c.key === "solution"));
-const loose = unlinked.filter((p) => !isFront(p));
-const fronts = unlinked.filter(isFront);
+const loose = () => unlinked().filter((p) => !isFront(p));
 
 /** What one objective costs in another. */
 export function Fronts() {
+  const fronts = unlinked().filter(isFront);
   if (withTable(fronts).length === 0) return null;
   return (
     <section aria-labelledby="h-front">
       <h2 id="h-front">The front</h2>
-      <div class="grid-2"><Cards plots={fronts} /></div>
+      <Masonry><Cards plots={fronts} /></Masonry>
     </section>
   );
 }
 
-export const hasLoosePlots = withTable(loose).length > 0;
-export const hasHistogram = withTable(loose).some(({ plot }) => plot.style === "histogram");
+export const hasLoosePlots = () => withTable(loose()).length > 0;
+export const hasHistogram = () => withTable(loose()).some(({ plot }) => plot.style === "histogram");
 /** Plots that belong to no scene. */
-export const LoosePlots = () => <Cards plots={loose} />;
+export const LoosePlots = () => <Cards plots={loose()} />;
 
 /** Best cost against effort, one line a seed. */
 export function Convergence({ runs }: { runs: Run[] }) {

@@ -134,7 +134,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   return (
     <>
       <div class="diagram polar" ref={box}>
-        <svg ref={svg} viewBox={`0 0 ${width} ${height}`} width={width} height={height} role="img" tabIndex={0} aria-label={`${plot.title}: ${curves.map((c) => c.label).join(", ")}; equal axes${unit.symbol ? ` in ${unit.symbol}` : ""}`} aria-description={gestureHint}
+        <svg ref={svg} viewBox={`0 0 ${width} ${height}`} width={width} height={height} role="img" tabindex={0} aria-label={`${plot.title}: ${curves.map((c) => c.label).join(", ")}; equal axes${unit.symbol ? ` in ${unit.symbol}` : ""}`} aria-description={gestureHint}
           onPointerEnter={() => hold(true)} onPointerLeave={() => hold(false)} onPointerMove={point} onPointerDown={(e) => e.pointerType !== "mouse" && point(e)}>
           {still}
           <svg {...plane}>

@@ -1,10 +1,10 @@
 // The spatial view: a bundle of its own, which only reports with a spatial scene carry. It draws when something has changed.
-import { AmbientLight, DirectionalLight, Group, OrthographicCamera, PerspectiveCamera, Raycaster, Scene as Stage, Vector2, Vector3, WebGLRenderer, type Object3D } from "three";
+import { AmbientLight, DirectionalLight, Group, OrthographicCamera, PerspectiveCamera, Raycaster, Plane, Scene as Stage, Vector2, Vector3, WebGLRenderer, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { arrowScale, quantities, valueNear } from "./arrows";
 import type { Quantity, Scene } from "./data";
 import { placeLabels, symbolOf } from "./labels";
-import { placeAt, placeNear } from "./motion";
+import { placeAt, placeNear, type Place } from "./motion";
 import { arrowPart, bodyPart, discPart, jointPart, lines, Palette, type Part, type Places } from "./space_parts";
 import { bounds3, cloudOf, fit3, lowestTyre, middleOf, sizeOf, viewpoints, type V3, type ViewName } from "./space_view";
 import { bodyColours, niceStep } from "./view";
@@ -21,6 +21,10 @@ export interface Shown {
 export interface Events {
   hover: (pick: string) => void;
   pick: (pick: string) => void;
+  /** A press on a joint: true = it is taken hold of, and the pointer drags it in the plane of the screen until it is dropped. */
+  hold: (joint: number) => boolean;
+  drag: (to: Place, alone: boolean) => void;
+  drop: () => void;
 }
 
 export interface SpaceView {
@@ -278,7 +282,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
       if (distance < least) [least, best] = [distance, `joint ${i}`];
     });
     if (best) return best;
-    ray.setFromCamera(new Vector2((2 * px) / frameOf.width - 1, 1 - (2 * py) / frameOf.height), camera);
+    aim(event);
     const meshes: Object3D[] = [...parts.map((p) => p.part.object), ...arrows.map((a) => a.object)].filter((o) => o.visible);
     const hits = ray.intersectObjects(meshes).filter((h) => (h.object as { isMesh?: boolean }).isMesh && !("isLineSegments2" in h.object));
     const owner = (object: Object3D | null): string => (object ? ((object.userData.pick as string | undefined) ?? owner(object.parent)) : "");
@@ -286,6 +290,36 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     // A wheel is seen through: what lies in it comes first.
     return picks.find((p) => !p.startsWith("disc")) ?? picks[0] ?? "";
   }
+  const aim = (event: PointerEvent) => {
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    ray.setFromCamera(new Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height), camera);
+    return ray.ray;
+  };
+  // What is held comes before the turning of the view.
+  let held: Plane | null = null;
+  const down = (event: PointerEvent) => {
+    const [kind, joint] = event.button === 0 ? pickAt(event).split(" ") : [];
+    if (kind !== "joint" || !events.hold(Number(joint))) return;
+    event.stopPropagation();
+    const facing = camera.getWorldDirection(new Vector3());
+    held = new Plane().setFromNormalAndCoplanarPoint(facing, joints[Number(joint)].object.position);
+    host.setPointerCapture(event.pointerId);
+  };
+  const dragged = (event: PointerEvent) => {
+    if (!held) return;
+    event.stopPropagation();
+    const to = aim(event).intersectPlane(held, new Vector3());
+    if (to) events.drag({ x: to.x, y: to.y, z: to.z }, event.altKey);
+  };
+  const drop = (event: PointerEvent) => {
+    if (!held) return;
+    event.stopPropagation();
+    held = null;
+    events.drop();
+  };
+  const ended = new AbortController();
+  for (const [name, run] of [["pointerdown", down], ["pointermove", dragged], ["pointerup", drop], ["pointercancel", drop]] as const)
+    host.addEventListener(name, run, { capture: true, signal: ended.signal });
   let pressed: { x: number; y: number } | null = null;
   canvas.addEventListener("pointerdown", (event) => (pressed = event.button === 0 ? { x: event.clientX, y: event.clientY } : null));
   canvas.addEventListener("pointermove", (event) => {
@@ -363,6 +397,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
       cancelAnimationFrame(frame);
       observer.disconnect();
       host.removeEventListener("wheel", wheel, { capture: true });
+      ended.abort();
       controls.dispose();
       stage.traverse((o) => (o as { geometry?: { dispose(): void } }).geometry?.dispose());
       palette.dispose();

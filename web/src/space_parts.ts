@@ -7,6 +7,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { Disc, Quantity, Scene } from "./data";
+import { lookOf } from "./look";
 import { dashDots } from "./space_view";
 
 export type Places = (point: number) => Vector3 | null;
@@ -237,6 +238,10 @@ function damper(palette: Palette, body: Body, radius: number): Part {
 export function bodyPart(palette: Palette, body: Body, colour: string, size: number, thin: number): Part {
   const radius = (thin * size) / 110;
   const part = (() => {
+    if (body.run) {
+      const closed = body.style === "plate" && body.points.length > 2;
+      return dashed(palette, lookOf(body.run).stroke, 1.8, { ...body, points: closed ? [...body.points, body.points[0]] : body.points }, size / 30, 0);
+    }
     switch (body.style) {
       case "ground":
         return dashed(palette, "--soft", 1.4, body, size / 22, 0);

@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { extent } from "./camera";
 import { Copy, WheelHint } from "./controls";
 import { Card, coordinates, instant, SpaceKey } from "./forces";
+import type { Scene } from "./data";
 import { placeNear } from "./motion";
 import type { SpaceView } from "./space";
 import { viewpoints, type ViewName } from "./space_view";
@@ -54,14 +55,30 @@ function Still() {
   return <div class="still" ref={box} />;
 }
 
+/** What the parts of a view are made from; scenes that agree in it are drawn by the same view. */
+function partsOf(scene: Scene): string {
+  let parts = knownParts.get(scene);
+  if (parts === undefined) {
+    const { bodies, discs, joints, vectors } = scene;
+    parts = JSON.stringify([bodies, discs, joints, vectors.map(({ name, quantity, symbol }) => [name, quantity, symbol])]);
+    knownParts.set(scene, parts);
+  }
+  return parts;
+}
+const knownParts = new WeakMap<Scene, string>();
+
 export function SpaceDrawing() {
   const box = useRef<HTMLDivElement>(null);
   const [flat, setFlat] = useState(false);
   const whole = state.whole.value!;
+  const parts = partsOf(whole);
   useEffect(() => {
     const view = globalThis.linkwrightSpace?.open(box.current!, whole, {
       hover: (pick) => (state.hovered.value = pick),
       pick: (pick) => (state.picked.value = state.picked.value === pick ? "" : pick),
+      hold: (joint) => state.hand.now?.hold(state.scene.value!, state.scene.value!.joints[joint].point) ?? false,
+      drag: (to, alone) => state.hand.now?.move(to, alone),
+      drop: () => state.hand.now?.up(),
     }) ?? null;
     setFlat(view === null);
     space.value = view;
@@ -71,7 +88,7 @@ export function SpaceDrawing() {
     const stops = [
       effect(() => {
         const [scene, at] = [state.scene.value!, state.position.value];
-        if (state.whole.value === whole) view.pose(scene, at);
+        if (state.whole.value && partsOf(state.whole.value) === parts) view.pose(scene, at);
       }),
       effect(() => {
         const arrows = (q: "force" | "velocity" | "acceleration") => (state.showArrows[q].value ? state.magnify[q].value : 0);
@@ -90,7 +107,7 @@ export function SpaceDrawing() {
       if (space.value === view) space.value = null;
       view.close();
     };
-  }, [whole]);
+  }, [parts]);
   return (
     <>
       {flat && <p class="note no-webgl">This browser offers no WebGL: instead of the moving view in space, three views of one pose are shown.</p>}

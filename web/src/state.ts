@@ -1,23 +1,25 @@
-// What the reader has chosen; the data of the report never change.
+// What is shown, and what the reader has chosen.
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import { extentOf } from "./arrows";
-import { readResult, readView, type Quantity, type Scene } from "./data";
+import { readResult, readView, type Carried, type Quantity, type Result, type Scene, type View } from "./data";
 import { isSpatial, middleRow, rowOf, rowsOf } from "./grid";
-import { advance, analyse, isAssembled, spanOf, type Motion } from "./motion";
-import { readLog } from "./log";
+import { advance, analyse, isAssembled, spanOf, type Motion, type Place } from "./motion";
+import { readLog, type Run } from "./log";
 
-export const view = readView();
-export const result = readResult();
-export const runs = readLog(result.log);
+export let view: View;
+export let result: Result;
+export let runs: Run[];
 /** There are scenes, and nothing of them exists: the mechanism assembles nowhere. */
-export const nowhere = view.scenes.length > 0 && view.scenes.every((s) => extentOf(s) === null);
-export const reason = nowhere ? result.diagnostics[0] : undefined;
+export let nowhere = false;
+export let reason: Result["diagnostics"][number] | undefined;
+/** Changes whenever these do; a report has one set of data for ever. */
+export const revision = signal(0);
 
 export const sceneIndex = signal(0);
 /** Which value of the second input is shown. */
 export const row = signal(0);
 /** All samples of the scene that is shown. */
-export const whole = computed<Scene | undefined>(() => view.scenes[sceneIndex.value]);
+export const whole = computed<Scene | undefined>(() => (revision.value ? view.scenes[sceneIndex.value] : undefined));
 /** Those at the second input that is shown. */
 export const scene = computed<Scene | undefined>(() => whole.value && rowOf(whole.value, row.value));
 const none: Motion = { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false };
@@ -38,19 +40,42 @@ export const parallel = signal(false);
 export const showSpeed = signal(false);
 export const showTargets = signal(true);
 export const showGhosts = signal(false);
-const crowded = view.scenes.some((s) => isSpatial(s)) ? 12 : 24; // more joints than this have no room for their names
-export const showLabels = signal((view.scenes[0]?.joints.length ?? 0) <= crowded);
-const forces = view.scenes.some((s) => s.moments.length > 0 || s.vectors.some((v) => v.quantity === "force"));
-const velocities = view.scenes.some((s) => s.vectors.some((v) => v.quantity === "velocity"));
-export const showArrows: Record<Quantity, Signal<boolean>> = {
-  force: signal(true), velocity: signal(!forces), acceleration: signal(!forces && !velocities),
-};
+let crowded = 24; // more joints than this have no room for their names
+export const showLabels = signal(true);
+export const showArrows: Record<Quantity, Signal<boolean>> = { force: signal(true), velocity: signal(true), acceleration: signal(true) };
 /** Times the scale at which the largest arrow is a quarter of the scene. */
 export const magnify: Record<Quantity, Signal<number>> = { force: signal(1), velocity: signal(1), acceleration: signal(1) };
 /** What is pointed at and what was chosen: "vector 3", "moment 0", "joint 2"; empty = nothing. */
 export const hovered = signal("");
 export const picked = signal("");
 export const whisker = signal<number | "auto">("auto");
+
+/** Takes new data. Of another subject everything starts afresh; of the same one, what the reader has chosen stays as far as it can. */
+export function load(carried: Carried, same = false): void {
+  view = readView(carried);
+  result = readResult(carried);
+  runs = readLog(result.log);
+  nowhere = view.scenes.length > 0 && view.scenes.every((s) => extentOf(s) === null);
+  reason = nowhere ? result.diagnostics[0] : undefined;
+  batch(() => {
+    const before = whole.peek();
+    revision.value++;
+    if (!same) {
+      crowded = view.scenes.some((s) => isSpatial(s)) ? 12 : 24;
+      showLabels.value = (view.scenes[0]?.joints.length ?? 0) <= crowded;
+      const forces = view.scenes.some((s) => s.moments.length > 0 || s.vectors.some((v) => v.quantity === "force"));
+      const velocities = view.scenes.some((s) => s.vectors.some((v) => v.quantity === "velocity"));
+      showArrows.velocity.value = !forces;
+      showArrows.acceleration.value = !forces && !velocities;
+    }
+    const there = same && before ? view.scenes.findIndex((s) => s.name === before.name) : -1;
+    const [place, line] = [position.peek(), row.peek()];
+    showScene(Math.max(0, there));
+    if (there < 0) return;
+    showRow(line);
+    position.value = Math.min(place, Math.max(0, motion.peek().samples - 1));
+  });
+}
 
 // Changes whenever the colours on the page do: plots are painted, not styled.
 export const theme = signal(0);
@@ -71,8 +96,12 @@ const print = (now: boolean) => {
 addEventListener("beforeprint", () => print(true));
 addEventListener("afterprint", () => print(false));
 
+/** The study of a solution, if there is one. */
+export const designOf = (solution: number) => view.designs.find((d) => d.solution === solution);
 /** Index of the scene of a solution; -1 = it has none. */
 export const sceneOf = (solution: number) => view.scenes.findIndex((s) => s.name === view.solution_scenes[solution]);
+/** The study of the solution that is drawn. */
+export const designShown = computed(() => (revision.value ? view.designs.find((d) => sceneOf(d.solution) === sceneIndex.value) : undefined));
 
 export function showScene(index: number): void {
   if (index < 0 || index >= view.scenes.length) return;
@@ -90,6 +119,20 @@ export function showScene(index: number): void {
   if (!isAssembled(m, position.value)) position.value = m.runs[0]?.[0] ?? 0;
 }
 
+/** What comes before the drawing's own gestures: where the study itself is changed by hand. */
+export interface Hand {
+  /** A press at a place; true = it has taken hold of something within reach (m). */
+  down(scene: Scene, at: Place, reach: number): boolean;
+  /** A press on a point, in space; true = it has taken hold of it. */
+  hold(scene: Scene, point: number): boolean;
+  move(at: Place, alone: boolean): void;
+  up(): void;
+}
+export const hand: { now: Hand | null } = { now: null };
+
+/** Where a study can be gone on with on the page itself, this does it. */
+export const goOn: { now: ((name: string, text: string) => void) | null } = { now: null };
+
 /** Shows a place of the motion; the animation stops. */
 export function scrub(to: number): void {
   playing.value = false;
@@ -102,7 +145,6 @@ export function showRow(to: number): void {
 }
 
 export function start(): void {
-  showScene(0);
   playing.value = motion.value.runs.length > 0 && !calm.matches;
   let frame = 0;
   effect(() => {

@@ -1,5 +1,23 @@
-// Numbers for people: SI in the data, degrees and millimetres on the page.
-import { suffixes } from "./suffixes";
+// Numbers for people: SI in the data, on the page the units that the program chose for it.
+import type { Num, ShownSuffix } from "./data";
+
+let suffixes: ShownSuffix[] = [];
+/** The units of the report; before this, numbers have none. */
+export function useUnits(shown: ShownSuffix[]): void {
+  suffixes = shown.map((s) => ({ ...s, symbol: spaced(s.symbol) }));
+  words = suffixes.map((s) => wordOf(s.suffix));
+}
+/** Words that belong together: "N m". */
+export const spaced = (words: string) => words.replace(/ /g, "\u202f");
+// "_m_per_s2" is "m/s2" in sentences.
+const wordOf = (suffix: string) => suffix.slice(1).replace("_per_", "/").replace(/_/g, " ");
+let words: string[] = [];
+/** Units as the program writes them in sentences. */
+export const unitWords = () => words;
+const plainOf = (word: string) => word.replace(/°/g, "deg").replace("µ", "u").replace(/[²³⁴]/g, (c) => ({ "²": "2", "³": "3", "⁴": "4" })[c]!);
+/** The unit that is called so in a sentence: "m/s2", "m/s²". */
+export const suffixCalled = (word: string) => suffixes[words.indexOf(plainOf(word))];
+const suffixOf = (key: string) => suffixes.find((s) => key.endsWith(s.suffix));
 
 const missing = "–";
 
@@ -22,20 +40,41 @@ export interface Unit {
   symbol: string;
 }
 
-/** Unit of a key by its suffix; with `size`, the largest of the numbers, lengths below a metre in millimetres, stresses from a hundredth of a megapascal on in megapascals. */
+/** Unit of a key by its suffix; where no unit was chosen, with `size`, the largest of the numbers, lengths below a metre in millimetres, stresses from a hundredth of a megapascal on in megapascals. */
 export function unitOf(key: string, size = Infinity): Unit {
-  const found = suffixes.find(([suffix]) => key.endsWith(suffix));
+  const found = suffixOf(key);
   if (!found) return { factor: 1, symbol: "" };
-  const [suffix, factor, symbol] = found;
-  if (suffix === "_m" && size < 1) return { factor: 1000, symbol: "mm" };
-  if (suffix === "_Pa" && size >= 1e4 && size < Infinity) return { factor: 1e-6, symbol: "MPa" };
-  return { factor, symbol };
+  if (found.by_size && found.suffix === "_m" && size < 1) return { factor: 1000, symbol: "mm" };
+  if (found.by_size && found.suffix === "_Pa" && size >= 1e4 && size < Infinity) return { factor: 1e-6, symbol: "MPa" };
+  return { factor: found.factor, symbol: found.symbol };
+}
+
+/** A key and its numbers in files of the units that are shown: "_rpm" for "_rad_per_s". */
+export function inFile(key: string, values: Num[]): { key: string; values: Num[] } {
+  const found = suffixOf(key);
+  if (!found || found.key === found.suffix) return { key, values };
+  const [multiply, divide, back, by] = found.steps;
+  return { key: key.slice(0, -found.suffix.length) + found.key, values: values.map((v) => (v === null ? null : (((v * multiply) / divide) * back) / by)) };
 }
 
 /** "crank_angle_rad" -> "crank angle". */
 export function nameOf(key: string): string {
-  const found = suffixes.find(([suffix]) => key.endsWith(suffix));
-  return (found ? key.slice(0, -found[0].length) : key).replace(/_/g, " ");
+  const found = suffixOf(key);
+  return (found ? key.slice(0, -found.suffix.length) : key).replace(/_/g, " ");
+}
+
+export const largestSize = (values: Num[]) => values.reduce<number>((most, v) => Math.max(most, Math.abs(v ?? 0)), 0);
+
+// Less than this share of the largest number of a column is its rounding.
+const rounding = 1e-14;
+/** Texts of a column of a table, by rows: six digits in the unit that is shown, 0 for what is only rounding. */
+export function cellsOf(key: string, values: Num[]): (row: number) => string {
+  const size = largestSize(values);
+  const unit = unitOf(key, size);
+  return (row) => {
+    const v = values[row] ?? null;
+    return format(v !== null && Math.abs(v) < rounding * size ? 0 : v !== null ? v * unit.factor : null);
+  };
 }
 
 /** Name or label of a column with the unit in which it is shown: "crank angle (°)". */
@@ -51,4 +90,5 @@ export const quantity = (key: string, value: number | null, digits = 6): string 
   return unit.symbol ? `${text}${unit.symbol === "°" ? "" : "\u202f"}${unit.symbol}` : text;
 };
 
-export const lengthUnit = (size: number): Unit => (size < 1 ? { factor: 1000, symbol: "mm" } : { factor: 1, symbol: "m" });
+/** Of lengths of a drawing of this size (m). */
+export const lengthUnit = (size: number): Unit => unitOf("_m", size);

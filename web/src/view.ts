@@ -140,16 +140,19 @@ export function roles(names: readonly string[]): string[] {
   return parts.map(({ bare, role, leg }) => (role && parts.some((p) => p.leg === leg && p.role !== role) ? role : bare));
 }
 
-/** Colour of each body, 0 to 5 in turn: bodies of one role have one colour; ground and axes, and springs and dampers, have none. */
-export function bodyColours(bodies: readonly { name: string; style: string }[]): number[] {
+const bodyLooks = 18; // colours of the page, --c0 and so on: six, and darker and lighter ones
+
+/** Colour of each body, 0 to 17 in turn: bodies of one role have one colour; ground and axes, and springs and dampers, have none. */
+export function bodyColours(bodies: readonly { name: string; style: string; run?: number }[]): number[] {
   const known = new Map<string, number>();
   let used = 0;
   const role = roles(bodies.map((b) => b.name));
-  return bodies.map(({ style }, i) => {
+  return bodies.map(({ style, run }, i) => {
+    if (run) return 0; // in the colour of its run
     if (["ground", "axis", "gap", "spring", "damper", "guide"].includes(style)) return 0;
     const before = role[i] === "" ? undefined : known.get(role[i]);
     if (before !== undefined) return before;
-    const colour = used++ % 6;
+    const colour = used++ % bodyLooks;
     known.set(role[i], colour);
     return colour;
   });

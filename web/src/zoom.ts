@@ -1,4 +1,6 @@
 // Which part of a diagram is shown.
+import type { Box } from "./view";
+
 export type Range = [number, number];
 
 const closest = 1e-7; // of the whole range: no nearer than this
@@ -23,6 +25,13 @@ export function shifted([low, high]: Range, whole: Range, share: number): Range 
 
 /** The part of a range between two places, in whichever order. */
 export const between = (a: number, b: number, whole: Range): Range | null => inside([Math.min(a, b), Math.max(a, b)], whole);
+
+/** The least part of the whole that holds a box and has the whole's proportions, so that equal axes stay equal. */
+export function boxAbout(box: Box, whole: Box): { x: Range | null; y: Range | null } {
+  const share = Math.max((box.right - box.left) / (whole.right - whole.left), (box.top - box.bottom) / (whole.top - whole.bottom));
+  const about = (from: number, to: number, [low, high]: Range) => inside([(from + to - share * (high - low)) / 2, (from + to + share * (high - low)) / 2], [low, high]);
+  return { x: about(box.left, box.right, [whole.left, whole.right]), y: about(box.bottom, box.top, [whole.bottom, whole.top]) };
+}
 
 /** Along which axes a drag zooms: a flat box chooses one of them. */
 export function boxed(width: number, height: number): { x: boolean; y: boolean } {

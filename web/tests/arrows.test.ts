@@ -7,7 +7,7 @@ import { analyse } from "../src/motion";
 import { bounds } from "../src/view";
 
 const vector = (quantity: Vector["quantity"], point: number, x: (number | null)[], y: (number | null)[]): Vector =>
-  ({ name: "pull", quantity, unit: quantity === "force" ? "N" : "m/s2", point, x, y, symbol: "F" });
+  ({ name: "pull", quantity, unit: quantity === "force" ? "N" : "m/s²", point, x, y, symbol: "F" });
 
 // The same scene as in arrows_test.cpp: 2 m wide, a force that grows from 100 N to 400 N.
 const pulled = (): Scene => ({
@@ -57,7 +57,7 @@ describe("arrows", () => {
   it("tells values as text that can be pasted", () => {
     expect(lineOf(readVector(pulled().vectors[0], 1))).toBe("pull: 200\u202fN (x 120\u202fN, y 160\u202fN, direction 53.13°)");
     expect(readVector(vector("acceleration", 0, [3], [4]), 0).size).toBe("5\u202fm/s²");
-    expect(lineOf(readMoment(pulled().moments[0], 1))).toBe("torque: −4\u202fN m");
+    expect(lineOf(readMoment(pulled().moments[0], 1))).toBe("torque: −4\u202fN\u202fm");
     expect(readMoment(pulled().moments[0], 2).size).toContain("–");
   });
   it("keeps the key within its room", () => {

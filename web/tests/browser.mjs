@@ -6,15 +6,11 @@ import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { launch, runAll } from "./scenarios.mjs";
 
 const [samples, executablePath, python, checkDxf, pictures] = process.argv.slice(2);
 const url = (name) => pathToFileURL(resolve(samples, name)).href;
-const browser = await chromium.launch({
-  executablePath,
-  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch(executablePath);
 
 async function open(name, options = {}, before) {
   const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true, acceptDownloads: true, ...options });
@@ -175,7 +171,7 @@ test("another solution can be shown; what does not assemble is hatched", async (
   await page.locator("#scrub").fill(String(missing));
   assert.match(await page.locator(".title-block").innerText(), /no assembly/);
   assert.equal(await page.locator("#drawing .link").count(), 1);
-  await page.locator("#solutions tbody tr").first().locator("button").click();
+  await page.locator("#solutions tbody tr").first().locator("button.link").click();
   assert.equal(await page.locator(".gap").count(), 0);
   assert.deepEqual(errors, []);
   await close();
@@ -187,10 +183,11 @@ test("downloads have their content", async () => {
   const table = await download(page, "motion of solution-1.csv");
   assert.equal(table.name, "motion-of-solution-1.csv");
   const lines = readFileSync(table.path, "utf8").trimEnd().split("\r\n");
-  assert.equal(lines[0], "crank_angle_rad,coupler_x_m,coupler_y_m,transmission_angle_rad,status");
+  assert.equal(lines[0], "crank_angle_deg,coupler_x_m,coupler_y_m,transmission_angle_deg,status");
   assert.equal(lines.length, 362);
   // Bit for bit what the program writes, although the report carries it in another form.
-  assert.equal(readFileSync(table.path, "utf8"), readFileSync(join(samples, "motion of solution-1.csv"), "utf8"));
+  const written = await download(page, "motion of solution-1, as written.csv");
+  assert.equal(readFileSync(written.path, "utf8"), readFileSync(join(samples, "motion of solution-1.csv"), "utf8"));
   assert.equal(readFileSync((await download(page, "result.json")).path, "utf8"), readFileSync(join(samples, "report.json"), "utf8"));
   assert.match(readFileSync((await download(page, "study.toml")).path, "utf8"), /^schema = 1/);
   const drawn = readFileSync((await download(page, "svg")).path, "utf8");
@@ -200,6 +197,43 @@ test("downloads have their content", async () => {
   assert.equal(readFileSync((await download(page, "png")).path).subarray(1, 4).toString(), "PNG");
   const drawing = await download(page, "dxf");
   assert.equal(execFileSync(python, [checkDxf, drawing.path], { encoding: "utf8" }).trim(), "ok");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("everything is in the units of the study", async () => {
+  const { page, errors, close } = await open("units.html", { reducedMotion: "reduce" });
+  for (const summary of await page.locator(".data-table summary").all()) await summary.click();
+  const heads = await page.locator(".data-table thead th").allInnerTexts();
+  const axes = await page.locator(".legend").allInnerTexts();
+  for (const text of [...heads, ...axes, await page.locator(".title-block").innerText()]) assert.doesNotMatch(text, /\brad\b|\bm(\/s²?)?\)|\d m\b/);
+  assert.match(heads.join(", "), /\(mm\)/);
+  const table = page.locator("[data-download$='.csv']").first();
+  const name = (await table.getAttribute("data-download")).replace(/\.csv$/, "");
+  assert.equal(readFileSync((await download(page, `${name}.csv`)).path, "utf8"), readFileSync(join(samples, "units.csv"), "utf8"));
+  assert.deepEqual(errors, []);
+  await close();
+  const still = await open("units.html", { javaScriptEnabled: false });
+  assert.doesNotMatch(await still.page.locator("#static").innerText(), /\(m\)|\(rad/);
+  await still.close();
+});
+
+test("of wide tables the columns are chosen, and the first one stays", async () => {
+  const { page, errors, close } = await open("diagrams.html", { viewport: { width: 390, height: 844 }, reducedMotion: "reduce" });
+  const wide = page.locator(".data-table", { hasText: /1[3-9] columns|[2-9]\d columns/ }).first();
+  await wide.locator("summary").click();
+  assert.equal(await wide.locator("thead th").count(), 12);
+  await wide.locator("input[type=checkbox]").check();
+  const all = await wide.locator("thead th").count();
+  assert.ok(all > 12);
+  const first = wide.locator("tbody tr").first().locator("th, td").first();
+  const before = await first.boundingBox();
+  await wide.locator(".scroll").evaluate((e) => (e.scrollLeft = 300));
+  assert.ok(Math.abs((await first.boundingBox()).x - before.x) < 1.5, "the first column stays in sight");
+  await wide.locator("input[type=search]").fill("wave");
+  const found = await wide.locator("thead th").allInnerTexts();
+  assert.ok(found.length >= 2 && found.length < all && found.slice(1).every((head) => /wave/i.test(head)), found.join(", "));
+  assert.match(await wide.locator("[role=status]").innerText(), new RegExp(`^${found.length} of ${all} columns$`));
   assert.deepEqual(errors, []);
   await close();
 });
@@ -324,6 +358,29 @@ test("polar diagrams have equal axes and follow the animation both ways", async 
   await close();
 });
 
+test("compared mechanisms have the look and the name of their curves", async () => {
+  const { page, errors, close } = await open("compared.html");
+  await page.waitForSelector("#drawing .other");
+  const look = (e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`;
+  const looks = (all) => page.locator(all).evaluateAll((elements) => elements.map((e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`));
+  const curves = await looks('[data-plot="height"] .legend path');
+  assert.equal(new Set(curves).size, 3);
+  assert.deepEqual(await looks(".stage ~ .runs path"), curves);
+  assert.deepEqual(await page.locator(".stage ~ .runs li").allInnerTexts(), ["short", "middle", "long"]);
+  for (const [run, name] of [[1, "middle"], [2, "long"]])
+    assert.equal(await page.locator(`#drawing .pose [data-body="crank of ${name}"], #drawing .plates [data-body="crank of ${name}"]`).evaluate(look), curves[run]);
+  assert.equal(await page.locator("#drawing .link").count(), 1);
+  // Dots where there are few values, steps where there are many: in the same colours.
+  const few = page.locator('[data-plot="few_m"]');
+  assert.equal(await few.locator(".dots circle").count(), 12);
+  assert.deepEqual(await few.locator(".runs li").allInnerTexts(), ["short", "middle", "long"]);
+  assert.equal(await few.locator(".dots circle").last().evaluate((e) => getComputedStyle(e).fill), curves[2].replace(/\) .*/, ")"));
+  assert.deepEqual(await looks('[data-plot="many_m"] .legend path'), curves);
+  assert.match(await page.locator('[data-plot="many_m"] .legend').innerText(), /short[\s\S]*middle[\s\S]*long/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("maps have equal axes and are read by pointer and by keys", async () => {
   const { page, errors, close } = await open("maps.html");
   const card = page.locator('[data-plot="slices"]');
@@ -347,6 +404,118 @@ test("maps have equal axes and are read by pointer and by keys", async () => {
   assert.equal(await alone.locator(".read").innerText(), "x 500 mm, y 50 mm: no value");
   await page.keyboard.press("Escape");
   assert.equal(await alone.locator(".at").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("maps are zoomed together and by themselves keep equal axes", async () => {
+  const { page, errors, close } = await open("maps.html", { reducedMotion: "reduce" });
+  const card = page.locator('[data-plot="slices"]');
+  const map = card.locator("svg[role=img] > svg.cells").nth(2);
+  await map.scrollIntoViewIfNeeded();
+  const views = () => card.locator("svg.cells").evaluateAll((all) => all.map((e) => e.getAttribute("viewBox").split(" ").map(Number)));
+  const [whole] = await views();
+  const zoomed = async (share) => {
+    const shown = await views();
+    return shown.every((v) => Math.abs(v[2] / whole[2] - share) < 0.03 && Math.abs(v[3] / whole[3] - share) < 0.03);
+  };
+  const box = await map.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.25, box.y + box.height * 0.25);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.75, box.y + box.height * 0.75, { steps: 4 });
+  await until(async () => (await card.locator(".drag").count()) === 1);
+  await page.mouse.up();
+  await until(() => zoomed(0.5));
+  assert.equal(await card.locator(".drag").count(), 0);
+  // What is read lies where it is seen: the middle stays the middle, the corner is half as far from it.
+  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
+  await until(async () => (await card.locator(".read").innerText()).startsWith("x 0 mm, y 0 mm: "));
+  await card.locator(".reset").click();
+  await until(() => zoomed(1));
+  await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -280);
+  await page.keyboard.up("Control");
+  await until(async () => !(await zoomed(1)));
+  await map.dblclick();
+  await until(() => zoomed(1));
+  // With keys: the part follows the place that is read.
+  await card.locator(".map").focus();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("+");
+  await until(() => zoomed(1 / 2.25));
+  const [before] = await views();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("Shift+ArrowRight");
+  await until(async () => (await views())[0][0] > before[0]);
+  await page.keyboard.press("0");
+  await until(() => zoomed(1));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("what is drawn as a picture can be reached by keys", async () => {
+  for (const [name, pictures] of [["report.html", ["#drawing", "svg.dots"]], ["simulation.html", ["#drawing", ".polar > svg"]]]) {
+    const { page, close } = await open(name, { reducedMotion: "reduce" });
+    for (const picture of pictures) {
+      await page.locator(picture).first().focus();
+      assert.ok(await page.locator(picture).first().evaluate((e) => e === document.activeElement), picture);
+    }
+    await close();
+  }
+});
+
+test("dots are zoomed", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce" });
+  const dots = page.locator("svg.dots").first();
+  await dots.scrollIntoViewIfNeeded();
+  const ends = () => dots.locator("text").allTextContents().then((all) => all.slice(0, 3));
+  const whole = await ends();
+  const box = await dots.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.02, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 24, { steps: 4 });
+  await page.mouse.up();
+  await until(async () => (await ends())[2] !== whole[2]);
+  assert.equal((await ends())[0], whole[0], "the lower end stays");
+  await dots.focus();
+  await page.keyboard.press("0");
+  await until(async () => (await ends()).join() === whole.join());
+  await page.keyboard.press("+");
+  await until(async () => (await page.locator(".diagram:has(.dots) .reset").count()) === 1);
+  await page.locator(".diagram:has(.dots) .reset").click();
+  await until(async () => (await ends()).join() === whole.join());
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("facts are short, and tell more when asked", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce" });
+  const fact = page.locator(".aside .facts > div", { hasText: "largest distance" });
+  assert.match(await fact.locator("dd").innerText(), /^40\.1\smm at point 7\s*more$/);
+  await fact.getByRole("button", { name: "more about largest distance" }).click();
+  await until(async () => /^40\.1\smm at point 7; root mean square of all points 22\.4\smm\s*less$/.test(await fact.locator("dd").innerText()));
+  await fact.getByRole("button", { name: "less about largest distance" }).click();
+  await page.emulateMedia({ media: "print" });
+  await until(async () => /all points 22\.4\smm$/.test((await fact.locator("dd").innerText()).trim()));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("cards of diagrams stand close in columns", async () => {
+  const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce", viewport: { width: 1366, height: 768 } });
+  const gaps = () => page.locator(".grid-2.packed").first().evaluate((grid) => {
+    const columns = new Map();
+    for (const card of grid.children) {
+      const box = card.getBoundingClientRect();
+      columns.set(box.left, [...(columns.get(box.left) ?? []), box]);
+    }
+    return [columns.size, ...[...columns.values()].flatMap((boxes) => boxes.sort((a, b) => a.top - b.top).slice(1).map((b, i) => b.top - boxes[i].bottom))];
+  });
+  await until(async () => {
+    const [count, ...between] = await gaps();
+    return count > 1 && between.length > 0 && between.every((g) => g > 8 && g < 20);
+  });
+  await page.setViewportSize({ width: 390, height: 844 });
+  await until(async () => (await gaps())[0] === 1);
   assert.deepEqual(errors, []);
   await close();
 });
@@ -671,7 +840,8 @@ test("no accessibility violations", async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }],
     ["spatial.html", {}], ["spatial.html", { colorScheme: "dark" }], ["spatial.html", { viewport: { width: 390, height: 844 } }],
-    ["diagrams.html", {}], ["maps.html", {}], ["maps.html", { colorScheme: "dark" }], ["maps.html", { viewport: { width: 390, height: 844 } }]]) {
+    ["diagrams.html", {}], ["maps.html", {}], ["maps.html", { colorScheme: "dark" }], ["maps.html", { viewport: { width: 390, height: 844 } }],
+    ["compared.html", {}], ["compared.html", { colorScheme: "dark" }], ["compared.html", { viewport: { width: 390, height: 844 } }]]) {
     const { page, close } = await open(name, { reducedMotion: "reduce", ...options });
     if (name === "simulation.html") {
       await page.locator("body").press("w");
@@ -711,6 +881,14 @@ test("without scripts there are drawings and tables", async () => {
   await page.goto(url("report.html"));
   assert.match(await page.locator("#static .diagrams").textContent(), /crank angle \(°\)/);
   assert.doesNotMatch(await page.locator("#static .diagrams").textContent(), /\(rad\)/);
+  await close();
+});
+
+test("title, answer and figures are read before the viewer stands", async () => {
+  // Unpacking never comes to its end.
+  const { page, close } = await open("report.html", {}, () => { Promise.all = () => new Promise(() => {}); });
+  for (const seen of ["#static h1", "#static .headline", "#static .facts dd >> nth=0"]) assert.ok(await page.locator(seen).isVisible(), seen);
+  for (const hidden of ["#static .first svg", "#static .diagrams", "#static h2 >> nth=0", "#static .facts small"]) assert.ok(!(await page.locator(hidden).first().isVisible()), hidden);
   await close();
 });
 
@@ -762,6 +940,35 @@ test("the first screen has the verdict, the mechanism and its controls", async (
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name} is too wide for ${width}`);
       await close();
     }
+});
+
+test("the study of a design can be taken along", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
+  const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
+  const rows = page.locator("#solutions tbody tr");
+  assert.equal(await rows.locator("[data-design]").count(), 2, "the third solution has none");
+  // Of any solution, whichever is drawn.
+  const [file] = await Promise.all([page.waitForEvent("download"), page.locator('[data-design="1"]').click()]);
+  assert.match(file.suggestedFilename(), /^2-[a-z0-9.-]+\.toml$/);
+  const text = readFileSync(await file.path(), "utf8");
+  assert.match(text, /^#:schema \.\/analysis-planar\.four_bar\.schema\.json\n# Solution 2 of "Four-bar through 18 points of a closed path", found by /);
+  assert.match(text, /\n\[mechanism\]\ntype = "planar\.four_bar"\n/);
+  assert.equal(await rows.nth(0).getAttribute("class"), "current", "which does not change what is drawn");
+  await rows.nth(1).locator(".copy").click();
+  await until(async () => (await clipboard()) === text);
+  // Of the one that is drawn.
+  await page.locator('[data-solution="1"]').click();
+  assert.equal(await readFileSync((await download(page, "design")).path, "utf8"), text);
+  await page.evaluate(() => navigator.clipboard.writeText(""));
+  await page.locator(".menu summary").click();
+  await page.locator('[data-export="design"]').click();
+  await until(async () => (await page.locator(".said").innerText()) === "study copied");
+  assert.equal(await clipboard(), text);
+  await page.locator('[data-solution="2"]').click();
+  await page.locator(".menu summary").click();
+  assert.equal(await page.locator('[data-download="design"], [data-export="design"]').count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
 });
 
 test("the title block names what is drawn", async () => {
@@ -900,16 +1107,6 @@ if (pictures)
     }
   });
 
-let failures = 0;
-for (const { name, run } of tests) {
-  if (!name.includes(process.env.ONLY ?? "")) continue;
-  try {
-    await run();
-    console.log(`ok      ${name}`);
-  } catch (error) {
-    ++failures;
-    console.log(`FAILED  ${name}\n${error.stack}`);
-  }
-}
+const failed = await runAll(tests);
 await browser.close();
-process.exit(failures ? 1 : 0);
+process.exit(failed ? 1 : 0);

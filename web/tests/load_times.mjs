@@ -2,13 +2,9 @@
 // node load_times.mjs CHROMIUM < NAMES
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { launch } from "./scenarios.mjs";
 
-const browser = await chromium.launch({
-  executablePath: process.argv[2],
-  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch(process.argv[2]);
 const context = await browser.newContext({ viewport: { width: 1366, height: 768 }, offline: true, reducedMotion: "reduce" });
 // The moment at which the viewer takes the place of the form without scripts.
 await context.addInitScript(() => {

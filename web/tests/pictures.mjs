@@ -3,15 +3,11 @@
 import { mkdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { launch } from "./scenarios.mjs";
 
 const [executablePath, folder, flags, ...reports] = process.argv.slice(2);
 const sizes = [[1366, 768], [390, 844], [1920, 1080]];
-const browser = await chromium.launch({
-  executablePath,
-  args: ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--use-gl=angle",
-    "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch(executablePath);
 mkdirSync(folder, { recursive: true });
 let hidden = 0;
 for (const report of reports)

@@ -21,12 +21,12 @@ describe("units", () => {
     expect(quantity("crank_m", 0.25)).toBe("250\u202fmm");
     expect(quantity("crank_m", 2.5)).toBe("2.5\u202fm");
     expect(unitOf("speed_m_per_s").symbol).toBe("m/s");
-    expect(unitOf("drive_torque_N_m", 0.5).symbol).toBe("N m");
+    expect(unitOf("drive_torque_N_m", 0.5).symbol).toBe("N\u202fm");
     expect(unitOf("power_W").symbol).toBe("W");
     expect(unitOf("stress_Pa", 3e7)).toEqual({ factor: 1e-6, symbol: "MPa" });
     expect(unitOf("stress_Pa", 3e3)).toEqual({ factor: 1, symbol: "Pa" });
     // Not the angle that it ends with.
-    expect(unitOf("stiffness_N_m_per_rad", 1e3)).toEqual({ factor: 1, symbol: "N m/rad" });
+    expect(unitOf("stiffness_N_m_per_rad", 1e3)).toEqual({ factor: 1, symbol: "N\u202fm/rad" });
     expect(unitOf("spin_bend_above_rad_per_m2").symbol).toBe("°/m²");
     expect(quantity("kinetic_energy_J", 2.5)).toBe("2.5\u202fJ");
     expect(unitOf("coupler_acceleration_rad_per_s2").symbol).toBe("rad/s²");
@@ -103,12 +103,18 @@ describe("log", () => {
     expect(dots.map((d) => d.level)).toEqual([0, 1, 2]);
     expect(logarithmic).toBe(false);
     expect(stackDots([1, 1000], 10).logarithmic).toBe(true);
+    // Of a part of the axis, which is as long as the whole.
+    const part = stackDots([1, 10, 100, 1000], 10, [1 / 3, 1]);
+    expect([part.low, part.high].map(Math.round)).toEqual([10, 1000]);
+    expect(part.dots.map((d) => [d.index, d.share])).toEqual([[1, 0], [2, 0.5], [3, 1]]);
   });
   it("counts in bins", () => {
-    const { counts, middles } = histogram([0, 0.1, null, 1]);
+    const { counts: [counts], middles } = histogram([[0, 0.1, null, 1]]);
     expect(counts.reduce((a, b) => a + b)).toBe(3);
     expect(middles).toHaveLength(counts.length);
-    expect(histogram([2, 2]).counts).toEqual([2]);
+    expect(histogram([[2, 2]]).counts).toEqual([[2]]);
+    // Lists side by side have the same bins.
+    expect(histogram([[0, 1], [1, 1, 5]]).counts).toEqual([[1, 1, 0, 0, 0], [0, 2, 0, 0, 1]]);
   });
 });
 
@@ -142,5 +148,9 @@ describe("colours of bodies", () => {
     expect(colours(["arm 1", "rod 1", "arm 2", "rod 2", "platform"])).toEqual([0, 1, 0, 1, 2]);
     // Numbers of one name alone are no legs.
     expect(colours(["link 1", "link 2", "link 3"])).toEqual([0, 1, 2]);
+  });
+  it("do not come again before the nineteenth role", () => {
+    const colours = bodyColours(Array.from({ length: 19 }, (_, i) => ({ name: `${"abcdefghijklmnopqrs"[i]} body`, style: "bar" })));
+    expect(colours).toEqual([...Array.from({ length: 18 }, (_, i) => i), 0]);
   });
 });

@@ -1,13 +1,20 @@
 import { describe, expect, it } from "vitest";
 import { boxWithin } from "../src/gestures";
 import { chosen, firstChoice, lookOf } from "../src/look";
-import { between, boxed, degreeStep, degreeSteps, nearer, peakOf, shifted } from "../src/zoom";
+import { columnsOf } from "../src/masonry";
+import { between, boxAbout, boxed, degreeStep, degreeSteps, nearer, peakOf, shifted } from "../src/zoom";
 
 describe("the part of a diagram that is shown", () => {
   it("keeps the place about which it is zoomed", () => {
     expect(nearer([0, 360], [0, 360], 90, 2)).toEqual([45, 225]);
     expect(nearer([45, 225], [0, 360], 90, 0.5)).toBeNull(); // the whole again
     expect(nearer([300, 360], [0, 360], 360, 0.5)).toEqual([240, 360]);
+  });
+  it("keeps the proportions of a map", () => {
+    const whole = { left: 0, right: 400, bottom: 0, top: 200 };
+    expect(boxAbout({ left: 100, right: 140, bottom: 50, top: 90 }, whole)).toEqual({ x: [80, 160], y: [50, 90] });
+    expect(boxAbout({ left: 0, right: 40, bottom: 180, top: 200 }, whole)).toEqual({ x: [0, 40], y: [180, 200] });
+    expect(boxAbout({ left: 10, right: 20, bottom: 0, top: 200 }, whole)).toEqual({ x: null, y: null });
   });
   it("stays inside of the whole and does not become nothing", () => {
     expect(shifted([0, 90], [0, 360], -0.5)).toEqual([0, 90]);
@@ -68,5 +75,19 @@ describe("a choice of curves", () => {
     expect(after.get(3)).toBe(3);
     const looks = [...chosen(after, 7, true).values()].map((k) => JSON.stringify(lookOf(k)));
     expect(new Set(looks).size).toBe(7);
+  });
+});
+
+describe("cards in columns", () => {
+  const cards = (...heights: number[]) => heights.map((height) => ({ height, wide: false }));
+  it("stand row by row when they are alike", () => {
+    expect(columnsOf(cards(300, 310, 305, 300), 2)).toEqual([0, 1, 0, 1]);
+  });
+  it("follow the shortest column", () => {
+    expect(columnsOf(cards(300, 600, 300, 300, 300), 2)).toEqual([0, 1, 0, 0, 1]);
+    expect(columnsOf(cards(300, 600), 1)).toEqual([0, 0]);
+  });
+  it("begin anew below one that is as wide as all", () => {
+    expect(columnsOf([...cards(300), { height: 500, wide: true }, ...cards(300, 300)], 2)).toEqual([0, -1, 0, 1]);
   });
 });

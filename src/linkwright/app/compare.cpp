@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "linkwright/app/compare_diagrams.h"
 #include "linkwright/app/run.h"
 #include "linkwright/core/check.h"
 #include "linkwright/core/status.h"
@@ -21,29 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using study::Fact;
-using study::Plot;
 using study::Scene;
-
-/// More curves than this in one diagram are a bundle; then each column gets a diagram of its own.
-constexpr std::size_t most_curves = 6;
-
-bool same(double a, double b, double scale) {
-  return std::isnan(a) ? std::isnan(b) : std::abs(a - b) <= 1e-9 * scale;
-}
-bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  double scale = 0;
-  for (const double v : a)
-    if (std::isfinite(v)) scale = std::max(scale, std::abs(v));
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) { return same(x, y, scale); });
-}
-
-/// "toe_deg" of the second study -> "toe_2_deg"; the unit stays at the end.
-std::string key_with(std::string_view key, std::string_view tag) {
-  const auto parts = split_unit(key);
-  return parts ? fmt::format("{}_{}_{}", parts->base, tag, parts->unit->suffix)
-               : fmt::format("{}_{}", key, tag);
-}
 
 /// The unit of a text such as "N m"; nothing when it is none that keys have.
 std::optional<UnitKey> unit_in(const std::string& text) {
@@ -97,24 +76,22 @@ class Merger {
     facts();
     objectives();
     for (const Scene& scene : first_.scenes) scenes(scene);
-    for (const Plot& plot : first_.plots)
-      if (plot.scene.empty() || drawn(plot.scene)) diagrams(plot);
+    std::vector<std::string> drawn;
+    for (const Scene& scene : out_.scenes) drawn.push_back(scene.name);
+    ComparedDiagrams diagrams = compare_diagrams(all_, drawn);
+    out_.plots = std::move(diagrams.plots);
+    out_.tables = std::move(diagrams.tables);
     solutions();
     checks();
     out_.headline =
         fmt::format("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
     if (!figures_.names.empty()) out_.tables.insert(out_.tables.begin(), figures());
-    for (Table& table : differences_) out_.tables.push_back(std::move(table));
+    for (Table& table : diagrams.differences) out_.tables.push_back(std::move(table));
     return std::move(out_);
   }
 
  private:
   static std::string tag(std::size_t study) { return std::to_string(study + 1); }
-
-  bool drawn(std::string_view scene) const {
-    return std::any_of(out_.scenes.begin(), out_.scenes.end(),
-                       [&](const Scene& s) { return s.name == scene; });
-  }
 
   /// What each study is and how it came out; the comparison is as good as the worst of them.
   void studies() {
@@ -201,147 +178,6 @@ class Merger {
     return std::move(figures_);
   }
 
-  Table& made(std::vector<Table>& tables, const std::string& name) {
-    for (Table& table : tables)
-      if (table.name == name) return table;
-    tables.push_back({.name = name});
-    return tables.back();
-  }
-
-  static void put(Table& table, std::string key, std::string label, std::vector<double> values) {
-    if (!table.find(key)) table.add(std::move(key), std::move(label), std::move(values));
-  }
-
-  /// The columns of a key, one of each study; empty if a study lacks it.
-  std::vector<const Column*> columns(const std::string& table, const std::string& key) const {
-    std::vector<const Column*> found;
-    for (const Compared& one : all_) {
-      const Table* own = one.result.table(table);
-      const Column* column = own ? own->find(key) : nullptr;
-      if (!column) return {};
-      found.push_back(column);
-    }
-    return found;
-  }
-
-  bool agree(const std::string& table, const std::string& key) const {
-    const auto found = columns(table, key);
-    return !found.empty() && std::all_of(found.begin(), found.end(), [&](const Column* column) {
-      return same(found.front()->values, column->values);
-    });
-  }
-
-  /// Curves of all studies over each other: side by side in one table where they have the same inputs, else
-  /// row after row with the study as a column. Maps and histograms cannot lie over each other.
-  void diagrams(const Plot& plot) {
-    if (plot.style == Plot::Style::map || plot.style == Plot::Style::histogram) return;
-    std::vector<std::string> keys;
-    const std::size_t step = plot.style == Plot::Style::polar ? 2 : 1;
-    for (std::size_t k = 0; k + step <= plot.y.size(); k += step) {
-      bool all_have_it = true;
-      for (std::size_t j = k; j < k + step; ++j)
-        all_have_it = all_have_it && !columns(plot.table, plot.y[j]).empty();
-      if (all_have_it) keys.insert(keys.end(), plot.y.begin() + k, plot.y.begin() + k + step);
-    }
-    if (keys.empty()) return;
-    const std::vector<std::string> inputs = [&] {
-      std::vector<std::string> out;
-      for (const std::string& key : {plot.x, plot.group})
-        if (!key.empty()) out.push_back(key);
-      return out;
-    }();
-    const bool aligned = !inputs.empty() && std::all_of(inputs.begin(), inputs.end(), [&](const auto& key) {
-      return agree(plot.table, key);
-    });
-    const bool stackable =
-        step == 1 && plot.group.empty() && !plot.x.empty() && !columns(plot.table, plot.x).empty();
-    if (!aligned && !stackable) return;
-
-    const bool split = keys.size() / step * all_.size() > most_curves;
-    for (std::size_t k = 0; k < keys.size(); k += split ? step : keys.size()) {
-      Plot own = plot;
-      const std::vector<std::string> some(keys.begin() + k, keys.begin() + (split ? k + step : keys.size()));
-      if (split) {
-        own.name += "-" + some.front();
-        std::string label = columns(plot.table, some.front()).front()->label;
-        own.title += ": " + label.substr(0, label.rfind(" ("));
-      }
-      own.bands.clear();
-      own.baseline.clear();
-      if (aligned)
-        side_by_side(own, inputs, some, step);
-      else
-        stacked(own, some);
-      out_.plots.push_back(std::move(own));
-    }
-  }
-
-  void side_by_side(Plot& plot, const std::vector<std::string>& inputs, const std::vector<std::string>& keys,
-                    std::size_t step) {
-    Table& table = made(out_.tables, plot.table);
-    Table& difference = made(differences_, plot.table + "-differences");
-    if (table.columns.empty()) statuses(table, plot.table);
-    difference.status = table.status;
-    for (const std::string& key : inputs) {
-      const Column* column = columns(plot.table, key).front();
-      put(table, key, column->label, column->values);
-      put(difference, key, column->label, column->values);
-    }
-    plot.y.clear();
-    for (std::size_t k = 0; k < keys.size(); k += step)
-      for (std::size_t i = 0; i < all_.size(); ++i)
-        for (std::size_t j = k; j < k + step; ++j) {
-          const auto found = columns(plot.table, keys[j]);
-          const std::string key = key_with(keys[j], tag(i));
-          put(table, key, fmt::format("{}: {}", all_[i].name, found[i]->label), found[i]->values);
-          plot.y.push_back(key);
-          if (i == 0) continue;
-          std::vector<double> values;
-          for (std::size_t row = 0; row < found[i]->values.size(); ++row)
-            values.push_back(found[i]->values[row] - found[0]->values[row]);
-          put(difference, key_with(keys[j], fmt::format("{}_minus_1", tag(i))),
-              fmt::format("{} minus {}: {}", all_[i].name, all_[0].name, found[i]->label), std::move(values));
-        }
-  }
-
-  /// A row is done where it is so in all studies.
-  void statuses(Table& table, const std::string& name) {
-    for (const Compared& one : all_) {
-      const std::vector<std::string>& own = one.result.table(name)->status;
-      if (table.status.empty()) table.status = own;
-      for (std::size_t row = 0; row < own.size() && row < table.status.size(); ++row)
-        if (table.status[row] == "done") table.status[row] = own[row];
-    }
-  }
-
-  void stacked(Plot& plot, const std::vector<std::string>& keys) {
-    const std::string source = plot.table;
-    plot.table += "-of-each";
-    plot.group = "study";
-    plot.y = keys;
-    plot.scene.clear();
-    Table& table = made(out_.tables, plot.table);
-    std::vector<std::string> all_keys = keys;
-    all_keys.insert(all_keys.begin(), plot.x);
-    if (table.columns.empty()) {
-      std::vector<double> study;
-      for (std::size_t i = 0; i < all_.size(); ++i) {
-        const Table& own = *all_[i].result.table(source);
-        study.insert(study.end(), own.rows(), static_cast<double>(i + 1));
-        for (std::size_t row = 0; row < own.rows(); ++row)
-          table.status.push_back(own.status.empty() ? "done" : own.status[row]);
-      }
-      table.add("study", "study", std::move(study));
-    }
-    for (const std::string& key : all_keys) {
-      std::vector<double> values;
-      const auto found = columns(source, key);
-      for (const Column* column : found)
-        values.insert(values.end(), column->values.begin(), column->values.end());
-      put(table, key, found.front()->label, std::move(values));
-    }
-  }
-
   /// The scene of another study that shows the same: that of its best solution, or of the same name.
   const Scene* counterpart(const Scene& scene, const study::Result& other) const {
     const bool best = !first_.solutions.empty() && first_.solutions.front().scene == scene.name;
@@ -363,9 +199,9 @@ class Merger {
     for (std::size_t i = 1; i < all_.size(); ++i) {
       const Scene* other = counterpart(scene, all_[i].result);
       if (!other) continue;
-      if (same(scene.input, other->input) && same(scene.second, other->second) &&
+      if (same_values(scene.input, other->input) && same_values(scene.second, other->second) &&
           scene.spatial() == other->spatial()) {
-        add_lines_of(together, *other, all_[i].name);
+        add_ghost_of(together, *other, i);
       } else {
         Scene alone = *other;
         alone.name = fmt::format("{}-{}", scene.name, tag(i));
@@ -373,28 +209,29 @@ class Merger {
         apart.push_back(std::move(alone));
       }
     }
-    together.title = apart.size() + 1 == all_.size()
-                         ? all_[0].name
-                         : fmt::format("{}, the others dash-dotted", all_[0].name);
+    together.title = all_[0].name;
     out_.scenes.push_back(std::move(together));
     for (Scene& alone : apart) out_.scenes.push_back(std::move(alone));
   }
 
-  static void add_lines_of(Scene& scene, const Scene& other, const std::string& name) {
-    const int before = static_cast<int>(scene.points.size());
+  /// The links and traces of another study behind those of the first.
+  void add_ghost_of(Scene& scene, const Scene& other, std::size_t study) const {
+    if (scene.runs.empty())
+      for (const Compared& one : all_) scene.runs.push_back(one.name);
+    const std::string& name = all_[study].name;
+    const int before = static_cast<int>(scene.points.size()), run = static_cast<int>(study);
     scene.points.insert(scene.points.end(), other.points.begin(), other.points.end());
     for (Scene::Body body : other.bodies) {
       if (body.style != Scene::BodyStyle::bar && body.style != Scene::BodyStyle::plate) continue;
-      if (body.style == Scene::BodyStyle::plate && body.points.size() > 2)
-        body.points.push_back(body.points.front());  // its outline
       for (int& point : body.points) point += before;
       body.name = fmt::format("{} of {}", body.name, name);
-      body.style = Scene::BodyStyle::ground;  // thin, grey and dash-dotted
+      body.run = run;
       scene.bodies.push_back(std::move(body));
     }
     for (Scene::Trace trace : other.traces) {
       trace.point += before;
       trace.name = fmt::format("{} of {}", trace.name, name);
+      trace.run = run;
       scene.traces.push_back(std::move(trace));
     }
   }
@@ -423,7 +260,6 @@ class Merger {
   Table figures_;                             ///< its rows
   std::vector<std::vector<double>> values_;   ///< of the rows, one a study
   std::size_t compared_ = 0, different_ = 0;  ///< facts and objectives
-  std::vector<Table> differences_;
 };
 
 }  // namespace

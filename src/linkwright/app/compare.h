@@ -32,8 +32,8 @@ std::optional<ComparisonInput> load_compared(const std::filesystem::path& path,
 std::vector<std::string> names_of(std::span<const std::filesystem::path> paths,
                                   std::span<const study::Study* const> studies);
 
-/// One result made of two or more of one kind: facts and objectives side by side, curves of the same columns
-/// over each other, and, where the inputs of the scenes agree, the others as dash-dotted lines behind the
+/// One result made of two or more of one kind: facts and objectives side by side, diagrams over each other as
+/// `compare_diagrams` puts them, and, where the inputs of the scenes agree, the others as ghosts behind the
 /// first mechanism. The tables hold what is drawn, "figures" the numbers of facts and objectives; those that
 /// end in "-differences" are each minus the first.
 study::Result compare(std::span<const Compared> all);

@@ -12,19 +12,20 @@
 namespace linkwright::app {
 namespace {
 
-struct Step {
-  std::string key;
-  std::vector<std::size_t> indices;
-};
+void problem(Diagnostics& diagnostics, const Override& change, std::string message, std::string hint = {}) {
+  diagnostics.push_back(
+      {Diagnostic::Severity::error, change.origin, {}, {}, std::move(message), std::move(hint)});
+}
 
-/// "link[0].body_m" as steps; nothing when it is malformed.
-std::optional<std::vector<Step>> parse_path(std::string_view text) {
-  std::vector<Step> steps;
+}  // namespace
+
+std::optional<std::vector<KeyStep>> parse_path(std::string_view text) {
+  std::vector<KeyStep> steps;
   while (true) {
     const std::size_t end = std::min(text.find('.'), text.size());
     std::string_view part = text.substr(0, end);
     const std::size_t bracket = std::min(part.find('['), part.size());
-    Step step{std::string(part.substr(0, bracket)), {}};
+    KeyStep step{std::string(part.substr(0, bracket)), {}};
     if (step.key.empty()) return std::nullopt;
     part.remove_prefix(bracket);
     while (!part.empty()) {
@@ -41,13 +42,6 @@ std::optional<std::vector<Step>> parse_path(std::string_view text) {
     text.remove_prefix(end + 1);
   }
 }
-
-void problem(Diagnostics& diagnostics, const Override& change, std::string message, std::string hint = {}) {
-  diagnostics.push_back(
-      {Diagnostic::Severity::error, change.origin, {}, {}, std::move(message), std::move(hint)});
-}
-
-}  // namespace
 
 bool parse_override(std::string_view text, Override& result, Diagnostics& diagnostics) {
   const std::size_t equals = text.find('=');
@@ -76,7 +70,7 @@ bool parse_override(std::string_view text, Override& result, Diagnostics& diagno
 bool apply_override(Value& document, const Override& change, Diagnostics& diagnostics) {
   const auto steps = parse_path(change.key);
   Value* at = &document;
-  for (const Step& step : *steps) {
+  for (const KeyStep& step : *steps) {
     if (!at->is_null() && !at->is_object()) {
       problem(diagnostics, change, fmt::format("'{}' is not in a table", step.key));
       return false;

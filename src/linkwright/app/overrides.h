@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,15 @@
 #include "linkwright/core/value.h"
 
 namespace linkwright::app {
+
+/// One name of the path of a key, with the places in lists behind it.
+struct KeyStep {
+  std::string key;
+  std::vector<std::size_t> indices;
+};
+
+/// "link[0].body_m" as steps; nothing when it is malformed.
+std::optional<std::vector<KeyStep>> parse_path(std::string_view text);
 
 /// A change of a document before it is validated: `--set mechanism.link[0].name=front`.
 struct Override {

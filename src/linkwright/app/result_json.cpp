@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/sha256.h"
@@ -11,6 +12,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/answer.h"
 #include "linkwright/study/display_units.h"
+#include "linkwright/study/result_units.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {
@@ -26,6 +28,7 @@ Value to_value(const study::Solution& solution) {
   v["objectives"] = or_empty(solution.objectives, Value::object());
   v["classification"] = or_empty(solution.classification, Value::object());
   v["defects"] = or_empty(solution.defects, Value::array());
+  if (!solution.study.is_null()) v["study"] = solution.study;
   return v;
 }
 
@@ -64,7 +67,7 @@ Value to_value(const study::Comparison& comparison) {
 
 /// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand
 /// beside.
-Value to_value(const Table& table) {
+Value to_value(const Table& table, const NumberLists& lists) {
   Value v;
   v["name"] = table.name;
   if (!table.names.empty()) {
@@ -82,7 +85,7 @@ Value to_value(const Table& table) {
   for (const Column& column : table.columns) {
     const auto parts = split_unit(column.key);
     describe(column.key, parts ? readable_unit(parts->unit->suffix) : std::string(), column.label);
-    data.push_back(Value(column.values));
+    data.push_back(lists(column.values));
   }
   describe("status", "", "status");
   Value::Array status;
@@ -165,56 +168,45 @@ Value rounded(const Value& value) {
 
 }  // namespace
 
-study::Result presented(const study::Study& study, const study::Result& result) {
+study::Result presented(const study::Study& study, study::Result result) {
   const study::Output& output = study.common.output;
   const study::DisplayUnits units = study::chosen_units(output.units, study.common.units);
-  study::Result out = result;
-  const bool round = output.digits == study::Digits::six;
-  for (Table& table : out.tables) {
-    table = study::in_units(table, units);
-    if (round)
-      for (Column& column : table.columns)
-        for (double& value : column.values) value = study::six_digits(value);
-  }
-  const auto convert = [&](std::string& key, auto&... values) {
-    const study::DisplayUnits::Key shown = units.key(key);
-    ((values = shown.convert(values)), ...);
-    if (round) ((values = study::six_digits(values)), ...);
-    key = shown.key;
-  };
+  study::Result out = study::in_units(std::move(result), units);
+  if (output.digits != study::Digits::six) return out;
+  const auto round = [](auto&... values) { ((values = study::six_digits(values)), ...); };
+  for (Table& table : out.tables)
+    for (Column& column : table.columns)
+      for (double& value : column.values) round(value);
   for (study::Solution& solution : out.solutions) {
-    for (study::Parameter& p : solution.parameters) convert(p.key, p.value, p.lower, p.upper);
-    for (Value* numbers : {&solution.objectives, &solution.classification}) {
-      *numbers = study::in_units(*numbers, units);
-      if (round) *numbers = rounded(*numbers);
-    }
+    for (study::Parameter& p : solution.parameters) round(p.value, p.lower, p.upper);
+    for (Value* numbers : {&solution.objectives, &solution.classification}) *numbers = rounded(*numbers);
   }
-  for (study::Change& change : out.changes) convert(change.quantity, change.before, change.after);
+  for (study::Change& change : out.changes) round(change.before, change.after);
   for (study::Trouble& trouble : out.troubles)
-    for (study::Trouble::Place& place : trouble.where) convert(place.key, place.value);
-  out.statistics = study::in_units(out.statistics, units);
-  if (round) out.statistics = rounded(out.statistics);
+    for (study::Trouble::Place& place : trouble.where) round(place.value);
+  out.statistics = rounded(out.statistics);
   return out;
 }
 
-Value result_json(const study::Study& study, const study::Result& computed, const RunRecord& run) {
-  const study::Result result = presented(study, computed);
+Value result_json(const study::Study& study, const study::Result& shown, const RunRecord& run,
+                  const NumberLists& lists) {
   Value v;
   v["schema"] = study::schema_version;
   v["tool"] = "linkwright " + std::string(version());
   v["study"] = study.canonical;
   v["study_sha256"] = sha256(study::to_json(study.canonical));
-  v["status"] = to_string(result.status);
-  v["answer"] = answer(result);
-  v["checks"] = all(result.checks);
-  v["best"] = result.solutions.empty() ? Value() : to_value(result.solutions.front());
-  v["solutions"] = all(result.solutions);
-  if (!result.changes.empty()) v["changes"] = all(result.changes);  // from a first design to the answer
-  v["comparisons"] = all(result.comparisons);  // with published numbers; empty when the study cites none
-  v["statistics"] = or_empty(result.statistics, Value::object());
-  v["log"] = or_empty(result.log, Value::array());
-  v["tables"] = all(result.tables);
-  v["diagnostics"] = all(result.diagnostics);
+  v["status"] = to_string(shown.status);
+  v["answer"] = answer(shown);
+  v["checks"] = all(shown.checks);
+  v["best"] = shown.solutions.empty() ? Value() : to_value(shown.solutions.front());
+  v["solutions"] = all(shown.solutions);
+  if (!shown.changes.empty()) v["changes"] = all(shown.changes);  // from a first design to the answer
+  v["comparisons"] = all(shown.comparisons);  // with published numbers; empty when the study cites none
+  v["statistics"] = or_empty(shown.statistics, Value::object());
+  v["log"] = or_empty(shown.log, Value::array());
+  v["tables"] = Value::array();
+  for (const Table& table : shown.tables) v["tables"].push_back(to_value(table, lists));
+  v["diagnostics"] = all(shown.diagnostics);
   Value& record = v["run"];
   record["started"] = run.started;
   record["seconds"] = run.seconds;

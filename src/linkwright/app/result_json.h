@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/number_lists.h"
 #include "linkwright/core/value.h"
 #include "linkwright/study/reproduction.h"
 #include "linkwright/study/result.h"
@@ -20,11 +21,12 @@ struct RunRecord {
 
 /// The result with its numbers - tables, parameters, objectives, statistics, troubles - in the units and with
 /// the digits that `[output]` of the study asks for; what result.json and CSV hold.
-study::Result presented(const study::Study& study, const study::Result& result);
+study::Result presented(const study::Study& study, study::Result result);
 
-/// The document of result.json, see result_schema.h. All of it but `run` depends on the study and the program
-/// alone.
-Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run);
+/// The document of result.json, see result_schema.h, of a result as it is presented(). All of it but `run`
+/// depends on the study and the program alone. `lists`: of the tables.
+Value result_json(const study::Study& study, const study::Result& shown, const RunRecord& run,
+                  const NumberLists& lists = {});
 
 /// A published table with its numbers computed anew.
 Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows);

@@ -178,7 +178,8 @@ constexpr std::string_view text = R"json({
       "parameters": {"type": "object", "additionalProperties": {"type": ["number", "null"]}},
       "objectives": {"type": "object"},
       "classification": {"type": "object"},
-      "defects": {"type": "array", "items": {"type": "string"}}
+      "defects": {"type": "array", "items": {"type": "string"}},
+      "study": {"type": "object", "description": "a study of this design, in the units of the study that found it"}
     }
   }
 }

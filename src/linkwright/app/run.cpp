@@ -14,12 +14,17 @@
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/overrides.h"
+#include "linkwright/app/view.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/core/table.h"
+#include "linkwright/core/units.h"
+#include "linkwright/report/drawing.h"
 #include "linkwright/report/dxf.h"
 #include "linkwright/report/html.h"
 #include "linkwright/report/svg.h"
+#include "linkwright/study/design.h"
 #include "linkwright/study/read.h"
+#include "linkwright/study/result_units.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {
@@ -29,6 +34,9 @@ namespace {
 void refuse(Diagnostics& diagnostics, const fs::path& file, std::string message) {
   diagnostics.push_back({Diagnostic::Severity::error, file.string(), {}, {}, std::move(message), {}});
 }
+
+/// Where the studies of found designs go, beside the result.
+constexpr const char* designs_folder = "designs";
 
 bool wants(const study::Study& study, study::Format format) {
   const auto& formats = study.common.output.formats;
@@ -124,25 +132,29 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       refuse(diagnostics, file, fmt::format("cannot be written: {}", problem));
   };
   const study::Result& result = outcome.result;
+  const study::Result shown = presented(study, result);
   // The report carries it along; for tables alone it is not made, which takes longer than many a study.
   const bool needs_json = wants(study, study::Format::json) || wants(study, study::Format::html);
   const std::string json =
-      needs_json ? study::to_json_readable(result_json(study, result, outcome.record)) : std::string();
+      needs_json ? study::to_json_readable(result_json(study, shown, outcome.record)) : std::string();
   if (wants(study, study::Format::json)) write("result.json", json);
+  const std::string tool = fmt::format("linkwright {}", version());
   if (wants(study, study::Format::csv))
-    for (const Table& table : presented(study, result).tables) write(table.name + ".csv", to_csv(table));
+    for (const Table& table : shown.tables) write(table.name + ".csv", to_csv(table));
   if (wants(study, study::Format::svg))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".svg", report::svg(scene));
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
   if (wants(study, study::Format::html))
-    write("report.html", report::html({.result = result,
-                                       .study_toml = study::to_toml(study.canonical),
-                                       .title = study::title_of(study),
-                                       .source = study.common.source,
-                                       .tool = fmt::format("linkwright {}", version()),
-                                       .command = outcome.command,
-                                       .result_json = json}));
+    write("report.html", report::html(report_input(study, shown, outcome.command, json)));
+  for (std::size_t i = 0; i < result.solutions.size(); ++i) {
+    const study::Solution& solution = result.solutions[i];
+    if (solution.study.is_null()) continue;
+    std::error_code error;  // a folder that cannot be made is a file that cannot be written
+    fs::create_directory(folder / designs_folder, error);
+    write(fmt::format("{}/{}.toml", designs_folder, study::design_name(solution, i + 1)),
+          study::design_toml(solution, i + 1, study::title_of(study), tool));
+  }
   return written;
 }
 

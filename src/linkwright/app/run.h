@@ -48,8 +48,8 @@ struct RunOutcome {
 /// Runs a study, checks included, and notes what `run` of result.json holds.
 RunOutcome run_and_record(const study::Study& study, RunContext& context);
 
-/// Writes the files that the study asks for, each whole or not at all. Returns those written; problems are
-/// appended to `diagnostics`.
+/// Writes the files that the study asks for, and the studies of the designs found into `designs` there, each
+/// whole or not at all. Returns those written; problems are appended to `diagnostics`.
 std::vector<std::filesystem::path> write_results(const study::Study& study, const RunOutcome& outcome,
                                                  const std::filesystem::path& folder,
                                                  Diagnostics& diagnostics);

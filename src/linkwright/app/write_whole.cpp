@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,11 +18,14 @@ namespace {
 
 constexpr std::string_view ending = ".part";
 
-/// 0 or the error number.
-int write_and_sync(const fs::path& file, std::string_view text) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+/// 0 or the error number. The file may be read and written by those who may with `older`, if that exists.
+int write_and_sync(const fs::path& file, const fs::path& older, std::string_view text) {
+  struct stat before = {};
+  const bool replaces = ::stat(older.c_str(), &before) == 0 && S_ISREG(before.st_mode);
+  const int descriptor =
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, replaces ? 0600 : 0666);
   if (descriptor < 0) return errno;
-  int problem = 0;
+  int problem = replaces && ::fchmod(descriptor, before.st_mode & 07777) != 0 ? errno : 0;
   while (!text.empty() && problem == 0) {
     const ssize_t count = ::write(descriptor, text.data(), text.size());
     if (count >= 0)
@@ -48,7 +52,7 @@ void sync_folder(const fs::path& folder) {
 std::string write_whole(const fs::path& file, std::string_view text) {
   const fs::path temporary = fmt::format("{}.{}{}", file.string(), ::getpid(), ending);
   std::error_code error;
-  if (const int problem = write_and_sync(temporary, text); problem != 0)
+  if (const int problem = write_and_sync(temporary, file, text); problem != 0)
     error.assign(problem, std::generic_category());
   else
     fs::rename(temporary, file, error);

@@ -7,8 +7,8 @@
 namespace linkwright::app {
 
 /// Writes a file whole or not at all: under a temporary name first, which it gets rid of when something goes
-/// wrong, and on the disk before it takes the place of an older file. Returns what went wrong, empty if
-/// nothing did.
+/// wrong, and on the disk before it takes the place of an older file, whose permissions it keeps. Returns
+/// what went wrong, empty if nothing did.
 std::string write_whole(const std::filesystem::path& file, std::string_view text);
 
 /// Removes what writers of this file left behind when they were killed: temporary files of processes that

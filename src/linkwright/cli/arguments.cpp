@@ -29,6 +29,7 @@ class Grammar {
     app.footer(footer + ".");
 
     study_commands();
+    serve_command();
     example_commands();
     list_commands();
     help_commands();
@@ -98,6 +99,16 @@ class Grammar {
     value(compare, "-o,--out", arguments_.out, "folder of the comparison (default: compare)", "FOLDER");
     threads(compare);
     report(compare);
+  }
+
+  void serve_command() {
+    CLI::App& serve = add("serve", "open the workbench: a page of this machine, with this program behind it",
+                          Command::serve);
+    value(serve, "STUDY", arguments_.study,
+          "study file that the page opens and saves; without it, an example");
+    value(serve, "--port", arguments_.port, "port of 127.0.0.1 to listen at (default: any that is free)", "N")
+        ->check(CLI::Range(0, 65535).description(""));
+    serve.add_flag("--open", arguments_.open, "open the page in the browser");
   }
 
   void example_commands() {

@@ -21,12 +21,13 @@ struct Arguments {
     catalogue,
     schema,
     reproduce,
+    serve,
     manual,
     completion
   };
   Command command = Command::nothing;
 
-  std::string study;  ///< run, check: the file; "-" = standard input
+  std::string study;  ///< run, check: the file, "-" = standard input; serve: empty = none
   std::string kind;   ///< make, schema
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
 
@@ -47,7 +48,8 @@ struct Arguments {
   bool resume = false;
   bool json = false;
   bool quiet = false;
-  bool open = false;     ///< the report, when it is written
+  int port = 0;          ///< of serve; 0 = any that is free
+  bool open = false;     ///< the report, when it is written, or the page
   bool renamed = false;  ///< of catalogue
 
   std::string text;   ///< for nothing: what to print (help, version or what is wrong)

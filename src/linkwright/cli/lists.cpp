@@ -129,9 +129,6 @@ int copy_example(const Arguments& arguments) {
   return 0;
 }
 
-/// The file in which editors find the schema of a kind, beside its studies.
-std::string schema_file(const study::Kind& kind) { return with_dashes(name_of(kind)) + ".schema.json"; }
-
 /// Columns as wide as their longest cell; numbers to the right.
 std::string aligned(const std::vector<study::Comparison>& rows) {
   std::vector<std::array<std::string, 5>> cells = {{"", "published", "ours", "verdict", "note"}};
@@ -232,7 +229,7 @@ int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print_diagnostics(diagnostics);
     return bad_input;
   }
-  const std::string schema = schema_file(*kind);
+  const std::string schema = study::schema_file(name_of(*kind));
   const std::string text = fmt::format("#:schema ./{}\n{}", schema, kind->example);
   if (arguments.file == "-") {
     fmt::print("{}", text);

@@ -21,6 +21,7 @@
 #include "linkwright/cli/progress.h"
 #include "linkwright/cli/summary.h"
 #include "linkwright/cli/terminal.h"
+#include "linkwright/cli/workbench.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
@@ -63,7 +64,7 @@ void offer_to_resume(const study::Result& result, const app::CheckpointFile& che
 void open_report(const std::vector<fs::path>& written) {
   for (const fs::path& file : written) {
     if (file.filename() != "report.html") continue;
-    if (const std::string problem = open_on_desktop(file); !problem.empty())
+    if (const std::string problem = open_on_desktop(fs::absolute(file).string()); !problem.empty())
       fmt::print(stderr, "the report was not opened: {}; open {} in a browser\n", problem, file.string());
     return;
   }
@@ -74,7 +75,8 @@ void open_report(const std::vector<fs::path>& written) {
 void print_outcome(const Arguments& arguments, const study::Study& study, const app::RunOutcome& outcome,
                    const std::vector<fs::path>& written, const Diagnostics& problems) {
   if (arguments.json)
-    fmt::print("{}", study::to_json_readable(app::result_json(study, outcome.result, outcome.record)));
+    fmt::print("{}", study::to_json_readable(
+                         app::result_json(study, app::presented(study, outcome.result), outcome.record)));
   else if (!arguments.quiet)
     fmt::print("{}", summary(study.common.title, outcome.result, written, wants_colours(Stream::out)));
   std::fflush(stdout);  // the answer stands before what is said about it
@@ -239,6 +241,8 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
       return print_schema(arguments, kinds);
     case Command::reproduce:
       return reproduce(arguments, reproductions);
+    case Command::serve:
+      return serve_workbench(arguments);
     case Command::manual:
       fmt::print("{}", manual_page());
       return 0;

@@ -59,8 +59,9 @@ std::string summary(std::string_view title, const study::Result& result,
   }
   for (const Diagnostic& d : result.diagnostics) line(painted(d, colours));
   if (written.empty()) return text;
-  line(fmt::format("results in {}:", written.front().parent_path().string()));
-  for (const std::filesystem::path& file : written) line("  " + file.filename().string());
+  const std::filesystem::path folder = written.front().parent_path();
+  line(fmt::format("results in {}:", folder.string()));
+  for (const std::filesystem::path& file : written) line("  " + file.lexically_relative(folder).string());
   for (const std::filesystem::path& file : written)
     if (file.filename() == "report.html") line(paint("open " + file.string(), Colour::bold, colours));
   return text;

@@ -90,13 +90,13 @@ void print_diagnostics(const Diagnostics& diagnostics) {
   if (errors > 1) fmt::print(stderr, "{} errors\n", errors);
 }
 
-std::string open_on_desktop(const std::filesystem::path& file) {
+std::string open_on_desktop(const std::string& what) {
 #ifdef __APPLE__
   const char* const program = "open";
 #else
   const char* const program = "xdg-open";
 #endif
-  std::string name = std::filesystem::absolute(file).string(), command = program;
+  std::string name = what, command = program;
   char* const arguments[] = {command.data(), name.data(), nullptr};
   posix_spawn_file_actions_t silent;
   posix_spawn_file_actions_init(&silent);

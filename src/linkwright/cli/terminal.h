@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -31,9 +30,9 @@ std::string painted(const Diagnostic& diagnostic, bool on);
 /// Writes diagnostics to standard error, with their number if there are several errors.
 void print_diagnostics(const Diagnostics& diagnostics);
 
-/// Opens a file as a double click would and does not wait for it. Returns why it could not, empty if nothing
-/// went wrong.
-std::string open_on_desktop(const std::filesystem::path& file);
+/// Opens an absolute path, as a double click would, or an address, and does not wait for it. Returns why it
+/// could not, empty if nothing went wrong.
+std::string open_on_desktop(const std::string& what);
 
 /// While it lives, the first SIGINT or SIGTERM cancels the run, and a second one kills the program.
 class Interruptible {

@@ -44,7 +44,7 @@ constexpr DimensionRow dimension_rows[] = {
     {Dimension::damping_angular, "a torsional damping", {{"N_m_s_per_rad"}}},
     {Dimension::angle_by_length,
      "an angle by length",
-     {{"rad_per_m"}, {"deg_per_m", pi, 180}, {"deg_per_mm", 1e3 * pi, 180}}},
+     {{"rad_per_m"}, {"deg_per_m", pi, 180}, {"deg_per_mm", 1e3 * pi, 180}, {"deg_per_100mm", pi, 18}}},
     {Dimension::density, "a density", {{"kg_per_m3"}, {"g_per_cm3", 1e3, 1}}},
     {Dimension::pressure, "a stress or modulus", {{"Pa"}, {"kPa", 1e3, 1}, {"MPa", 1e6, 1}, {"GPa", 1e9, 1}}},
     {Dimension::second_moment_of_area,

@@ -72,7 +72,10 @@ OdeReport integrate(OdeFunction f, std::span<double> y, double from, double to, 
                     const OdeHooks& hooks, OdeWorkspace& w) {
   check(y, from, to, o, hooks);
   if (!w.parts_) w.parts_ = std::make_unique<OdeWorkspace::Parts>();  // moved from
-  auto& [stepper, finder, state, fired] = *w.parts_;
+  auto& stepper = w.parts_->stepper;
+  auto& finder = w.parts_->finder;
+  auto& state = w.parts_->state;
+  auto& fired = w.parts_->fired;
   const std::size_t n = y.size();
   const double direction = to < from ? -1 : 1, range = std::abs(to - from);
   const double resolution = 4 * tolerance::epsilon * std::max(std::abs(from), std::abs(to));

@@ -109,7 +109,7 @@ Solver::Solver(const ConeProgramme& programme, const ConeOptions& options)
     }
     group.g = Matrix::Zero(rows, static_cast<Index>(support.size()));
     Index row = 0;
-    const auto add = [&](const Affine& form) {
+    const auto add = [&, &support = support](const Affine& form) {
       for (std::size_t i = 0; i < form.variables.size(); ++i) {
         const auto at =
             std::lower_bound(support.begin(), support.end(), static_cast<Index>(form.variables[i]));

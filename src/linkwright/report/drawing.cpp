@@ -130,6 +130,14 @@ double radius(const study::Scene& scene, const study::Scene::Circle& circle, std
   return std::hypot(rim.x - centre.x, rim.y - centre.y);
 }
 
+CurveLook curve_look(std::size_t curve) {
+  // Okabe and Ito's colours; dashes distinguish the curves without them, and those of one colour, too.
+  constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
+                                                       "#CC79A7", "#E69F00", "#56B4E9"};
+  constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};
+  return {colours[curve % colours.size()], dashes[(curve + curve / colours.size()) % dashes.size()]};
+}
+
 bool is_symbol(study::Scene::BodyStyle style) {
   using Style = study::Scene::BodyStyle;
   return style == Style::spring || style == Style::damper || style == Style::guide;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/study/extremes.h"
@@ -40,6 +41,12 @@ Place place(const study::Scene& scene, int point, std::size_t sample);
 
 /// Radius of a circle at a sample (m); NaN when one of its points does not exist.
 double radius(const study::Scene& scene, const study::Scene::Circle& circle, std::size_t sample);
+
+/// Colour and dash of a curve in a diagram, and of the mechanism that it belongs to where several are drawn.
+struct CurveLook {
+  std::string_view colour, dash;
+};
+CurveLook curve_look(std::size_t curve);
 
 /// The lines of a spring (zigzag), damper (piston rod, piston, cylinder) or guide (line, hatching on its
 /// right) from `a` to `b`, `width` metres across; no line for other styles and for places that are missing or

@@ -150,7 +150,7 @@ void write_header(Writer& w, const Scene& scene, const Box& box) {
 
 void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::size_t sample,
                 const DxfLayers& layers, double symbol) {
-  if (body.style == Scene::BodyStyle::gap) return;
+  if (body.style == Scene::BodyStyle::gap || body.run > 0) return;
   const bool ground = body.style == Scene::BodyStyle::ground || body.style == Scene::BodyStyle::guide;
   if (!(ground ? layers.ground : layers.links)) return;
   const std::string_view layer = ground ? "GROUND" : "LINKS";
@@ -250,7 +250,8 @@ std::string dxf(const study::Scene& scene, const DxfOptions& options) {
                  true);
   }
   if (options.layers.trace)
-    for (const auto& trace : scene.traces) write_trace(w, scene, trace);
+    for (const auto& trace : scene.traces)
+      if (trace.run == 0) write_trace(w, scene, trace);
   if (options.layers.targets && !spatial) {
     for (const auto& target : scene.targets) {
       for (std::size_t i = 0; i < std::min(target.x.size(), target.y.size()); ++i) {

@@ -36,7 +36,11 @@ std::vector<Group> groups_of(const study::Plot& plot, const Table& table) {
   if (!unit.symbol.empty()) name.resize(name.size() - unit.symbol.size() - 3);
   std::vector<Group> out;
   for (const double value : values) {
-    Group group{name + " " + quantity(value, unit), {}};
+    const bool named =
+        value >= 1 && value <= static_cast<double>(plot.group_names.size()) && value == std::floor(value);
+    Group group{
+        named ? plot.group_names[static_cast<std::size_t>(value) - 1] : name + " " + quantity(value, unit),
+        {}};
     for (std::size_t i = 0; i < column->values.size(); ++i)
       if (column->values[i] == value) group.rows.push_back(i);
     out.push_back(std::move(group));

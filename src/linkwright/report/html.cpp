@@ -23,10 +23,12 @@ std::string html(const ReportInput& input) {
       "'unsafe-inline'; "
       "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n";
   out += "<meta name=\"generator\" content=\"" + escape(input.tool) + "\">\n";
-  // What is to be replaced is not shown first.
+  // Title, answer and key figures are read at once, for they stay where they are; the rest is to be replaced
+  // and not shown first.
   if (!script.empty())
     out +=
-        "<style>.starting #static { display: none }</style>\n"
+        "<style>.starting #static > :not(.verdict, .first), .starting .facts small { display: none } "
+        ".starting .first figure { visibility: hidden }</style>\n"
         "<script>document.documentElement.className = \"starting\"</script>\n";
   out += "<title>" + escape(input.title) + "</title>\n<style>\n";
   out += report_css();

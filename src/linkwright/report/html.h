@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "linkwright/core/number_lists.h"
+#include "linkwright/study/display_units.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::report {
@@ -9,13 +11,16 @@ namespace linkwright::report {
 /// All that a report is made from. `result` must outlive the call.
 struct ReportInput {
   const study::Result& result;
-  std::string study_toml;   ///< text of the study file; empty = not shown
-  std::string title;        ///< of the study
-  std::string source;       ///< where its numbers come from; may be empty
-  std::string tool;         ///< "linkwright 0.1.0"
-  std::string command;      ///< command line that makes this report again
+  study::DisplayUnits units = {};  ///< in which people are shown lengths, angles ...
+  std::string study_toml;          ///< text of the study file; empty = not shown
+  std::string title;               ///< of the study
+  std::string source;              ///< where its numbers come from; may be empty
+  std::string tool;                ///< "linkwright 0.1.0"
+  std::string command;             ///< command line that makes this report again
   std::string result_json;  ///< text of result.json: offered as it is, and what the viewer takes the tables
                             ///< from; empty = none
+  NumberLists lists =
+      {};  ///< apart for pages with the program behind them, which also get handles and frames
 };
 
 /// One HTML file that needs nothing else: it loads nothing, opens from disk, prints, and without scripts

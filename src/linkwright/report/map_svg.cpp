@@ -22,9 +22,10 @@
 namespace linkwright::report {
 namespace {
 
-constexpr double width = 640, left = 74, right = 16, top = 8;                // px
-constexpr double gap = 16, head = 24, foot = 44, bar_height = 12, bar = 62;  // px, between and below the maps
-constexpr double most_height = 420;                                          // px, of one map
+constexpr double sheet_width = 640, left_margin = 74, right_margin = 16, top_margin = 8;  // px
+constexpr double map_gap = 16, map_head = 24, map_foot = 44, bar_height = 12,
+                 bar = 62;           // px, between and below the maps
+constexpr double most_height = 420;  // px, of one map
 constexpr std::size_t most_maps = 12, most_columns = 3;
 constexpr double same = 1e-6;  // of the range: coordinates that are closer differ by rounding
 constexpr std::string_view no_value = "#e9edf0";
@@ -131,7 +132,9 @@ struct Layout {
   std::size_t columns = 1, rows = 1;
   double scale = 1;  // px per unit
   double map_width = 0, map_height = 0;
-  double height() const { return top + static_cast<double>(rows) * (head + map_height) + foot; }
+  double height() const {
+    return top_margin + static_cast<double>(rows) * (map_head + map_height) + map_foot;
+  }
 };
 
 Layout layout_of(const Maps& maps) {
@@ -140,7 +143,8 @@ Layout layout_of(const Maps& maps) {
   out.rows = (n + most_columns - 1) / most_columns;
   out.columns = (n + out.rows - 1) / out.rows;
   const double room =
-      (width - left - right - gap * static_cast<double>(out.columns - 1)) / static_cast<double>(out.columns);
+      (sheet_width - left_margin - right_margin - map_gap * static_cast<double>(out.columns - 1)) /
+      static_cast<double>(out.columns);
   out.scale = std::min(room / maps.x.size(), most_height / maps.y.size());
   out.map_width = maps.x.size() * out.scale;
   out.map_height = maps.y.size() * out.scale;
@@ -207,16 +211,17 @@ void draw_axes(std::string& out, const Frame& frame, bool outer_left, bool outer
 }
 
 void draw_bar(std::string& out, const Maps& maps, const Column& values, bool logarithmic, double y) {
-  const double length = maps.missing ? 380 : width - left - right, each = length / colour_classes;
+  const double length = maps.missing ? 380 : sheet_width - left_margin - right_margin,
+               each = length / colour_classes;
   out += "<g class=\"scale\" shape-rendering=\"crispEdges\">";
   for (int k = 0; k < colour_classes; ++k)
-    put(out, "<path d=\"M{:.1f} {:.1f}h{:.1f}v{}h-{:.1f}z\" fill=\"{}\"/>", left + k * each, y, each,
+    put(out, "<path d=\"M{:.1f} {:.1f}h{:.1f}v{}h-{:.1f}z\" fill=\"{}\"/>", left_margin + k * each, y, each,
         bar_height, each, class_colour(maps.high > maps.low ? k : colour_classes - 1));
   out += "</g>\n<g fill=\"#526170\" font-size=\"11\">";
   // The ends have their numbers always, so that the range is known, round numbers stand between them.
   const double span = maps.high - maps.low;
   const auto named = [&](double share, const char* anchor, double value, int digits) {
-    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", left + share * length,
+    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", left_margin + share * length,
         y + bar_height + 14, anchor, number(logarithmic ? std::pow(10, value) : value, digits));
   };
   if (span > 0) {
@@ -230,12 +235,12 @@ void draw_bar(std::string& out, const Maps& maps, const Column& values, bool log
     named(0.5, "middle", maps.low, 6);
   }
   put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
-      left + length / 2, y + bar_height + 32, escape(label_with(values, maps.value_unit)));
+      left_margin + length / 2, y + bar_height + 32, escape(label_with(values, maps.value_unit)));
   if (maps.missing)
     put(out,
         "<rect x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"24\" height=\"{2}\" fill=\"{3}\"/>"
         "<text x=\"{4:.1f}\" y=\"{5:.1f}\">no value</text>",
-        left + length + 28, y, bar_height, no_value, left + length + 58, y + bar_height - 2);
+        left_margin + length + 28, y, bar_height, no_value, left_margin + length + 58, y + bar_height - 2);
   out += "</g>\n";
 }
 
@@ -251,17 +256,17 @@ std::string map_svg(const study::Plot& plot, const Table& table) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
       "{1:.0f}\" role=\"img\" font-family=\"system-ui, sans-serif\"><title>{2}</title>"
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
-      width, height, escape(plot.title));
+      sheet_width, height, escape(plot.title));
   if (empty) {
     out += "<text x=\"24\" y=\"36\" font-size=\"14\">No values.</text></svg>\n";
     return out;
   }
-  const double all = static_cast<double>(layout.columns) * (layout.map_width + gap) - gap;
-  const double begin = left + (width - left - right - all) / 2;
+  const double all = static_cast<double>(layout.columns) * (layout.map_width + map_gap) - map_gap;
+  const double begin = left_margin + (sheet_width - left_margin - right_margin - all) / 2;
   for (std::size_t k = 0; k < maps.maps.size(); ++k) {
     const std::size_t row = k / layout.columns, column = k % layout.columns;
-    const Frame frame{maps, layout, begin + static_cast<double>(column) * (layout.map_width + gap),
-                      top + head + static_cast<double>(row) * (head + layout.map_height)};
+    const Frame frame{maps, layout, begin + static_cast<double>(column) * (layout.map_width + map_gap),
+                      top_margin + map_head + static_cast<double>(row) * (map_head + layout.map_height)};
     const std::string& label = maps.maps[k].label;
     put(out,
         "<g class=\"map\"><text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"12\" "
@@ -271,14 +276,14 @@ std::string map_svg(const study::Plot& plot, const Table& table) {
     draw_axes(out, frame, column == 0, k + layout.columns >= maps.maps.size());
     out += "</g>\n";
   }
-  const double bottom = layout.height() - foot;
+  const double bottom = layout.height() - map_foot;
   put(out,
       "<g fill=\"#526170\" font-size=\"12\"><text x=\"{:.1f}\" y=\"{:.1f}\" "
       "text-anchor=\"middle\">{}{}</text>",
       begin + all / 2, bottom + 34, escape(label_with(*table.find(plot.x), maps.unit)),
       maps.maps.size() < maps.groups ? fmt::format("; {} of {} maps", maps.maps.size(), maps.groups) : "");
   put(out, "<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text></g>\n",
-      begin - 58, (top + bottom) / 2, escape(label_with(*table.find(plot.y[0]), maps.unit)));
+      begin - 58, (top_margin + bottom) / 2, escape(label_with(*table.find(plot.y[0]), maps.unit)));
   draw_bar(out, maps, *table.find(plot.y[1]), plot.logarithmic_y, layout.height() + 2);
   out += "</svg>\n";
   return out;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -30,19 +30,6 @@ constexpr double line_height = 20;                                         // px
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named_curves = 6;  // more curves are a bundle, of which the first have names
 constexpr double rounding = 1e-16;            // of the largest: less than this is zero on a logarithmic axis
-// Okabe and Ito's colours; dashes distinguish the curves without them, and those of one colour, too.
-constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
-                                                     "#CC79A7", "#E69F00", "#56B4E9"};
-constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};
-
-struct Look {
-  std::string_view colour, dash;
-};
-
-Look look_of(std::size_t curve) {
-  return {colours[curve % colours.size()], dashes[(curve + curve / colours.size()) % dashes.size()]};
-}
-
 constexpr std::string_view pale = "#8fa0ae", band_colour = "#009E73";
 
 struct Curve {
@@ -156,30 +143,76 @@ Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Tabl
   return out;
 }
 
-// Counts of the values of all columns, as the outline of bars.
-Curve histogram(const study::Plot& plot, const Table& table, const DisplayUnit& unit) {
-  std::vector<double> values;
-  Curve out;
-  for (const auto& key : plot.y)
-    if (const Column* column = table.find(key)) {
-      out.label = label_with(*column, unit);
-      for (const double v : column->values)
-        if (std::isfinite(v)) values.push_back(v * unit.factor);
-    }
-  if (values.empty()) return out;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const double from = *low, span = *high > *low ? *high - *low : 1;
-  const auto bins =
-      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(values.size())), 1.0, 40.0));
-  std::vector<double> counts(bins);
-  for (const double v : values)
-    ++counts[std::min(bins - 1, static_cast<std::size_t>((v - from) / span * static_cast<double>(bins)))];
-  for (std::size_t i = 0; i < bins; ++i) {
-    const double a = from + span * static_cast<double>(i) / static_cast<double>(bins);
-    const double b = from + span * static_cast<double>(i + 1) / static_cast<double>(bins);
-    for (const Place& p : {Place{a, 0}, Place{a, counts[i]}, Place{b, counts[i]}, Place{b, 0}})
-      out.points.push_back(p);
+// Counts of the values of all columns, as the outlines of bars: one for each group, over the same bins.
+std::vector<Curve> histogram(const study::Plot& plot, const Table& table, const DisplayUnit& unit) {
+  std::vector<Curve> out;
+  std::vector<std::vector<double>> lists;
+  double low = infinity, high = -infinity;
+  std::size_t most = 0;
+  for (const Group& group : groups_of(plot, table)) {
+    Curve& curve = out.emplace_back(Curve{group.label, {}});
+    std::vector<double>& values = lists.emplace_back();
+    for (const auto& key : plot.y)
+      if (const Column* column = table.find(key)) {
+        if (group.label.empty()) curve.label = label_with(*column, unit);
+        for (const std::size_t row : group.rows)
+          if (row < column->values.size() && std::isfinite(column->values[row]))
+            values.push_back(column->values[row] * unit.factor);
+      }
+    for (const double v : values) low = std::min(low, v), high = std::max(high, v);
+    most = std::max(most, values.size());
   }
+  if (most == 0) return out;
+  const double span = high > low ? high - low : 1;
+  const auto bins = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(most)), 1.0, 40.0));
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    std::vector<double> counts(bins);
+    for (const double v : lists[k])
+      ++counts[std::min(bins - 1, static_cast<std::size_t>((v - low) / span * static_cast<double>(bins)))];
+    for (std::size_t i = 0; i < bins; ++i) {
+      const double a = low + span * static_cast<double>(i) / static_cast<double>(bins);
+      const double b = low + span * static_cast<double>(i + 1) / static_cast<double>(bins);
+      for (const Place& p : {Place{a, 0}, Place{a, counts[i]}, Place{b, counts[i]}, Place{b, 0}})
+        out[k].points.push_back(p);
+    }
+  }
+  return out;
+}
+
+// The range without rare peaks, when the largest value is more than eight times the 98th percentile of the
+// sizes; as in the viewer (zoom.ts). Where almost all values are nothing beside the peaks, the peaks are what
+// there is to see.
+struct Peak {
+  double low = infinity, high = -infinity;  // without the peaks
+  double value = 0, at = 0;                 // the largest of them, and where
+};
+
+std::optional<Peak> peak_of(const study::Plot& plot, const Table& table, const Shown& shown) {
+  constexpr std::size_t fewest = 50;
+  const Column* x = table.find(plot.x);
+  std::vector<double> sizes;
+  Peak out;
+  const auto each = [&](auto&& use) {
+    for (const auto& key : plot.y)
+      if (const Column* y = table.find(key))
+        for (std::size_t row = 0; row < y->values.size(); ++row)
+          if (std::isfinite(y->values[row])) use(y->values[row] * shown.y.factor, row);
+  };
+  each([&](double v, std::size_t row) {
+    sizes.push_back(std::abs(v));
+    if (std::abs(v) <= std::abs(out.value)) return;
+    out.value = v;
+    out.at = x && row < x->values.size() ? x->values[row] * shown.x.factor : nan;
+  });
+  if (sizes.size() < fewest) return std::nullopt;
+  const auto middle =
+      sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double usual = *middle, most = std::abs(out.value);
+  if (!(most > 8 * usual) || !(usual > 1e-4 * most)) return std::nullopt;
+  each([&](double v, std::size_t) {
+    if (std::abs(v) <= 2 * usual) out.low = std::min(out.low, v), out.high = std::max(out.high, v);
+  });
   return out;
 }
 
@@ -193,7 +226,8 @@ struct Axes {
   double y(double v) const { return top + (box.y_max - v) / box.height() * inner_height(); }
 };
 
-Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style, bool origin, bool upright) {
+Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style, bool origin, bool upright,
+             const std::optional<Peak>& peak) {
   Axes axes;
   axes.height = style == Style::polar || upright ? 420 : 260;
   for (const auto* curves : drawn)
@@ -202,6 +236,10 @@ Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style
         if (p.finite()) axes.box.add(p.x, p.y);
   if (axes.box.empty()) return axes;
   Box& box = axes.box;
+  if (peak) {
+    double &low = upright ? box.x_min : box.y_min, &high = upright ? box.x_max : box.y_max;
+    low = std::max(low, peak->low), high = std::min(high, peak->high);
+  }
   if (origin) box.add(0, 0);
   const auto widen = [](double& low, double& high, double by) { low -= by, high += by; };
   if (style == Style::polar) {
@@ -216,8 +254,9 @@ Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style
     const double size = std::max(std::abs(low), std::abs(high));
     return high - low <= 1e-12 * size ? std::max(size, 1.0) / 10 : 0;
   };
-  widen(box.x_min, box.x_max, level(box.x_min, box.x_max));
-  widen(box.y_min, box.y_max, level(box.y_min, box.y_max) + 0.06 * box.height());
+  const double air = 0.06;  // of the range of what grows upwards, or, of upright diagrams with peaks, across
+  widen(box.x_min, box.x_max, level(box.x_min, box.x_max) + (peak && upright ? air * box.width() : 0));
+  widen(box.y_min, box.y_max, level(box.y_min, box.y_max) + air * box.height());
   if (style == Style::histogram) box.y_min = 0;
   return axes;
 }
@@ -298,7 +337,7 @@ void draw_baseline(std::string& out, const Axes& axes, const Curve& curve, std::
       path_of(axes, curve, false), pale, escape(fmt::format("{}: {}", name, curve.label)));
 }
 
-void draw_curve(std::string& out, const Axes& axes, const Curve& curve, const Look& look, bool faint,
+void draw_curve(std::string& out, const Axes& axes, const Curve& curve, const CurveLook& look, bool faint,
                 bool points) {
   const std::string path = path_of(axes, curve, points);
   put(out,
@@ -315,8 +354,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   if (plot.style == Style::map) return map_svg(plot, table);
   const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
   const Shown shown = shown_of(plot, table);
-  std::vector<Curve> curves =
-      counts ? std::vector<Curve>{histogram(plot, table, shown.y)} : curves_of(plot, table, shown);
+  std::vector<Curve> curves = counts ? histogram(plot, table, shown.y) : curves_of(plot, table, shown);
   std::vector<Curve> bands, before;
   if (plot.style == Style::line || plot.style == Style::points)
     for (const auto& band : plot.bands)
@@ -329,14 +367,16 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
     for (auto* drawn : {&curves, &bands, &before})
       for (auto& curve : *drawn)
         for (Place& p : curve.points) std::swap(p.x, p.y);
-  const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright);
+  const std::optional<Peak> peak =
+      plot.style == Style::line && !plot.logarithmic_y ? peak_of(plot, table, shown) : std::nullopt;
+  const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright, peak);
   const bool bundle = curves.size() > most_named_curves, empty = axes.box.empty();
   const bool points = plot.style == Style::points;
   // Of a bundle the first have a name; one that is a family has none but those of its ends.
-  const std::size_t named = counts || (!polar && curves.size() == 1) ? 0
-                            : !bundle                                ? curves.size()
-                            : plot.group.empty()                     ? most_named_curves
-                                                                     : 0;
+  const std::size_t named = !polar && curves.size() == 1 ? 0
+                            : !bundle                    ? curves.size()
+                            : plot.group.empty()         ? most_named_curves
+                                                         : 0;
   struct Sign {
     std::string look, text;
   };
@@ -344,11 +384,11 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   for (std::size_t i = 0; i < named; ++i)
     legend.push_back({points ? fmt::format("stroke=\"{}\" stroke-width=\"7\" stroke-linecap=\"round\" "
                                            "stroke-dasharray=\"0 17\"",
-                                           look_of(i).colour)
+                                           curve_look(i).colour)
                              : fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
-                                           look_of(i).colour, look_of(i).dash),
+                                           curve_look(i).colour, curve_look(i).dash),
                       curves[i].label});
-  const std::string_view faint = named ? pale : colours[0];  // of the curves without a name
+  const std::string_view faint = named ? pale : curve_look(0).colour;  // of the curves without a name
   if (bundle)
     legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", faint),
                       fmt::format("{} {}curves, {} to {}", curves.size() - named, named ? "more " : "",
@@ -364,6 +404,13 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
                       fmt::format("values below {:g} of the largest lie on the lower edge: they are zero up "
                                   "to rounding",
                                   rounding)});
+  const auto with_unit = [](double v, const DisplayUnit& unit) {
+    return number(v, 5) + (unit.symbol.empty() ? "" : (unit.symbol == "°" ? "" : " ") + unit.symbol);
+  };
+  if (peak)
+    legend.push_back(
+        {"stroke=\"none\"", fmt::format("peak {} at {} is outside", with_unit(peak->value, shown.y),
+                                        with_unit(peak->at, shown.x))});
   const double height =
       empty ? 60 : axes.height + (legend.empty() ? 0 : line_height * static_cast<double>(legend.size()) + 6);
   std::string out;
@@ -383,7 +430,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
                                                    : "";
   const auto along = [&](const char* axis) { return unit.empty() ? axis : fmt::format("{} {}", axis, unit); };
   const std::string x_label = polar    ? along("x")
-                              : counts ? curves.front().label
+                              : counts ? (first ? label_with(*first, shown.y) : "")
                               : x      ? label_with(*x, shown.x)
                                        : plot.x;
   const bool one = curves.size() == 1 || (!plot.group.empty() && plot.y.size() == 1 && first);
@@ -395,11 +442,18 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   const Side along_x{x_label, shown.x.symbol == "°"},
       along_y{y_label, shown.y.symbol == "°" && !counts, plot.logarithmic_y && !polar};
   draw_axes(out, axes, upright ? along_y : along_x, upright ? along_x : along_y, origin);
+  // Nothing is seen outside of the axes.
+  if (peak)
+    put(out,
+        "<svg x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"{2:.0f}\" height=\"{3:.0f}\" viewBox=\"{0:.0f} {1:.0f} "
+        "{2:.0f} {3:.0f}\">\n",
+        left, top, axes.inner_width(), axes.inner_height());
   for (const auto& band : bands) draw_band(out, axes, band);
   for (const auto& curve : before) draw_baseline(out, axes, curve, baseline->name);
   for (std::size_t i = 0; i < curves.size(); ++i)
-    draw_curve(out, axes, curves[i], i < named || !bundle ? look_of(i) : Look{faint, "none"},
+    draw_curve(out, axes, curves[i], i < named || !bundle ? curve_look(i) : CurveLook{faint, "none"},
                bundle && i >= named, points);
+  if (peak) out += "</svg>\n";
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
     put(out,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
+#include "linkwright/report/brief.h"
 #include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
@@ -20,6 +21,7 @@
 #include "linkwright/report/units.h"
 #include "linkwright/study/answer.h"
 #include "linkwright/study/extremes.h"
+#include "linkwright/study/result_units.h"
 
 namespace linkwright::report {
 namespace {
@@ -65,12 +67,20 @@ void write_banner(std::string& out, const ReportInput& input) {
 
 constexpr std::size_t longest_beside = 34;  // letters of a fact that stand beside its name
 
+std::string fact_text(const Brief& fact) {
+  std::string out = escape(fact.head);
+  if (!fact.rest.empty()) put(out, "<small>{}</small>", escape(fact.rest));
+  return out;
+}
+
 void write_facts(std::string& out, const study::Result& result) {
   if (result.facts.empty()) return;
   out += "<dl class=\"facts\">";
-  for (const auto& fact : result.facts)
+  for (const auto& fact : result.facts) {
+    const Brief text = brief(fact.text);
     put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>",
-        fact.text.size() > longest_beside ? " class=\"long\"" : "", escape(fact.label), escape(fact.text));
+        fact.text.size() > longest_beside ? " class=\"long\"" : "", escape(fact.label), fact_text(text));
+  }
   out += "</dl>\n";
 }
 
@@ -84,40 +94,49 @@ void write_checks(std::string& out, const study::Result& result) {
 }
 
 // One of the inputs of a scene.
-std::string input_text(std::string_view key, const std::vector<double>& inputs, std::size_t sample) {
-  return quantity(inputs[sample], display_unit(key, study::largest_size(inputs)));
+std::string input_text(std::string_view key, const std::vector<double>& inputs, std::size_t sample,
+                       const study::DisplayUnits& units) {
+  const study::DisplayUnits::Key shown = units.key(key);
+  const double most = shown.convert(study::largest_size(inputs));
+  return quantity(shown.convert(inputs[sample]), display_unit(shown.key, most));
 }
 
 // The instant for which the arrows of a drawing hold.
-std::string shown_at(const study::Scene& scene) {
+std::string shown_at(const study::Scene& scene, const study::DisplayUnits& units) {
   if (scene.samples() == 0) return {};
   const std::size_t sample = reference_sample(scene);
-  const std::string text = fmt::format("{} {}", scene.input_label,
-                                       input_text(scene.input_key, scene.input, sample % scene.input.size()));
+  const std::string text =
+      fmt::format("{} {}", scene.input_label,
+                  input_text(scene.input_key, scene.input, sample % scene.input.size(), units));
   const std::string second =
       scene.second.empty()
           ? ""
           : fmt::format(", {} {}", scene.second_label,
-                        input_text(scene.second_key, scene.second, sample / scene.input.size()));
+                        input_text(scene.second_key, scene.second, sample / scene.input.size(), units));
   return fmt::format("{} {}{}", scene.spatial() ? ", at" : ", arrows at", text, second);
 }
 
-void write_drawing(std::string& out, const study::Scene& scene, std::size_t index) {
+void write_drawing(std::string& out, const study::Scene& scene, std::size_t index,
+                   const study::DisplayUnits& units) {
   const bool spatial = scene.spatial();
   SvgOptions options;
   // Poses and arrows, or poses in three views, are too much.
   options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
+  if (units.chosen(Dimension::length)) {
+    const Unit& unit = units.of(Dimension::length);
+    options.length = LengthUnit{unit.from_si(1), std::string(unit.suffix)};
+  }
   options.labels = scene.joints.size() <= most_named_joints;
   // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
   put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
       spatial ? fmt::format(" data-scene=\"{}\"", index) : "", svg(scene, options),
-      escape(scene.title + (options.ghosts == 0 ? shown_at(scene) : "")));
+      escape(scene.title + (options.ghosts == 0 ? shown_at(scene, units) : "")));
 }
 
 // The first drawing with the key figures beside it.
-void write_first(std::string& out, const study::Result& result) {
+void write_first(std::string& out, const study::Result& result, const study::DisplayUnits& units) {
   out += "<div class=\"first\">\n";
-  if (!result.scenes.empty()) write_drawing(out, result.scenes.front(), 0);
+  if (!result.scenes.empty()) write_drawing(out, result.scenes.front(), 0, units);
   write_facts(out, result);
   out += "</div>\n";
 }
@@ -209,14 +228,20 @@ void write_tables(std::string& out, const study::Result& result) {
     if (step > 1) put(out, "<p class=\"note\">One row in {}, of {} in all.</p>\n", step, table.rows());
     std::vector<std::string> head;
     if (!table.names.empty()) head.emplace_back("name");
-    for (const auto& column : table.columns) head.push_back(column.label.empty() ? column.key : column.label);
+    std::vector<DisplayUnit> units;
+    for (const auto& column : table.columns) {
+      units.push_back(display_unit(column.key, study::largest_size(column.values)));
+      head.push_back(label_with(column, units.back()));
+    }
     if (!table.status.empty()) head.push_back("status");
     Sheet sheet(out, head);
     for (std::size_t row = 0; row < table.rows(); row += step) {
       std::vector<std::string> cells;
       if (!table.names.empty()) cells.push_back(table.names[row]);
-      for (const auto& column : table.columns)
-        cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const auto& values = table.columns[i].values;
+        cells.push_back(row < values.size() ? number(values[row] * units[i].factor) : "");
+      }
       if (!table.status.empty()) cells.push_back(row < table.status.size() ? table.status[row] : "");
       sheet.row(cells);
     }
@@ -227,15 +252,17 @@ void write_tables(std::string& out, const study::Result& result) {
 
 std::string static_page(const ReportInput& input) {
   std::string out;
+  const study::Result result = study::in_units(input.result, input.units);
   write_banner(out, input);
-  write_first(out, input.result);
+  write_first(out, input.result, input.units);
   write_checks(out, input.result);
-  for (std::size_t i = 1; i < input.result.scenes.size(); ++i) write_drawing(out, input.result.scenes[i], i);
-  write_plots(out, input.result);
-  write_solutions(out, input.result);
-  write_changes(out, input.result);
+  for (std::size_t i = 1; i < input.result.scenes.size(); ++i)
+    write_drawing(out, input.result.scenes[i], i, input.units);
+  write_plots(out, result);
+  write_solutions(out, result);
+  write_changes(out, result);
   write_comparisons(out, input.result);
-  write_object(out, "Statistics", input.result.statistics);
+  write_object(out, "Statistics", result.statistics);
   write_log(out, input.result.log);
   if (!input.result.diagnostics.empty()) {
     heading(out, "Remarks");
@@ -243,7 +270,7 @@ std::string static_page(const ReportInput& input) {
     for (const auto& d : input.result.diagnostics) put(out, "<li>{}</li>", escape(to_string(d)));
     out += "</ul>\n";
   }
-  write_tables(out, input.result);
+  write_tables(out, result);
   heading(out, "How to reproduce");
   if (!input.source.empty())
     put(out, "<p class=\"source\">Source of the study: {}</p>\n", escape(input.source));

@@ -25,9 +25,11 @@ namespace {
 
 using study::Scene;
 
-// Okabe and Ito's colours, which stay apart for the colour-blind; bodies take them in turn by their roles.
-constexpr std::array<std::string_view, 6> body_colours = {"#0072B2", "#E69F00", "#009E73",
-                                                          "#CC79A7", "#56B4E9", "#D55E00"};
+// Okabe and Ito's colours, which stay apart for the colour-blind, then darker and lighter ones; bodies take
+// them in turn by their roles, as on the page (report.css).
+constexpr std::array<std::string_view, 18> body_colours = {
+    "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#003F62", "#7E5700", "#00573F",
+    "#70435C", "#2F6380", "#753400", "#8CC0DC", "#F4D48C", "#8CD3C0", "#E8C3D7", "#B3DDF5", "#ECB78C"};
 constexpr std::string_view trace_colour = "#0072B2";
 constexpr std::string_view error_colour = "#D55E00";
 
@@ -48,11 +50,12 @@ struct Mirrored {
   double sheet;
 };
 
-void draw_grid(std::string& out, const Canvas& canvas, const Mirrored* mirrored = nullptr) {
+void draw_grid(std::string& out, const Canvas& canvas, const SvgOptions& options,
+               const Mirrored* mirrored = nullptr) {
   const double sheet = mirrored ? mirrored->sheet : std::max(canvas.width(), canvas.height());
   const double across = mirrored ? -1 : 1;
   const double step = nice_step(sheet / canvas.scale(), 9);
-  const LengthUnit unit = length_unit(sheet / canvas.scale() / 2);
+  const LengthUnit unit = options.length.value_or(length_unit(sheet / canvas.scale() / 2));
   out += "<g class=\"grid\" stroke=\"#dfe5ea\" stroke-width=\"1\" fill=\"#64727f\" font-size=\"11\">\n";
   const auto from = [step](double w) { return static_cast<long long>(std::ceil(w / step)); };
   for (long long i = from(canvas.world_x(0)); canvas.x(static_cast<double>(i) * step) <= canvas.width();
@@ -119,6 +122,14 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
   }
   const bool plate = body.style == Scene::BodyStyle::plate && places.size() > 2;
   const std::string path = path_of(canvas, places, plate);
+  if (body.run > 0) {
+    const CurveLook look = curve_look(static_cast<std::size_t>(body.run));
+    put(out,
+        "<path class=\"other\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" "
+        "stroke-dasharray=\"{}\"><title>{}</title></path>\n",
+        path, look.colour, look.dash, escape(body.name));
+    return;
+  }
   put(out, "<g class=\"body\"><title>{}</title>", escape(body.name));
   if (body.style == Scene::BodyStyle::ground) {
     put(out,
@@ -217,9 +228,25 @@ void draw_traces(std::string& out, const Canvas& canvas, const Scene& scene) {
     for (std::size_t i = 0; i < scene.samples(); ++i)
       places.push_back(assembled(scene, i) ? place(scene, trace.point, i) : Place{nan, nan});
     put(out,
-        "<path class=\"trace\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
+        "<path class=\"trace\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
         "stroke-linejoin=\"round\"><title>{}</title></path>\n",
-        path_of(canvas, places, trace.closed), trace_colour, escape(trace.name));
+        path_of(canvas, places, trace.closed),
+        scene.runs.empty() ? trace_colour : curve_look(static_cast<std::size_t>(trace.run)).colour,
+        trace.run > 0 ? 1.4 : 2.0, escape(trace.name));
+  }
+}
+
+// Whose the mechanisms are that are drawn over each other.
+void draw_runs(std::string& out, const Scene& scene) {
+  double y = 20;
+  for (std::size_t run = 0; run < scene.runs.size(); ++run) {
+    const CurveLook look = curve_look(run);
+    put(out,
+        "<path d=\"M12 {:.0f}h30\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>"
+        "<text x=\"50\" y=\"{:.0f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
+        "font-size=\"13\">{}</text>\n",
+        y - 4, look.colour, run > 0 ? 1.6 : 4.0, look.dash, y, ink, paper, escape(scene.runs[run]));
+    y += 18;
   }
 }
 
@@ -390,7 +417,7 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
     put(out, "<svg class=\"view\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">\n",
         k == 1 ? widths[0] + gap : 0, k == 2 ? heights[0] + gap : 0, width, height);
     const Mirrored names{k == 1 ? "x" : "y", k == 2 ? "x" : "z", options.width};
-    if (options.grid) draw_grid(out, canvas, &names);
+    if (options.grid) draw_grid(out, canvas, options, &names);
     draw_ghosts(out, canvas, seen[k], options.ghosts);
     draw_wheels(out, canvas, seen[k], sample);
     draw_bodies(out, canvas, seen[k], sample, true);
@@ -401,6 +428,7 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
     draw_spatial_joints(out, canvas, seen[k], sample, options.labels && scene.joints.size() <= crowded);
     for (const ShownArrows& arrows : shown)
       draw_vectors(out, canvas, seen[k], sample, arrows, options.labels);
+    if (k == 0) draw_runs(out, scene);
     put(out,
         "<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#c3ccd4\"/>"
         "<text x=\"{:.1f}\" y=\"20\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
@@ -435,7 +463,7 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   canvas.fit_bars(usual_length(scene, sample));
   std::string out;
   open_document(out, canvas.width(), canvas.height(), scene.title);
-  if (options.grid) draw_grid(out, canvas);
+  if (options.grid) draw_grid(out, canvas, options);
   draw_ghosts(out, canvas, scene, options.ghosts);
   draw_circles(out, canvas, scene, sample);
   draw_bodies(out, canvas, scene, sample, true);
@@ -445,6 +473,7 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   if (options.targets) draw_targets(out, canvas, scene, options.whisker_scale);
   for (const ShownArrows& arrows : shown) draw_vectors(out, canvas, scene, sample, arrows, options.labels);
   if (options.forces) draw_moments(out, canvas, scene, sample, options.labels);
+  draw_runs(out, scene);
   draw_key(out, canvas, scene, shown);
   out += "</svg>\n";
   return out;

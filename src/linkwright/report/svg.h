@@ -4,16 +4,18 @@
 #include <optional>
 #include <string>
 
+#include "linkwright/report/drawing.h"
 #include "linkwright/study/scene.h"
 
 namespace linkwright::report {
 
 /// How a scene is drawn as a picture.
 struct SvgOptions {
-  std::optional<std::size_t> sample;  ///< pose to draw; none = the first that is assembled
-  double width = 900;                 ///< of the picture (px)
-  double max_height = 680;            ///< the scale is chosen so that the picture is not higher (px)
-  bool grid = true;                   ///< grid with lengths in mm or m
+  std::optional<std::size_t> sample;      ///< pose to draw; none = the first that is assembled
+  double width = 900;                     ///< of the picture (px)
+  double max_height = 680;                ///< the scale is chosen so that the picture is not higher (px)
+  bool grid = true;                       ///< grid with lengths
+  std::optional<LengthUnit> length = {};  ///< of the grid; none = mm or m by the size of the scene
   bool traces = true;
   bool targets = true;         ///< target points with whiskers to what is achieved
   bool labels = true;          ///< names of the joints

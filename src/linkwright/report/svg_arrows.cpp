@@ -163,7 +163,8 @@ void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
     const double length = scale.key_value * scale.metres_per_unit * canvas.scale();
     const std::string text =
         fmt::format("{} {} {}", linkwright::name_of(quantity), number(scale.key_value), scale.unit);
-    line(length, text, [&] { draw_arrow(out, quantity, 40, y, 40 + length, y, text, {}); });
+    line(length, text,
+         [&, quantity = quantity] { draw_arrow(out, quantity, 40, y, 40 + length, y, text, {}); });
   }
   const double most = largest_moment(scene);
   if (most > 0 && std::any_of(shown.begin(), shown.end(),

@@ -18,6 +18,7 @@ std::string symbol_of(std::string_view suffix) {
   if (suffix == "deg") return "°";
   if (suffix == "um") return "µm";
   if (suffix == "per_min") return "1/min";
+  if (suffix == "deg_per_100mm") return "°/100 mm";
   std::string text = readable_unit(suffix);
   for (const auto& [plain, shown] : {std::pair{"deg", "°"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}})
     if (const std::size_t at = text.find(plain); at != std::string::npos)
@@ -53,6 +54,29 @@ std::string_view name_of(std::string_view key) {
 std::span<const SuffixUnit> suffix_units() {
   static const std::vector<SuffixUnit> all = all_suffixes();
   return all;
+}
+
+std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units) {
+  std::vector<ShownSuffix> out;
+  for (const SuffixUnit& s : suffix_units()) {
+    ShownSuffix& shown = out.emplace_back(ShownSuffix{s.suffix, s.symbol, s.factor, s.suffix});
+    const auto parts = split_unit("x" + s.suffix);
+    if (!parts || parts->base != "x") continue;  // a unit of results alone, such as m³
+    // Angles are shown in degrees unless radians were chosen.
+    const bool in_degrees = s.factor != 1;
+    const Unit* to = units.chosen(parts->dimension) ? &units.of(parts->dimension)
+                     : in_degrees                   ? find_unit(parts->dimension, "deg" + s.suffix.substr(4))
+                                                    : parts->unit;
+    shown.by_size =
+        (s.suffix == "_m" || s.suffix == "_Pa") && to == parts->unit && !units.chosen(parts->dimension);
+    if (to == parts->unit) continue;
+    shown.symbol = symbol_of(to->suffix);
+    shown.factor = to->from_si(parts->unit->to_si(1));
+    shown.key = "_" + std::string(to->suffix);
+    shown.from = *parts->unit;
+    shown.to = *to;
+  }
+  return out;
 }
 
 DisplayUnit display_unit(std::string_view key, double largest) {

@@ -7,9 +7,11 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/table.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/display_units.h"
 
-/// Units in which numbers are shown: SI in the data, degrees and millimetres in diagrams. The viewer shows
-/// the same ones (web/src/suffixes.ts).
+/// Units in which numbers are shown: SI in the data, in diagrams those that were chosen, or else degrees and
+/// millimetres. The viewer is told of them (shown_suffixes).
 namespace linkwright::report {
 
 /// A shown number is the one of the data times `factor`.
@@ -26,6 +28,20 @@ struct SuffixUnit {
 };
 /// Of all units that keys carry (core/units), longer suffixes first: each ends in units of its own.
 std::span<const SuffixUnit> suffix_units();
+
+/// How the viewer shows numbers whose keys end in a suffix.
+struct ShownSuffix {
+  std::string suffix;  ///< "_rad_per_s"
+  std::string symbol;  ///< "rpm"
+  double factor = 1;   ///< from the number of the data to the one that is shown
+  /// The same for files, where keys carry the unit: "_rpm", and the number is first made SI (times, by), then
+  /// what it is to be (by, times); see core/units.
+  std::string key;
+  Unit from = {"", 1, 1}, to = {"", 1, 1};
+  bool by_size = false;  ///< whether the size of the numbers decides, as display_unit() has it
+};
+/// Of all units that keys carry, longer suffixes first.
+std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units);
 
 /// Unit of a key by its suffix: degrees for `_rad`; millimetres for lengths (`_m`) when `largest`, the
 /// largest size of the numbers that are shown together, is below a metre; megapascals for stresses from 10

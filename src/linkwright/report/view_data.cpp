@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
+#include "linkwright/report/brief.h"
+#include "linkwright/report/units.h"
 #include "linkwright/study/answer.h"
+#include "linkwright/study/design.h"
 #include "linkwright/study/extremes.h"
 
 namespace linkwright::report {
@@ -16,7 +19,8 @@ namespace {
 using study::Scene;
 
 // Nine digits of the largest are a millionth of a pixel, and whole numbers in four bytes (packed.h).
-Value coordinates(const std::vector<double>& values) {
+Value coordinates(const std::vector<double>& values, const NumberLists& lists) {
+  if (lists.apart()) return lists(values);
   const double largest = study::largest_size(values);
   const int decimals =
       largest > 0 && std::isfinite(largest) ? 8 - static_cast<int>(std::floor(std::log10(largest))) : 0;
@@ -50,29 +54,66 @@ Value list(const std::vector<T>& items, F&& convert) {
   return out;
 }
 
-Value scene_data(const Scene& scene) {
+// Arrows have a unit as text: "m/s2".
+struct ArrowUnit {
+  std::string symbol;
+  double factor = 1;
+};
+ArrowUnit arrow_unit(const std::string& text, const std::vector<ShownSuffix>& units) {
+  for (const ShownSuffix& s : units)
+    if (readable_unit(s.suffix.substr(1)) == text) return {s.symbol, s.factor};
+  return {text};
+}
+
+Value arrow_values(const std::vector<double>& values, const ArrowUnit& unit, const NumberLists& lists) {
+  std::vector<double> out = values;
+  for (double& v : out) v *= unit.factor;
+  return coordinates(out, lists);
+}
+
+void put_handles(Value& out, const Scene& scene, const NumberLists& lists) {
+  out["frames"] = list(scene.frames, [&lists](Value& o, const Scene::Frame& f) {
+    o["x"] = lists(f.x);
+    o["y"] = lists(f.y);
+    o["angle"] = lists(f.angle);
+  });
+  out["handles"] = list(scene.handles, [](Value& o, const Scene::Handle& h) {
+    o["key"] = h.key;
+    o["measure"] = linkwright::name_of(h.measure);
+    o["frame"] = h.frame;
+    o["point"] = h.point;
+    o["target"] = h.target;
+    o["index"] = h.index;
+    o["from"] = h.from;
+    o["held"] = h.held;
+  });
+}
+
+Value scene_data(const Scene& scene, const std::vector<ShownSuffix>& units, const NumberLists& lists) {
   Value out = Value::object();
   out["name"] = scene.name;
   out["title"] = scene.title;
   out["input_key"] = scene.input_key;
   out["input_label"] = scene.input_label;
-  out["input"] = Value(scene.input);
+  out["input"] = lists(scene.input);
   if (!scene.second.empty()) {
     out["second_key"] = scene.second_key;
     out["second_label"] = scene.second_label;
     out["second"] = Value(scene.second);
   }
   out["status"] = texts(scene.status);
-  out["points"] = list(scene.points, [](Value& o, const Scene::Point& p) {
+  if (!scene.runs.empty()) out["runs"] = texts(scene.runs);
+  out["points"] = list(scene.points, [&lists](Value& o, const Scene::Point& p) {
     o["name"] = p.name;
-    o["x"] = coordinates(p.x);
-    o["y"] = coordinates(p.y);
-    if (!p.z.empty()) o["z"] = coordinates(p.z);
+    o["x"] = coordinates(p.x, lists);
+    o["y"] = coordinates(p.y, lists);
+    if (!p.z.empty()) o["z"] = coordinates(p.z, lists);
   });
   out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
     o["name"] = b.name;
     o["points"] = indices(b.points);
     o["style"] = linkwright::name_of(b.style);
+    if (b.run > 0) o["run"] = b.run;
   });
   out["joints"] = list(scene.joints, [](Value& o, const Scene::Joint& j) {
     o["name"] = j.name;
@@ -83,6 +124,7 @@ Value scene_data(const Scene& scene) {
     o["point"] = t.point;
     o["name"] = t.name;
     o["closed"] = t.closed;
+    if (t.run > 0) o["run"] = t.run;
   });
   out["targets"] = list(scene.targets, [](Value& o, const Scene::Target& t) {
     o["name"] = t.name;
@@ -107,21 +149,23 @@ Value scene_data(const Scene& scene) {
       o["radius"] = d.radius;
       o["width"] = d.width;
     });
-  out["vectors"] = list(scene.vectors, [](Value& o, const Scene::Vector& v) {
+  out["vectors"] = list(scene.vectors, [&units, &lists](Value& o, const Scene::Vector& v) {
+    const ArrowUnit unit = arrow_unit(v.unit, units);
     o["name"] = v.name;
     o["quantity"] = linkwright::name_of(v.quantity);
-    o["unit"] = v.unit;
+    o["unit"] = unit.symbol;
     o["point"] = v.point;
-    o["x"] = coordinates(v.x);
-    o["y"] = coordinates(v.y);
-    if (!v.z.empty()) o["z"] = coordinates(v.z);
+    o["x"] = arrow_values(v.x, unit, lists);
+    o["y"] = arrow_values(v.y, unit, lists);
+    if (!v.z.empty()) o["z"] = arrow_values(v.z, unit, lists);
     o["symbol"] = v.symbol;
   });
-  out["moments"] = list(scene.moments, [](Value& o, const Scene::Moment& m) {
+  out["moments"] = list(scene.moments, [&units, &lists](Value& o, const Scene::Moment& m) {
+    const ArrowUnit unit = arrow_unit(m.unit, units);
     o["name"] = m.name;
-    o["unit"] = m.unit;
+    o["unit"] = unit.symbol;
     o["point"] = m.point;
-    o["value"] = coordinates(m.value);
+    o["value"] = arrow_values(m.value, unit, lists);
     o["symbol"] = m.symbol;
   });
   return out;
@@ -150,9 +194,20 @@ Value view_data(const ReportInput& input) {
   out["status"] = to_string(result.status);
   out["headline"] = result.headline;
   out["verdict"] = linkwright::name_of(study::answer_of(result).verdict);
+  const std::vector<ShownSuffix> units = shown_suffixes(input.units);
+  out["units"] = list(units, [](Value& o, const ShownSuffix& s) {
+    o["suffix"] = s.suffix;
+    o["symbol"] = s.symbol;
+    o["factor"] = s.factor;
+    o["key"] = s.key;
+    o["steps"] = Value(Value::Array{s.from.multiply, s.from.divide, s.to.divide, s.to.multiply});
+    o["by_size"] = s.by_size;
+  });
   out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
     o["label"] = f.label;
-    o["text"] = f.text;
+    const Brief parts = brief(f.text);
+    o["text"] = std::string(parts.head);
+    if (!parts.rest.empty()) o["rest"] = std::string(parts.rest);
     o["verdict"] = linkwright::name_of(f.verdict);
   });
   out["parameters"] = Value::array();
@@ -161,8 +216,22 @@ Value view_data(const ReportInput& input) {
     out["parameters"].push_back(parameters_data(s.parameters));
     out["solution_scenes"].push_back(s.scene);
   }
+  out["designs"] = Value::array();
+  for (std::size_t i = 0; i < result.solutions.size(); ++i) {
+    const study::Solution& s = result.solutions[i];
+    if (s.study.is_null()) continue;
+    Value design;
+    design["solution"] = i;
+    design["name"] = study::design_name(s, i + 1);
+    design["toml"] = study::design_toml(s, i + 1, input.title, input.tool);
+    out["designs"].push_back(std::move(design));
+  }
   out["scenes"] = Value::array();
-  for (const auto& scene : result.scenes) out["scenes"].push_back(scene_data(scene));
+  for (const auto& scene : result.scenes) {
+    Value drawn = scene_data(scene, units, input.lists);
+    if (input.lists.apart()) put_handles(drawn, scene, input.lists);
+    out["scenes"].push_back(std::move(drawn));
+  }
   out["plots"] = list(result.plots, [](Value& o, const study::Plot& p) {
     o["name"] = p.name;
     o["title"] = p.title;
@@ -173,6 +242,7 @@ Value view_data(const ReportInput& input) {
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
     if (!p.group.empty()) o["group"] = p.group;
+    if (!p.group_names.empty()) o["group_names"] = texts(p.group_names);
     if (!p.bands.empty())
       o["bands"] = list(p.bands, [](Value& b, const study::Plot::Band& band) {
         b["lower"] = band.lower;

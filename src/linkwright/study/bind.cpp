@@ -160,6 +160,11 @@ void DocumentReader::report(Diagnostic::Severity severity, Position position, st
   diagnostics_.push_back({severity, file_, position, std::move(key), std::move(message), std::move(hint)});
 }
 
+void DocumentReader::error(Diagnostic problem) {
+  meaning_.push_back({diagnostics_.size()});
+  diagnostics_.push_back(std::move(problem));
+}
+
 bool DocumentReader::has_errors() const {
   return std::any_of(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
                      [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
@@ -177,74 +182,106 @@ void DocumentReader::finish_object(const Value& value, const std::vector<const V
   const auto entry = records_.find(&value);
   if (!value.is_object() || entry == records_.end()) return;
   Record& record = entry->second;
+  finish_unknown(value, record, schemas);
+  finish_missing(value, record);
+  for (const Value::Member& member : value.as_object())
+    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end())
+      finish_object(member.value, members_of(schemas, member.key));
+}
 
-  std::vector<std::string_view> bases;
+void DocumentReader::finish_unknown(const Value& table, Record& record,
+                                    const std::vector<const Value*>& schemas) {
+  struct Unknown {
+    const Value::Member* member;
+    const Known* meant;
+  };
+  std::vector<Unknown> all;
+  std::vector<std::string_view> bases, missing_bases;
   std::string allowed;
   for (const Known& known : record.known) {
     bases.push_back(known.base);
     allowed += (allowed.empty() ? "" : ", ") + si_key(known.base, known.dimension);
   }
-  for (const Value::Member& member : value.as_object()) {
-    const std::vector<const Value*> described = members_of(schemas, member.key);
-    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) {
-      finish_object(member.value, described);
-      continue;
-    }
+  for (const Known& missing : record.missing) missing_bases.push_back(missing.base);
+  const auto given = [&](const Known& known) {
+    return std::any_of(record.used.begin(), record.used.end(), [&](const Value::Member* member) {
+      return names_field(member->key, known.base, known.dimension);
+    });
+  };
+  const Known* misspelt_choice = nullptr;
+  for (const Value::Member& member : table.as_object()) {
+    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) continue;
     // Known, but the reader gave up before it came to it.
-    if (!described.empty()) continue;
+    if (!members_of(schemas, member.key).empty()) continue;
     if (++unknown_ > most_unknown_keys) continue;
     // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
     // is more likely than one that may be left out.
     const auto parts = split_unit(member.key);
-    std::vector<std::string_view> missing_bases;
-    for (const Known& missing : record.missing) missing_bases.push_back(missing.base);
     std::string base;
     for (const auto* among : {&missing_bases, &bases}) {
       if (parts && base.empty()) base = meant_word(parts->base, *among);
       if (base.empty()) base = meant_word(member.key, *among);
     }
+    const auto known = std::find_if(record.known.begin(), record.known.end(),
+                                    [&](const Known& k) { return k.base == base; });
+    const Known* const meant = base.empty() || known == record.known.end() ? nullptr : &*known;
+    all.push_back({&member, meant});
+    if (!meant || given(*meant)) continue;
+    // The misspelt key is the missing one; one message is enough. Others may depend on one that is not.
+    if (std::erase_if(record.missing, [&](const Known& m) { return m.base == base; }) == 0)
+      record.misspelt = true;
+    if (std::find(record.choices.begin(), record.choices.end(), base) != record.choices.end())
+      misspelt_choice = meant;
+  }
+  record.misspelt = record.misspelt || misspelt_choice;
+  for (const auto& [member, meant] : all) {
+    // What there is beside a choice is not known without it.
+    if (misspelt_choice && meant != misspelt_choice) continue;
     std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
-    if (!base.empty()) {
-      const auto known = std::find_if(record.known.begin(), record.known.end(),
-                                      [&](const Known& k) { return k.base == base; });
-      std::string meant = si_key(base, known->dimension);
-      if (parts && parts->dimension == known->dimension)
-        meant = known->base + "_" + std::string(parts->unit->suffix);
-      hint = fmt::format("did you mean '{}'?", meant);
-      // The misspelt key is the missing one; one message is enough.
-      if (std::erase_if(record.missing, [&](const Known& missing) { return missing.base == base; }) > 0)
-        poison(join_path(record.path, member.key));
-      misspelt_.push_back(join_path(record.path, meant));
-      misspelt_.push_back(join_path(record.path, base));
+    if (meant) {
+      const auto parts = split_unit(member->key);
+      const std::string key = parts && parts->dimension == meant->dimension
+                                  ? meant->base + "_" + std::string(parts->unit->suffix)
+                                  : si_key(meant->base, meant->dimension);
+      hint = fmt::format("did you mean '{}'?", key);
+      misspelt_.push_back(join_path(record.path, key));
+      misspelt_.push_back(join_path(record.path, meant->base));
     }
-    report(Diagnostic::Severity::error, member.key_position,
-           member.key.empty() ? record.path + (record.path.empty() ? "''" : ".''")
-                              : join_path(record.path, member.key),
+    poison(join_path(record.path, meant ? meant->base : member->key));
+    report(Diagnostic::Severity::error, member->key_position,
+           member->key.empty() ? record.path + (record.path.empty() ? "''" : ".''")
+                               : join_path(record.path, member->key),
            "unknown key", hint);
   }
+}
+
+void DocumentReader::finish_missing(const Value& table, Record& record) {
+  // A part of the table may stand under a misspelt name.
+  const bool elsewhere = std::find(misspelt_.begin(), misspelt_.end(), record.path) != misspelt_.end();
+  if (record.misspelt || elsewhere) return;
   for (const Known& missing : record.missing) {
     const bool bare = missing.dimension == Dimension::none;
     poison(join_path(record.path, missing.base));
-    report(Diagnostic::Severity::error, value.position,
+    report(Diagnostic::Severity::error, table.position,
            join_path(record.path, si_key(missing.base, missing.dimension)), "this key is missing",
            bare ? missing.hint : "write " + keys_with_units(missing.base, missing.dimension));
   }
 }
 
 void DocumentReader::drop_follow_ups() {
-  const auto unreadable = [&](std::string_view table) {
-    return std::find(unreadable_.begin(), unreadable_.end(), table) != unreadable_.end();
-  };
-  const bool mechanism = unreadable("mechanism");
-  const auto follows = [&](const std::string& path) {
+  const auto builds = [](std::string_view table) { return table != "output" && table != "check"; };
+  const bool inputs = std::any_of(unreadable_.begin(), unreadable_.end(), builds);
+  const auto follows = [&](const Meaning& meaning) {
+    if (meaning.lacking) return meaning.lacking->misspelt;
+    const std::string& path = diagnostics_[meaning.diagnostic].key;
     const std::string_view table = std::string_view(path).substr(0, path.find_first_of(".["));
-    // What is written and checked does not build on the mechanism.
-    return unreadable(table) || (mechanism && table != "output" && table != "check") ||
+    return (inputs && builds(table)) ||
+           std::find(unreadable_.begin(), unreadable_.end(), table) != unreadable_.end() ||
            std::find(misspelt_.begin(), misspelt_.end(), path) != misspelt_.end();
   };
-  for (auto index = meaning_.rbegin(); index != meaning_.rend(); ++index)
-    if (follows(diagnostics_[*index].key))
-      diagnostics_.erase(diagnostics_.begin() + static_cast<std::ptrdiff_t>(*index));
+  for (auto one = meaning_.rbegin(); one != meaning_.rend(); ++one)
+    if (follows(*one))
+      diagnostics_.erase(diagnostics_.begin() + static_cast<std::ptrdiff_t>(one->diagnostic));
 }
 
 void DocumentReader::finish(const std::function<Value()>& schema) {
@@ -384,11 +421,15 @@ void ObjectReader::report_at(std::string_view key, std::string message, std::str
 
 void ObjectReader::unreadable(std::string_view key, std::string message, std::string hint) {
   document_->poison(join_path(path(), key));
+  const bool given = std::any_of(record_->known.begin(), record_->known.end(), [&](const auto& known) {
+    return known.base == key && member_of({.key = key, .summary = {}, .dimension = known.dimension});
+  });
+  if (!key.empty() && !given) document_->meaning_.push_back({document_->diagnostics_.size(), record_});
   report_at(key, std::move(message), std::move(hint));
 }
 
 void ObjectReader::error(std::string_view key, std::string message, std::string hint) {
-  document_->meaning_.push_back(document_->diagnostics_.size());
+  document_->meaning_.push_back({document_->diagnostics_.size()});
   report_at(key, std::move(message), std::move(hint));
 }
 

@@ -40,9 +40,10 @@ class ObjectReader;
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
 /// report the unknown ones. Values that cannot be read keep what the member held before.
 ///
-/// One mistake, one message: what could not be read is remembered, and `finish` drops the errors of meaning
-/// (ObjectReader::error) that may only follow from it, those in the same top-level table and, if the
-/// mechanism could not be read, those of all tables that build on it.
+/// One mistake, one message: what could not be read is remembered, unknown keys included, and `finish` drops
+/// what may only follow from it. Those are the errors of meaning (ObjectReader::error) of all tables, for
+/// they refer to each other; of `output` and `check`, on which nothing builds, those of the same table. Where
+/// a key is misspelt, that are also the keys which its table lacks or does not know without it.
 class DocumentReader {
  public:
   /// `document` must outlive this; problems are appended to `diagnostics` under the name `file`.
@@ -59,6 +60,8 @@ class DocumentReader {
 
   void report(Diagnostic::Severity severity, Position position, std::string key, std::string message,
               std::string hint = {});
+  /// Adds an error of meaning that another reader found in a part of the document.
+  void error(Diagnostic problem);
   /// Errors so far, those of `finish` not included.
   bool has_errors() const;
   const std::string& file() const { return file_; }
@@ -76,9 +79,17 @@ class DocumentReader {
     std::vector<Known> known;
     std::vector<const Value::Member*> used;
     std::vector<Known> missing;
+    std::vector<std::string> choices;  // keys whose words decide which others there are
+    bool misspelt = false;             // a key on which others may depend
+  };
+  struct Meaning {
+    std::size_t diagnostic;
+    const Record* lacking = nullptr;  // told of a key that is not there: only follows when one is misspelt
   };
   Record& open(const Value& object, std::string path, const Unit* unit);
   void finish_object(const Value& value, const std::vector<const Value*>& schemas);
+  void finish_unknown(const Value& table, Record& record, const std::vector<const Value*>& schemas);
+  void finish_missing(const Value& table, Record& record);
   void poison(std::string_view path);
   void drop_follow_ups();
 
@@ -87,7 +98,7 @@ class DocumentReader {
   Diagnostics& diagnostics_;
   std::size_t first_;
   std::map<const Value*, Record> records_;
-  std::vector<std::size_t> meaning_;     // which of the diagnostics may follow from others
+  std::vector<Meaning> meaning_;         // which of the diagnostics may follow from others
   std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
   std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
   std::size_t unknown_ = 0;
@@ -131,7 +142,8 @@ class ObjectReader {
   /// An error of meaning at a key ("crank" finds crank_m or crank_mm): position and path are filled in. An
   /// absent key puts it at the table, an empty one names the table itself.
   void error(std::string_view key, std::string message, std::string hint = {});
-  /// An error that leaves others in its wake, such as two bodies of one name: those are dropped.
+  /// An error that leaves others in its wake, such as two bodies of one name: those are dropped. At an absent
+  /// key it is dropped itself where a misspelt one of the table may be the cause.
   void unreadable(std::string_view key, std::string message, std::string hint = {});
   void warning(std::string_view key, std::string message, std::string hint = {});
 
@@ -262,6 +274,7 @@ template <class... Options>
 bool ObjectReader::choose(const Field& field, std::variant<Options...>& result) {
   const std::array<Word, sizeof...(Options)> words{choice_word(Options{})...};
   const std::optional<Found> found = find(field);
+  record_->choices.emplace_back(field.key);
   if (found) {
     const std::optional<std::size_t> index = one_of(*found, words);
     if (!index) return false;

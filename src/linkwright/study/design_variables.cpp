@@ -101,7 +101,8 @@ DesignedTables take_designed(ObjectReader& document, std::span<const std::string
   DesignedTables out;
   out.tables = Value::object();
   out.tables.position = document.position();
-  for (std::string_view key : keys)
+  for (std::string_view key : keys) {
+    document.has(key);  // one that is absent is known as well
     for (const Value::Member& member : document.value().as_object()) {
       if (member.key != key) continue;
       out.tables.as_object().push_back(member);
@@ -111,6 +112,7 @@ DesignedTables take_designed(ObjectReader& document, std::span<const std::string
       else if (auto table = document.table(key))
         table->members();
     }
+  }
   Taker(document, out.numbers).visit(out.tables, {}, {});
   return out;
 }

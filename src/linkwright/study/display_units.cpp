@@ -63,19 +63,26 @@ void DisplayUnits::follow() {
     Dimension other;
     std::string_view with;
   };
-  constexpr std::array<Rule, 9> rules{{
+  constexpr std::array<Rule, 10> rules{{
       {Dimension::length, "mm", Dimension::speed, "mm_per_s"},
       {Dimension::length, "mm", Dimension::acceleration, "mm_per_s2"},
       {Dimension::length, "mm", Dimension::jerk, "mm_per_s3"},
       {Dimension::length, "mm", Dimension::area, "mm2"},
+      {Dimension::length, "mm", Dimension::stiffness, "N_per_mm"},
       {Dimension::length, "cm", Dimension::area, "cm2"},
       {Dimension::angle, "deg", Dimension::speed_angular, "deg_per_s"},
       {Dimension::angle, "deg", Dimension::acceleration_angular, "deg_per_s2"},
       {Dimension::angle, "deg", Dimension::jerk_angular, "deg_per_s3"},
       {Dimension::angle, "deg", Dimension::angle_by_length, "deg_per_m"},
   }};
+  const auto shown_in = [this](Dimension dimension, std::string_view suffix) {
+    return chosen(dimension) && of(dimension).suffix == suffix;
+  };
+  if (shown_in(Dimension::length, "mm") && shown_in(Dimension::angle, "deg") &&
+      !chosen(Dimension::angle_by_length))
+    chosen_[Dimension::angle_by_length] = find_unit(Dimension::angle_by_length, "deg_per_100mm");
   for (const Rule& rule : rules)
-    if (chosen(rule.base) && of(rule.base).suffix == rule.suffix && !chosen(rule.other))
+    if (shown_in(rule.base, rule.suffix) && !chosen(rule.other))
       chosen_[rule.other] = find_unit(rule.other, rule.with);
 }
 
@@ -111,9 +118,8 @@ DisplayUnits units_of(const Value& document) {
   return out;
 }
 
-Table in_units(const Table& table, const DisplayUnits& units) {
-  Table out = table;
-  for (Column& column : out.columns) {
+Table in_units(Table table, const DisplayUnits& units) {
+  for (Column& column : table.columns) {
     const DisplayUnits::Key key = units.key(column.key);
     if (key.from == key.to) continue;
     const std::string was = "(" + readable_unit(key.from->suffix) + ")";
@@ -122,7 +128,7 @@ Table in_units(const Table& table, const DisplayUnits& units) {
     column.key = key.key;
     for (double& value : column.values) value = key.convert(value);
   }
-  return out;
+  return table;
 }
 
 Value in_units(const Value& object, const DisplayUnits& units) {

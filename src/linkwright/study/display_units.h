@@ -19,8 +19,8 @@ class DisplayUnits {
  public:
   /// Chooses the unit of its dimension.
   void choose(const UnitKey& unit) { chosen_[unit.dimension] = unit.unit; }
-  /// Lets speeds and areas go with the chosen lengths, angular speeds with the chosen angles: mm/s with mm,
-  /// deg/s with deg, unless they were chosen themselves.
+  /// Lets speeds, areas and stiffnesses go with the chosen lengths, angular speeds with the chosen angles:
+  /// mm/s and N/mm with mm, deg/s with deg, deg/100mm with both, unless they were chosen themselves.
   void follow();
   bool chosen(Dimension dimension) const { return chosen_.contains(dimension); }
 
@@ -48,7 +48,7 @@ class DisplayUnits {
 DisplayUnits units_of(const Value& document);
 
 /// A table in these units: keys, labels and values.
-Table in_units(const Table& table, const DisplayUnits& units);
+Table in_units(Table table, const DisplayUnits& units);
 /// An object of numbers by key, such as parameters and objectives; what is no number stays.
 Value in_units(const Value& object, const DisplayUnits& units);
 

@@ -21,7 +21,7 @@ double population_bytes(double population, double variables) {
 bool require_memory(ObjectReader& table, std::string_view key, double bytes, std::string_view what,
                     std::string_view mend) {
   const auto problem = memory_problem(bytes, what);
-  if (problem) table.error(key, *problem, fmt::format("{}, {}", mend, memory_hint));
+  if (problem) table.unreadable(key, *problem, fmt::format("{}, {}", mend, memory_hint));
   return !problem;
 }
 

@@ -35,6 +35,11 @@ bool is_bare_word(std::string_view text) {
          text != "true" && text != "false" && text != "nan" && text != "inf";
 }
 
+bool is_study_in_toml(std::string_view text) {
+  Diagnostics problems;
+  return parse_toml(text, problems).find("schema") && problems.empty();
+}
+
 }  // namespace
 
 Syntax syntax_of(const fs::path& file, std::string_view text) {
@@ -64,6 +69,10 @@ Value read_text(std::string_view text, Syntax syntax, const std::string& file, D
   Value root;
   if (problems.empty())
     root = syntax == Syntax::toml ? parse_toml(text, problems) : parse_json(text, problems);
+  if (syntax == Syntax::json && !problems.empty() && is_study_in_toml(text)) {
+    problems.clear();
+    refuse(problems, {}, "the text is TOML, but the name of the file says JSON", "let it end in .toml");
+  }
   if (problems.empty() && root.is_object() && root.as_object().empty())
     refuse(problems, {}, "the file has no keys, only comments or brackets",
            "write a first study with `linkwright new`");

@@ -52,6 +52,8 @@ struct Plot {
   /// map: y lists two columns, the second coordinate and a value; each row is a place (x, y) of a regular
   /// grid that is coloured by its value. Axes are equal; a group column gives one map for each of its values,
   /// all with one scale of colours.
+  ///
+  /// histogram: counts of the values of y; a group column gives one outline for each of its values.
   enum class Style { line, points, histogram, polar, map };
   std::string name;   ///< "transmission"
   std::string title;  ///< "Transmission angle over the turn"
@@ -64,6 +66,8 @@ struct Plot {
   /// Column whose values, few and repeated, split the rows into one curve each: the rack of a travel-rack
   /// grid; empty = one curve of all rows.
   std::string group = {};
+  /// What the values 1, 2, ... of the group column are called; empty = by their numbers.
+  std::vector<std::string> group_names = {};
   /// A region to stay in: two columns of the table, its lower and its upper edge (NaN = none there).
   struct Band {
     std::string lower, upper;
@@ -114,6 +118,9 @@ struct Solution {
   Value classification;  ///< object: type, branch, sense, transmission angle, ...
   Value defects;         ///< array of texts; empty = none
   std::string scene;     ///< name of its scene; empty = none
+  /// A study of this design to go on with, as study/design.h completes it. The domain gives the tables, in
+  /// any units: the mechanism with the found numbers and what an analysis of it needs. null = there is none.
+  Value study;
 };
 
 /// Something that stands in the way of an answer: a limit that is exceeded, a place that cannot be reached.

@@ -31,6 +31,8 @@ struct Scene {
     std::string name;         ///< "crank"
     std::vector<int> points;  ///< indices of points; a plate is the polygon of them
     BodyStyle style = BodyStyle::bar;
+    int run =
+        0;  ///< index in `runs`; those behind the first are ghosts: thin dashed lines in the run's colour
   };
   enum class JointStyle { ground_pivot, pivot, tracer };
   struct Joint {
@@ -42,6 +44,7 @@ struct Scene {
     int point = 0;
     std::string name;
     bool closed = false;
+    int run = 0;  ///< like that of a body
   };
   /// Points that were to be reached, and where the mechanism comes instead; error whiskers join the two.
   struct Target {
@@ -89,6 +92,30 @@ struct Scene {
     std::string symbol = {};
   };
 
+  /// Where the coordinates of a body lie: one entry a sample, or a single entry for one that stands.
+  struct Frame {
+    std::vector<double> x, y, angle;  ///< of its origin; rad, counter-clockwise
+  };
+  /// A number, or a list of coordinates, of the study that a drawn point or target shows. With these numbers
+  /// measured anew at a place, the mechanism is at the same input where it was, but for that point.
+  struct Handle {
+    enum class Measure {
+      place,   ///< the coordinates of the point in the frame (m), a list
+      x,       ///< one of them
+      y,       ///< the other
+      length,  ///< distance of the point from another one (m)
+      angle    ///< direction to the point from another one, up to a constant (rad)
+    };
+    std::string key;  ///< "mechanism.body[1].points_m.A"
+    Measure measure = Measure::place;
+    int frame = -1;     ///< index of the frame in which the coordinates are; -1 = that of the drawing
+    int point = -1;     ///< index of the point, or
+    int target = -1;    ///< ... of the target
+    int index = 0;      ///< and of the point in it
+    int from = -1;      ///< index of the other point of a length or an angle; -1 = the origin
+    bool held = false;  ///< of a length: its direction is that of the input, or given otherwise
+  };
+
   std::string name;           ///< identifies it: "solution-1"
   std::string title;          ///< what is to be seen: "2: double rocker"; empty = what the study is called
   std::string input_key;      ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
@@ -100,6 +127,9 @@ struct Scene {
   std::string second_label;
   std::vector<double> second;
   std::vector<std::string> status;  ///< one a sample; empty = done where all points have a place
+  /// Names of the mechanisms that are drawn over each other, as curves of diagrams are coloured: the first is
+  /// the mechanism itself, the others are its ghosts. Empty = it is alone.
+  std::vector<std::string> runs;
   std::vector<Point> points;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -108,6 +138,8 @@ struct Scene {
   std::vector<Circle> circles;
   std::vector<Disc> discs;
   std::vector<Vector> vectors;
+  std::vector<Frame> frames;
+  std::vector<Handle> handles;
   std::vector<Moment> moments;
 
   std::size_t samples() const { return input.size() * (second.empty() ? 1 : second.size()); }
@@ -116,6 +148,14 @@ struct Scene {
   }
 };
 
+constexpr std::array<EnumName<Scene::Handle::Measure>, 5> names(Scene::Handle::Measure) {
+  using Measure = Scene::Handle::Measure;
+  return {{{Measure::place, "place"},
+           {Measure::x, "x"},
+           {Measure::y, "y"},
+           {Measure::length, "length"},
+           {Measure::angle, "angle"}}};
+}
 constexpr std::array<EnumName<Scene::BodyStyle>, 8> names(Scene::BodyStyle) {
   using Style = Scene::BodyStyle;
   return {{{Style::ground, "ground"},

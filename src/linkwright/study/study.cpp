@@ -12,8 +12,10 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/design.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/renamed.h"
+#include "linkwright/study/result_units.h"
 #include "linkwright/study/trade_words.h"
 
 namespace linkwright::study {
@@ -254,6 +256,8 @@ Result run_study(const Study& study, RunContext& context) {
   for (Scene& scene : result.scenes)
     if (scene.title.empty()) scene.title = title_of(study);
   for (Table& table : result.tables) make_unique(table, result.diagnostics);
+  if (!result.solutions.empty())
+    complete_designs(result, title_of(study), shown_units({}, study.common.units));
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
   return result;
 }
@@ -319,6 +323,12 @@ Value schema_of(std::span<const Kind> kinds) {
 
 std::string name_of(const Kind& kind) {
   return kind.kind + "/" + kind.mechanism + (kind.target.empty() ? "" : "/" + kind.target);
+}
+
+std::string schema_file(std::string_view kind) {
+  std::string out(kind);
+  std::replace(out.begin(), out.end(), '/', '-');
+  return out + ".schema.json";
 }
 
 }  // namespace linkwright::study

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/value.h"
@@ -35,7 +36,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
 std::string title_of(const Study& study);
 
 /// Runs a study and compares the result with its checks. A cancelled run or one out of time keeps its checks
-/// too. Scenes without a title get that of the study.
+/// too. Scenes without a title get that of the study, and the studies of its solutions are completed.
 Result run_study(const Study& study, RunContext& context);
 
 /// JSON Schema (2020-12) of the studies of one kind.
@@ -45,5 +46,8 @@ Value schema_of(std::span<const Kind> kinds);
 
 /// What a kind is called on the command line: "synthesis/planar.four_bar/path_points".
 std::string name_of(const Kind& kind);
+/// The file in which editors find the schema of the kind of that name, beside its studies:
+/// "synthesis-planar.four_bar-path_points.schema.json".
+std::string schema_file(std::string_view kind);
 
 }  // namespace linkwright::study

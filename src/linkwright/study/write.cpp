@@ -100,13 +100,13 @@ class TomlWriter {
  public:
   void table(const Value::Object& members, const std::string& path) {
     for (const Value::Member& member : members) {
-      if (member.value.is_null() || is_section(member.value)) continue;
+      if (member.value.is_null() || is_section(member.value, path)) continue;
       out += key(member.key) + " = ";
       inline_value(member.value);
       out += '\n';
     }
     for (const Value::Member& member : members) {
-      if (!is_section(member.value)) continue;
+      if (!is_section(member.value, path)) continue;
       const std::string name = path.empty() ? key(member.key) : path + "." + key(member.key);
       if (member.value.is_object()) {
         section("[" + name + "]", member.value, name);
@@ -140,8 +140,9 @@ class TomlWriter {
            });
   }
 
-  static bool is_section(const Value& value) {
-    if (value.is_object()) return !is_inline_table(value);
+  /// Of the document itself every table that is not empty.
+  static bool is_section(const Value& value, const std::string& path) {
+    if (value.is_object()) return path.empty() ? !value.as_object().empty() : !is_inline_table(value);
     if (!value.is_array()) return false;
     const Value::Array& array = value.as_array();
     return !array.empty() &&

@@ -14,8 +14,8 @@ std::string to_json_readable(
 
 /// TOML text of a table, as people would write it: plain values before tables, tables as [a.b], arrays of
 /// tables as
-/// [[a]], small tables of plain values inline. TOML has no null: such members are left out. Throws
-/// ContractError when the value is no table.
+/// [[a]], small tables of plain values within others inline. TOML has no null: such members are left out.
+/// Throws ContractError when the value is no table.
 std::string to_toml(const Value& value);
 
 }  // namespace linkwright::study

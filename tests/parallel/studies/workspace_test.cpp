@@ -58,7 +58,7 @@ TEST(WorkspaceStudy, TellsWhatCanBePromised) {
       run_text(delta + box + "boundary = 36\n[workspace.inscribed]\naxis_mm = [0, 0]\nheight_mm = 200\n");
   EXPECT_THAT(test::fact(result, "joined to home without a singularity"),
               HasSubstr(" of 5530 nodes, 4 aspects"));
-  EXPECT_THAT(test::fact(result, "largest cylinder"), HasSubstr("height 200 mm at 0, 0, "));
+  EXPECT_THAT(test::fact(result, "largest cylinder"), HasSubstr("height 200 mm, at 0, 0, "));
   // Every ray of every slice ends where a pose no longer passes.
   const Table& boundary = test::table(result, "workspace_boundary");
   ASSERT_GE(boundary.rows(), 100u);

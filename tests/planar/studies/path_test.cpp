@@ -120,7 +120,10 @@ TEST(PathStudyRead, ReadsPointsFromCsvInAnyLengthUnit) {
   EXPECT_EQ(study->canonical.find("target")->find("points_m")->as_array()[2].as_array()[1].as_number(), 0.05);
   EXPECT_EQ(study->canonical.find("target")->find("points_file"), nullptr);
   EXPECT_FALSE(prepare(target("points_file = \"bad.csv\"\n"), messages, folder));
-  EXPECT_THAT(messages, HasSubstr("has no column y_m"));
+  EXPECT_THAT(
+      messages,
+      HasSubstr("'bad.csv' has the columns x_mm, z_mm, but needs x, y, each with a unit of length; name them "
+                "x_mm,y_mm; a heading like X [mm] will do, too"));
   std::filesystem::remove_all(folder);
 }
 
@@ -305,7 +308,10 @@ TEST(PathStudyRead, ReadsGatesAndTolerancesFromCsv) {
   EXPECT_THAT(
       read("points_file = \"bands.csv\"\ntolerance_mm = 1\n").second,
       HasSubstr("target.tolerance_mm: the points file also has tolerances; keep the key or the column"));
-  EXPECT_THAT(read("points_file = \"half.csv\"\n").second, HasSubstr("'half.csv' has no column to_y_m"));
+  EXPECT_THAT(read("points_file = \"half.csv\"\n").second,
+              HasSubstr("'half.csv' has the columns from_x_mm, from_y_mm, to_x_mm, but needs from_x, from_y, "
+                        "to_x, to_y, each with "
+                        "a unit of length; name them from_x_mm,from_y_mm,to_x_mm,to_y_mm"));
   EXPECT_THAT(read("points_file = \"both.csv\"\n").second, HasSubstr("'both.csv' has both points and gates"));
   EXPECT_THAT(read("points_file = \"negative.csv\"\n").second,
               HasSubstr("the tolerance of point 2 is negative"));

@@ -355,6 +355,9 @@ Table design_points(const ClearanceDesignStudy& study, const DesignMeasures& des
 Table design_turn(const ClearanceDesignStudy& study, const DesignMeasures& design, std::string name);
 /// All that a simulation of the design asks for: "linkage-points", "linkage-masses", "linkage-start".
 std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& study, const DesignMeasures& design);
+/// The tables of a study of the design: a simulation of its turn, pin and bush touching always; of lengths
+/// alone an analysis of what the clearance does to the path. There must be rows.
+Value design_study(const ClearanceDesignStudy& study, const DesignMeasures& design);
 /// The design in motion over its turn, the clearance drawn enlarged.
 study::Scene design_scene(const ClearanceDesignStudy& study, const DesignMeasures& design);
 

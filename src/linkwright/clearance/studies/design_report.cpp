@@ -207,6 +207,7 @@ class DesignReporter {
       out.defects.push_back(fmt::format("violates {} by {:.3g}", v.reason, v.amount));
     if (s_.has_masses() && lost(d_)) out.defects.push_back("contact is lost");
     out.scene = "motion";
+    if (!d_.rows.empty()) out.study = design_study(s_, d_);
     result_.solutions.push_back(std::move(out));
   }
 
@@ -301,7 +302,7 @@ class DesignReporter {
 
   std::string contact_text(const DesignMeasures& d) const {
     if (!lost(d))
-      return fmt::format("kept: minimum tension {:.4g} N at a crank angle of {:.1f}°", d.run.least_tension,
+      return fmt::format("kept: minimum tension {:.4g} N, at a crank angle of {:.1f}°", d.run.least_tension,
                          wrapped_degrees(d.least_at));
     return fmt::format(
         "lost at a crank angle of {:.1f}°; without contact {:.3g} % of the turn, minimum tension "

@@ -1,13 +1,18 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/studies/linkage.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -142,6 +147,61 @@ std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& s, const De
   start.add("start_rate_rad_per_s", "its speed (rad/s)", {first.link.rate});
   start.add("turn_s", "time of a turn (s)", {full_turn / std::abs(s.mass.crank.speed)});
   return {std::move(points), std::move(bodies), std::move(start)};
+}
+
+Value design_study(const ClearanceDesignStudy& s, const DesignMeasures& d) {
+  ClearanceStudy drawn = as_linkage(d);
+  planar::Linkage& l = drawn.linkage;
+  if (!s.has_masses())
+    for (planar::LinkageBody& body : l.bodies) body.mass.reset();
+  const auto damp = [&](const char* name, int body, double damping) {
+    if (damping > 0) l.torsion_springs.push_back({.name = name, .second = body, .damping = damping});
+  };
+  damp("coupler damping", 2, d.model.coupler_damping);
+  damp("rocker damping", 3, d.model.rocker_damping);
+  Value out;
+  out["kind"] = s.has_masses() ? "simulation" : "analysis";
+  planar::write_linkage({.linkage = l, .traces = drawn.traces}, out);
+  Value& mechanism = out["mechanism"];
+  mechanism.as_object().insert(mechanism.as_object().begin(), {"type", "clearance.linkage"});
+  // What is usual of a linkage of pins goes without saying.
+  const auto keep = [](Value& table, std::span<const std::string_view> keys) {
+    std::erase_if(table.as_object(), [&](const Value::Member& m) {
+      return std::find(keys.begin(), keys.end(), m.key) == keys.end();
+    });
+  };
+  constexpr std::array<std::string_view, 5> said{"type", "body", "joint", "assembly", "torsion_spring"};
+  constexpr std::array<std::string_view, 3> of_pin{"name", "first", "second"};
+  keep(mechanism, said);
+  for (Value& joint : mechanism["joint"].as_array()) keep(joint, of_pin);
+  const double start = d.rows.front().crank;
+  Value drive, pin;
+  drive["joint"] = "O2";
+  pin["joint"] = "A";
+  pin["clearance_m"] = d.model.clearance;
+  if (!s.has_masses()) {
+    // How far the pin may take the tracing point, with the pin anywhere in its bush.
+    Value turn;
+    turn["joint"] = "O2";
+    turn["from_rad"] = start;
+    turn["to_rad"] = d.rows.back().crank;
+    turn["samples"] = static_cast<std::int64_t>(d.rows.size());
+    out["sweep"]["type"] = "grid";
+    out["sweep"]["input"].push_back(std::move(turn));
+  } else {
+    drive["law"] = "constant_speed";
+    drive["from_rad"] = start;
+    drive["speed_rad_per_s"] = s.mass.crank.speed;
+    pin["model"] = "continuous";
+    pin["start_angle_rad"] = d.rows.front().link.angle;
+    pin["start_rate_rad_per_s"] = d.rows.front().link.rate;
+    pin[si_key("damping", Dimension::damping_angular)] = d.model.link_damping;
+    out["simulation"]["to_s"] = full_turn / std::abs(s.mass.crank.speed);
+    out["simulation"]["samples"] = s.samples;
+  }
+  out["drive"].push_back(std::move(drive));
+  out["clearance"].push_back(std::move(pin));
+  return out;
 }
 
 study::Scene design_scene(const ClearanceDesignStudy& s, const DesignMeasures& d) {

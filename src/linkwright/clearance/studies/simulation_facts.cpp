@@ -36,8 +36,8 @@ class Facts {
     else
       continuous_facts();
     if (errors_.path.any())
-      fact("path error", fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point,
-                                     1e3 * errors_.path.value,
+      fact("path error", fmt::format("at most {:.4g} mm from the ideal path ({}{})", 1e3 * errors_.path.value,
+                                     errors_.point,
                                      errors_.place.any() ? fmt::format(", {:.4g} mm from its ideal place",
                                                                        1e3 * errors_.place.value)
                                                          : ""));

@@ -119,7 +119,9 @@ bool ClearanceRows::add(const JointClearanceRow& c) {
     const planar::LinkageJoint& joint = s_.linkage.joints[at(s_.joint_of(k))];
     // The link points from the first body to the second, the eccentricity from the bush to the pin.
     const bool pin_first = s_.pin_side(k) == PinSide::first;
-    const std::complex<double> e = std::polar(pin_first ? -clearances_[k] : clearances_[k], state.angle);
+    // std::polar has no value for negative lengths.
+    const std::complex<double> e =
+        (pin_first ? -clearances_[k] : clearances_[k]) * std::polar(1.0, state.angle);
     // The pin of the bar at its carrier has the number of the joint.
     const bool by_first = cleared_->bars[k].carrier == joint.first.body;
     const Vec<double> f = forces_.joints[at(s_.joint_of(k))].force;

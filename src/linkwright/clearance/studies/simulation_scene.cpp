@@ -26,6 +26,8 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
   for (std::size_t k = 0; k < s.pins(); ++k) largest = std::max(largest, s.clearance_of(k));
   const double scale = study::drawn_scale(largest, 0.05 * s.plan.size);
   scene.title = fmt::format("clearance drawn {:g} x", scale);
+  // Pins are drawn further from their bushes than they are: these places are no numbers of the study.
+  scene.handles.clear();
 
   const auto point = [&](const planar::BodyPoint& p) {
     int out = p.point;

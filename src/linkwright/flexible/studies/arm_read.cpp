@@ -62,6 +62,7 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
   for (const ArmLinkForm& link : arm.links) known.emplace_back(link.name);
   std::vector<std::optional<DriveLaw>> laws(known.size());
   bool complete = true;
+  bool all_known = true;  // else the link that lacks a drive is the one whose name is misspelt
   for (std::size_t i = 0; i < drives.size() && i < tables.size(); ++i) {
     const ArmDriveForm& drive = drives[i];
     const auto at = std::find(known.begin(), known.end(), drive.link);
@@ -70,6 +71,7 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
       tables[i].error(
           "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
           did_you_mean(drive.link, known));
+      all_known = false;
       continue;
     }
     const auto k = static_cast<std::size_t>(at - known.begin());
@@ -82,7 +84,7 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
     laws[k] = drive.law;
     complete = check_drive(tables[i], drive.law) && complete;
   }
-  if (!laws.empty() && !laws[0] && document.has("drive"))
+  if (!laws.empty() && !laws[0] && all_known && document.has("drive"))
     document.error(
         "drive", fmt::format("nothing turns the hub with link '{}'", known[0]),
         fmt::format("add [[drive]] with link = \"{}\" and a law, or law = \"none\" to let it swing",

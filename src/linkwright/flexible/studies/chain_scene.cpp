@@ -85,6 +85,13 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
       scene.bodies.push_back({names[i], {int(1 + k), int(2 + k)}, Scene::BodyStyle::bar});
     const int root = first_rigid + static_cast<int>(i);
     scene.bodies.push_back({names[i] + ", rigid", {root, root + 1}, Scene::BodyStyle::axis});
+    for (const std::string& key :
+         {fmt::format("mechanism.link[{}].length_m", i), std::string("mechanism.length_m")})
+      scene.handles.push_back({.key = key,
+                               .measure = Scene::Handle::Measure::length,
+                               .point = root + 1,
+                               .from = root,
+                               .held = true});
     if (link.hinge)
       scene.joints.push_back({"hinge of " + names[i], int(1 + link.root), Scene::JointStyle::pivot});
   }

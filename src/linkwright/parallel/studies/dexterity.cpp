@@ -191,6 +191,83 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
   study::write_statistics(result.statistics, st, larger_is_better(s.task.goal) ? -1 : 1);
 }
 
+/// A place of the whole region by shares of its coordinates, in base axes (m).
+Vec3 place_in(const PrescribedRegion& region, const Vec3& origin, const std::array<double, 3>& part) {
+  PrescribedRegion whole = region;
+  whole.symmetric = false;
+  std::array<double, 3> at{};
+  for (int k = 0; k < coordinates(whole.shape); ++k) {
+    const CoordinateRange r = coordinate_range(whole, k);
+    const auto i = static_cast<std::size_t>(k);
+    at[i] = r.lower + (r.upper - r.lower) * part[i];
+  }
+  return origin + place(whole, at);
+}
+
+/// The middle of the region: polar coordinates begin there.
+Vec3 middle(const PrescribedRegion& region, const Vec3& origin) {
+  const bool polar = region.shape == RegionShape::cylinder || region.shape == RegionShape::circle;
+  return place_in(region, origin, {polar ? 0 : 0.5, polar ? 0 : 0.5, 0.5});
+}
+
+Value mechanism_of(const DexterityStudy& s, const DexterityDesign& best) {
+  Value out;
+  const auto take = [&](const auto& form) {
+    out["type"] = fmt::format("parallel.{}", name_of(s.task.family));
+    Value written = study::write_fields(form);
+    for (Value::Member& member : written.as_object()) out[member.key] = std::move(member.value);
+  };
+  const std::vector<double>& of = best.x;  // dimensions of the family come first
+  switch (s.task.family) {
+    case RobotFamily::delta:
+      // Only the difference of the radii matters: all of it is at the base.
+      take(DeltaForm{.base_radius = of[0], .platform_radius = 0, .arm = of[1], .rod = of[2], .legs = {}});
+      break;
+    case RobotFamily::hexa:
+      take(HexaForm{{.base_radius = of[0],
+                     .base_offset = of[1],
+                     .platform_radius = of[2],
+                     .platform_angle = of[3],
+                     .arm = of[4],
+                     .rod = of[5]}});
+      break;
+    case RobotFamily::five_bar:
+      take(PlanarForm{{{.base = {-of[0], 0}, .arm = of[1], .rod = of[2], .platform = {}},
+                       {.base = {of[0], 0}, .arm = of[1], .rod = of[2], .platform = {}}}});
+      break;
+  }
+  out["working_mode"] = Value::array();
+  for (int i = 0; i < best.robot.legs(); ++i) {
+    out["working_mode"].push_back(static_cast<std::int64_t>(s.task.mode[i]));
+    if (!s.task.pi_joint) continue;
+    const Drive& d = best.drives[static_cast<std::size_t>(i)];
+    Value drive;
+    drive["type"] = name_of(d.type);
+    drive["ratio"] = d.ratio;
+    drive["mounting_rad"] = d.mounting;
+    drive["mirrored"] = d.mirror < 0;
+    out["drive"].push_back(std::move(drive));
+  }
+  return out;
+}
+
+/// The robot at home in the middle of the region, with that pose and the worst one; null when it does not
+/// reach them.
+Value study_of(const DexterityStudy& s, const DexterityDesign& best) {
+  const Vec3 centre = middle(s.task.region, best.origin);
+  Value out;
+  out["mechanism"] = mechanism_of(s, best);
+  out["home"]["position_m"] = Value(std::vector<double>{centre.x, centre.y, centre.z});
+  for (const auto& [name, at] : {std::pair{"middle of the region", centre}, {"worst", best.worst_place}}) {
+    if (inverse(best.robot, Pose{at}, s.task.mode).status != Status::done) return {};
+    Value pose;
+    pose["name"] = name;
+    pose["position_m"] = Value(std::vector<double>{at.x, at.y, at.z});
+    out["pose"].push_back(std::move(pose));
+  }
+  return out;
+}
+
 study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
   study::Solution out{.label = std::string(name_of(s.task.family))};
   const auto variables = design_variables(s.task);
@@ -206,28 +283,21 @@ study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
   out.defects = Value::array();
   if (!a.best.reason.empty()) out.defects.push_back(Value(a.best.reason));
   out.scene = "region";
+  out.study = study_of(s, a.best);
   return out;
 }
 
 /// The robot with its tool going round the rim of the region.
 study::Scene scene_of(const DexterityStudy& s, const DexterityDesign& best) {
   std::vector<Vec3> way;
-  PrescribedRegion whole = s.task.region;
-  whole.symmetric = false;
   const auto corner = [&](double first, double second, double third) {
-    std::array<double, 3> at{};
-    const std::array<double, 3> part{first, second, third};
-    for (int k = 0; k < coordinates(whole.shape); ++k) {
-      const CoordinateRange r = coordinate_range(whole, k);
-      at[static_cast<std::size_t>(k)] = r.lower + (r.upper - r.lower) * part[static_cast<std::size_t>(k)];
-    }
-    return best.origin + place(whole, at);
+    return place_in(s.task.region, best.origin, {first, second, third});
   };
   constexpr int steps = 60;
   for (const double depth : {0.0, 1.0})
     for (int i = 0; i <= steps; ++i) {
       const double t = static_cast<double>(i) / steps;
-      switch (whole.shape) {
+      switch (s.task.region.shape) {
         case RegionShape::cylinder:
           way.push_back(corner(1, t, depth));
           break;

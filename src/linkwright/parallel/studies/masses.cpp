@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <string_view>
+
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -13,8 +16,9 @@ std::optional<RobotMasses> read_masses(study::ObjectReader& document, const Robo
   MassesForm form;
   table->read(form);
   if (document.document().has_errors()) return std::nullopt;
+  constexpr std::array<std::string_view, 3> of_arms = {"arm_inertia", "arm_mass", "arm_centre"};
   if (form.pi) {
-    for (const char* key : {"arm_inertia", "arm_mass", "arm_centre"})
+    for (const std::string_view key : of_arms)
       if (table->has(key)) {
         table->error(key, "is given for plain arms together with the masses of the Pi-joints",
                      "keep [masses.pi_joint], or the arm's masses");
@@ -32,7 +36,7 @@ std::optional<RobotMasses> read_masses(study::ObjectReader& document, const Robo
     table->error("", *wrong);
     return std::nullopt;
   }
-  canonical["masses"] = study::write_fields(form);
+  canonical["masses"] = form.pi ? without(study::write_fields(form), of_arms) : study::write_fields(form);
   return out;
 }
 

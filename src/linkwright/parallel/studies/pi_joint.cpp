@@ -51,6 +51,11 @@ study::Scene scene_of(const PiJoint& joint, std::span<const double> angles) {
                   {"C", 2, Joint::pivot},
                   {"A", 3, Joint::pivot}};
   scene.traces = {{3, "path of the coupler", false}};
+  scene.handles = {{.key = "mechanism.arm_m",
+                    .measure = study::Scene::Handle::Measure::length,
+                    .point = 2,
+                    .from = 0,
+                    .held = true}};
   return scene;
 }
 
@@ -320,6 +325,12 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   solution.scene = "travel";
   if (report.status != Status::done)
     solution.defects = Value::Array{Value(std::string(to_string(report.status)))};
+  Value& found = solution.study["mechanism"];
+  found["type"] = "parallel.pi_joint";
+  found["arm_m"] = best.joint.arm;
+  found["ratio"] = best.joint.ratio;
+  solution.study["sweep"] = study::write_fields(PiSweepForm{std::max(best.centre - r.half_travel, -right),
+                                                            std::min(best.centre + r.half_travel, right)});
   result.solutions.push_back(std::move(solution));
 
   Table limits{.name = "requirements"};

@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -239,7 +243,16 @@ std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism
   }
   const DriveRead usual = out.empty() ? DriveRead{} : out.front();
   out.resize(wanted, usual);
-  if (!forms.empty()) canonical["drive"] = study::ObjectWriter::to_value(forms);
+  constexpr std::array<std::string_view, 3> of_pi_joints = {"ratio", "mounting", "mirrored"};
+  Value::Array written;
+  for (const DriveForm& form : forms)
+    written.push_back(form.type == DriveType::pi_joint ? study::write_fields(form)
+                                                       : without(study::write_fields(form), of_pi_joints));
+  // One for all stays one for all.
+  if (forms.size() == wanted)
+    canonical["drive"] = Value(std::move(written));
+  else if (!forms.empty())
+    canonical["drive"] = std::move(written.front());
   return out;
 }
 
@@ -248,6 +261,21 @@ void describe_drives(study::SchemaWriter& mechanism) {
       Field{.key = "drive", .summary = "what turns the arms: one for all, or one for each arm"},
       study::schema_any_of(
           {study::schema_fields<DriveForm>(), study::schema_array(study::schema_fields<DriveForm>())}));
+}
+
+Value without(Value table, std::span<const std::string_view> bases) {
+  std::erase_if(table.as_object(), [&](const Value::Member& member) {
+    const auto parts = split_unit(member.key);
+    return std::any_of(bases.begin(), bases.end(), [&](std::string_view base) {
+      return member.key == base || (parts && parts->base == base);
+    });
+  });
+  return table;
+}
+
+Value home_written(const PoseForm& form, bool turns) {
+  constexpr std::array<std::string_view, 1> rotation = {"rotation"};
+  return turns ? study::write_fields(form) : without(study::write_fields(form), rotation);
 }
 
 Pose pose_of(const PoseForm& form) { return {vec(form.position), math::turn_about(vec(form.rotation))}; }
@@ -281,6 +309,9 @@ std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::s
                      *wrong, "lengths must be above 0");
     return std::nullopt;
   }
+  // The four lengths of a DELTA stand for its legs.
+  constexpr std::array<std::string_view, 1> leg = {"leg"};
+  if (!mechanism->has("leg")) written = without(std::move(written), leg);
   const auto mode = read_mode(*mechanism, out.robot);
   const auto drives = read_drives(*mechanism, out.robot.legs(), "legs", written);
   if (!mode || !drives) return std::nullopt;

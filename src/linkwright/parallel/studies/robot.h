@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -241,6 +242,11 @@ void fields(Visitor&& visit, PoseForm& p) {
   visit(robot_fields::place("position", "of the platform point", true), p.position);
   visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
 }
+/// As it is read back: without a rotation where the tool does not turn.
+Value home_written(const PoseForm& form, bool turns);
+/// A table of a canonical study without keys that it may not have, given without their units: a field that
+/// has a value in the form is not one that the study may give.
+Value without(Value table, std::span<const std::string_view> bases);
 Pose pose_of(const PoseForm& form);
 
 /// `[mechanism]` read: the robot, its drives, and what these can do.

@@ -90,7 +90,7 @@ std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescript
                    "take a place from which it can be led");
       return std::nullopt;
     }
-    canonical["home"] = study::write_fields(form);
+    canonical["home"] = home_written(form, d.tool_turns());
     return pose_of(form);
   }
   if (document.has("motion")) {
@@ -103,7 +103,7 @@ std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescript
     form.rotation = p.rotation.value_or(Coordinates{});
     if (inverse(d.robot, pose_of(form), d.mode).status != Status::done) continue;
     if (!singular_home(d, pose_of(form)).empty()) continue;
-    canonical["home"] = study::write_fields(form);
+    canonical["home"] = home_written(form, d.tool_turns());
     return pose_of(form);
   }
   const auto usual = usual_home(d.robot, d.mode);

@@ -71,6 +71,7 @@ class RobotDrawing {
     base.push_back(pivot);
     scene_.joints.push_back({named("pivot"), pivot, Scene::JointStyle::ground_pivot});
     bar(named("arm"), pivot, end);
+    int joint = -1;
     const auto at_joint = [this, i](const RobotSample& s) { return platform_joint(robot_, i, s.pose); };
     if (robot_.freedom == Freedom::space_translation) {
       const Vec3 half = twin_rods_by_arm * leg.arm * cross(leg.ahead, leg.aside);
@@ -83,14 +84,34 @@ class RobotDrawing {
         platform.push_back(to[k]);
       }
       bar(named("elbow bar"), from[0], from[1]);
+      joint = point("", at_joint);
     } else {
-      const int joint = point(named("platform joint"), at_joint);
+      joint = point(named("platform joint"), at_joint);
       bar(named("rod"), end, joint);
       platform.push_back(joint);
       scene_.joints.push_back({"", joint, Scene::JointStyle::pivot});
     }
     scene_.joints.push_back({"", end, Scene::JointStyle::pivot});
     if (drives_[i].type == DriveType::pi_joint) parallelogram(i, pivot, end);
+    handles(i, pivot, end, joint);
+  }
+
+  // Of one leg by its own numbers, or by those that all legs share. The rod is told at the elbow: where the
+  // platform is, the study says otherwise.
+  void handles(int i, int pivot, int end, int joint) {
+    using Measure = Scene::Handle::Measure;
+    const bool planar = robot_.freedom == Freedom::plane_translation;
+    const std::string leg = fmt::format("mechanism.leg[{}].", i);
+    for (const std::string& of : {leg, std::string("mechanism.")}) {
+      scene_.handles.push_back(
+          {.key = of + "arm_m", .measure = Measure::length, .point = end, .from = pivot, .held = !planar});
+      scene_.handles.push_back(
+          {.key = of + "rod_m", .measure = Measure::length, .point = end, .from = joint});
+    }
+    scene_.handles.push_back({.key = leg + "base_m", .point = pivot});
+    if (robot_.freedom == Freedom::space_translation)
+      scene_.handles.push_back(
+          {.key = "mechanism.base_radius_m", .measure = Measure::length, .point = pivot, .held = true});
   }
 
   /// Of a Pi-joint: the second pivot stands in the direction of theta = 90 deg.

@@ -139,6 +139,8 @@ std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const 
   }
   if (!form.gravity) form.gravity = Coordinates{0, -standard_gravity, 0};
   SerialArmMasses out{.payload = form.payload, .gravity = {(*form.gravity)[0], (*form.gravity)[1]}};
+  constexpr std::array<std::string_view, 4> of_arms = {"arm_inertia", "arm_mass", "arm_centre",
+                                                       "coupler_mass"};
   const auto joints = table->tables("joint");
   for (std::size_t k = 0; k < 2; ++k) {
     study::ObjectReader joint = joints[k];
@@ -146,7 +148,7 @@ std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const 
     out.joint[k].pi = form.joints[k].pi;
     if (!out.joint[k].pi) continue;
     out.joint[k].pi->lead = d.motors[k].screw.lead;
-    for (const char* key : {"arm_inertia", "arm_mass", "arm_centre", "coupler_mass"})
+    for (const std::string_view key : of_arms)
       if (joint.has(key)) {
         joint.error(key, "is given for plain arms together with the masses of the Pi-joint",
                     "keep [masses.joint.pi_joint], or the masses of arms and coupler");
@@ -157,7 +159,13 @@ std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const 
     table->error("", *wrong);
     return std::nullopt;
   }
-  canonical["masses"] = study::write_fields(form);
+  Value written = study::write_fields(form);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (form.joints[k].pi) {
+      Value& joint = written["joint"].as_array()[k];
+      joint = without(std::move(joint), of_arms);
+    }
+  canonical["masses"] = std::move(written);
   return out;
 }
 
@@ -182,7 +190,7 @@ std::optional<Pose> read_home(study::ObjectReader& document, const SerialDescrip
     table->error("position", fmt::format("the arm does not reach its home: {}", reason(angles)));
     return std::nullopt;
   }
-  canonical["home"] = study::write_fields(form);
+  canonical["home"] = home_written(form, false);
   return pose_of(form);
 }
 

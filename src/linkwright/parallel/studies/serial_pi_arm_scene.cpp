@@ -37,6 +37,7 @@ class ArmDrawing {
     scene_.joints.push_back({"tool point", tool, Scene::JointStyle::tracer});
     scene_.traces.push_back({tool, "path of the tool point", false});
     velocity(tool);
+    scene_.handles.push_back({.key = "mechanism.base_m", .point = first});
   }
 
  private:
@@ -83,6 +84,11 @@ class ArmDrawing {
         point(named("end of the screw"), [this, k](const SerialSample& s) { return sum(end(k, s), up(k)); });
     bar("base link", pivot, second);
     bar("arm", pivot, elbow);
+    scene_.handles.push_back({.key = fmt::format("mechanism.arms_m[{}]", k),
+                              .measure = Scene::Handle::Measure::length,
+                              .point = elbow,
+                              .from = pivot,
+                              .held = true});
     bar("second arm", second, corner);
     if (arm_.drive[k].type == DriveType::pi_joint) bar("screw", pivot, corner, Scene::BodyStyle::damper);
     return {elbow, corner};

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
@@ -130,10 +132,10 @@ std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar
   const auto mm = [](double metres) { return fmt::format("{:g}", std::round(1e5 * metres) / 100 + 0.0); };
   const std::string at = fmt::format("at {}, {}{} mm", mm(body.centre.x), mm(body.centre.y),
                                      planar ? "" : fmt::format(", {}", mm(body.centre.z)));
-  if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm {}", mm(2 * body.half.x), at);
+  if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm, {}", mm(2 * body.half.x), at);
   if (f.shape == InscribedShape::cylinder)
-    return fmt::format("diameter {} mm, height {} mm {}", mm(2 * body.half.x), mm(2 * body.half.z), at);
-  return fmt::format("{} x {}{} mm {}", mm(2 * body.half.x), mm(2 * body.half.y),
+    return fmt::format("diameter {} mm, height {} mm, {}", mm(2 * body.half.x), mm(2 * body.half.z), at);
+  return fmt::format("{} x {}{} mm, {}", mm(2 * body.half.x), mm(2 * body.half.y),
                      planar ? "" : fmt::format(" x {}", mm(2 * body.half.z)), at);
 }
 
@@ -217,7 +219,9 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
         return std::nullopt;
       }
   }
-  canonical["workspace"] = study::write_fields(form);
+  constexpr std::array<std::string_view, 1> rotation = {"rotation"};
+  canonical["workspace"] =
+      d.tool_turns() ? study::write_fields(form) : without(study::write_fields(form), rotation);
   return out;
 }
 

@@ -124,7 +124,7 @@ WorkspaceAspects workspace_aspects(const WorkspaceMap& map, const NodeSet& set,
 
   std::vector<std::size_t> parent(map.count());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto reach = [&](std::size_t w) {
+  const auto reach = [&, nx = nx, ny = ny](std::size_t w) {
     return static_cast<std::ptrdiff_t>(ways[w][0]) +
            static_cast<std::ptrdiff_t>(nx) * (ways[w][1] + static_cast<std::ptrdiff_t>(ny) * ways[w][2]);
   };

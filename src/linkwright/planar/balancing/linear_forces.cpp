@@ -230,7 +230,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
     for (const LinkMass& probe : probes(plan.size)) {
       linkages.push_back(bare);
       linkages.back().bodies[static_cast<std::size_t>(b)].mass =
-          BodyMass{probe.mass, probe.inertia, std::polar(probe.centre_distance, probe.centre_angle)};
+          BodyMass{probe.mass, probe.inertia, probe.centre_distance * std::polar(1.0, probe.centre_angle)};
     }
   std::vector<std::vector<PartMass>> masses;
   for (const Linkage& l : linkages) masses.push_back(part_masses(l, plan.bodies, plan.parts.size()));

@@ -25,7 +25,7 @@ Linkage linkage_of(const FourBarMechanism& mechanism) {
   l.moment_centre = crank_pivot(f);
   if (!mechanism.masses) return l;
   const auto set = [&](LinkageBody& body, const LinkMass& m) {
-    body.mass = BodyMass{m.mass, m.inertia, std::polar(m.centre_distance, m.centre_angle) * frame};
+    body.mass = BodyMass{m.mass, m.inertia, m.centre_distance * std::polar(1.0, m.centre_angle) * frame};
   };
   set(l.bodies[1], mechanism.masses->crank);
   set(l.bodies[2], mechanism.masses->coupler);

@@ -144,7 +144,7 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
       const Part& part = parts_[at(p)];
       const Vec<double> arm = point - part.centre;
       const double mass = part.mass > 0 ? part.mass : 1;
-      const auto put = [&](int i, const Vec<double>& force, double moment) {
+      const auto put = [&, sign = sign](int i, const Vec<double>& force, double moment) {
         const std::size_t row = j.place + at(i), c = part.place;
         const std::array<double, 3> values{sign * force.x, sign * force.y,
                                            sign * (moment + cross(arm, force)) / part.length};

@@ -27,7 +27,7 @@ Linkage slider_crank(const SliderCrankMechanism& mechanism) {
            mechanism.branch == SliderSide::forward ? AssemblyMode::plus : AssemblyMode::minus);
   if (masses) {
     const auto link = [](const SliderCrankMass& m) {
-      return BodyMass{m.mass, m.inertia, std::polar(m.centre_distance, m.centre_angle)};
+      return BodyMass{m.mass, m.inertia, m.centre_distance * std::polar(1.0, m.centre_angle)};
     };
     const auto set = [&](LinkageBody& body, const SliderCrankMass& m) {
       body.mass = link(m);

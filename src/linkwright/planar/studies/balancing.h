@@ -85,6 +85,9 @@ std::vector<study::Kind> balancing_kinds();
 /// among the balanced ones.
 BalancingStudy read_balancing_study(study::ObjectReader& document, const study::Common& common);
 
+/// The tables of an analysis of one design, as the study has them: `x` in the units of the keys of the design
+/// variables.
+Value design_tables(const BalancingStudy& study, std::span<const double> x);
 /// The table of one design: `x` in the units of the keys of the design variables. Empty when they are no
 /// mechanism.
 Table design_table(const BalancingStudy& study, std::span<const double> x,

@@ -144,9 +144,12 @@ bool read_design(study::ObjectReader& document, const study::Common& common, con
   know_type(root);
   s.mechanism->analysis().prepare(root, plain(common));
   reader.finish([&] { return study::schema_of(s.mechanism->analysis()); });
-  for (const Diagnostic& d : problems)
-    document.document().report(d.severity, d.position, d.key, d.message + std::string(remark), d.hint);
-  return !has_errors(problems);
+  const bool good = !has_errors(problems);
+  for (Diagnostic& d : problems) {
+    d.message += remark;
+    document.document().error(std::move(d));
+  }
+  return good;
 }
 
 // The initial design: its columns for the checks of names, and its problems; and whether numbers may take the
@@ -293,9 +296,14 @@ std::vector<study::Kind> balancing_kinds() {
   return out;
 }
 
-Table design_table(const BalancingStudy& s, std::span<const double> x, std::span<const std::string> columns) {
+Value design_tables(const BalancingStudy& s, std::span<const double> x) {
   Value tables = s.designed.tables;
   study::put(tables, s.designed.numbers, x);
+  return tables;
+}
+
+Table design_table(const BalancingStudy& s, std::span<const double> x, std::span<const std::string> columns) {
+  const Value tables = design_tables(s, x);
   Diagnostics problems;
   study::DocumentReader reader(tables, {}, problems);
   study::ObjectReader root = reader.root();
@@ -304,8 +312,7 @@ Table design_table(const BalancingStudy& s, std::span<const double> x, std::span
 
 study::Result design_analysis(const BalancingStudy& s, const study::Common& common, std::span<const double> x,
                               RunContext& context) {
-  Value tables = s.designed.tables;
-  study::put(tables, s.designed.numbers, x);
+  const Value tables = design_tables(s, x);
   Diagnostics problems;
   study::DocumentReader reader(tables, {}, problems);
   study::ObjectReader root = reader.root();

@@ -178,7 +178,10 @@ class Report {
     for (const std::string& limit : d.active) out.classification["active_bounds"].push_back(limit);
     out.defects = Value::array();
     if (d.violation > 0) out.defects.push_back(fmt::format("violates constraints by {:.3g}", d.violation));
-    if (number <= most_drawn) out.scene = fmt::format("solution-{}", number);
+    if (number <= most_drawn) {
+      out.scene = fmt::format("solution-{}", number);
+      out.study = design_tables(s_, d.x);
+    }
     return out;
   }
   // "O1_x_N_rss_over_n_ratio"

@@ -80,6 +80,13 @@ struct LinkageRows {
 };
 LinkageRows rows_of(const LinkageStudy& study);
 
+/// The tables of an analysis of a found linkage that is written by its parameters: its motion over inputs
+/// from the first to the last of these, one turn a second, which needs no masses.
+/// Inputs short of a full turn end at dead points, where speeds are not determined: the motion keeps a
+/// hundredth of the range off them, but for what the path needs.
+Value motion_study(std::string_view type, Value mechanism, std::span<const double> inputs,
+                   std::span<const double> on_path);
+
 /// The table of the study alone, with the columns of these keys only (all when empty), for those who evaluate
 /// many designs. A branch is not followed through change points.
 Table linkage_table(const LinkageStudy& study, std::span<const std::string> columns);

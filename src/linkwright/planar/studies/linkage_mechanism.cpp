@@ -236,7 +236,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   }
   // A sample brings its own gravity.
   if (surroundings || out.sample.empty()) {
-    l.gravity = std::polar(environment.gravity, environment.direction);
+    l.gravity = environment.gravity * std::polar(1.0, environment.direction);
     // Straight down is exactly down.
     if (environment.direction == LinkageEnvironment{}.direction) l.gravity = {0, -environment.gravity};
   }
@@ -283,6 +283,37 @@ void write_linkage(const LinkageDescription& d, Value& canonical) {
     traces.push_back(std::move(trace));
   }
   if (!traces.empty()) canonical["trace"] = Value(std::move(traces));
+}
+
+Value motion_study(std::string_view type, Value mechanism, std::span<const double> inputs,
+                   std::span<const double> on_path) {
+  double from = inputs.front(), to = inputs.back();
+  if (std::abs(to - from) < 2 * pi * (1 - 1e-9)) {
+    const double off = 0.01 * (to - from), sense = to > from ? 1 : -1;
+    from += off, to -= off;
+    for (const double angle : on_path) {
+      if (sense * (angle - from) < 0) from = angle;
+      if (sense * (angle - to) > 0) to = angle;
+    }
+  }
+  Value out;
+  out["mechanism"]["type"] = type;
+  for (Value::Member& member : mechanism.as_object()) out["mechanism"][member.key] = std::move(member.value);
+  LinkageDrive turning{.rate = 2 * pi};
+  Value drive;
+  study::ObjectWriter drives(drive);
+  joint_fields(drives, true, turning);
+  std::erase_if(drive.as_object(), [](const Value::Member& m) { return m.value == Value(0.0); });
+  out["drive"].push_back(std::move(drive));
+  out["sweep"]["type"] = "grid";
+  InputSamples range{.from = from, .to = to, .samples = static_cast<int>(inputs.size())};
+  Value axis;
+  study::ObjectWriter writer(axis);
+  joint_fields(writer, true, range);
+  out["sweep"]["input"].push_back(std::move(axis));
+  for (const char* quantity : {"position", "rates", "transmission_angle"})
+    out["output"]["quantities"].push_back(quantity);
+  return out;
 }
 
 void describe_linkage(study::SchemaWriter& document, LinkageType type) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
@@ -66,6 +67,7 @@ class Artist {
     gaps();
     for (const BodyPoint& t : traces) trace(t);
     forces();
+    handles();
     return std::move(scene_);
   }
 
@@ -178,6 +180,103 @@ class Artist {
     for (const LinearSpring& s : l_.springs)
       scene_.bodies.push_back(
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
+  }
+
+  int point_named(int body, std::string_view name) const {
+    return body < 0 ? -1 : point_index(l_.bodies[at(body)], name);
+  }
+  /// Whether a drive turns a body against the ground.
+  bool driven(int body) const {
+    return std::any_of(l_.driven.begin(), l_.driven.end(), [&](int k) {
+      const LinkageJoint& j = l_.joints[at(k)];
+      return (j.first.body == body && j.second.body == 0) || (j.second.body == body && j.first.body == 0);
+    });
+  }
+
+  // Of four-bars and slider-cranks by their parameters: by the names that their bodies and points have.
+  void parameter_handles() {
+    using Measure = study::Scene::Handle::Measure;
+    struct Parameter {
+      const char *key, *body, *point;
+      Measure measure;
+      const char* from = "";
+    };
+    constexpr Parameter parameters[] = {
+        {"crank_m", "crank", "O2", Measure::length, "O1"},
+        {"coupler_m", "coupler", "O3", Measure::length, "O2"},
+        {"rocker_m", "rocker", "O3", Measure::length, "O4"},
+        {"ground_m", "ground", "O4", Measure::length, "O1"},
+        {"frame_angle_rad", "ground", "O4", Measure::angle, "O1"},
+        {"pivot_x_m", "ground", "O1", Measure::x},
+        {"pivot_y_m", "ground", "O1", Measure::y},
+        {"coupler_u_m", "coupler", "C", Measure::x, "O3"},
+        {"coupler_v_m", "coupler", "C", Measure::y, "O3"},
+        {"crank_m", "crank", "A", Measure::length, "O"},
+        {"rod_m", "rod", "B", Measure::length, "A"},
+        {"offset_m", "slider", "B", Measure::y},
+        {"pivot_x_m", "ground", "O", Measure::x},
+        {"pivot_y_m", "ground", "O", Measure::y},
+        {"rod_u_m", "rod", "C", Measure::x, "B"},
+        {"rod_v_m", "rod", "C", Measure::y, "B"},
+    };
+    for (const Parameter& p : parameters) {
+      const int body = body_index(l_, p.body), there = point_named(body, p.point);
+      const int other = point_named(body, p.from);
+      if (there < 0 || (*p.from && other < 0)) continue;
+      study::Scene::Handle handle{.key = fmt::format("mechanism.parameters.{}", p.key),
+                                  .measure = p.measure,
+                                  .point = first_[at(body)] + there};
+      if (p.measure == Measure::length || p.measure == Measure::angle) {
+        handle.from = first_[at(body)] + other;
+        handle.held = p.measure == Measure::length && driven(body);
+      } else if (body != 0) {
+        // Along the line of the link, or along the guide.
+        const auto& points = l_.bodies[at(body)].points;
+        handle.frame = *p.from ? turned_frame(body, std::arg(points[at(other)].at)) : guide_frame();
+        if (handle.frame < 0) continue;
+      }
+      scene_.handles.push_back(std::move(handle));
+    }
+  }
+  /// The frame of a body, turned in it; index of the new frame.
+  int turned_frame(int body, double angle) {
+    study::Scene::Frame frame = scene_.frames[at(body)];
+    for (double& a : frame.angle) a += angle;
+    scene_.frames.push_back(std::move(frame));
+    return static_cast<int>(scene_.frames.size()) - 1;
+  }
+  /// That of the guide of a slider-crank, in which the offset is measured; -1 = there is none.
+  int guide_frame() {
+    const int pivot = point_named(0, "O"), joint = joint_index(l_, "guide");
+    if (pivot < 0 || joint < 0) return -1;
+    const std::complex<double> origin = l_.bodies[0].points[at(pivot)].at;
+    scene_.frames.push_back({{origin.real()}, {origin.imag()}, {l_.joints[at(joint)].slide_first}});
+    return static_cast<int>(scene_.frames.size()) - 1;
+  }
+
+  // Every point of a body, in the frame of the body. What a study does not say by these keys is left out
+  // where the scene is shown.
+  void handles() {
+    for (int b = 0; b < static_cast<int>(l_.bodies.size()); ++b) {
+      study::Scene::Frame frame;
+      for (const LinkageRecord& r : records_) {
+        if (r.bodies.empty() && !moves(b)) continue;
+        const Vec<double> none{nan, nan};
+        const Vec<double> origin = r.bodies.empty() ? none : r.bodies[at(b)].origin;
+        const Vec<double> direction = r.bodies.empty() ? none : r.bodies[at(b)].direction;
+        frame.x.push_back(origin.x);
+        frame.y.push_back(origin.y);
+        frame.angle.push_back(std::atan2(direction.y, direction.x));
+        if (!moves(b)) break;
+      }
+      scene_.frames.push_back(std::move(frame));
+      const auto& points = l_.bodies[at(b)].points;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        scene_.handles.push_back({.key = fmt::format("mechanism.body[{}].points_m.{}", b, points[i].name),
+                                  .frame = b,
+                                  .point = first_[at(b)] + static_cast<int>(i)});
+    }
+    parameter_handles();
   }
 
   // What does not close, a line for each group that fails somewhere.

@@ -1,11 +1,14 @@
 #include "linkwright/planar/studies/path_points.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/numbers.h"
@@ -25,14 +28,22 @@ class LengthColumns {
 
   bool has(std::string_view base) const { return find(base) != nullptr; }
 
-  // Every cell of the column, which must be there.
+  // Whether all columns are there; reports what there is instead.
+  bool complete(std::span<const char* const> bases) {
+    if (std::all_of(bases.begin(), bases.end(), [&](const char* base) { return has(base); })) return true;
+    std::vector<std::string> found;
+    for (const Column& c : table_.columns) found.push_back(c.key);
+    reader_.error(
+        "points_file",
+        fmt::format("'{}' has the columns {}, but needs {}, each with a unit of length", file_,
+                    fmt::join(found, ", "), fmt::join(bases, ", ")),
+        fmt::format("name them {}_mm; a heading like X [mm] will do, too", fmt::join(bases, "_mm,")));
+    return false;
+  }
+
+  // Every cell of a column that is there.
   std::vector<double> values(std::string_view base) {
     const Column* column = find(base);
-    if (!column) {
-      reader_.error("points_file", fmt::format("'{}' has no column {}_m", file_, base),
-                    "name the columns x_m,y_m (or x_mm,y_mm, ...)");
-      return {};
-    }
     std::vector<double> out;
     for (const double v : column->values) {
       out.push_back(split_unit(column->key)->unit->to_si(v));
@@ -58,6 +69,7 @@ class LengthColumns {
   const Table& table_;
 };
 
+constexpr std::array<const char*, 2> coordinates = {"x", "y"};
 constexpr std::array<const char*, 4> posts = {"from_x", "from_y", "to_x", "to_y"};
 
 // False where something is missing, and has been reported.
@@ -84,6 +96,7 @@ bool read_points_file(study::ObjectReader& reader, const study::Common& common, 
                  "keep the columns x, y or from_x, from_y, to_x, to_y; a gate whose posts agree is a point");
     return false;
   }
+  if (gates ? !columns.complete(posts) : !columns.complete(coordinates)) return false;
   const std::size_t rows = table->columns.empty() ? 0 : table->columns[0].values.size();
   const auto read = [&](const char* base, std::vector<double>& out) {
     out = columns.values(base);

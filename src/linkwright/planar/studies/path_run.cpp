@@ -19,8 +19,10 @@
 #include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/path/eighteen_points.h"
 #include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_scene.h"
+#include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -152,7 +154,7 @@ std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool
   return out;
 }
 
-study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number) {
+study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number, int samples) {
   constexpr std::array<std::string_view, four_bar_parameter_count> labels = {"ground length",
                                                                              "crank length",
                                                                              "coupler length",
@@ -207,6 +209,8 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
   for (const Defect& defect : defects(p, d))
     out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
   out.scene = fmt::format("solution-{}", number);
+  out.study = motion_study("planar.four_bar", study::write_fields(FourBarMechanism{d.linkage, {}}),
+                           shown_angles(d, samples), d.angles);
   return out;
 }
 
@@ -424,7 +428,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   result.status = run.status != Status::done ? run.status : feasible ? Status::done : Status::infeasible;
 
   for (std::size_t i = 0; i < designs.size(); ++i) {
-    result.solutions.push_back(solution_of(s, designs[i], i + 1));
+    result.solutions.push_back(solution_of(s, designs[i], i + 1, common.output.samples));
     result.scenes.push_back(path_scene(s.problem, designs[i], result.solutions[i].scene,
                                        fmt::format("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));

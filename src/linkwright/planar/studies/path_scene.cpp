@@ -85,6 +85,8 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
   if (problem.gate_x.empty()) {
     scene.targets = {
         {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};
+    for (int k = 0; k < static_cast<int>(problem.x.size()); ++k)
+      scene.handles.push_back({.key = fmt::format("target.points_m[{}]", k), .target = 0, .index = k});
     return scene;
   }
   // Whiskers run to the nearest place of each gate; its posts are marked.

@@ -80,6 +80,7 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
   std::vector<study::ObjectReader> tables = document.tables("drive");
   std::vector<ArmDrive> sorted(links.size());
   std::vector<bool> driven(links.size());
+  bool all_known = true;  // else the link that lacks a drive is the one whose name is misspelt
   std::vector<std::string_view> known;
   for (const ArmLinkEntry& link : links) known.emplace_back(link.name);
   for (std::size_t i = 0; i < drives.size(); ++i) {
@@ -90,6 +91,7 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
       tables[i].error(
           "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
           did_you_mean(drive.link, known));
+      all_known = false;
       continue;
     }
     const auto k = static_cast<std::size_t>(at - known.begin());
@@ -105,7 +107,7 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
       tables[i].error(bad->key, bad->message, bad->hint);
   }
   for (std::size_t k = 0; k < links.size(); ++k)
-    if (!driven[k] && document.has("drive"))
+    if (!driven[k] && all_known && document.has("drive"))
       document.error("drive", fmt::format("link '{}' has no drive", links[k].name),
                      fmt::format("add [[drive]] with link = \"{}\"", links[k].name));
   return sorted;

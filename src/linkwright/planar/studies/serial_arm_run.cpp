@@ -188,6 +188,15 @@ study::Scene arm_scene(const SerialArmStudy& s, const std::vector<Row>& rows) {
   }
   const int tip = add("tip", [](const Row& r) { return r.tip.position; });
   scene.joints.push_back({"tip", tip, Joint::tracer});
+  using Measure = study::Scene::Handle::Measure;
+  scene.handles = {{.key = "mechanism.base_x_m", .measure = Measure::x, .point = 0},
+                   {.key = "mechanism.base_y_m", .measure = Measure::y, .point = 0}};
+  for (int k = 0; k < static_cast<int>(links.size()); ++k)
+    scene.handles.push_back({.key = fmt::format("mechanism.link[{}].length_m", k),
+                             .measure = Measure::length,
+                             .point = k + 1,
+                             .from = k,
+                             .held = true});
   scene.traces.push_back({tip, "path of the tip", false});
   for (std::size_t k = 0; k < links.size(); ++k)
     for (const PointMass& mass : links[k].attached) {

@@ -13,8 +13,10 @@
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/path/slider_crank_defects.h"
 #include "linkwright/planar/path/slider_crank_samples.h"
+#include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
+#include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -117,6 +119,8 @@ class Report {
       out.scene = fmt::format("solution-{}", number);
       result_.scenes.push_back(slider_path_scene(p_, d, out.scene, fmt::format("{}: {}", number, out.label),
                                                  common_.output.samples));
+      out.study = motion_study("planar.slider_crank", study::write_fields(d.mechanism),
+                               shown_angles(d, common_.output.samples), d.angles);
     }
     result_.solutions.push_back(std::move(out));
   }

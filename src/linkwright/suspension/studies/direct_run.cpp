@@ -265,6 +265,9 @@ study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
     if (l.excess > 1e-9)
       out.defects.push_back(fmt::format("{}: missed by {:.4g} mm", l.name, l.excess * 1e3));
   out.scene = best.answer.assembled ? "solution-1" : "";
+  const Range1 range = range_of(s);
+  out.study = sweep_of_found(s.description, best.guide, s.task.driver, range.travels,
+                             {range.racks.front(), 0, range.racks.back()}, s.lock);
   return out;
 }
 

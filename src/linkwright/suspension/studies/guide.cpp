@@ -618,6 +618,20 @@ Value write_guide(const GuideDescription& d) {
   return value;
 }
 
+Value write_guide(GuideDescription d, const WheelGuide& found) {
+  d.guide = found;
+  const auto close = [](const std::vector<Vec3>& at, std::vector<PointBox>& boxes) {
+    for (std::size_t i = 0; i < at.size(); ++i) boxes[i] = given(at[i]).box;
+  };
+  for (std::size_t i = 0; i < found.links.size(); ++i) {
+    close(found.links[i].body, d.links[i].body);
+    close(found.links[i].carrier, d.links[i].carrier);
+  }
+  for (std::size_t i = 0; i < found.couplers.size(); ++i)
+    d.couplers[i].point = given(found.couplers[i].point).box;
+  return write_guide(d);
+}
+
 void describe_guide(study::SchemaWriter& document) {
   document.property(Field{.key = "mechanism", .summary = "the wheel suspension", .required = true},
                     study::schema_fields<GuideForm>());

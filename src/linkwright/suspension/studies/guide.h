@@ -261,6 +261,8 @@ std::optional<GuideDescription> read_guide(study::ObjectReader& document, const 
                                            OpenPoints open);
 /// The table as a canonical study holds it: coordinates in the vehicle's frame, no names of points, no files.
 Value write_guide(const GuideDescription& description);
+/// The same of a suspension that was found for it, whose coordinates are all given.
+Value write_guide(GuideDescription description, const WheelGuide& found);
 void describe_guide(study::SchemaWriter& document);
 
 }  // namespace linkwright::suspension

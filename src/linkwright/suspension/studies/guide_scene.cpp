@@ -1,8 +1,12 @@
 #include "linkwright/suspension/studies/guide_scene.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -29,7 +33,8 @@ class Drawing {
       for (std::size_t travel = 0; travel < grid_.travels.size(); ++travel)
         source_.push_back((other ? opposite(rack) : rack) * grid_.travels.size() + travel);
     centre_ = point(named("wheel centre"), [](const GuidePosition& p) { return p.place.carrier.centre; });
-    for (const GuideLink& link : guide_.links) add(link);
+    handle("mechanism.wheel.centre_m", centre_);
+    for (std::size_t i = 0; i < guide_.links.size(); ++i) add(guide_.links[i], i);
     for (const Coupler& c : guide_.couplers) add(c);
     if (guide_.spring) add_spring(*guide_.spring);
     const Vec3 axis = wheel_axis(guide_.side, guide_.wheel.toe, guide_.wheel.camber);
@@ -111,17 +116,28 @@ class Drawing {
     return count > 1 ? text + " " + std::to_string(i + 1) : text;
   }
 
-  void add(const GuideLink& link) {
+  /// Of the wheel that the study gives, not of the mirrored one.
+  void handle(std::string key, int point) {
+    if (!other_) scene_.handles.push_back({.key = std::move(key), .point = point});
+  }
+  void handle(std::size_t link, const char* list, std::size_t i, std::size_t count, int point) {
+    const std::string key = fmt::format("mechanism.link[{}].{}", link, list);
+    handle(count > 1 ? fmt::format("{}[{}]", key, i) : key, point);
+  }
+
+  void add(const GuideLink& link, std::size_t index) {
     std::vector<int> body, carrier;
     for (std::size_t i = 0; i < link.body.size(); ++i) {
       const std::string name = named(link.name + numbered(", body", i, link.body.size()));
       body.push_back(body_point(name, link, link.body[i]));
       scene_.joints.push_back({name, body.back(), Scene::JointStyle::ground_pivot});
+      handle(index, "body_m", i, link.body.size(), body.back());
     }
     for (std::size_t i = 0; i < link.carrier.size(); ++i) {
       const std::string name = named(link.name + numbered(", carrier", i, link.carrier.size()));
       carrier.push_back(carrier_point(name, link.carrier[i]));
       scene_.joints.push_back({name, carrier.back(), Scene::JointStyle::pivot});
+      handle(index, "carrier_m", i, link.carrier.size(), carrier.back());
     }
     const std::string name = named(link.name);
     const auto body_of = [&](std::vector<int> points, Scene::BodyStyle style) {
@@ -185,6 +201,8 @@ class Drawing {
       return link_point(link, p, spring.moving);
     });
     scene_.bodies.push_back({named("spring"), {top, bottom}, Scene::BodyStyle::spring});
+    handle("mechanism.spring.body_m", top);
+    handle("mechanism.spring.moving_m", bottom);
   }
 
   void steering_axis() {

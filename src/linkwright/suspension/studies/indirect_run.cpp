@@ -201,6 +201,17 @@ void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) 
     visit(guide.couplers[i].name + ", second end", guide.couplers[i].point, s.description.couplers[i].point);
 }
 
+/// Where the positions are: the travels and racks of the analysis that shows the wheel there.
+Value study_of(const IndirectStudy& s, const WheelGuide& guide) {
+  std::vector<double> travels{0}, racks{0};
+  for (const CarrierTarget& t : s.task.targets.poses) {
+    travels.push_back(t.centre.z - s.task.targets.wheel.centre.z);
+    racks.push_back(t.rack);
+  }
+  return sweep_of_found(s.description, guide, Driver::wheel_centre_z, std::move(travels), std::move(racks),
+                        Driver::wheel_centre_z);
+}
+
 study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::string scene) {
   study::Solution out;
   out.label = structure_name(structure_of(run.answer.guide));
@@ -217,6 +228,7 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
   out.defects = Value::array();
   for (const Diagnostic& d : run.answer.findings)
     if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
+  if (!scene.empty()) out.study = study_of(s, run.answer.guide);
   out.scene = std::move(scene);
   return out;
 }

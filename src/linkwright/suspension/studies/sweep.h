@@ -92,6 +92,11 @@ struct GridPositions {
 GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
                          std::span<const double> racks, RunContext& context);
 
+/// The tables of an analysis of a suspension that was found for a description, over these values (m); with
+/// the rack centred alone where it does not reach all of their combinations.
+Value sweep_of_found(const GuideDescription& description, const WheelGuide& found, Driver travel,
+                     std::vector<double> travels, std::vector<double> racks, Driver steering_lock);
+
 /// Evaluates the grid and reports. Rows without a position hold NaN and their status; the status of the
 /// result is then the first of these. Cancelled or out of time: the positions so far (solve_grid).
 study::Result run_sweep_study(const SweepStudy& study, RunContext& context);

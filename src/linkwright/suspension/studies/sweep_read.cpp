@@ -157,6 +157,34 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   return s;
 }
 
+Value sweep_of_found(const GuideDescription& description, const WheelGuide& found, Driver travel,
+                     std::vector<double> travels, std::vector<double> racks, Driver steering_lock) {
+  for (auto* values : {&travels, &racks}) {
+    constexpr double same = 1e-9;
+    for (double& v : *values)
+      if (std::abs(v) < same) v = 0;
+    std::sort(values->begin(), values->end());
+    values->erase(
+        std::unique(values->begin(), values->end(), [](double a, double b) { return b - a < same; }),
+        values->end());
+  }
+  RunContext nobody;
+  const GridPositions grid = solve_grid(prepare_guide(found), travel, travels, racks, nobody);
+  const bool all = grid.positions.size() == travels.size() * racks.size() &&
+                   std::all_of(grid.positions.begin(), grid.positions.end(),
+                               [](const GuidePosition& p) { return p.status == Status::done; });
+  if (!all) racks = {0};
+  Value out;
+  out["mechanism"]["type"] = "suspension.corner";
+  Value guide = write_guide(description, found);
+  for (Value::Member& member : guide.as_object()) out["mechanism"][member.key] = std::move(member.value);
+  out["sweep"] = study::write_fields(GuideSweep{
+      GridSweep{{travel, listed<LengthValues>(std::move(travels))}, std::nullopt}, steering_lock, false});
+  if (racks != std::vector<double>{0})
+    out["sweep"]["rack"] = study::write_fields(listed<LengthValues>(racks));
+  return out;
+}
+
 study::Kind sweep_kind() {
   study::Kind kind;
   kind.kind = "analysis";

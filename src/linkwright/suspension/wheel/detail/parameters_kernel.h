@@ -153,7 +153,7 @@ BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contac
   if (!placed.plan.construction.has_planes()) return out;
   const auto [a, b] = arm_planes(placed, placed.plan.construction);
   const Vector3<T>& c = placed.at.carrier.centre;
-  const auto meet = [&](const Vector3<T>& from, T Vector3<T>::*across) {
+  const auto meet = [&, &a = a, &b = b](const Vector3<T>& from, T Vector3<T>::*across) {
     const T ea = dot(a.normal, a.point - from), eb = dot(b.normal, b.point - from);
     return Meeting<T>{ea * b.normal.z - eb * a.normal.z, a.normal.*across * eb - b.normal.*across * ea,
                       a.normal.*across * b.normal.z - a.normal.z * b.normal.*across};

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/value.h"
+#include "linkwright/report/html.h"
+#include "linkwright/study/kind.h"
+#include "linkwright/study/result.h"
+#include "linkwright/study/study.h"
+
+// What a page asks of the program: a study's text in, all that it shows out. Nothing is kept from call to
+// call.
+namespace linkwright::app {
+
+/// What a report of a study is made from. `shown` is a result as it is presented(), which must outlive it.
+report::ReportInput report_input(const study::Study& study, const study::Result& shown, std::string command,
+                                 std::string result_json);
+
+/// A document in JSON and its lists of numbers, which stand apart (core/number_lists.h).
+struct View {
+  std::string json;
+  std::vector<double> numbers;
+};
+
+/// Changes the text of a study (edited()), reads, runs and presents it. `edits`: a document with the list
+/// `edits` of `key` and `value`, or empty. Files that the study names are looked for in `folder`. `document`:
+/// `text` as it is now, `diagnostics` of it (severity, line, column, key, message, hint); without errors also
+/// `canonical`, the study with all defaults in SI units, `view` and `result`, which are what a report
+/// carries, and `seconds`.
+View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context);
+
+/// What there is to begin with: `version`, `kinds` (name, summary, group), `examples` (name, title, group,
+/// text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).
+Value catalogue_document();
+
+/// The JSON Schema of the studies of a kind, "analysis/planar.four_bar"; null when there is no such kind.
+Value schema_document(std::string_view kind);
+
+}  // namespace linkwright::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace linkwright::serve {
+
+/// What a page asks to be run.
+struct RunRequest {
+  std::string run;    ///< "TAB.NUMBER": of which tab, whose earlier run ends, and which of its runs
+  std::string text;   ///< of the study
+  std::string edits;  ///< of the text, as app::run_text() takes them; empty = none
+  std::map<std::string, std::string> files;  ///< that the study reads: texts by names without a folder
+  double seconds = 0;                        ///< after which the best so far is the answer; 0 = never
+};
+
+/// Of "TAB.NUMBER" the tab, 1 to 64 letters and digits; empty where it is anything else.
+std::string_view tab_of(std::string_view run);
+
+/// Reads the body of a request, JSON with the members of RunRequest, of which only `run` and `text` must be
+/// there. Nothing, with the reason in `problem`, where it is anything else.
+std::optional<RunRequest> read_run_request(std::string_view body, std::string& problem);
+
+}  // namespace linkwright::serve

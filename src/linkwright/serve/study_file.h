@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace linkwright::serve {
+
+/// The study that the server was started with. Every text of it has a version, by which is seen whether
+/// somebody else has changed the file.
+class StudyFile {
+ public:
+  explicit StudyFile(std::filesystem::path file);
+
+  /// Where the file is, through symbolic links.
+  const std::filesystem::path& path() const { return path_; }
+
+  struct Text {
+    std::string text, version;
+    std::string problem;  ///< why there is no text; else empty
+  };
+  Text read() const;
+
+  enum class Outcome { saved, changed, failed };
+  struct Saved {
+    Outcome outcome;
+    std::string version;  ///< of what is on the disk now; empty where it failed
+    std::string problem;  ///< what went wrong; empty when saved
+  };
+  /// Writes the text, whole or not at all, if the file still has the version that it was made from.
+  Saved save(std::string_view text, std::string_view version);
+
+ private:
+  std::filesystem::path path_;
+  std::mutex saving_;
+};
+
+}  // namespace linkwright::serve

@@ -1,0 +1,22 @@
+#include <string>
+
+#include "linkwright/serve/server.h"
+
+// In the place of the server, when the program is built without cpp-httplib.
+namespace linkwright::serve {
+
+struct Server::Parts {};
+
+std::unique_ptr<Server> Server::start(const ServerOptions&, std::string& problem) {
+  problem = "this program was built without the server of the workbench (LINKWRIGHT_SERVE=OFF)";
+  return nullptr;
+}
+Server::~Server() = default;
+int Server::port() const { return 0; }
+const std::string& Server::token() const {
+  static const std::string none;
+  return none;
+}
+std::string Server::address() const { return {}; }
+
+}  // namespace linkwright::serve

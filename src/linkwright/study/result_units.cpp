@@ -1,0 +1,44 @@
+#include "linkwright/study/result_units.h"
+
+#include <string>
+#include <utility>
+
+#include "linkwright/core/units.h"
+
+namespace linkwright::study {
+
+Result in_units(Result result, const DisplayUnits& units) {
+  for (Table& table : result.tables) table = in_units(std::move(table), units);
+  const auto convert = [&](std::string& key, auto&... values) {
+    DisplayUnits::Key shown = units.key(key);
+    ((values = shown.convert(values)), ...);
+    key = std::move(shown.key);
+  };
+  for (Plot& plot : result.plots) {
+    convert(plot.x);
+    convert(plot.group);
+    for (std::string& key : plot.y) convert(key);
+    for (Plot::Band& band : plot.bands) convert(band.lower), convert(band.upper);
+  }
+  for (Solution& solution : result.solutions) {
+    for (Parameter& p : solution.parameters) convert(p.key, p.value, p.lower, p.upper);
+    for (Value* numbers : {&solution.objectives, &solution.classification})
+      *numbers = in_units(*numbers, units);
+  }
+  for (Change& change : result.changes) convert(change.quantity, change.before, change.after);
+  for (Trouble& trouble : result.troubles)
+    for (Trouble::Place& place : trouble.where) convert(place.key, place.value);
+  result.statistics = in_units(result.statistics, units);
+  return result;
+}
+
+DisplayUnits shown_units(const OutputUnits& choice, const DisplayUnits& study) {
+  if (choice.choice == OutputUnits::Choice::list) return chosen_units(choice, study);
+  if (!study.chosen(Dimension::length) || study.of(Dimension::length).suffix != "um") return study;
+  DisplayUnits out = study;
+  out.choose({{}, find_unit(Dimension::length, "mm"), Dimension::length});
+  out.follow();
+  return out;
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "linkwright/study/display_units.h"
+#include "linkwright/study/result.h"
+
+// Results in the units of people.
+namespace linkwright::study {
+
+/// What a result says in numbers, in these units: tables with their diagrams, solutions, changes, troubles
+/// and statistics. Scenes and texts stay.
+Result in_units(Result result, const DisplayUnits& units);
+
+/// In which units people are shown a study: those that it lists for its files, else those of its own keys.
+/// Micrometres then give way to millimetres: they are for tolerances, not for whole mechanisms.
+DisplayUnits shown_units(const OutputUnits& choice, const DisplayUnits& study);
+
+}  // namespace linkwright::study

@@ -1,0 +1,77 @@
+#include <emscripten/emscripten.h>
+
+#include <chrono>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "linkwright/app/view.h"
+#include "linkwright/study/write.h"
+
+// The program behind the functions of C that a page can call. Each answers with a document: engine_json() and
+// engine_numbers() show it until the next call.
+namespace {
+
+using namespace linkwright;
+
+app::View answer;
+
+// What is thrown becomes the member `failure` of the answer: the page has nobody to catch it.
+template <class Ask>
+void give(Ask&& ask) {
+  std::string failure;
+  try {
+    answer = ask();
+    return;
+  } catch (const std::bad_alloc&) {
+    failure = "the page has no more memory for this study; run it with the program";
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  Value out = Value::object();
+  out["failure"] = failure;
+  answer = {study::to_json(out), {}};
+}
+
+// The worker of the page hears how far a run is.
+EM_JS(void, tell_progress, (const char* stage, int length, double fraction, double best), {
+  if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, length), fraction, best);
+});
+
+}  // namespace
+
+extern "C" {
+
+EMSCRIPTEN_KEEPALIVE const char* engine_json() { return answer.json.data(); }
+EMSCRIPTEN_KEEPALIVE int engine_json_size() { return static_cast<int>(answer.json.size()); }
+EMSCRIPTEN_KEEPALIVE const double* engine_numbers() { return answer.numbers.data(); }
+EMSCRIPTEN_KEEPALIVE int engine_numbers_count() { return static_cast<int>(answer.numbers.size()); }
+
+/// app::catalogue_document()
+EMSCRIPTEN_KEEPALIVE void engine_catalogue() {
+  give([] { return app::View{study::to_json(app::catalogue_document()), {}}; });
+}
+
+/// app::schema_document()
+EMSCRIPTEN_KEEPALIVE void engine_schema(const char* kind, int size) {
+  give([&] {
+    return app::View{study::to_json(app::schema_document({kind, static_cast<std::size_t>(size)})), {}};
+  });
+}
+
+/// app::run_text(); files are looked for in "/study". Ends after `seconds` with the best so far; 0 = never.
+EMSCRIPTEN_KEEPALIVE void engine_run(const char* text, int size, const char* edits, int edits_size,
+                                     double seconds) {
+  give([&] {
+    RunContext context;
+    if (seconds > 0) context.set_time_limit(std::chrono::duration<double>(seconds));
+    context.set_progress([](const Progress& p) {
+      tell_progress(p.stage.data(), static_cast<int>(p.stage.size()), p.fraction, p.best);
+    });
+    return app::run_text({text, static_cast<std::size_t>(size)},
+                         {edits, static_cast<std::size_t>(edits_size)}, "/study", context);
+  });
+}
+
+}  // extern "C"

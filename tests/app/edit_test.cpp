@@ -1,0 +1,145 @@
+#include "linkwright/app/edit.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+namespace linkwright::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* linkage = R"(# My leg.
+schema = 1
+kind   = "analysis"
+
+[mechanism]
+type = "planar.linkage"
+
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0], B0 = [600, 0] }   # the frame
+
+[[mechanism.body]]
+name      = "crank"
+points_mm = { O = [0, 0], A = [100.0, 0] }
+mass_kg   = 0.36                    # of aluminium
+)";
+
+std::string change(std::string_view text, std::vector<Edit> edits) {
+  Diagnostics diagnostics;
+  const std::string out = edited(text, edits, diagnostics);
+  for (const Diagnostic& d : diagnostics) ADD_FAILURE() << to_string(d);
+  return out;
+}
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(EditStudy, ANumberIsReplacedWhereItStandsAndNothingElse) {
+  EXPECT_EQ(change(linkage, {{"mechanism.body[1].mass_kg", 0.4}}), replaced(linkage, "0.36 ", "0.4 "));
+}
+
+TEST(EditStudy, AnotherUnitOfTheSameDimensionStays) {
+  EXPECT_EQ(change(linkage, {{"mechanism.body[1].points_m.A", Value(Value::Array{0.12345, -0.02})}}),
+            replaced(linkage, "A = [100.0, 0]", "A = [123.45, -20.0]"));
+  EXPECT_EQ(change(linkage, {{"mechanism.body[0].points_m.B0[0]", 0.65}}),
+            replaced(linkage, "[600, 0]", "[650.0, 0]"));
+}
+
+TEST(EditStudy, SeveralValuesAreReplacedInTheirOrder) {
+  const std::string out = change(linkage, {{"mechanism.body[0].points_m.O", Value(Value::Array{1.0, 2.0})},
+                                           {"mechanism.body[1].points_m.O", Value(Value::Array{3.0, 4.0})}});
+  EXPECT_EQ(out, replaced(replaced(linkage, "O = [0, 0], B0", "O = [1000.0, 2000.0], B0"), "O = [0, 0], A",
+                          "O = [3000.0, 4000.0], A"));
+}
+
+TEST(EditStudy, LettersBeyondAsciiBeforeAValueDoNotMoveIt) {
+  const std::string text =
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\ntitles = { \"\u00e4\u00f6\" "
+      "= 1.0, b = 2.0 }\n";
+  EXPECT_EQ(change(text, {{"mechanism.titles.b", 3.0}}), replaced(text, "b = 2.0", "b = 3.0"));
+}
+
+TEST(EditStudy, ASampleIsOpened) {
+  const std::string text =
+      "# A line.\nschema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\nsample = "
+      "\"hoeken\"\n";
+  const std::string out = change(text, {{"mechanism.body[1].points_m.A", Value(Value::Array{0.11, 0.0})}});
+  EXPECT_THAT(out, StartsWith("# A line.\nschema = 1\n"));
+  EXPECT_THAT(out, HasSubstr("points_mm = { O = [0.0, 0.0], A = [110.0, 0.0] }"));
+  EXPECT_THAT(out, testing::Not(HasSubstr("[]")));
+  EXPECT_THAT(out, testing::Not(HasSubstr("hoeken")));
+  // From then on it is a text like any other.
+  EXPECT_EQ(change(out, {{"mechanism.body[1].points_m.A", Value(Value::Array{0.1, 0.0})}}),
+            replaced(out, "A = [110.0, 0.0]", "A = [100.0, 0.0]"));
+}
+
+constexpr const char* four_bar = R"(schema = 1
+kind   = "analysis"
+
+[mechanism]
+type   = "planar.four_bar"
+branch = "open"    # or crossed
+
+[mechanism.parameters]   # of the drawing
+ground_mm  = 600.0
+crank_mm   = 100.0
+coupler_mm = 400.0
+rocker_mm  = 320.0
+)";
+
+TEST(EditStudy, AWordIsReplacedWhereItStands) {
+  EXPECT_EQ(change(four_bar, {{"mechanism.branch", "crossed"}}),
+            replaced(four_bar, "\"open\"", "\"crossed\""));
+}
+
+TEST(EditStudy, WhatHasADefaultIsPutInWhereItsTableStandsInTheUnitsOfTheStudy) {
+  EXPECT_EQ(change(four_bar, {{"mechanism.parameters.pivot_x_m", 0.03}}),
+            replaced(four_bar, "# of the drawing\n", "# of the drawing\npivot_x_mm = 30.0\n"));
+  // A table that is not there either comes at the end.
+  EXPECT_EQ(change(four_bar, {{"environment.gravity_m_per_s2", 0.0}}),
+            std::string(four_bar) + "\n[environment]\ngravity_mm_per_s2 = 0.0\n");
+}
+
+TEST(EditStudy, ANumberBecomesARangeAndBack) {
+  const std::string search = R"(schema = 1
+kind = "synthesis"
+[mechanism]
+type = "planar.four_bar"
+[mechanism.parameters]
+crank_mm = { min = 10, max = 90 }   # free
+[target]
+points_mm = [[0, 0], [10, 5], [20, 0]]
+)";
+  Value range = Value::object();
+  range["min"] = 0.02;
+  range["max"] = 0.08;
+  EXPECT_EQ(change(search, {{"mechanism.parameters.crank_m", range}}),
+            replaced(search, "{ min = 10, max = 90 }", "{ min = 20.0, max = 80.0 }"));
+  const std::string fixed = replaced(search, "{ min = 10, max = 90 }", "50.0");
+  EXPECT_EQ(change(search, {{"mechanism.parameters.crank_m", 0.05}}), fixed);
+  EXPECT_EQ(change(fixed, {{"mechanism.parameters.crank_m", range}}),
+            replaced(search, "{ min = 10, max = 90 }", "{ min = 20.0, max = 80.0 }"));
+}
+
+TEST(EditStudy, WhatCannotBeChangedLeavesTheTextAndSaysWhy) {
+  Diagnostics diagnostics;
+  const std::vector<Edit> nowhere{{"mechanism.body[7].mass_kg", 1.0}};
+  EXPECT_EQ(edited(linkage, nowhere, diagnostics), linkage);
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(diagnostics[0].message, "'body' has 2 entries, counted from 0");
+  const std::vector<Edit> path{{"mechanism..x", 1.0}};
+  EXPECT_EQ(edited(linkage, path, diagnostics), linkage);
+  EXPECT_EQ(diagnostics.back().message, "is not the path of a key");
+  const std::string broken = "schema = = 1\n";
+  const std::vector<Edit> mass{{"mechanism.mass_kg", 1.0}};
+  EXPECT_EQ(edited(broken, mass, diagnostics), broken);
+  EXPECT_EQ(diagnostics.back().severity, Diagnostic::Severity::error);
+}
+
+}  // namespace
+}  // namespace linkwright::app

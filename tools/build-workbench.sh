@@ -1,0 +1,14 @@
+#!/bin/sh
+# Builds build/wasm/workbench.html, the workbench in one page, with Debian's emscripten.
+set -eu
+cd "$(dirname "$0")/.."
+
+if ! command -v em++ >/dev/null 2>&1; then
+  echo "The workbench needs emscripten: tools/install-packages.sh test installs it." >&2
+  exit 1
+fi
+# emscripten keeps the libraries of C and C++ that it has compiled; not everybody may write where Debian has put them.
+cache=/usr/share/emscripten/cache
+[ -w "$cache" ] || export EM_CACHE="$PWD/build/emscripten-cache"
+cmake --preset wasm --log-level=WARNING
+cmake --build --preset wasm --target workbench --parallel "$(tools/build-jobs.sh)"

@@ -1,0 +1,95 @@
+// The study that is being worked on: its text is the document, and every change of it can be undone.
+import { batch, computed, signal } from "@preact/signals";
+
+export interface Document {
+  name: string; // of the file
+  text: string;
+  files: Record<string, string>; // that the study reads
+}
+
+const empty: Document = { name: "study.toml", text: "", files: {} };
+export const document_ = signal<Document>(empty);
+const past = signal<Document[]>([]);
+const future = signal<Document[]>([]);
+export const canUndo = computed(() => past.value.length > 0);
+export const canRedo = computed(() => future.value.length > 0);
+/** The gesture that made the last entry; a gesture is one entry, however many changes it makes. */
+let gesture: unknown;
+
+/** Another text for the study. Changes of one gesture are undone together. */
+export function change(text: string, by: unknown = Symbol()): void {
+  if (text === document_.peek().text) return;
+  replace({ ...document_.peek(), text }, by);
+}
+
+export function replace(next: Document, by: unknown = Symbol()): void {
+  batch(() => {
+    if (by !== gesture || past.peek().length === 0) past.value = [...past.peek(), document_.peek()];
+    gesture = by;
+    future.value = [];
+    document_.value = next;
+  });
+}
+
+function step(from: typeof past, to: typeof past): void {
+  const next = from.peek()[from.peek().length - 1];
+  if (!next) return;
+  batch(() => {
+    to.value = [...to.peek(), document_.peek()];
+    from.value = from.peek().slice(0, -1);
+    document_.value = next;
+    gesture = undefined;
+  });
+}
+export const undo = () => step(past, future);
+export const redo = () => step(future, past);
+
+/** Begins with a document; what was before cannot be undone. */
+export function begin(next: Document): void {
+  batch(() => {
+    document_.value = next;
+    past.value = [];
+    future.value = [];
+    gesture = undefined;
+  });
+}
+
+// Pages opened from disk may have no storage, and then nothing is kept.
+const place = "linkwright.workbench";
+export function keep(document: Document): void {
+  try {
+    localStorage.setItem(place, JSON.stringify(document));
+  } catch {
+    // nowhere to keep it
+  }
+}
+export function kept(): Document | null {
+  try {
+    const read = JSON.parse(localStorage.getItem(place) ?? "null");
+    return typeof read?.text === "string" && read.text !== "" ? { ...empty, ...read } : null;
+  } catch {
+    return null;
+  }
+}
+
+const toUrl = (base64: string) => base64.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+const fromUrl = (text: string) => text.replace(/-/g, "+").replace(/_/g, "/");
+const through = async (bytes: BlobPart, way: GenericTransformStream) =>
+  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(way)).arrayBuffer());
+
+/** The document as the fragment of an address: the link is the study, and no server sees it. */
+export async function asFragment(document: Document): Promise<string> {
+  const bytes = await through(JSON.stringify(document), new CompressionStream("deflate-raw"));
+  return `#study=${toUrl(btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join("")))}`;
+}
+export async function fromFragment(hash: string): Promise<Document | null> {
+  const packed = /^#study=([\w-]+)$/.exec(hash)?.[1];
+  if (!packed) return null;
+  try {
+    const bytes = Uint8Array.from(atob(fromUrl(packed)), (c) => c.charCodeAt(0));
+    const read = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+    return typeof read?.text === "string" ? { ...empty, ...read } : null;
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,90 @@
+// What there is to begin with, with pictures that the engine draws as they come into sight.
+import { signal } from "@preact/signals";
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Scene } from "../data";
+import type { Engine, Example } from "./engine";
+import { catalogue, open } from "./session";
+import { Thumbnail } from "./thumbnail";
+
+export const showGallery = signal(false);
+const words = signal("");
+const pictures = signal<Record<string, Scene | null>>({});
+
+/** Draws one picture after the other, beside the work on the study. */
+let painter: Engine;
+let queue: Example[] = [];
+let painting = false;
+export const paintWith = (engine: Engine) => (painter = engine);
+
+async function paint(): Promise<void> {
+  if (painting) return;
+  painting = true;
+  for (let next = queue.shift(); next; next = queue.shift()) {
+    if (next.name in pictures.value) continue;
+    try {
+      const { carried } = await painter.run({ text: next.text, files: next.beside, seconds: 0.5 });
+      pictures.value = { ...pictures.value, [next.name]: carried?.view.scenes[0] ?? null };
+    } catch {
+      pictures.value = { ...pictures.value, [next.name]: null };
+    }
+  }
+  painting = false;
+}
+
+// Searches take longer than a picture is worth.
+const quick = (text: string) => !/^kind\s*=\s*"(synthesis|balancing)"/m.test(text) && !/^\[simulation\]/m.test(text);
+
+function Card({ example }: { example: Example }) {
+  const box = useRef<HTMLButtonElement>(null);
+  const [seen, setSeen] = useState(false);
+  useEffect(() => {
+    const observer = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && setSeen(true), { rootMargin: "200px" });
+    observer.observe(box.current!);
+    return () => observer.disconnect();
+  }, []);
+  useEffect(() => {
+    if (!seen || !quick(example.text)) return;
+    queue.push(example);
+    void paint();
+  }, [seen]);
+  const scene = pictures.value[example.name];
+  return (
+    <button type="button" class="example" ref={box} data-example={example.name} onClick={() => {
+      open({ name: `${example.name}.toml`, text: example.text, files: example.beside });
+      showGallery.value = false;
+      words.value = "";
+    }}>
+      <span class="picture">{scene ? <Thumbnail scene={scene} /> : null}</span>
+      <b>{example.title}</b>
+      <small>{example.name}</small>
+    </button>
+  );
+}
+
+export function Gallery() {
+  const box = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    if (showGallery.value) box.current?.showModal();
+    else box.current?.close();
+  }, [showGallery.value]);
+  const all = catalogue.value?.examples ?? [];
+  const asked = words.value.toLowerCase().split(/\s+/).filter(Boolean);
+  const found = all.filter((e) => asked.every((w) => `${e.name} ${e.title} ${e.group}`.toLowerCase().includes(w)));
+  const groups = [...new Set(found.map((e) => e.group))];
+  return (
+    <dialog class="gallery" ref={box} aria-label="Examples" onClose={() => (showGallery.value = false)}>
+      <header>
+        <h2>Begin with</h2>
+        <input type="search" placeholder="leg, suspension, quick return" aria-label="Search the examples" value={words.value} onInput={(e) => (words.value = e.currentTarget.value)} />
+        <button type="button" onClick={() => (showGallery.value = false)}>Close</button>
+      </header>
+      {showGallery.value && groups.map((group) => (
+        <section>
+          <h3>{group}</h3>
+          <div class="examples">{found.filter((e) => e.group === group).map((e) => <Card key={e.name} example={e} />)}</div>
+        </section>
+      ))}
+      {found.length === 0 && <p>No example has these words.</p>}
+    </dialog>
+  );
+}

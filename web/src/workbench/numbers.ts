@@ -1,0 +1,69 @@
+// The numbers, choices and switches of a study, in groups as its tables have them, each with its key.
+import type { Json, JsonObject } from "../data";
+import { nameOf, unitOf } from "../units";
+import { nodeAt, ruleOf, type Rule } from "./schema";
+
+export interface Entry {
+  key: string; // of the study
+  label: string;
+  value: number | string | boolean | { min: number; max: number };
+  rule: Rule | null; // what the schema says of it
+}
+export interface Group {
+  title: string;
+  path: string; // of its table
+  entries: Entry[];
+}
+
+const axes = ["x", "y", "z"];
+const isNumbers = (value: Json): value is number[] => Array.isArray(value) && value.length > 0 && value.length <= 3 && value.every((v) => typeof v === "number");
+const isRange = (value: Json): value is { min: number; max: number } =>
+  value !== null && typeof value === "object" && !Array.isArray(value) && Object.keys(value).length === 2 && typeof value.min === "number" && typeof value.max === "number";
+
+/** Those of a whole study, but for what only says how results are written and checked. */
+export function numbersOf(study: JsonObject, schema: JsonObject | null = null): Group[] {
+  const groups: Group[] = [];
+  const rule = (key: string) => {
+    const node = nodeAt(schema, study, key);
+    return node && ruleOf(node);
+  };
+  /** The numbers of a table and of the tables in it; a list of tables gives a group an entry. */
+  function table(values: JsonObject, path: string, title: string): void {
+    const own: Entry[] = [];
+    const group = { title, path, entries: own };
+    groups.push(group);
+    const add = (key: string, label: string, value: Json) => {
+      if (typeof value === "number" || isRange(value)) own.push({ key, label, value, rule: rule(key) });
+      else if (isNumbers(value)) value.forEach((v, i) => own.push({ key: `${key}[${i}]`, label: `${label} ${axes[i]}`, value: v, rule: rule(key) }));
+      else if (typeof value === "string" || typeof value === "boolean") {
+        const found = rule(key);
+        if (found && (found.choices || found.flag)) own.push({ key, label, value, rule: found });
+      }
+    };
+    for (const [name, value] of Object.entries(values)) {
+      const key = path ? `${path}.${name}` : name;
+      if (Array.isArray(value) && value.some((v) => v !== null && typeof v === "object" && !Array.isArray(v)))
+        value.forEach((v, i) => {
+          const entry = v as JsonObject;
+          table(entry, `${key}[${i}]`, `${name.replace(/_/g, " ")} ${typeof entry.name === "string" ? entry.name : i + 1}`);
+        });
+      else if (Array.isArray(value) && value.length > 0 && value.every(isNumbers))
+        value.forEach((v, i) => add(`${key}[${i}]`, `${nameOf(name)} ${i + 1}`, v));
+      else if (value !== null && typeof value === "object" && !Array.isArray(value) && !isRange(value))
+        // Points by name, or tables: what has a unit in its own name holds values that have none.
+        if (Object.keys(value).length > 0 && Object.values(value).every((v) => typeof v === "number" || isNumbers(v)) && unitOf(name).symbol !== "")
+          for (const [n, v] of Object.entries(value)) add(`${key}.${n}`, n, v);
+        else table(value, key, name.replace(/_/g, " "));
+      else add(key, nameOf(name), value);
+    }
+  }
+  for (const [name, value] of Object.entries(study)) {
+    if (["output", "check"].includes(name) || value === null || typeof value !== "object") continue;
+    if (Array.isArray(value)) table({ [name]: value }, "", name);
+    else table(value, name, name.replace(/_/g, " "));
+  }
+  return groups.filter((g) => g.entries.length > 0);
+}
+
+/** The key that carries the unit: the last one on the way that has one. */
+export const unitKey = (key: string) => key.split(".").map((part) => part.replace(/\[\d+\]/g, "")).reverse().find((part) => unitOf(part).symbol !== "") ?? "";

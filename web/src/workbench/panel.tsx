@@ -1,0 +1,162 @@
+// Beside the drawing: the study as text, and its numbers one by one.
+import { signal } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import { format, nameOf, unitOf } from "../units";
+import { change, document_ } from "./document";
+import { numbersOf, unitKey, type Entry } from "./numbers";
+import type { Edit } from "./engine";
+import { absent } from "./schema";
+import { bestOf, canonical, diagnostics, edit, handleKeys, locked, schema, stale, toggleLock } from "./session";
+
+const tab = signal<"text" | "numbers">("numbers");
+
+/** Typing is one entry of the history until it pauses. */
+let typing: symbol = Symbol();
+let pause = 0;
+function type(text: string): void {
+  clearTimeout(pause);
+  pause = window.setTimeout(() => (typing = Symbol()), 800);
+  change(text, typing);
+}
+
+function Text() {
+  const box = useRef<HTMLTextAreaElement>(null);
+  const go = (line = 1, column = 1) => {
+    const lines = document_.value.text.split("\n");
+    const at = lines.slice(0, line - 1).reduce((sum, l) => sum + l.length + 1, 0) + column - 1;
+    box.current!.focus();
+    box.current!.setSelectionRange(at, at);
+    box.current!.scrollTop = (line - 4) * 18;
+  };
+  return (
+    <>
+      <textarea ref={box} class="study" spellcheck={false} aria-label="The study as text (TOML)" value={document_.value.text} onInput={(e) => type(e.currentTarget.value)} />
+      <ul class="problems" role="status">
+        {diagnostics.value.map((d) => (
+          <li class={d.severity}>
+            <button type="button" class="link" disabled={!d.line} onClick={() => go(d.line, d.column)}>{d.line ? `line ${d.line}` : d.severity}</button>
+            <span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span>
+          </li>))}
+      </ul>
+    </>
+  );
+}
+
+const refused = signal(""); // the key of a number that cannot be what was typed, and why
+const round = (value: number) => Number(value.toPrecision(7));
+
+/** A number in the unit that the page shows. `part`: of a range. */
+function NumberInput({ entry, value, part, label }: { entry: Entry; value: number; part?: "min" | "max"; label: string }) {
+  const { key, rule } = entry;
+  const unit = unitOf(unitKey(key), Math.abs(value));
+  const shown = round(value * unit.factor);
+  const own = part ? `${key}.${part}` : key;
+  const give = (next: number) => {
+    const to = next / unit.factor;
+    const low = rule?.least !== undefined && (rule.open ? to <= rule.least : to < rule.least);
+    if (low || (rule?.most !== undefined && to > rule.most)) {
+      refused.value = `${key}: ${low ? `more than ${rule!.open ? "" : "or "}${format(rule!.least! * unit.factor)}` : `at most ${format(rule!.most! * unit.factor)}`}${unit.symbol && ` ${unit.symbol}`}`;
+      return false;
+    }
+    refused.value = "";
+    edit([{ key, value: part ? { ...(entry.value as { min: number; max: number }), [part]: to } : to }]);
+    return true;
+  };
+  return (
+    <input type="number" step="any" value={String(shown)} data-key={own} aria-label={label} onChange={(e) => {
+      const next = Number(e.currentTarget.value);
+      if (next === shown && e.currentTarget.value !== "") return;
+      if (e.currentTarget.value === "" || !Number.isFinite(next) || !give(next)) e.currentTarget.value = String(shown);
+    }} onKeyDown={(e) => {
+      // A tenth of the digit before the last; with shift ten times as much.
+      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
+      e.preventDefault();
+      const step = 10 ** (Math.floor(Math.log10(Math.abs(shown) || 1)) - 2) * (e.shiftKey ? 10 : 1);
+      give(shown + (e.key === "ArrowUp" ? step : -step));
+    }} />
+  );
+}
+
+/** What a search may choose becomes a number, as the best solution has it, and a number becomes what it may choose. */
+function freed({ key, value, rule }: Entry): { min: number; max: number } | number {
+  if (typeof value === "object") {
+    return bestOf(key.split(".").pop()!) ?? (value.min + value.max) / 2;
+  }
+  const size = Math.abs(value as number) || 1;
+  const min = (value as number) - size / 2;
+  return { min: rule?.least === undefined ? min : Math.max(min, rule.open ? size / 1000 : rule.least), max: (value as number) + size };
+}
+
+function Field({ entry }: { entry: Entry }) {
+  const { key, label, value, rule } = entry;
+  const about = `${key}${rule?.help ? `: ${rule.help}` : ""}`;
+  const point = key.replace(/\[\d+\]$/, "");
+  const drawn = handleKeys.value.has(key) ? key : handleKeys.value.has(point) && key.endsWith("[0]") ? point : "";
+  return (
+    <div class="number" title={about}>
+      <span class="label">{label}</span>
+      {typeof value === "number" && <NumberInput entry={entry} value={value} label={label} />}
+      {typeof value === "object" && (["min", "max"] as const).map((part) => <NumberInput key={part} entry={entry} value={value[part]} part={part} label={`${label}, ${part}`} />)}
+      {typeof value === "string" && (
+        <select data-key={key} aria-label={label} value={value} onChange={(e) => edit([{ key, value: e.currentTarget.value }])}>
+          {rule!.choices!.map((c) => <option key={c.value} value={c.value} title={c.help}>{c.value.replace(/_/g, " ")}</option>)}
+        </select>
+      )}
+      {typeof value === "boolean" && <input type="checkbox" data-key={key} aria-label={label} checked={value} onChange={(e) => edit([{ key, value: e.currentTarget.checked }])} />}
+      {typeof value !== "string" && typeof value !== "boolean" && <em>{unitOf(unitKey(key), Math.abs(typeof value === "number" ? value : value.max)).symbol}</em>}
+      {drawn ? <button type="button" class="lock" data-lock={drawn} aria-pressed={locked.value.has(drawn)} aria-label={`Keep ${label.replace(/ x$/, "")} while dragging`} title="Keep it while the drawing is dragged" onClick={() => toggleLock(drawn)}><svg viewBox="0 0 16 16" aria-hidden="true"><path d={`M3 7.5h10v7H3zM5 7.5V5a3 3 0 0 1 6 0${locked.value.has(drawn) ? "v2.5" : ""}`} /></svg></button> : <i class="no-lock" />}
+      {rule?.free && <button type="button" class="free" data-free={key} aria-pressed={typeof value === "object"} title={typeof value === "object" ? "The search chooses it; press to fix it" : "Fixed; press to let the search choose it"} onClick={() => edit([{ key, value: freed(entry) }])}>{typeof value === "object" ? "free" : "fixed"}</button>}
+      {rule?.help && <small class="help">{rule.help}</small>}
+      {refused.value.startsWith(`${key}: `) && <small class="refused" role="alert">{refused.value.slice(key.length + 2)}</small>}
+    </div>
+  );
+}
+
+const most = 400; // numbers of one group that are listed
+
+function Add({ path }: { path: string }) {
+  const more = path ? absent(schema.value, canonical.value!, path) : [];
+  if (!more.length) return null;
+  return (
+    <select class="add" data-add={path} aria-label={`Add to ${path}`} value="" onChange={(e) => {
+      const found = more.find((m) => m.key === e.currentTarget.value);
+      e.currentTarget.value = "";
+      if (found) edit([{ key: found.key, value: found.start as Edit["value"] }]);
+    }}>
+      <option value="">add …</option>
+      {more.map((m) => <option key={m.key} value={m.key} title={m.rule.help}>{nameOf(m.name)}{m.rule.help && ` – ${m.rule.help}`}</option>)}
+    </select>
+  );
+}
+
+function Numbers() {
+  const study = canonical.value;
+  if (!study) return <p class="note">The numbers are listed as soon as the study has no errors.</p>;
+  const groups = numbersOf(study, schema.value);
+  return (
+    <div class="numbers">
+      {groups.map((g) => (
+        <details key={g.path || g.title} open={g.entries.length < 12}>
+          <summary>{g.title}<small>{format(g.entries.length)}</small></summary>
+          {g.entries.slice(0, most).map((entry) => <Field key={entry.key} entry={entry} />)}
+          <Add path={g.path} />
+        </details>))}
+    </div>
+  );
+}
+
+export function Panel() {
+  const errors = diagnostics.value.filter((d) => d.severity === "error").length;
+  return (
+    <aside class="panel" aria-label="The study">
+      <div class="tabs" role="tablist">
+        <button type="button" role="tab" id="tab-numbers" aria-selected={tab.value === "numbers"} onClick={() => (tab.value = "numbers")}>Numbers</button>
+        <button type="button" role="tab" id="tab-text" aria-selected={tab.value === "text"} onClick={() => (tab.value = "text")}>
+          Study{errors > 0 && <b class="count">{errors}</b>}
+        </button>
+      </div>
+      {stale.value && <p class="stale" role="alert">The study has an error; what is drawn is the last one without. {tab.value !== "text" && <button type="button" class="link" onClick={() => (tab.value = "text")}>Show it</button>}</p>}
+      {tab.value === "text" ? <Text /> : <Numbers />}
+    </aside>
+  );
+}

@@ -1,0 +1,217 @@
+// The study, the engine and what is shown of it, kept in step: the newest text wins, and an answer that comes too late is dropped.
+import { effect, signal } from "@preact/signals";
+import type { JsonObject, Scene } from "../data";
+import type { Place } from "../motion";
+import { extent } from "../camera";
+import * as state from "../state";
+import { begin, change, document_, keep, replace, type Document } from "./document";
+import { Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
+import { gripPoint, gripTarget, moveTo, reached, within, type Grip } from "./handles";
+import { opened } from "./opened";
+
+export const catalogue = signal<Catalogue | null>(null);
+export const diagnostics = signal<Diagnostic[]>([]);
+export const canonical = signal<JsonObject | null>(null);
+/** What may stand in studies of the present kind. */
+export const schema = signal<JsonObject | null>(null);
+/** Keys of the study that the drawing shows, and those of them that are kept while it is dragged. */
+export const handleKeys = signal(new Set<string>());
+export const locked = signal(new Set<string>());
+export function toggleLock(key: string): void {
+  const next = new Set(locked.value);
+  if (!next.delete(key)) next.add(key);
+  locked.value = next;
+}
+/** There is an answer to show. */
+export const shown = signal(false);
+/** What is shown is of an earlier text: the present one has errors. */
+export const stale = signal(false);
+export const busy = signal(false);
+export const progress = signal<Progress | null>(null);
+export const trouble = signal("");
+/** Why what is dragged goes no further; "" = it does. */
+export const stopped = signal("");
+/** ms of the last run in the engine, and from the question to the page. */
+export const took = signal<{ engine: number; whole: number } | null>(null);
+/** Whether a press on the drawing changes the mechanism or moves it. */
+export const editing = signal(true);
+
+let engine: Engine;
+interface Wanted {
+  task: Task;
+  gesture?: unknown;
+  /** Why the answer is not what the gesture means, and is left; "" = it is. */
+  hinders?: (answer: Answer) => string;
+}
+let flying: { task: Task; since: number } | null = null;
+let wanted: Wanted | null = null;
+let answered = ""; // text and files of what is shown
+let subject = "";
+let kind = ""; // that the schema is of
+const schemas = new Map<string, Promise<JsonObject | null>>();
+
+async function learn(study: JsonObject): Promise<void> {
+  const start = `${study.kind as string}/${(study.mechanism as JsonObject).type as string}`;
+  const task = (study.target as JsonObject | undefined)?.type;
+  const known = (catalogue.value?.kinds ?? []).map((k) => k.name).filter((k) => k === start || k.startsWith(`${start}/`));
+  const name = known.find((k) => k === `${start}/${String(task)}`) ?? known[0] ?? "";
+  if (name === kind) return;
+  kind = name;
+  schema.value = null;
+  if (!schemas.has(name)) schemas.set(name, engine.schema(name).catch(() => null));
+  const found = await schemas.get(name)!;
+  if (kind === name) schema.value = found;
+}
+
+
+const patience = 300; // ms after which a run that nobody waits for any longer is ended
+const print = (task: Task) => JSON.stringify([task.text, task.files]);
+
+function accept(answer: Answer): void {
+  diagnostics.value = answer.diagnostics;
+  stale.value = !answer.carried && shown.value;
+  if (!answer.carried) return;
+  canonical.value = answer.canonical ?? null;
+  if (answer.canonical) void learn(answer.canonical);
+  const mechanism = answer.canonical?.mechanism as JsonObject | undefined;
+  const now = `${document_.peek().name} ${mechanism?.type}`;
+  state.load(answer.carried, now === subject);
+  if (now !== subject) state.playing.value = state.motion.value.runs.length > 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  subject = now;
+  const scenes = answer.carried.view.scenes;
+  handleKeys.value = new Set(scenes.flatMap((s) => (s.handles ?? []).map((h) => h.key)));
+  shown.value = true;
+}
+
+async function pump(): Promise<void> {
+  if (flying || !wanted) return;
+  const { task, gesture, hinders } = wanted;
+  wanted = null;
+  flying = { task, since: performance.now() };
+  busy.value = true;
+  try {
+    const answer = await engine.run(task, (p) => (progress.value = p));
+    trouble.value = "";
+    stopped.value = hinders?.(answer) ?? "";
+    if (stopped.value) return;
+    if (task.edits) change(answer.text, gesture);
+    answered = print({ text: answer.text, files: task.files });
+    // While more is wanted, a text with errors is only half typed.
+    if (!wanted || answer.carried) accept(answer);
+    took.value = { engine: 1000 * answer.seconds, whole: performance.now() - flying.since };
+  } catch (error) {
+    if (!(error instanceof Stopped)) trouble.value = error instanceof Error ? error.message : String(error);
+  } finally {
+    flying = null;
+    progress.value = null;
+    busy.value = wanted !== null;
+    void pump();
+  }
+}
+
+function want(next: Wanted): void {
+  wanted = next;
+  if (flying && performance.now() - flying.since > patience) engine.stop();
+  void pump();
+}
+
+const timeLimit = 60; // s; the program itself has no limit
+
+/** Makes changes of the study and shows what comes of them. */
+export function edit(edits: Edit[], gesture: unknown = Symbol(), hinders?: Wanted["hinders"]): void {
+  if (!edits.length) return;
+  const { text, files } = document_.peek();
+  want({ task: { text, files, edits, seconds: timeLimit }, gesture, hinders });
+}
+
+/** Of the best solution, a parameter by its name. */
+export const bestOf = (name: string) => {
+  const value = state.result.solutions[0]?.parameters[name];
+  return typeof value === "number" ? value : null;
+};
+
+export function stop(): void {
+  wanted = null;
+  engine.stop();
+}
+
+export function open(document: Document): void {
+  subject = "";
+  locked.value = new Set();
+  opened.value = null;
+  begin(document);
+}
+
+/** What is held of the study: a pin with all links on it, a pivot, a target point. */
+let held: { grip: Grip; gesture: symbol; scene: Scene; study: JsonObject | null } | null = null;
+
+function take(scene: Scene, grip: Grip): void {
+  state.scrub(grip.sample);
+  held = { grip, gesture: Symbol(), scene, study: canonical.value };
+}
+
+function nearest(scene: Scene, at: Place, reach: number): Grip | null {
+  const sample = Math.round(state.position.value);
+  const near = (p: Place | null) => (p ? Math.hypot(p.x - at.x, p.y - at.y) : Infinity);
+  let best = reach;
+  let grip: Grip | null = null;
+  scene.targets.forEach((target, t) => target.x.forEach((x, i) => {
+    const distance = near(x === null || target.y[i] === null ? null : { x, y: target.y[i]! });
+    const found = distance < best ? gripTarget(scene, t, i, sample) : null;
+    if (found) [best, grip] = [distance, found];
+  }));
+  for (const handle of scene.handles ?? []) {
+    if (handle.point < 0) continue;
+    const { x, y } = scene.points[handle.point];
+    const i = x.length === 1 ? 0 : sample;
+    const distance = near(x[i] == null || y[i] == null ? null : { x: x[i]!, y: y[i]! });
+    const found = distance < best ? gripPoint(scene, handle.point, sample, extent.value, locked.value) : null;
+    if (found) [best, grip] = [distance, found];
+  }
+  return grip;
+}
+
+const hand: state.Hand = {
+  down(scene, at, reach) {
+    if (!editing.value) return false;
+    const grip = nearest(scene, at, reach);
+    if (grip) take(scene, grip);
+    return grip !== null;
+  },
+  hold(scene, point) {
+    const grip = editing.value ? gripPoint(scene, point, Math.round(state.position.value), extent.value, locked.value) : null;
+    if (grip) take(scene, grip);
+    return grip !== null;
+  },
+  move(at, alone) {
+    if (!held) return;
+    const { grip, gesture } = held;
+    // A hard point is moved step by step from where it is now.
+    const [scene, study] = at.z === undefined ? [held.scene, held.study] : [state.scene.value ?? held.scene, canonical.value];
+    const to = within(scene, grip, at);
+    const index = state.sceneIndex.value;
+    const exact = to !== null && at.z === undefined && study?.kind === "analysis" && !alone && !grip.bound;
+    edit(moveTo(scene, grip, at, alone, study), gesture, (answer) => {
+      const drawn = answer.carried?.view.scenes[index];
+      if (!drawn) return answer.diagnostics.find((d) => d.severity === "error")?.message ?? "";
+      return exact && !reached(scene, drawn, grip, to, extent.value, study) ? "further on the linkage would turn over to its other branch" : "";
+    });
+  },
+  up() {
+    held = null;
+    stopped.value = "";
+  },
+};
+
+export function connect(to: Engine): void {
+  engine = to;
+  state.hand.now = hand;
+  state.goOn.now = (name, text) => replace({ name, text, files: {} });
+  effect(() => {
+    const { text, files } = document_.value;
+    if (text === "") return;
+    keep(document_.value);
+    const task = { text, files, seconds: timeLimit };
+    if (print(task) !== answered) want({ task });
+  });
+}

@@ -1,0 +1,140 @@
+// The workbench: a study, its mechanism to take hold of, and all that comes of it, while it is changed.
+import { render } from "preact";
+import { signal } from "@preact/signals";
+import { Switch } from "../controls";
+import { inflate } from "../packed";
+import { Report } from "../report";
+import * as state from "../state";
+import "../report.css";
+import "../viewer.css";
+import "./workbench.css";
+import { asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
+import { Draw, showDraw } from "./draw";
+import { workerEngine, type Engine } from "./engine";
+import { Gallery, paintWith, showGallery } from "./gallery";
+import { opened, saveStudy, unsaved } from "./opened";
+import { Panel } from "./panel";
+import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
+import { busy, catalogue, connect, editing, open, progress, shown, stop, stopped, took, trouble } from "./session";
+
+const said = signal("");
+
+async function share(): Promise<void> {
+  history.replaceState(null, "", await asFragment(document_.value));
+  try {
+    await navigator.clipboard.writeText(location.href);
+    said.value = "link copied";
+  } catch {
+    said.value = "the link is in the address";
+  }
+}
+
+async function keepStudy(): Promise<void> {
+  said.value = await saveStudy();
+}
+
+async function openFiles(list: FileList): Promise<void> {
+  const files = await Promise.all([...list].map(async (f) => ({ name: f.name, text: await f.text() })));
+  const study = files.find((f) => /\.(toml|json)$/i.test(f.name));
+  const beside = Object.fromEntries(files.filter((f) => f !== study).map((f) => [f.name, f.text]));
+  if (study) open({ name: study.name, text: study.text, files: beside });
+  // Tables alone are what the present study reads.
+  else replace({ ...document_.value, files: { ...document_.value.files, ...beside } });
+}
+
+function State() {
+  if (trouble.value) return <span class="state bad" role="alert">{trouble.value}</span>;
+  if (stopped.value) return <span class="state bad" id="stopped" role="status">stops here: {stopped.value}</span>;
+  if (busy.value)
+    return (
+      <span class="state busy" role="status">
+        {progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %` : "running"}
+        <button type="button" onClick={stop}>Stop</button>
+      </span>
+    );
+  return <span class="state" role="status" id="took">{said.value || (took.value ? `${took.value.engine < 10 ? took.value.engine.toFixed(1) : Math.round(took.value.engine)} ms` : "")}</span>;
+}
+
+function Bar() {
+  return (
+    <header class="bar" aria-label="Workbench">
+      <b class="brand">Linkwright</b>
+      <button type="button" id="examples" onClick={() => (showGallery.value = true)}>Examples</button>
+      <button type="button" id="draw" onClick={() => (showDraw.value = true)}>Draw</button>
+      <label class="button">Open<input type="file" multiple accept=".toml,.json,.csv,.txt" aria-label="Open a study and the tables it reads" onChange={(e) => {
+        if (e.currentTarget.files?.length) void openFiles(e.currentTarget.files);
+        e.currentTarget.value = "";
+      }} /></label>
+      <button type="button" id="save" title="Save the study (Ctrl S)" onClick={() => void keepStudy()}>Save</button>
+      <button type="button" id="undo" disabled={!canUndo.value} title="Undo (Ctrl Z)" onClick={undo}>Undo</button>
+      <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
+      <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
+      <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" /></span>
+      <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
+      <span class="spring" />
+      <State />
+    </header>
+  );
+}
+
+function Workbench() {
+  return (
+    <>
+      <Bar />
+      <div class="bench">
+        <main class="page">{shown.value ? <Report /> : <p class="note">{catalogue.value ? "The study is being read." : "The engine starts."}</p>}</main>
+        <Panel />
+      </div>
+      <Gallery />
+      <Draw />
+    </>
+  );
+}
+
+function onKey(event: KeyboardEvent): void {
+  if (!event.ctrlKey && !event.metaKey) return;
+  const writing = event.target instanceof HTMLTextAreaElement;
+  const key = event.key.toLowerCase();
+  const act = key === "s" ? () => void keepStudy()
+    : writing ? undefined : key === "z" ? (event.shiftKey ? redo : undo) : key === "y" ? redo : undefined;
+  if (!act) return;
+  event.preventDefault();
+  act();
+}
+
+const first = "jansen-leg";
+
+/** What answers this page: the engine that it carries, or the program that serves it. */
+interface Source {
+  engine: () => Engine;
+  file: { file: Opened; ask: Ask } | null;
+}
+async function source(): Promise<Source> {
+  const wasm = document.getElementById("engine-wasm");
+  if (wasm) {
+    const [module, script] = await Promise.all([inflate(wasm.textContent!).then((bytes) => WebAssembly.compile(bytes)), inflate(document.getElementById("engine-script")!.textContent!)]);
+    return { engine: () => workerEngine(module, new TextDecoder().decode(script)), file: null };
+  }
+  const ask = asks(takeToken());
+  const file = await openedFile(ask);
+  return { engine: () => serverEngine(ask), file: file && { file, ask } };
+}
+
+async function main(): Promise<void> {
+  document.addEventListener("keydown", onKey);
+  render(<Workbench />, document.getElementById("app")!);
+  const { engine: make, file } = await source();
+  const engine = make();
+  const known = engine.catalogue();
+  connect(engine);
+  const shared = await fromFragment(location.hash);
+  catalogue.value = await known;
+  if (!shared) opened.value = file;
+  const own = file && { name: file.file.name, text: file.file.text, files: {} };
+  const example = catalogue.value.examples.find((e) => e.name === first)!;
+  begin(shared ?? own ?? kept() ?? { name: `${first}.toml`, text: example.text, files: example.beside });
+  paintWith(make());
+  state.start();
+}
+
+main().catch((error: unknown) => (trouble.value = `The engine cannot be started: ${error instanceof Error ? error.message : error}`));

@@ -1,0 +1,33 @@
+// What the browser tests have in common: how the browser is started, and how scenarios run.
+import { chromium } from "playwright-core";
+
+/** A browser without network, sandbox and graphics card; WebGL is computed. */
+export const launch = (executablePath) => chromium.launch({
+  executablePath,
+  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+
+/** Runs scenarios {name, run} one after the other and tells of each; returns how many failed. One that fails is tried once more, and
+ *  told as unsteady if it then passes: a browser on a machine that stalls misses a moment now and then, a fault stays.
+ *  ONLY=WORDS in the environment picks scenarios by their names. */
+export async function runAll(scenarios) {
+  const chosen = scenarios.filter(({ name }) => name.includes(process.env.ONLY ?? ""));
+  let failed = 0;
+  for (const { name, run } of chosen) {
+    const begin = Date.now();
+    const problems = [];
+    while (problems.length < 2)
+      try {
+        await run();
+        break;
+      } catch (error) {
+        problems.push(error.stack);
+      }
+    if (problems.length === 2) ++failed;
+    const said = ["ok      ", "UNSTEADY", "FAILED  "][problems.length];
+    console.log([`${said} ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`, ...problems].join("\n"));
+  }
+  console.log(failed ? `${failed} of ${chosen.length} failed` : `all ${chosen.length} passed`);
+  return failed;
+}

@@ -1,0 +1,261 @@
+import { beforeEach, expect, test } from "vitest";
+import type { JsonObject, Scene } from "../src/data";
+import { asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
+import { withNumbers } from "../src/workbench/engine";
+import { gripPoint, gripTarget, moveTo, valueOf } from "../src/workbench/handles";
+import { numbersOf, unitKey } from "../src/workbench/numbers";
+import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
+import { absent, nodeAt, ruleOf } from "../src/workbench/schema";
+
+const paper = { name: "a.toml", text: "one", files: {} };
+
+beforeEach(() => begin(paper));
+
+test("undo goes back to the exact document, gesture by gesture, and redo forward", () => {
+  const drag = Symbol();
+  change("two", drag);
+  change("three", drag);
+  change("four");
+  expect(document_.value.text).toBe("four");
+  undo();
+  expect(document_.value.text).toBe("three");
+  undo();
+  expect(document_.value).toEqual(paper);
+  expect(canUndo.value).toBe(false);
+  redo();
+  redo();
+  expect(document_.value.text).toBe("four");
+  expect(canRedo.value).toBe(false);
+});
+
+test("a change after an undo ends what could be done again", () => {
+  change("two");
+  undo();
+  change("other");
+  expect(canRedo.value).toBe(false);
+  undo();
+  expect(document_.value.text).toBe("one");
+});
+
+test("two gestures are two entries, and the same text is none", () => {
+  change("two", 1);
+  change("two", 2);
+  change("three", 2);
+  undo();
+  expect(document_.value.text).toBe("two");
+});
+
+test("a link holds the whole document", async () => {
+  const document = { name: "leg.toml", text: "title = \"Jansen \u2013 \u00fcber\"\n".repeat(400), files: { "a.csv": "x,y\n1,2\n" } };
+  const hash = await asFragment(document);
+  expect(hash.length).toBeLessThan(600);
+  expect(await fromFragment(hash)).toEqual(document);
+  for (const other of ["", "#scene=motion", "#study=%%%", "#study=AAAA", "#study=x"]) expect(await fromFragment(other)).toBeNull();
+});
+
+test("lists of numbers come back into their document", () => {
+  const numbers = Float64Array.of(9, 1, NaN, 3);
+  expect(withNumbers('{"a": {"": [1, 3]}, "b": [{"x": {"": [0, 1]}}], "c": []}', numbers)).toEqual({ a: [1, null, 3], b: [{ x: [9] }], c: [] });
+});
+
+// A link of 2 m on the ground's pivot at (1, 1), upright at the second sample.
+const scene = {
+  input: [0, 1],
+  points: [
+    { name: "O", x: [1], y: [1] },
+    { name: "O", x: [1, 1], y: [1, 1] },
+    { name: "A", x: [3, 1], y: [1, 3] },
+    { name: "A", x: [3, 1], y: [1, 3] },
+  ],
+  frames: [
+    { x: [0], y: [0], angle: [0] },
+    { x: [1, 1], y: [1, 1], angle: [0, Math.PI / 2] },
+    { x: [3, 1], y: [1, 3], angle: [0.5, 0.5] },
+  ],
+  handles: [
+    { key: "ground.O", measure: "place", frame: 0, point: 0, target: -1, index: 0, from: -1, held: false },
+    { key: "crank.O", measure: "place", frame: 1, point: 1, target: -1, index: 0, from: -1, held: false },
+    { key: "crank.A", measure: "place", frame: 1, point: 2, target: -1, index: 0, from: -1, held: false },
+    { key: "rod.A", measure: "place", frame: 2, point: 3, target: -1, index: 0, from: -1, held: false },
+    { key: "target.points_m[4]", measure: "place", frame: -1, point: -1, target: 0, index: 4, from: -1, held: false },
+  ],
+} as unknown as Scene;
+
+const close = (edits: { key: string; value: unknown }[]) => edits.map(({ key, value }) => [key, (value as number[]).map((v) => Math.round(v * 1e9) / 1e9 + 0)]);
+
+test("a pin is held with all bodies on it, each in its own frame", () => {
+  const grip = gripPoint(scene, 3, 1, 4)!;
+  expect(grip.handles.map((h) => h.key)).toEqual(["crank.A", "rod.A"]);
+  expect(grip.fixed).toBe(false);
+  const edits = moveTo(scene, grip, { x: 1.5, y: 4 });
+  const turn = [0.5 * Math.cos(0.5) + Math.sin(0.5), -0.5 * Math.sin(0.5) + Math.cos(0.5)].map((v) => Math.round(v * 1e9) / 1e9);
+  expect(close(edits)).toEqual([["crank.A", [3, -0.5]], ["rod.A", turn]]);
+});
+
+test("a pivot moves with the link on it, or alone, and then the link keeps its length", () => {
+  const grip = gripPoint(scene, 0, 0, 4)!;
+  expect(grip.fixed).toBe(true);
+  expect(close(moveTo(scene, grip, { x: 0, y: 2 }))).toEqual([["ground.O", [0, 2]], ["crank.O", [-1, 1]]]);
+  expect(close(moveTo(scene, grip, { x: 0, y: 2 }, true))).toEqual([["ground.O", [0, 2]]]);
+});
+
+test("a target is held by its place in the list", () => {
+  expect(moveTo(scene, gripTarget(scene, 0, 4, 0)!, { x: 7, y: 8 })).toEqual([{ key: "target.points_m[4]", value: [7, 8] }]);
+  expect(gripTarget(scene, 0, 3, 0)).toBeNull();
+});
+
+// A four-bar by its lengths: pivots (0, 0) and (4, 0), pins (0, 1) and (3, 2), a coupler point.
+const point = (name: string, x: number, y: number) => ({ name, x: [x], y: [y] });
+const number = (key: string, measure: string, at: number, from = -1, held = false, frame = -1) => ({ key, measure, frame, point: at, target: -1, index: 0, from, held });
+const fourBar = {
+  input: [0],
+  points: [point("O1", 0, 0), point("O4", 4, 0), point("O1", 0, 0), point("O2", 0, 1), point("O2", 0, 1), point("O3", 3, 2), point("C", 1, 3), point("O4", 4, 0), point("O3", 3, 2)],
+  frames: [{ x: [0], y: [1], angle: [Math.PI / 2] }],
+  handles: [
+    number("crank", "length", 3, 2, true), number("coupler", "length", 5, 4), number("rocker", "length", 8, 7), number("ground", "length", 1, 0),
+    number("frame_angle", "angle", 1, 0), number("pivot_x", "x", 0), number("pivot_y", "y", 0),
+    number("u", "x", 6, 4, false, 0), number("v", "y", 6, 4, false, 0),
+  ],
+} as unknown as Scene;
+const drag = (at: number, x: number, y: number) =>
+  Object.fromEntries(moveTo(fourBar, gripPoint(fourBar, at, 0, 4)!, { x, y }, false, { frame_angle: 0.25 }).map(({ key, value }) => [key, Math.round((value as number) * 1e9) / 1e9]));
+
+test("a pin of a four-bar sets the links on it, and all other pins stay", () => {
+  expect(drag(5, 4, 2)).toEqual({ coupler: Math.round(Math.hypot(4, 1) * 1e9) / 1e9, rocker: 2 });
+  // The crank has the direction of the input, so that the pin stays on its line and the coupler fits.
+  expect(drag(3, 5, 2)).toEqual({ crank: 2, coupler: 3 });
+  expect(drag(3, 0, -9).crank).toBe(0.001);
+});
+
+test("the pivots of a four-bar turn and take it along", () => {
+  expect(drag(1, 0, 3)).toEqual({ ground: 3, frame_angle: Math.round((0.25 + Math.PI / 2) * 1e9) / 1e9 });
+  expect(drag(0, -1, 2)).toEqual({ pivot_x: -1, pivot_y: 2 });
+  expect(drag(6, 2, 2)).toEqual({ u: 1, v: -2 });
+});
+
+test("what no number of the study makes cannot be held", () => {
+  const lone = { ...fourBar, handles: [number("rod", "length", 3, 5)] } as unknown as Scene;
+  expect(gripPoint(lone, 5, 0, 4)).toBeNull();
+  expect(gripPoint(lone, 3, 0, 4)!.handles.length).toBe(1);
+});
+
+test("a hard point moves by what it is away from where it is drawn", () => {
+  const space = {
+    input: [0, 1], points: [{ name: "P", x: [1, 1.1], y: [2, 2], z: [0, 0.5] }], frames: [],
+    handles: [number("link[0].body_m", "place", 0)],
+  } as unknown as Scene;
+  const grip = gripPoint(space, 0, 1, 1)!;
+  const [edit] = moveTo(space, grip, { x: 1.2, y: 2, z: 0.4 }, false, { link: [{ body_m: [1, 2, 0] }] });
+  expect(edit.key).toBe("link[0].body_m");
+  expect((edit.value as number[]).map((v) => Math.round(v * 1e9) / 1e9)).toEqual([1.1, 2, -0.1]);
+  expect(moveTo(space, grip, { x: 1.2, y: 2, z: 0.4 }, false, {})).toEqual([]);
+});
+
+test("values are found by their keys", () => {
+  const study = { mechanism: { link: [{ body_m: [[1, 2], [3, 4]] }], arm_m: 0.5 } };
+  expect(valueOf(study, "mechanism.link[0].body_m[1]")).toEqual([3, 4]);
+  expect(valueOf(study, "mechanism.arm_m")).toBe(0.5);
+  for (const none of ["mechanism.rod_m", "mechanism.arm_m.x", "mechanism.link[3].body_m"]) expect(valueOf(study, none)).toBeNull();
+  expect(valueOf(null, "mechanism")).toBeNull();
+});
+
+test("the numbers of a study come in its groups, with their keys", () => {
+  const study = {
+    schema: 1, kind: "analysis",
+    mechanism: { type: "planar.linkage", moment_centre_m: [0, 0], body: [{ name: "crank", points_m: { O: [0, 0], A: [0.1, 0] }, mass_kg: 2 }] },
+    drive: [{ joint: "O", speed_rad_per_s: 6 }],
+    output: { samples: 361 },
+  };
+  const groups = numbersOf(study);
+  expect(groups.map((g) => g.title)).toEqual(["mechanism", "body crank", "drive 1"]);
+  expect(groups[1].entries.map((e) => [e.key, e.value])).toEqual([
+    ["mechanism.body[0].points_m.O[0]", 0], ["mechanism.body[0].points_m.O[1]", 0],
+    ["mechanism.body[0].points_m.A[0]", 0.1], ["mechanism.body[0].points_m.A[1]", 0], ["mechanism.body[0].mass_kg", 2]]);
+  expect(groups[2].entries[0].key).toBe("drive[0].speed_rad_per_s");
+  expect(unitKey("mechanism.body[0].points_m.A[0]")).toBe("points_m");
+  expect(unitKey("drive[0].speed_rad_per_s")).toBe("speed_rad_per_s");
+});
+
+const bounded = { type: "number", exclusiveMinimum: 0, maximum: 10, description: "length of the crank", unit: "m" };
+const schema = {
+  type: "object",
+  properties: {
+    mechanism: {
+      type: "object",
+      properties: {
+        type: { const: "planar.four_bar" },
+        branch: { oneOf: [{ const: "open", description: "B to the left" }, { const: "crossed", description: "B to the right" }], default: "open", description: "assembly branch" },
+        parameters: { type: "object", properties: { crank_m: { anyOf: [bounded, { type: "object", properties: { min: bounded, max: bounded } }], description: "length of the crank" }, pivot_x_m: { type: "number", default: 0 } } },
+        body: { type: "array", items: { type: "object", properties: { name: { type: "string" }, points_m: { type: "object", additionalProperties: { type: "array", items: { type: "number", minimum: -5 }, minItems: 2, maxItems: 2 } }, mass_kg: { type: "number", minimum: 0, description: "mass" }, at_m: { type: "array", items: { type: "number" }, minItems: 2, maxItems: 2 } } } },
+      },
+    },
+    law: { oneOf: [{ type: "object", properties: { kind: { const: "a" }, rise_m: { type: "number", description: "of a" } } }, { type: "object", properties: { kind: { const: "b" }, rise_m: { type: "number", description: "of b" } } }] },
+  },
+} as unknown as JsonObject;
+
+test("the schema tells what a number is for and between what it may lie", () => {
+  const study = { mechanism: { type: "planar.four_bar", branch: "open", parameters: { crank_m: { min: 1, max: 2 } }, body: [{ name: "crank", points_m: { A: [0.1, 0] } }] }, law: { kind: "b", rise_m: 1 } };
+  const rule = (key: string) => ruleOf(nodeAt(schema, study, key)!);
+  expect(rule("mechanism.parameters.crank_m")).toMatchObject({ help: "length of the crank", least: 0, open: true, most: 10, free: true, count: 0 });
+  expect(rule("mechanism.branch").choices).toEqual([{ value: "open", help: "B to the left" }, { value: "crossed", help: "B to the right" }]);
+  expect(rule("mechanism.body[0].points_m.A[1]")).toMatchObject({ least: -5, open: false, free: false });
+  expect(rule("law.rise_m").help).toBe("of b");
+  for (const none of ["mechanism.rod_m", "mechanism.body[0].name.x"]) expect(nodeAt(schema, study, none)).toBeNull();
+  const groups = numbersOf(study, schema);
+  expect(groups.map((g) => [g.title, g.path])).toEqual([["mechanism", "mechanism"], ["parameters", "mechanism.parameters"], ["body crank", "mechanism.body[0]"], ["law", "law"]]);
+  expect(groups[0].entries.map((e) => [e.key, e.value])).toEqual([["mechanism.branch", "open"]]);
+  expect(groups[1].entries[0].value).toEqual({ min: 1, max: 2 });
+});
+
+test("what a table may have and has not can be added, with what it begins with", () => {
+  const study = { mechanism: { type: "planar.four_bar", parameters: { crank_m: 1 }, body: [{ name: "crank", mass_kg: 2 }] } };
+  expect(absent(schema, study, "mechanism").map((a) => [a.key, a.start])).toEqual([["mechanism.branch", "open"]]);
+  expect(absent(schema, study, "mechanism.parameters").map((a) => [a.key, a.start])).toEqual([["mechanism.parameters.pivot_x_m", 0]]);
+  expect(absent(schema, study, "mechanism.body[0]").map((a) => [a.key, a.start])).toEqual([["mechanism.body[0].at_m", [0, 0]]]);
+  expect(absent(null, study, "mechanism")).toEqual([]);
+});
+
+test("what is locked stays while its neighbours are dragged", () => {
+  const grip = gripPoint(fourBar, 5, 0, 4, new Set(["coupler"]))!;
+  expect(moveTo(fourBar, grip, { x: 4, y: 2 }).map((e) => e.key)).toEqual(["rocker"]);
+  expect(gripPoint(fourBar, 5, 0, 4, new Set(["coupler", "rocker"]))).toBeNull();
+});
+
+const pinned = (x: number, y: number, more: Partial<Pin> = {}): Pin => ({ x, y, ground: false, guide: null, traced: false, ...more });
+const sliderCrank = { pins: [pinned(0, 0, { ground: true }), pinned(0, 50), pinned(140, 20, { guide: 0 }), pinned(70, 60, { traced: true })], links: [[0, 1], [1, 2, 3]], drive: 0 };
+
+test("a sketch says what it lacks until it moves", () => {
+  expect(missing(blank)).toMatch(/Draw a link/);
+  const bar = { ...blank, pins: [pinned(0, 0), pinned(0, 50)], links: [[0, 1]] };
+  expect(missing(bar)).toMatch(/to the ground/);
+  const crank = { ...bar, pins: [pinned(0, 0, { ground: true }), bar.pins[1]] };
+  expect(freedom(crank)).toBe(1);
+  expect(missing(crank)).toMatch(/driven/);
+  expect(missing({ ...crank, drive: 0 })).toBe("");
+  const open = { ...sliderCrank, pins: sliderCrank.pins.map((p) => ({ ...p, guide: null })) };
+  expect(freedom(open)).toBe(2);
+  expect(missing(open)).toMatch(/2 ways/);
+  const stiff = { pins: [pinned(0, 0, { ground: true }), pinned(10, 0, { ground: true }), pinned(5, 5)], links: [[0, 2], [1, 2]], drive: 0 };
+  expect(missing(stiff)).toMatch(/cannot move/);
+  expect(missing({ ...sliderCrank, pins: [...sliderCrank.pins, pinned(1, 1)] })).toBe("Pin E is on no link.");
+  expect([freedom(sliderCrank), missing(sliderCrank)]).toEqual([1, ""]);
+});
+
+test("a sketch makes a study with its pins, guides and drive", () => {
+  const text = studyOf(sliderCrank);
+  expect(text).toContain("points_mm = { B = [0, 50], C = [140, 20], D = [70, 60] }");
+  expect(text).toContain('first  = "ground.A"\nsecond = "link 1.A"');
+  expect(text).toContain('first         = "ground.C"\nsecond        = "slider C.C"\ndirection_deg = 0');
+  expect(text).toContain('joint     = "A"\nspeed_rpm = 60.0');
+  expect(text).toContain('point = "link 2.D"');
+  expect(studyOf({ ...sliderCrank, drive: 2 })).toContain('joint          = "guide C"\nspeed_mm_per_s = 100.0');
+  // Three bodies on a pin are two joints.
+  const three = { pins: [pinned(0, 0, { ground: true }), pinned(1, 0), pinned(2, 0), pinned(3, 1)], links: [[0, 1], [1, 2], [1, 3]], drive: 0 };
+  expect(studyOf(three)).toContain('name   = "B 2"\nfirst  = "link 1.B"\nsecond = "link 3.B"');
+});
+
+test("a pin goes with its links and the drive on it", () => {
+  expect(withoutPin(sliderCrank, 0)).toEqual({ pins: sliderCrank.pins.slice(1), links: [[0, 1, 2]], drive: null });
+  expect(withoutPin(sliderCrank, 3)).toEqual({ pins: sliderCrank.pins.slice(0, 3), links: [[0, 1], [1, 2]], drive: 0 });
+  expect([pinName(0), pinName(25), pinName(26), pinName(53)]).toEqual(["A", "Z", "A1", "B2"]);
+});

@@ -1,0 +1,43 @@
+// Puts the workbench into one page that needs nothing else:
+//   node workbench.mjs SCRIPTS_FOLDER OUT.html ENGINE_FOLDER    with the engine inside, to be opened from disk
+//   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               without, to be served by the program, which is the engine
+// SCRIPTS_FOLDER has workbench.js, workbench.css, space.js and, for the first, worker.js; ENGINE_FOLDER engine.js and engine.wasm.
+import { createHash } from "node:crypto";
+import { readFileSync, writeFileSync } from "node:fs";
+import { deflateRawSync, gzipSync } from "node:zlib";
+
+const [scripts, out, engine] = process.argv.slice(2);
+const read = (folder, name) => readFileSync(`${folder}/${name}`);
+const packed = (bytes) => deflateRawSync(bytes, { level: 9 }).toString("base64");
+// A script ends at the first "</script", wherever that stands.
+const inline = (name) => `\n${read(scripts, name).toString("utf8").replace(/<\/(script)/gi, "<\\/$1")}\n`;
+const own = [inline("space.js"), inline("workbench.js")];
+
+const carried = engine ? `<script type="text/plain" id="engine-wasm">${packed(read(engine, "engine.wasm"))}</script>
+<script type="text/plain" id="engine-script">${packed(Buffer.concat([read(engine, "engine.js"), Buffer.from("\n"), read(scripts, "worker.js")]))}</script>
+` : "";
+// The worker of the engine inherits what the page allows; a page without one allows its own two scripts and its own server.
+const allowed = engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:"
+  : `script-src ${own.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`).join(" ")}; connect-src 'self'`;
+
+const page = `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${allowed}; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
+<link rel="icon" href="data:,">
+<title>Linkwright workbench</title>
+<style>
+${read(scripts, "workbench.css").toString("utf8")}</style>
+</head>
+<body>
+<div id="app"></div>
+<noscript><p>The workbench needs JavaScript${engine ? " and WebAssembly" : ""}.</p></noscript>
+${carried}${own.map((script) => `<script>${script}</script>`).join("\n")}
+</body>
+</html>
+`;
+writeFileSync(out, out.endsWith(".gz") ? gzipSync(page, { level: 9 }) : page);
+console.log(`${out}: ${(page.length / 1e6).toFixed(2)} MB`);
