@@ -57,6 +57,20 @@ TEST(EditStudy, SeveralValuesAreReplacedInTheirOrder) {
                           "O = [3000.0, 4000.0], A"));
 }
 
+TEST(EditStudy, AListOfPointsIsReplacedWhole) {
+  const std::string study = R"([target]
+points_mm = [
+  [3.0, 3.0], [2.5, 3.5],
+]   # of the hand
+closed = false
+)";
+  const Value points(Value::Array{Value(Value::Array{0.001, 0.002}), Value(Value::Array{0.0035, -0.001})});
+  EXPECT_EQ(change(study, {{"target.points_m", points}}),
+            "[target]\npoints_mm = [\n  [1.0, 2.0],\n  [3.5, -1.0]\n]   # of the hand\nclosed = false\n");
+  EXPECT_EQ(change("{\"target\": {\"points_m\": [[0, 1]], \"closed\": true}}", {{"target.points_m", points}}),
+            "{\"target\": {\"points_m\": [\n  [0.001, 0.002],\n  [0.0035, -0.001]\n], \"closed\": true}}");
+}
+
 TEST(EditStudy, LettersBeyondAsciiBeforeAValueDoNotMoveIt) {
   const std::string text =
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\ntitles = { \"\u00e4\u00f6\" "

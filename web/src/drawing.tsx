@@ -277,6 +277,11 @@ function Pose({ scene, under }: { scene: Scene; under: boolean }) {
 // A press on a moving joint drags the mechanism along its motion; elsewhere it moves the sheet.
 type Gesture = { kind: "hand" } | { kind: "joint"; point: number } | { kind: "sheet"; from: Place; camera: Camera };
 
+function Stroke() {
+  const places = state.stroke.value.map((p) => toScreen(camera.value, size.value, p));
+  return places.length > 1 ? <path class="stroke" d={`M${places.map((p) => `${p.x.toFixed(1)} ${p.y.toFixed(1)}`).join("L")}`} /> : null;
+}
+
 export function Drawing(): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const gesture = useRef<Gesture | null>(null);
@@ -313,7 +318,7 @@ export function Drawing(): JSX.Element {
     const target = pickOf(event);
     if (target) state.picked.value = state.picked.value === target && !target.startsWith("joint") ? "" : target;
     if (target.startsWith("vector") || target.startsWith("moment")) return;
-    if (state.hand.now?.down(scene, toWorld(camera.value, size.value, at), 14 / camera.value.scale)) {
+    if (state.hand.now?.down(scene, toWorld(camera.value, size.value, at), 14 / camera.value.scale, event.altKey)) {
       moved.value = camera.value; // the sheet stays while the mechanism changes
       gesture.current = { kind: "hand" };
       (event.currentTarget as Element).setPointerCapture(event.pointerId);
@@ -357,6 +362,7 @@ export function Drawing(): JSX.Element {
             <Traces scene={scene} />
             <Pose scene={scene} under={false} />
             <Targets scene={scene} />
+            <Stroke />
             <Arrows scene={scene} />
             <Key scene={scene} />
           </>

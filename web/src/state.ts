@@ -122,13 +122,16 @@ export function showScene(index: number): void {
 /** What comes before the drawing's own gestures: where the study itself is changed by hand. */
 export interface Hand {
   /** A press at a place; true = it has taken hold of something within reach (m). */
-  down(scene: Scene, at: Place, reach: number): boolean;
+  down(scene: Scene, at: Place, reach: number, alone: boolean): boolean;
   /** A press on a point, in space; true = it has taken hold of it. */
   hold(scene: Scene, point: number): boolean;
   move(at: Place, alone: boolean): void;
   up(): void;
 }
 export const hand: { now: Hand | null } = { now: null };
+
+/** What is being drawn by hand. */
+export const stroke = signal<Place[]>([]);
 
 /** Where a study can be gone on with on the page itself, this does it. */
 export const goOn: { now: ((name: string, text: string) => void) | null } = { now: null };

@@ -232,6 +232,79 @@ test("a search runs in the page, and a target that is dragged runs it again", as
   await close();
 });
 
+test("target points are added, removed and drawn by hand", async () => {
+  const { page, errors, close } = await open({ example: "nine-points" });
+  const text = await studyText(page);
+  const pointsOf = (result) => result.study.target.points_m;
+  const before = pointsOf(await resultOf(page));
+  const places = () => page.locator(".target circle").evaluateAll((all) => all.map((e) => e.getBoundingClientRect()).map((at) => ({ x: at.left + at.width / 2, y: at.top + at.height / 2 })));
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.locator("button.switch", { hasText: "Add points" }).click();
+  const sheet = await page.locator("#drawing").boundingBox();
+  const free = { x: sheet.x + 0.06 * sheet.width, y: sheet.y + 0.5 * sheet.height };
+  await page.mouse.click(free.x, free.y);
+  await until(async () => pointsOf(await resultOf(page)).length === before.length + 1);
+  await settled(page);
+  assert.deepEqual(pointsOf(await resultOf(page)).slice(0, -1), before);
+  const added = (await places()).at(-1);
+  assert.ok(Math.hypot(added.x - free.x, added.y - free.y) < 2, `${added.x - free.x}, ${added.y - free.y}`);
+  await page.keyboard.down("Alt");
+  await page.mouse.click(added.x, added.y);
+  await page.keyboard.up("Alt");
+  await until(async () => pointsOf(await resultOf(page)).length === before.length);
+  await settled(page);
+  assert.deepEqual(pointsOf(await resultOf(page)), before);
+  // A stroke is a path of points at equal steps.
+  await page.mouse.move(free.x, free.y);
+  await page.mouse.down();
+  await page.mouse.move(free.x, free.y - 120, { steps: 12 });
+  assert.equal(await page.locator("#drawing .stroke").count(), 1);
+  await page.mouse.up();
+  await until(async () => pointsOf(await resultOf(page)).length === 20);
+  await settled(page);
+  const drawn = await resultOf(page);
+  assert.equal(drawn.study.target.closed, false);
+  const steps = pointsOf(drawn).map(([x, y], i, all) => (i ? [x - all[i - 1][0], y - all[i - 1][1]] : [0, 0])).slice(1);
+  const size = steps.reduce((sum, [, dy]) => sum + dy, 0) / 19;
+  for (const [dx, dy] of steps) assert.ok(Math.abs(dx) < 0.05 * size && Math.abs(dy - size) < 0.05 * size, `${dx}, ${dy}`);
+  assertSameTables({ ...drawn, tables: [] }, { ...asTheProgram(await studyText(page)), tables: [] });
+  for (let i = 0; i < 3; ++i) {
+    await page.locator("#undo").click();
+    await settled(page);
+  }
+  assert.equal(await studyText(page), text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("points that the timing does not allow are not taken, and it says why", async () => {
+  const { page, errors, close } = await open({ example: "arc-5-points-timed" });
+  const text = await studyText(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.locator("button.switch", { hasText: "Add points" }).click();
+  const sheet = await page.locator("#drawing").boundingBox();
+  await page.mouse.click(sheet.x + 0.05 * sheet.width, sheet.y + 0.95 * sheet.height);
+  assert.equal(await page.locator("#stopped").innerText(), "not taken: 5 angles for 6 points");
+  assert.equal(await studyText(page), text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a search that is stopped keeps its best", async () => {
+  const { page, errors, close } = await open({ example: "fourbar-18-points-grey-wolf" });
+  const text = await studyText(page);
+  await writeText(page, text.replace(/count = \d+/, "count = 100000"));
+  await until(async () => /best \d/.test(await page.locator(".state").innerText()));
+  await page.locator("#stop").click();
+  await settled(page);
+  const result = await resultOf(page);
+  assert.equal(result.status, "cancelled");
+  assert.ok(result.solutions.length > 0 && result.solutions[0].cost < 1);
+  assert.match(await studyText(page), /count = 100000/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a found design is gone on with, and undo leads back to the search", async () => {
   const { page, errors, close } = await open({ example: "arc-5-points-timed" });
   const [text, found] = [await studyText(page), await resultOf(page)];
@@ -368,12 +441,17 @@ async function jointInSpace(page, name) {
   if (!(await label.isVisible())) await page.locator("body").press("n");
   await label.waitFor();
   const at = await label.boundingBox();
-  for (let dy = -30; dy <= 40; dy += 7)
-    for (const dx of [-8, -20, 0, 12, at.width / 2, at.width + 8]) {
-      await page.mouse.move(at.x + dx, at.y + dy);
-      const card = page.locator("#picked");
-      if ((await card.count()) && (await card.innerText()).startsWith(name)) return { x: at.x + dx, y: at.y + dy };
-    }
+  const sheet = await page.locator("#space canvas").boundingBox();
+  const [reach, step] = [160, 8];
+  const places = [];
+  for (let x = at.x - reach; x < at.x + at.width + reach; x += step)
+    for (let y = at.y - reach; y < at.y + reach; y += step)
+      if (x > sheet.x && x < sheet.x + sheet.width && y > sheet.y && y < sheet.y + sheet.height)
+        places.push({ x, y, far: Math.hypot(Math.max(at.x - x, 0, x - at.x - at.width), y - at.y) });
+  for (const { x, y } of places.sort((a, b) => a.far - b.far)) {
+    await page.mouse.move(x, y);
+    if ((await page.evaluate(() => document.querySelector("#picked")?.textContent ?? "")).startsWith(name)) return { x, y };
+  }
   throw new Error(`${name} is not found`);
 }
 

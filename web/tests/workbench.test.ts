@@ -4,6 +4,7 @@ import { asFragment, begin, canRedo, canUndo, change, document_, fromFragment, r
 import { withNumbers } from "../src/workbench/engine";
 import { gripPoint, gripTarget, moveTo, valueOf } from "../src/workbench/handles";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
+import { along, listOf, tidy, withoutPoint, withPoint } from "../src/workbench/points";
 import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
 import { absent, nodeAt, ruleOf } from "../src/workbench/schema";
 
@@ -258,4 +259,24 @@ test("a pin goes with its links and the drive on it", () => {
   expect(withoutPin(sliderCrank, 0)).toEqual({ pins: sliderCrank.pins.slice(1), links: [[0, 1, 2]], drive: null });
   expect(withoutPin(sliderCrank, 3)).toEqual({ pins: sliderCrank.pins.slice(0, 3), links: [[0, 1], [1, 2]], drive: 0 });
   expect([pinName(0), pinName(25), pinName(26), pinName(53)]).toEqual(["A", "Z", "A1", "B2"]);
+});
+
+test("target points are set by hand", () => {
+  const study = { target: { points_m: [[0, 0], [1, 0], [1, 1]] } };
+  const scene = { handles: [{ key: "target.points_m[0]", point: -1, frame: -1, target: 0, index: 0 }] } as unknown as Scene;
+  expect([listOf(scene), listOf(undefined), listOf({ handles: [] } as unknown as Scene)]).toEqual(["target.points_m", "", ""]);
+  expect(withPoint(study, "target.points_m", { x: 0.123456, y: -2 / 3 }, 2)).toEqual({ key: "target.points_m", value: [[0, 0], [1, 0], [1, 1], [0.1235, -0.6667]] });
+  expect(withoutPoint(study, "target.points_m", 1)).toEqual([{ key: "target.points_m", value: [[0, 0], [1, 1]] }]);
+  expect(withoutPoint({ target: { points_m: [[0, 0], [1, 0]] } }, "target.points_m", 1)).toEqual([]);
+  expect([tidy(12.34567, 100), tidy(0.000123456, 1e-3), tidy(1234.5, 1e6)]).toEqual([12.35, 0.0001235, 1235]);
+});
+
+test("points at equal steps lie on what was drawn", () => {
+  const line = along([{ x: 0, y: 0 }, { x: 1, y: 0 }, { x: 1, y: 0 }, { x: 4, y: 0 }], 5, 10);
+  expect(line).toEqual({ points: [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0]], closed: false });
+  const ring = along([{ x: 0, y: 0 }, { x: 2, y: 0 }, { x: 2, y: 2 }, { x: 0, y: 2 }, { x: 0, y: 0.1 }], 8, 10);
+  expect(ring.closed).toBe(true);
+  expect(ring.points).toHaveLength(8);
+  expect(ring.points.slice(0, 3)).toEqual([[0, 0], [1, 0], [2, 0]]);
+  expect(ring.points[7]).toEqual([0, 1]);
 });

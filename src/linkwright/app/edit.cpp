@@ -73,6 +73,17 @@ std::size_t offset_of(std::string_view text, Position position) {
   return at;
 }
 
+/// The end of the list that begins at a place, with the lists in it; npos = it holds more than numbers.
+std::size_t end_of_list(std::string_view text, std::size_t begin) {
+  int open = 0;
+  for (std::size_t at = begin; at < text.size(); ++at) {
+    if (std::string_view("#{}\"'").find(text[at]) != std::string_view::npos) break;
+    if (text[at] == '[') ++open;
+    if (text[at] == ']' && --open == 0) return at + 1;
+  }
+  return std::string_view::npos;
+}
+
 /// The end of the number, the word, or the list or table of such that begins at a place; npos = something
 /// else stands there.
 std::size_t end_of(std::string_view text, std::size_t begin) {
@@ -86,9 +97,8 @@ std::size_t end_of(std::string_view text, std::size_t begin) {
     const std::size_t close = text.find_first_of("}#{[\"'", begin + 1);
     return close != std::string_view::npos && text[close] == '}' ? close + 1 : std::string_view::npos;
   }
-  if (text[begin] != '[') return std::min(text.find_first_of(stops, begin), text.size());
-  const std::size_t close = text.find_first_of("]#{\"'[", begin + 1);
-  return close != std::string_view::npos && text[close] == ']' ? close + 1 : std::string_view::npos;
+  if (text[begin] == '[') return end_of_list(text, begin);
+  return std::min(text.find_first_of(stops, begin), text.size());
 }
 
 double converted(double value, const Found& found) {
@@ -101,6 +111,22 @@ std::string number_text(double value) {
   std::string text = fmt::format("{:.7g}", value + 0.0);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
+}
+
+/// A list of numbers; a list of such lists has a line for each.
+std::optional<std::string> list_text(const Value& value, const Found& found) {
+  const Value::Array& items = value.as_array();
+  const bool rows = !items.empty() && items.front().is_array();
+  std::string out = "[";
+  for (const Value& v : items) {
+    if (v.is_array() != rows || (!rows && !v.is_number())) return std::nullopt;
+    if (out.size() > 1) out += rows ? "," : ", ";
+    const auto item =
+        rows ? list_text(v, found) : std::optional(number_text(converted(v.as_number(), found)));
+    if (!item) return std::nullopt;
+    out += rows ? "\n  " + *item : *item;
+  }
+  return out + (rows ? "\n]" : "]");
 }
 
 std::optional<std::string> text_of(const Value& value, const Found& found, study::Syntax syntax) {
@@ -124,14 +150,7 @@ std::optional<std::string> text_of(const Value& value, const Found& found, study
     }
     return out + " }";
   }
-  if (!value.is_array()) return std::nullopt;
-  std::string out = "[";
-  for (const Value& v : value.as_array()) {
-    if (!v.is_number()) return std::nullopt;
-    if (out.size() > 1) out += ", ";
-    out += number_text(converted(v.as_number(), found));
-  }
-  return out + "]";
+  return value.is_array() ? list_text(value, found) : std::nullopt;
 }
 
 /// The text with one value replaced where it stands; nothing if it does not stand there as a number, a word,
@@ -153,7 +172,8 @@ std::optional<std::string> replaced(std::string_view text, const Value& document
 std::optional<std::string> inserted(std::string_view text, const Value& document, const Edit& edit,
                                     const study::DisplayUnits& units) {
   auto path = parse_path(edit.key);
-  if (!path || path->size() < 2 || !path->back().indices.empty()) return std::nullopt;
+  if (!path || path->size() < 2 || !path->back().indices.empty() || find(document, *path).value)
+    return std::nullopt;
   const study::DisplayUnits::Key shown = units.key(path->back().key);
   const auto unit = [](const std::string& key) {
     const auto parts = split_unit(key);

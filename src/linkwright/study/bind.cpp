@@ -343,6 +343,8 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
   for (const Value::Member& member : object_->as_object()) {
     if (names_field(member.key, field.key, dimension)) {
       record_->used.push_back(&member);
+      // JSON has no infinity and writes null for it: such a number is always the default.
+      if (member.value.is_null()) continue;
       if (first)
         refuse(member, fmt::format("is given twice, as {} and {}", first->key, member.key),
                "keep one of them");

@@ -14,7 +14,7 @@ export interface Diagnostic {
 
 export interface Edit {
   key: string;
-  value: number | number[] | boolean | string | { min: number; max: number };
+  value: number | number[] | number[][] | boolean | string | { min: number; max: number };
 }
 
 /** A study that the program has read and, if it is without errors, run. */
@@ -59,6 +59,8 @@ export interface Engine {
   /** JSON Schema of the studies of a kind; null if there is no such kind. */
   schema(kind: string): Promise<JsonObject | null>;
   run(task: Task, progress?: (p: Progress) => void): Promise<Answer>;
+  /** Asks the run to end: its answer is then the best so far. */
+  finish(): void;
   /** Ends what is being asked, which is then rejected with `Stopped`; the next question finds a fresh engine. */
   stop(): void;
 }
@@ -97,6 +99,8 @@ export function workerEngine(module: WebAssembly.Module, script: string): Engine
   const source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
   let worker: Worker | null = null;
   let count = 0;
+  let going = ""; // an address that is there until the run is to end: the worker, which hears nothing while it runs, can ask for it
+  const end = () => URL.revokeObjectURL(going);
   const waiting = new Map<number, { done: (reply: { json: string; numbers: Float64Array }) => void; failed: (error: Error) => void; progress?: (p: Progress) => void }>();
   const give_up = (error: Error) => {
     worker?.terminate();
@@ -136,9 +140,12 @@ export function workerEngine(module: WebAssembly.Module, script: string): Engine
     },
     schema: async (kind) => JSON.parse((await ask({ ask: "schema", kind })).json) as JsonObject | null,
     run: async ({ text, edits = [], files = {}, seconds = 0 }, progress) => {
-      const { json, numbers } = await ask({ ask: "run", text, edits: edits.length ? JSON.stringify({ edits }) : "", files, seconds }, progress);
+      end();
+      going = URL.createObjectURL(new Blob(["."]));
+      const { json, numbers } = await ask({ ask: "run", text, edits: edits.length ? JSON.stringify({ edits }) : "", files, seconds, going }, progress);
       return readAnswer(json, numbers);
     },
+    finish: end,
     stop: () => give_up(new Stopped("stopped")),
   };
 }

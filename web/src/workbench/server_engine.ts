@@ -67,6 +67,7 @@ export function serverEngine(ask: Ask): Engine {
   const tab = Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, "0")).join("");
   let count = 0;
   let running: AbortController | null = null;
+  const cancel = () => void ask("POST", "/cancel", `${tab}.${count}`).catch(() => {});
   return {
     catalogue: async () => withNumbers(await (await ask("GET", "/catalogue")).text(), new Float64Array()) as unknown as Catalogue,
     schema: async (kind) => (await (await ask("GET", `/schema/${kind}`)).json()) as JsonObject | null,
@@ -86,9 +87,10 @@ export function serverEngine(ask: Ask): Engine {
         throw own.signal.aborted ? new Stopped("stopped") : error;
       }
     },
+    finish: cancel,
     stop: () => {
       running?.abort();
-      ask("POST", "/cancel", `${tab}.${count}`).catch(() => {});
+      cancel();
     },
   };
 }

@@ -1,13 +1,14 @@
 // The study, the engine and what is shown of it, kept in step: the newest text wins, and an answer that comes too late is dropped.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { JsonObject, Scene } from "../data";
 import type { Place } from "../motion";
 import { extent } from "../camera";
 import * as state from "../state";
 import { begin, change, document_, keep, replace, type Document } from "./document";
 import { Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
-import { gripPoint, gripTarget, moveTo, reached, within, type Grip } from "./handles";
+import { gripPoint, gripTarget, moveTo, reached, valueOf, within, type Grip } from "./handles";
 import { opened } from "./opened";
+import { along, listOf, withoutPoint, withPoint } from "./points";
 
 export const catalogue = signal<Catalogue | null>(null);
 export const diagnostics = signal<Diagnostic[]>([]);
@@ -27,14 +28,20 @@ export const shown = signal(false);
 /** What is shown is of an earlier text: the present one has errors. */
 export const stale = signal(false);
 export const busy = signal(false);
+/** The run has been asked to end with the best so far. */
+export const ending = signal(false);
 export const progress = signal<Progress | null>(null);
 export const trouble = signal("");
-/** Why what is dragged goes no further; "" = it does. */
+/** Why what is done by hand is not taken; "" = it is. */
 export const stopped = signal("");
 /** ms of the last run in the engine, and from the question to the page. */
 export const took = signal<{ engine: number; whole: number } | null>(null);
 /** Whether a press on the drawing changes the mechanism or moves it. */
 export const editing = signal(true);
+/** Whether a press where nothing is adds a point to the target, and a drag draws its path. */
+export const adding = signal(false);
+/** The key of the target's points, where the study has some that can be set by hand. */
+export const targetKey = computed(() => (shown.value && canonical.value ? listOf(state.scene.value) : ""));
 
 let engine: Engine;
 interface Wanted {
@@ -62,7 +69,6 @@ async function learn(study: JsonObject): Promise<void> {
   const found = await schemas.get(name)!;
   if (kind === name) schema.value = found;
 }
-
 
 const patience = 300; // ms after which a run that nobody waits for any longer is ended
 const print = (task: Task) => JSON.stringify([task.text, task.files]);
@@ -103,6 +109,7 @@ async function pump(): Promise<void> {
     if (!(error instanceof Stopped)) trouble.value = error instanceof Error ? error.message : String(error);
   } finally {
     flying = null;
+    ending.value = false;
     progress.value = null;
     busy.value = wanted !== null;
     void pump();
@@ -130,14 +137,18 @@ export const bestOf = (name: string) => {
   return typeof value === "number" ? value : null;
 };
 
+/** Ends what is running: with the best so far for an answer, or, when that has been asked for already, without one. */
 export function stop(): void {
   wanted = null;
-  engine.stop();
+  if (ending.value) engine.stop();
+  else engine.finish();
+  ending.value = true;
 }
 
 export function open(document: Document): void {
   subject = "";
   locked.value = new Set();
+  adding.value = false;
   opened.value = null;
   begin(document);
 }
@@ -171,12 +182,37 @@ function nearest(scene: Scene, at: Place, reach: number): Grip | null {
   return grip;
 }
 
+const problemOf = (answer: Answer) => answer.diagnostics.find((d) => d.severity === "error")?.message ?? "";
+
+/** Target points that take the place of those of now. What makes a study with errors is not taken. */
+const setPoints = (edits: Edit[]) => edit(edits, Symbol(), (answer) => (answer.carried ? "" : `not taken: ${problemOf(answer)}`));
+
+/** A press made a point, a drag a path of as many points as there were, or of some twenty. */
+function drawPoints(stroke: Place[], scene: Scene): void {
+  const key = targetKey.value;
+  const long = stroke.reduce((sum, p, i) => sum + (i ? Math.hypot(p.x - stroke[i - 1].x, p.y - stroke[i - 1].y) : 0), 0);
+  if (long < 0.05 * extent.value) return setPoints([withPoint(canonical.value, key, stroke[0], extent.value)]);
+  const { points, closed } = along(stroke, Math.max(20, scene.targets[0]?.x.length ?? 0), extent.value);
+  const target = key.slice(0, key.lastIndexOf("."));
+  const has = typeof valueOf(canonical.value, `${target}.closed`) === "boolean";
+  setPoints([{ key, value: points }, ...(has ? [{ key: `${target}.closed`, value: closed }] : [])]);
+}
+
 const hand: state.Hand = {
-  down(scene, at, reach) {
+  down(scene, at, reach, alone) {
     if (!editing.value) return false;
     const grip = nearest(scene, at, reach);
+    const target = grip?.handles.find((h) => h.target >= 0);
+    if (target && alone) {
+      setPoints(withoutPoint(canonical.value, listOf(scene), target.index));
+      return true;
+    }
     if (grip) take(scene, grip);
-    return grip !== null;
+    else if (adding.value && targetKey.value) {
+      state.playing.value = false;
+      state.stroke.value = [at];
+    } else return false;
+    return true;
   },
   hold(scene, point) {
     const grip = editing.value ? gripPoint(scene, point, Math.round(state.position.value), extent.value, locked.value) : null;
@@ -184,6 +220,7 @@ const hand: state.Hand = {
     return grip !== null;
   },
   move(at, alone) {
+    if (state.stroke.value.length) state.stroke.value = [...state.stroke.value, at];
     if (!held) return;
     const { grip, gesture } = held;
     // A hard point is moved step by step from where it is now.
@@ -193,11 +230,13 @@ const hand: state.Hand = {
     const exact = to !== null && at.z === undefined && study?.kind === "analysis" && !alone && !grip.bound;
     edit(moveTo(scene, grip, at, alone, study), gesture, (answer) => {
       const drawn = answer.carried?.view.scenes[index];
-      if (!drawn) return answer.diagnostics.find((d) => d.severity === "error")?.message ?? "";
-      return exact && !reached(scene, drawn, grip, to, extent.value, study) ? "further on the linkage would turn over to its other branch" : "";
+      if (!drawn) return `stops here: ${problemOf(answer)}`;
+      return exact && !reached(scene, drawn, grip, to, extent.value, study) ? "stops here: further on the linkage would turn over to its other branch" : "";
     });
   },
   up() {
+    if (state.stroke.value.length && state.scene.value) drawPoints(state.stroke.value, state.scene.value);
+    state.stroke.value = [];
     held = null;
     stopped.value = "";
   },

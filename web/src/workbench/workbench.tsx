@@ -10,12 +10,12 @@ import "../viewer.css";
 import "./workbench.css";
 import { asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
 import { Draw, showDraw } from "./draw";
-import { workerEngine, type Engine } from "./engine";
+import { workerEngine, type Engine, type Progress } from "./engine";
 import { Gallery, paintWith, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
-import { busy, catalogue, connect, editing, open, progress, shown, stop, stopped, took, trouble } from "./session";
+import { adding, busy, catalogue, connect, editing, ending, open, progress, shown, stop, stopped, targetKey, took, trouble } from "./session";
 
 const said = signal("");
 
@@ -42,14 +42,16 @@ async function openFiles(list: FileList): Promise<void> {
   else replace({ ...document_.value, files: { ...document_.value.files, ...beside } });
 }
 
+const best = ({ best }: Progress) => (Number.isFinite(best) ? `, best ${best.toPrecision(4)}` : "");
+
 function State() {
   if (trouble.value) return <span class="state bad" role="alert">{trouble.value}</span>;
-  if (stopped.value) return <span class="state bad" id="stopped" role="status">stops here: {stopped.value}</span>;
+  if (stopped.value) return <span class="state bad" id="stopped" role="status">{stopped.value}</span>;
   if (busy.value)
     return (
       <span class="state busy" role="status">
-        {progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %` : "running"}
-        <button type="button" onClick={stop}>Stop</button>
+        {progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %${best(progress.value)}` : "running"}
+        <button type="button" id="stop" title={ending.value ? "End at once, without an answer" : "End with the best so far"} onClick={stop}>{ending.value ? "Drop" : "Stop"}</button>
       </span>
     );
   return <span class="state" role="status" id="took">{said.value || (took.value ? `${took.value.engine < 10 ? took.value.engine.toFixed(1) : Math.round(took.value.engine)} ms` : "")}</span>;
@@ -69,7 +71,7 @@ function Bar() {
       <button type="button" id="undo" disabled={!canUndo.value} title="Undo (Ctrl Z)" onClick={undo}>Undo</button>
       <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
       <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
-      <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" /></span>
+      <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text="Add points" hint="Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it" />}</span>
       <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
       <span class="spring" />
       <State />
