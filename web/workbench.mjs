@@ -17,7 +17,7 @@ const carried = engine ? `<script type="text/plain" id="engine-wasm">${packed(re
 <script type="text/plain" id="engine-script">${packed(Buffer.concat([read(engine, "engine.js"), Buffer.from("\n"), read(scripts, "worker.js")]))}</script>
 ` : "";
 // The worker of the engine inherits what the page allows; a page without one allows its own two scripts and its own server.
-const allowed = engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; connect-src blob:"
+const allowed = engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:"
   : `script-src ${own.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`).join(" ")}; connect-src 'self'`;
 
 const page = `<!doctype html>

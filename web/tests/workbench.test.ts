@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import type { JsonObject, Scene } from "../src/data";
 import { asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
 import { withNumbers } from "../src/workbench/engine";
-import { gripPoint, gripTarget, moveTo, valueOf } from "../src/workbench/handles";
+import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
 import { along, listOf, tidy, withoutPoint, withPoint } from "../src/workbench/points";
 import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
@@ -279,4 +279,18 @@ test("points at equal steps lie on what was drawn", () => {
   expect(ring.points).toHaveLength(8);
   expect(ring.points.slice(0, 3)).toEqual([[0, 0], [1, 0], [2, 0]]);
   expect(ring.points[7]).toEqual([0, 1]);
+});
+
+test("a pin on a guide is dragged along it", () => {
+  const study: JsonObject = { mechanism: { type: "planar.linkage",
+    body: [{ name: "ground", points_m: { G: [0, 1] } }, { name: "rod", points_m: { B: [2, 0] } }, { name: "slider", points_m: { B: [0, 0] } }],
+    joint: [{ type: "revolute", first: "rod.B", second: "slider.B", direction_rad: 0 }, { type: "prismatic", first: "ground.G", second: "slider.B", direction_rad: Math.PI / 6 }] } };
+  const scene = { handles: [] } as unknown as Scene;
+  const handles = (key: string) => [{ key, measure: "place", point: 0, from: -1, frame: -1, target: -1, index: -1, held: false }] as NonNullable<Scene["handles"]>;
+  const grip = { handles: handles("mechanism.body[2].points_m.B"), points: [0], at: { x: 1, y: 1 }, sample: 0, fixed: false, bound: false };
+  const to = within(scene, guided(scene, grip, study), { x: 3, y: 1 })!;
+  expect(to.x).toBeCloseTo(1 + 2 * Math.cos(Math.PI / 6) ** 2, 12);
+  expect(to.y).toBeCloseTo(1 + 2 * Math.cos(Math.PI / 6) * Math.sin(Math.PI / 6), 12);
+  // The guide itself is put where one likes, and so is a pin on none.
+  for (const key of ["mechanism.body[0].points_m.G", "mechanism.body[1].points_m.A"]) expect(guided(scene, { ...grip, handles: handles(key) }, study).along).toBeUndefined();
 });

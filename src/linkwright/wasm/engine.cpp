@@ -34,9 +34,9 @@ void give(Ask&& ask) {
   answer = {study::to_json(out), {}};
 }
 
-// The worker of the page hears how far a run is, and answers whether it is to end with what it has.
-EM_JS(int, tell_progress, (const char* stage, int length, double fraction, double best), {
-  return Module["onProgress"] && Module["onProgress"](UTF8ToString(stage, length), fraction, best) ? 1 : 0;
+// The worker of the page hears how far a run is.
+EM_JS(void, tell_progress, (const char* stage, int length, double fraction, double best), {
+  if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, length), fraction, best);
 });
 
 }  // namespace
@@ -66,9 +66,8 @@ EMSCRIPTEN_KEEPALIVE void engine_run(const char* text, int size, const char* edi
   give([&] {
     RunContext context;
     if (seconds > 0) context.set_time_limit(std::chrono::duration<double>(seconds));
-    context.set_progress([&context](const Progress& p) {
-      if (tell_progress(p.stage.data(), static_cast<int>(p.stage.size()), p.fraction, p.best))
-        context.cancel();
+    context.set_progress([](const Progress& p) {
+      tell_progress(p.stage.data(), static_cast<int>(p.stage.size()), p.fraction, p.best);
     });
     return app::run_text({text, static_cast<std::size_t>(size)},
                          {edits, static_cast<std::size_t>(edits_size)}, "/study", context);

@@ -13,19 +13,20 @@ export interface Grip {
   sample: number;
   fixed: boolean; // stands on the ground
   bound: boolean; // some of its numbers are locked, so that it does not follow wherever it is dragged
+  along?: Place; // the direction of the slide that keeps it on a line
 }
 
 const entry = (list: Num[], i: number) => (list.length === 1 ? list[0] : list[i]) ?? null;
 
 const distance = (a: Place, b: Place) => Math.hypot(a.x - b.x, a.y - b.y, (a.z ?? 0) - (b.z ?? 0));
 
-/** Whether two points of a scene are one at every sample, as the ends of two links on a pin are. */
+/** Whether two points of a scene are one wherever it is assembled, as the ends of two links on a pin are. */
 function joined(scene: Scene, a: number, b: number, size: number): boolean {
   if (a === b) return true;
   let any = false;
   for (let i = 0; i < Math.max(1, scene.input.length); ++i) {
     const [p, q] = [placeAt(scene, a, i), placeAt(scene, b, i)];
-    if (!p || !q) continue;
+    if (!p || !q || (scene.status?.[i] ?? "done") !== "done") continue;
     if (distance(p, q) > 1e-9 * size) return false;
     any = true;
   }
@@ -35,9 +36,11 @@ function joined(scene: Scene, a: number, b: number, size: number): boolean {
 /** All numbers that move with a drawn point at a sample, but for those that are locked; null if the study has none of it. */
 export function gripPoint(scene: Scene, point: number, sample: number, size: number, locked: ReadonlySet<string> = new Set()): Grip | null {
   const at = placeAt(scene, point, sample);
-  const one = at ? scene.points.flatMap((_, i) => (joined(scene, i, point, size) ? [i] : [])) : [];
-  // Of two points of one body in one place, such as a pivot on a guide, the pin is meant.
+  // Of two points of one body in one place, such as a pivot on a guide, the pin is meant. What no number of the study places, such as
+  // a centre of mass, is there by chance.
   const pins = new Set(scene.joints?.map((j) => j.point));
+  const told = new Set([point, ...pins, ...(scene.handles ?? []).flatMap((h) => [h.point, h.from])]);
+  const one = at ? scene.points.flatMap((_, i) => (told.has(i) && joined(scene, i, point, size) ? [i] : [])) : [];
   one.sort((a, b) => Number(pins.has(b)) - Number(pins.has(a)) || a - b);
   const placed = (scene.handles ?? []).filter((h) => h.measure === "place" && h.frame >= 0 && one.includes(h.point)).sort((a, b) => one.indexOf(a.point) - one.indexOf(b.point));
   const second = placed.filter((h, i) => placed.findIndex((o) => o.frame === h.frame) !== i);
@@ -63,6 +66,28 @@ export function gripTarget(scene: Scene, target: number, index: number, sample: 
   return handles.length ? { handles, points: [], at: { x, y }, sample, fixed: false, bound: false } : null;
 }
 
+/** The grip on the line that it can only be moved on, where a slide keeps it there. `study` is the one that is drawn. */
+export function guided(scene: Scene, grip: Grip, study: JsonObject | null): Grip {
+  const mechanism = study?.mechanism as JsonObject | undefined;
+  if (mechanism?.type !== "planar.linkage") return grip;
+  const [bodies, joints] = [mechanism.body, mechanism.joint] as [JsonObject[], JsonObject[]];
+  const held = grip.handles.flatMap(({ key }) => {
+    const [, body, point] = /^mechanism\.body\[(\d+)\]\.points_m\.(\w+)$/.exec(key) ?? [];
+    return body ? [`${String(bodies[Number(body)].name)}.${point}`] : [];
+  });
+  for (const { type, first, second, direction_rad } of joints) {
+    const line = (first as string).slice(0, (first as string).indexOf("."));
+    // The line of the ground is where it is put; that of a link turns with the link.
+    const on = (type === "prismatic" && held.includes(second as string)) || ((type === "prismatic" || type === "pin_in_slot") && line !== bodies[0].name && held.includes(first as string));
+    if (!on) continue;
+    const index = bodies.findIndex((b) => b.name === line);
+    const frame = scene.handles?.find((h) => h.key.startsWith(`mechanism.body[${index}].`))?.frame ?? -1;
+    const turn = (frame < 0 ? 0 : entry(scene.frames![frame].angle, grip.sample) ?? 0) + (direction_rad as number);
+    return { ...grip, along: { x: Math.cos(turn), y: Math.sin(turn) } };
+  }
+  return grip;
+}
+
 /** The number or list of a study at a key; null if it has none. */
 export function valueOf(study: JsonObject | null, key: string): Json | null {
   let at: Json | undefined = study ?? undefined;
@@ -78,8 +103,12 @@ const shortest = 1e-3; // of a link, as a share of its length when it was taken 
 const origin: Place = { x: 0, y: 0, z: 0 };
 const endOf = (scene: Scene, grip: Grip, point: number) => (point < 0 ? origin : placeAt(scene, point, grip.sample));
 
-/** Where what is held comes to when it is dragged to a place: what an input turns stays on its line. */
+/** Where what is held comes to when it is dragged to a place: what an input turns, or a slide guides, stays on its line. */
 export function within(scene: Scene, grip: Grip, to: Place): Place | null {
+  if (grip.along) {
+    const way = (to.x - grip.at.x) * grip.along.x + (to.y - grip.at.y) * grip.along.y;
+    return { x: grip.at.x + way * grip.along.x, y: grip.at.y + way * grip.along.y };
+  }
   const held = grip.handles.find((h) => h.measure === "length" && h.held && grip.points.includes(h.point));
   if (!held) return to;
   const from = endOf(scene, grip, held.from);
@@ -109,6 +138,8 @@ export function reached(before: Scene, after: Scene, grip: Grip, at: Place, size
     const p = placeAt(after, point, grip.sample);
     return p !== null && place !== null && distance(p, place) <= 1e-5 * size;
   };
+  // The tool of a robot is given, and its arms turn to it.
+  if (grip.handles.some((h) => h.held) && String((study?.mechanism as JsonObject | undefined)?.type).startsWith("parallel.")) return true;
   if (!grip.points.every((point) => near(point, at))) return false;
   return !othersStay(study, grip) || before.joints.every(({ point, style }) => style === "tracer" || grip.points.includes(point) || near(point, placeAt(before, point, grip.sample)));
 }

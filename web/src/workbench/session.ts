@@ -6,7 +6,7 @@ import { extent } from "../camera";
 import * as state from "../state";
 import { begin, change, document_, keep, replace, type Document } from "./document";
 import { Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
-import { gripPoint, gripTarget, moveTo, reached, valueOf, within, type Grip } from "./handles";
+import { gripPoint, gripTarget, guided, moveTo, reached, valueOf, within, type Grip } from "./handles";
 import { opened } from "./opened";
 import { along, listOf, withoutPoint, withPoint } from "./points";
 
@@ -65,7 +65,10 @@ async function learn(study: JsonObject): Promise<void> {
   if (name === kind) return;
   kind = name;
   schema.value = null;
-  if (!schemas.has(name)) schemas.set(name, engine.schema(name).catch(() => null));
+  if (!schemas.has(name)) schemas.set(name, engine.schema(name).catch(() => {
+    schemas.delete(name); // the engine was stopped: asked again the next time
+    return null;
+  }));
   const found = await schemas.get(name)!;
   if (kind === name) schema.value = found;
 }
@@ -140,9 +143,10 @@ export const bestOf = (name: string) => {
 /** Ends what is running: with the best so far for an answer, or, when that has been asked for already, without one. */
 export function stop(): void {
   wanted = null;
-  if (ending.value) engine.stop();
-  else engine.finish();
+  const asked = ending.value;
   ending.value = true;
+  if (asked) engine.stop();
+  else engine.finish();
 }
 
 export function open(document: Document): void {
@@ -158,7 +162,7 @@ let held: { grip: Grip; gesture: symbol; scene: Scene; study: JsonObject | null 
 
 function take(scene: Scene, grip: Grip): void {
   state.scrub(grip.sample);
-  held = { grip, gesture: Symbol(), scene, study: canonical.value };
+  held = { grip: guided(scene, grip, canonical.value), gesture: Symbol(), scene, study: canonical.value };
 }
 
 function nearest(scene: Scene, at: Place, reach: number): Grip | null {

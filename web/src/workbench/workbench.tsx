@@ -50,7 +50,7 @@ function State() {
   if (busy.value)
     return (
       <span class="state busy" role="status">
-        {progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %${best(progress.value)}` : "running"}
+        {ending.value ? "taking the best so far" : progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %${best(progress.value)}` : "running"}
         <button type="button" id="stop" title={ending.value ? "End at once, without an answer" : "End with the best so far"} onClick={stop}>{ending.value ? "Drop" : "Stop"}</button>
       </span>
     );

@@ -24,7 +24,7 @@ export type Question =
   | { id: number; ask: "start"; module: WebAssembly.Module }
   | { id: number; ask: "catalogue" }
   | { id: number; ask: "schema"; kind: string }
-  | { id: number; ask: "run"; text: string; edits: string; files: Record<string, string>; seconds: number; going: string };
+  | { id: number; ask: "run"; text: string; edits: string; files: Record<string, string>; seconds: number };
 export type Reply =
   | { id: number; json: string; numbers: Float64Array }
   | { id: number; progress: { stage: string; fraction: number; best: number } }
@@ -34,19 +34,6 @@ const scope = globalThis as unknown as Scope;
 let engine: Module;
 let asked = 0;
 let said = 0;
-let going = "";
-
-/** Whether an address is still there. A worker in the middle of a run hears no message, but it can look. */
-function isThere(address: string): boolean {
-  const look = new XMLHttpRequest();
-  look.open("GET", address, false);
-  try {
-    look.send();
-    return true;
-  } catch {
-    return false;
-  }
-}
 
 function bytesOf(text: string): [number, number] {
   const bytes = new TextEncoder().encode(text);
@@ -71,10 +58,9 @@ async function start(module: WebAssembly.Module): Promise<void> {
       return {};
     },
     onProgress: (stage: string, fraction: number, best: number) => {
-      if (performance.now() - said < 100) return false;
+      if (performance.now() - said < 100) return;
       said = performance.now();
       scope.postMessage({ id: asked, progress: { stage, fraction, best } });
-      return !isThere(going);
     },
   });
   engine.FS.mkdirTree("/study");
@@ -93,7 +79,6 @@ async function reply(question: Question): Promise<void> {
     engine._engine_schema(kind, size);
     engine._free(kind);
   } else {
-    going = question.going;
     for (const [name, text] of Object.entries(question.files)) engine.FS.writeFile(`/study/${name}`, text);
     const [text, size] = bytesOf(question.text);
     const [edits, editsSize] = bytesOf(question.edits);
