@@ -127,9 +127,10 @@ function Histogram({ plot, table }: { plot: Plot; table: Table }) {
     const unit = unitOf(plot.y[0] ?? "", largest(columns.map((i) => table.data[i])));
     const label = columns.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit)).join(", ");
     const groups = groupsOf(plot, table);
-    const lists = groups.map(({ rows }) => scaled(columns.flatMap((i) => rows.map((row) => table.data[i][row])), unit.factor));
-    const { middles, counts } = histogram(lists);
     const one = groups.length === 1;
+    // What is compared shares its rows with longer lists.
+    const lists = groups.map(({ rows }) => scaled(columns.flatMap((i) => rows.map((row) => table.data[i][row])), unit.factor).filter((v) => one || v !== null));
+    const { middles, counts } = histogram(lists);
     return {
       lists, groups, x: { label, symbol: unit.symbol }, data: [middles, ...counts] as uPlot.AlignedData,
       curves: groups.map((g): Curve => (one ? { name: "count", kind: "bars" } : { name: g.label, kind: "curve", stepped: true })),

@@ -372,7 +372,7 @@ test("compared mechanisms have the look and the name of their curves", async () 
   assert.equal(await page.locator("#drawing .link").count(), 1);
   // Dots where there are few values, steps where there are many: in the same colours.
   const few = page.locator('[data-plot="few_m"]');
-  assert.equal(await few.locator(".dots circle").count(), 12);
+  await until(async () => (await few.locator(".dots circle").count()) === 12);
   assert.deepEqual(await few.locator(".runs li").allInnerTexts(), ["short", "middle", "long"]);
   assert.equal(await few.locator(".dots circle").last().evaluate((e) => getComputedStyle(e).fill), curves[2].replace(/\) .*/, ")"));
   assert.deepEqual(await looks('[data-plot="many_m"] .legend path'), curves);
