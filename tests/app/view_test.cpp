@@ -65,43 +65,6 @@ TEST(PageView, AStudyIsRunAndShowsWhatAReportWould) {
   EXPECT_NE(out.find("canonical")->find("mechanism")->find("body"), nullptr);
 }
 
-TEST(PageView, PointsSayWhichNumbersMadeThem) {
-  const Value out = run(hoeken);
-  const Value& scene = out.find("view")->find("scenes")->as_array()[0];
-  const Value::Array& handles = scene.find("handles")->as_array();
-  ASSERT_EQ(handles.size(), 9u);  // of ground, crank, coupler with its pen, rocker
-  const auto at = [](const Value& list, std::size_t i) {
-    return list.as_array()[list.as_array().size() == 1 ? 0 : i].as_number();
-  };
-  // The numbers in their frame are the place that is drawn, at any sample.
-  for (const Value& handle : handles) {
-    const std::string& key = handle.find("key")->as_string();
-    const std::size_t open = key.find('['), dot = key.rfind('.');
-    const auto body = static_cast<std::size_t>(std::stoi(key.substr(open + 1)));
-    const Value& local = *out.find("canonical")
-                              ->find("mechanism")
-                              ->find("body")
-                              ->as_array()[body]
-                              .find("points_m")
-                              ->find(key.substr(dot + 1));
-    const Value& frame =
-        scene.find("frames")->as_array()[static_cast<std::size_t>(handle.find("frame")->as_integer())];
-    const Value& point =
-        scene.find("points")->as_array()[static_cast<std::size_t>(handle.find("point")->as_integer())];
-    for (const std::size_t i : {0u, 77u, 300u}) {
-      const double angle = at(*frame.find("angle"), i), x = at(local, 0), y = at(local, 1);
-      EXPECT_NEAR(at(*frame.find("x"), i) + std::cos(angle) * local.as_array()[0].as_number() -
-                      std::sin(angle) * local.as_array()[1].as_number(),
-                  at(*point.find("x"), i), 1e-8)
-          << key << x << y;
-      EXPECT_NEAR(at(*frame.find("y"), i) + std::sin(angle) * local.as_array()[0].as_number() +
-                      std::cos(angle) * local.as_array()[1].as_number(),
-                  at(*point.find("y"), i), 1e-8)
-          << key;
-    }
-  }
-}
-
 /// A number or a list of a document, by its key.
 const Value* value_at(const Value& document, std::string_view key) {
   const auto path = parse_path(key);
@@ -112,6 +75,36 @@ const Value* value_at(const Value& document, std::string_view key) {
     if (!out) return nullptr;
   }
   return out;
+}
+
+TEST(PageView, PointsSayWhichNumbersMadeThem) {
+  const Value out = run(hoeken);
+  const Value& scene = out.find("view")->find("scenes")->as_array()[0];
+  const Value::Array& handles = scene.find("handles")->as_array();
+  ASSERT_EQ(handles.size(),
+            12u);  // points of ground, crank, coupler with its pen, rocker; three mass centres
+  const auto at = [](const Value& list, std::size_t i) {
+    return list.as_array()[list.as_array().size() == 1 ? 0 : i].as_number();
+  };
+  // The numbers in their frame are the place that is drawn, at any sample.
+  for (const Value& handle : handles) {
+    const std::string& key = handle.find("key")->as_string();
+    const Value* const local = value_at(*out.find("canonical"), key);
+    ASSERT_NE(local, nullptr) << key;
+    const Value& frame =
+        scene.find("frames")->as_array()[static_cast<std::size_t>(handle.find("frame")->as_integer())];
+    const Value& point =
+        scene.find("points")->as_array()[static_cast<std::size_t>(handle.find("point")->as_integer())];
+    for (const std::size_t i : {0u, 77u, 300u}) {
+      const double angle = at(*frame.find("angle"), i), x = at(*local, 0), y = at(*local, 1);
+      EXPECT_NEAR(at(*frame.find("x"), i) + std::cos(angle) * x - std::sin(angle) * y,
+                  at(*point.find("x"), i), 1e-8)
+          << key;
+      EXPECT_NEAR(at(*frame.find("y"), i) + std::sin(angle) * x + std::cos(angle) * y,
+                  at(*point.find("y"), i), 1e-8)
+          << key;
+    }
+  }
 }
 
 /// Where a point of a scene is; the origin for index -1.
@@ -191,6 +184,7 @@ TEST(PageView, WhatIsDrawnMeasuresTheNumbersOfTheStudy) {
        "",
        {"wheel.centre_m", "link[0].body_m[0]", "link[0].body_m[1]", "link[0].carrier_m", "link[2].body_m",
         "link[2].carrier_m", "spring.body_m", "spring.moving_m"}},
+      {"analysis/planar.linkage", "", {"body[1].points_m.A", "body[1].centre_m", "body[2].centre_m"}},
       {"analysis/clearance.linkage", "", {"body[1].points_m.A", "body[2].points_m.P"}},
   };
   for (const Case& c : cases) {

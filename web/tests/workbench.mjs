@@ -143,6 +143,11 @@ test("a pin that is dragged changes the links on it, and no other", async () => 
   assert.deepEqual([coupler.points_m.A, coupler.points_m.pen, rocker.points_m.B0], [coupler0.points_m.A, coupler0.points_m.pen, rocker0.points_m.B0]);
   assert.ok(Math.abs(lengthBetween(coupler, "A", "B") - lengthBetween(coupler0, "A", "B")) > 1e-3);
   assertSameTables(after, asTheProgram(await studyText(page)));
+  // Its numbers are shown, and a number shows where it is.
+  assert.deepEqual(await page.locator(".number.picked input").evaluateAll((all) => all.map((e) => e.dataset.key)), [0, 1].map((i) => `mechanism.body[2].points_m.B[${i}]`).concat([0, 1].map((i) => `mechanism.body[3].points_m.B[${i}]`)));
+  await page.locator('input[data-key="mechanism.body[1].points_m.A[0]"]').hover();
+  await until(async () => /^A\b/.test(await page.locator("#picked").innerText()));
+  await page.mouse.move(5, 5);
   // One gesture is one entry, and what comes back is the exact text.
   await page.locator("#undo").click();
   await settled(page);
@@ -222,6 +227,36 @@ test("a link holds the study", async () => {
   assert.match(await other.page.locator("h1").innerText(), /Mine – straight/);
   await other.close();
 });
+
+test("the command that is copied runs the study", async () => {
+  const { page, close } = await open({ example: "path-gates", permissions: ["clipboard-read", "clipboard-write"] });
+  await page.locator("#command").click();
+  await until(async () => (await page.locator(".state").innerText()) === "command copied");
+  const copied = await page.evaluate(() => navigator.clipboard.readText());
+  const run = spawnSync("sh", ["-c", copied.replace("linkwright run -", '"$0" check -'), program], { cwd: scratch, encoding: "utf8" });
+  assert.equal(run.status, 0, run.stderr);
+  await close();
+});
+
+if (!served)
+  test("an engine that fails is started again, and the study is kept", async () => {
+    const { page, close } = await open({ example: "hoeken" });
+    const text = await studyText(page);
+    for (const worker of page.workers()) await worker.evaluate(() => void setTimeout(() => { throw new Error("lost"); }));
+    await page.waitForTimeout(300);
+    await drag(page, await joint(page, "B"), { x: 30, y: -20 });
+    await holds(page, async () => (await studyText(page)) !== text);
+    assertSameTables(await resultOf(page), asTheProgram(await studyText(page)));
+    // What is too large for it is refused with the size, and nothing is lost.
+    await choose(page, "andrews-squeezer");
+    const huge = (await studyText(page)).replace(/^samples = 301/m, "samples = 1000000");
+    await writeText(page, huge);
+    await page.locator(".problems .error").first().waitFor();
+    assert.match(await page.locator(".problems").innerText(), /1000000 rows would take 13\.9 GB of memory/);
+    assert.equal(await studyText(page), huge);
+    assert.equal(await page.locator("#drawing .pose").count(), 1);
+    await close();
+  });
 
 test("a search runs in the page, and a target that is dragged runs it again", async () => {
   const { page, errors, close } = await open({ example: "arc-5-points-timed" });

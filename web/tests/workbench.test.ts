@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import type { JsonObject, Scene } from "../src/data";
-import { asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
+import { asCommand, asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
 import { withNumbers } from "../src/workbench/engine";
 import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
@@ -52,6 +52,12 @@ test("a link holds the whole document", async () => {
   expect(hash.length).toBeLessThan(600);
   expect(await fromFragment(hash)).toEqual(document);
   for (const other of ["", "#scene=motion", "#study=%%%", "#study=AAAA", "#study=x"]) expect(await fromFragment(other)).toBeNull();
+});
+
+test("a study is a command of a terminal, whatever stands in it", () => {
+  expect(asCommand({ name: "a.toml", text: "title = \"$HOME `x`\"", files: {} })).toBe("linkwright run - <<'END'\ntitle = \"$HOME `x`\"\nEND\n");
+  expect(asCommand({ name: "a.toml", text: "a\nEND\n", files: { "o'ne.csv": "1,2\n" } }))
+    .toBe("cat > 'o'\\''ne.csv' <<'END'\n1,2\nEND\nlinkwright run - <<'END_'\na\nEND\nEND_\n");
 });
 
 test("lists of numbers come back into their document", () => {

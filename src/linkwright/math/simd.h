@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <xsimd/xsimd.hpp>
 
 #include "linkwright/math/scalar.h"
@@ -11,7 +12,13 @@ namespace linkwright::math {
 template <class Arch>
 struct Scalar<xsimd::batch<double, Arch>> {
   using T = xsimd::batch<double, Arch>;
-  LINKWRIGHT_KERNEL static T multiply_add(const T& a, const T& b, const T& c) { return xsimd::fma(a, b, c); }
+  LINKWRIGHT_KERNEL static T multiply_add(const T& a, const T& b, const T& c) {
+#ifdef __AVX512F__
+    // xsimd 8 multiplies and adds here, and what is left over for narrower registers would have other bits.
+    if constexpr (std::is_same_v<Arch, xsimd::avx512f>) return _mm512_fmadd_pd(a, b, c);
+#endif
+    return xsimd::fma(a, b, c);
+  }
   LINKWRIGHT_KERNEL static T positive_part(const T& x) { return xsimd::max(x, T(0.0)); }
   LINKWRIGHT_KERNEL static T choose(const xsimd::batch_bool<double, Arch>& condition, const T& a,
                                     const T& b) {

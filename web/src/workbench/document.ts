@@ -72,6 +72,18 @@ export function kept(): Document | null {
   }
 }
 
+/** What runs a study in a terminal: the files that it reads are written first, and nothing in them is taken for anything but text. */
+export function asCommand({ text, files }: Document): string {
+  const here = (command: string, content: string) => {
+    const lines = content.split("\n");
+    let mark = "END";
+    while (lines.includes(mark)) mark += "_";
+    return `${command} <<'${mark}'\n${content}${content.endsWith("\n") ? "" : "\n"}${mark}\n`;
+  };
+  const quoted = (name: string) => `'${name.replace(/'/g, "'\\''")}'`;
+  return Object.entries(files).map(([name, content]) => here(`cat > ${quoted(name)}`, content)).join("") + here("linkwright run -", text);
+}
+
 const toUrl = (base64: string) => base64.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 const fromUrl = (text: string) => text.replace(/-/g, "+").replace(/_/g, "/");
 const through = async (bytes: BlobPart, way: GenericTransformStream) =>

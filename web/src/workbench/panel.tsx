@@ -1,12 +1,12 @@
 // Beside the drawing: the study as text, and its numbers one by one.
 import { signal } from "@preact/signals";
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { format, nameOf, unitOf } from "../units";
 import { change, document_ } from "./document";
 import { numbersOf, unitKey, type Entry } from "./numbers";
 import type { Edit } from "./engine";
 import { absent } from "./schema";
-import { bestOf, canonical, diagnostics, edit, handleKeys, locked, schema, stale, toggleLock } from "./session";
+import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pointOut, schema, stale, toggleLock } from "./session";
 
 const tab = signal<"text" | "numbers">("numbers");
 
@@ -91,9 +91,9 @@ function Field({ entry }: { entry: Entry }) {
   const { key, label, value, rule } = entry;
   const about = `${key}${rule?.help ? `: ${rule.help}` : ""}`;
   const point = key.replace(/\[\d+\]$/, "");
-  const drawn = handleKeys.value.has(key) ? key : handleKeys.value.has(point) && key.endsWith("[0]") ? point : "";
+  const drawn = handleKeys.value.has(key) ? key : handleKeys.value.has(point) ? point : "";
   return (
-    <div class="number" title={about}>
+    <div class={drawn && pickedKeys.value.has(drawn) ? "number picked" : "number"} title={about} onPointerEnter={drawn ? () => pointOut(drawn) : undefined} onPointerLeave={drawn ? () => pointOut("") : undefined}>
       <span class="label">{label}</span>
       {typeof value === "number" && <NumberInput entry={entry} value={value} label={label} />}
       {typeof value === "object" && (["min", "max"] as const).map((part) => <NumberInput key={part} entry={entry} value={value[part]} part={part} label={`${label}, ${part}`} />)}
@@ -104,7 +104,7 @@ function Field({ entry }: { entry: Entry }) {
       )}
       {typeof value === "boolean" && <input type="checkbox" data-key={key} aria-label={label} checked={value} onChange={(e) => edit([{ key, value: e.currentTarget.checked }])} />}
       {typeof value !== "string" && typeof value !== "boolean" && <em>{unitOf(unitKey(key), Math.abs(typeof value === "number" ? value : value.max)).symbol}</em>}
-      {drawn ? <button type="button" class="lock" data-lock={drawn} aria-pressed={locked.value.has(drawn)} aria-label={`Keep ${label.replace(/ x$/, "")} while dragging`} title="Keep it while the drawing is dragged" onClick={() => toggleLock(drawn)}><svg viewBox="0 0 16 16" aria-hidden="true"><path d={`M3 7.5h10v7H3zM5 7.5V5a3 3 0 0 1 6 0${locked.value.has(drawn) ? "v2.5" : ""}`} /></svg></button> : <i class="no-lock" />}
+      {drawn && (drawn === key || key.endsWith("[0]")) ? <button type="button" class="lock" data-lock={drawn} aria-pressed={locked.value.has(drawn)} aria-label={`Keep ${label.replace(/ x$/, "")} while dragging`} title="Keep it while the drawing is dragged" onClick={() => toggleLock(drawn)}><svg viewBox="0 0 16 16" aria-hidden="true"><path d={`M3 7.5h10v7H3zM5 7.5V5a3 3 0 0 1 6 0${locked.value.has(drawn) ? "v2.5" : ""}`} /></svg></button> : <i class="no-lock" />}
       {rule?.free && <button type="button" class="free" data-free={key} aria-pressed={typeof value === "object"} title={typeof value === "object" ? "The search chooses it; press to fix it" : "Fixed; press to let the search choose it"} onClick={() => edit([{ key, value: freed(entry) }])}>{typeof value === "object" ? "free" : "fixed"}</button>}
       {rule?.help && <small class="help">{rule.help}</small>}
       {refused.value.startsWith(`${key}: `) && <small class="refused" role="alert">{refused.value.slice(key.length + 2)}</small>}
@@ -131,12 +131,21 @@ function Add({ path }: { path: string }) {
 
 function Numbers() {
   const study = canonical.value;
+  const box = useRef<HTMLDivElement>(null);
+  const keys = [...pickedKeys.value].join();
+  useEffect(() => {
+    const [list, number] = [box.current, box.current?.querySelector(".picked")];
+    if (!keys || !list || !number) return;
+    // Only the list moves, not the page.
+    const [all, one] = [list.getBoundingClientRect(), number.getBoundingClientRect()];
+    if (one.top < all.top || one.bottom > all.bottom) list.scrollTop += one.top - all.top - all.height / 3;
+  }, [keys]);
   if (!study) return <p class="note">The numbers are listed as soon as the study has no errors.</p>;
   const groups = numbersOf(study, schema.value);
   return (
-    <div class="numbers">
+    <div class="numbers" ref={box}>
       {groups.map((g) => (
-        <details key={g.path || g.title} open={g.entries.length < 12}>
+        <details key={g.path || g.title} open={g.entries.length < 12 || g.entries.some(({ key }) => pickedKeys.value.has(key) || pickedKeys.value.has(key.replace(/\[\d+\]$/, "")))}>
           <summary>{g.title}<small>{format(g.entries.length)}</small></summary>
           {g.entries.slice(0, most).map((entry) => <Field key={entry.key} entry={entry} />)}
           <Add path={g.path} />

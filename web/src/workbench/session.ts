@@ -18,6 +18,21 @@ export const schema = signal<JsonObject | null>(null);
 /** Keys of the study that the drawing shows, and those of them that are kept while it is dragged. */
 export const handleKeys = signal(new Set<string>());
 export const locked = signal(new Set<string>());
+const none: ReadonlySet<string> = new Set();
+const keysAt = (scene: Scene, joint: number) => new Set(gripPoint(scene, scene.joints[joint].point, Math.round(state.position.peek()), extent.peek())?.handles.map((h) => h.key));
+/** Keys of the numbers behind the joint that is picked in the drawing. */
+export const pickedKeys = computed(() => {
+  const joint = /^joint (\d+)$/.exec(state.picked.value)?.[1];
+  const scene = shown.value ? state.scene.value : undefined;
+  return joint !== undefined && scene?.joints[Number(joint)] ? keysAt(scene, Number(joint)) : none;
+});
+/** Points out in the drawing what a number is of; "" = nothing any longer. */
+export function pointOut(key: string): void {
+  const scene = state.scene.value;
+  const joint = key && scene ? scene.joints.findIndex((_, i) => keysAt(scene, i).has(key)) : -1;
+  state.hovered.value = joint < 0 ? "" : `joint ${joint}`;
+}
+
 export function toggleLock(key: string): void {
   const next = new Set(locked.value);
   if (!next.delete(key)) next.add(key);

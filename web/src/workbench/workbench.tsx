@@ -8,7 +8,7 @@ import * as state from "../state";
 import "../report.css";
 import "../viewer.css";
 import "./workbench.css";
-import { asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
+import { asCommand, asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
 import { Draw, showDraw } from "./draw";
 import { workerEngine, type Engine, type Progress } from "./engine";
 import { Gallery, paintWith, showGallery } from "./gallery";
@@ -26,6 +26,15 @@ async function share(): Promise<void> {
     said.value = "link copied";
   } catch {
     said.value = "the link is in the address";
+  }
+}
+
+async function copyCommand(): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(asCommand(document_.value));
+    said.value = "command copied";
+  } catch {
+    said.value = "not copied: the browser keeps the clipboard";
   }
 }
 
@@ -71,6 +80,7 @@ function Bar() {
       <button type="button" id="undo" disabled={!canUndo.value} title="Undo (Ctrl Z)" onClick={undo}>Undo</button>
       <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
       <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
+      <button type="button" id="command" title="Copy the command that runs this study in a terminal" onClick={() => void copyCommand()}>Command</button>
       <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text="Add points" hint="Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it" />}</span>
       <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
       <span class="spring" />

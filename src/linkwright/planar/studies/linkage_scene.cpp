@@ -305,12 +305,15 @@ class Artist {
   void masses() {
     for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
       const LinkageBody& body = l_.bodies[at(b)];
-      for (const AttachedMass& m : body.attached) {
+      for (std::size_t k = 0; k < body.attached.size(); ++k) {
+        const AttachedMass& m = body.attached[k];
         if (!(m.mass > 0)) continue;
         const std::string name =
             fmt::format("{}, {:.4g} kg", m.name.empty() ? "mass on " + body.name : m.name, m.mass);
         const int centre = add_point("", b, m.at);
         scene_.circles.push_back({name, centre, add_point("", b, m.at + drawn_radius(m.mass))});
+        scene_.handles.push_back(
+            {.key = fmt::format("mechanism.body[{}].attached[{}].at_m", b, k), .frame = b, .point = centre});
         if (!body.points.empty()) scene_.bodies.push_back({name, {first_[at(b)], centre}, Style::bar});
       }
     }
@@ -459,8 +462,11 @@ void add_mass_centres(study::Scene& scene, const Linkage& linkage, const Linkage
       return static_cast<int>(scene.points.size()) - 1;
     };
     const std::complex<double> centre = body.mass->centre;
-    scene.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", body.name, body.mass->mass),
-                             add_point(centre), add_point(centre + drawn_radius(body.mass->mass))});
+    const int drawn = add_point(centre);
+    scene.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", body.name, body.mass->mass), drawn,
+                             add_point(centre + drawn_radius(body.mass->mass))});
+    scene.handles.push_back(
+        {.key = fmt::format("mechanism.body[{}].centre_m", b), .frame = static_cast<int>(b), .point = drawn});
   }
 }
 
