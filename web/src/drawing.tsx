@@ -236,8 +236,9 @@ function Joints({ scene, at }: { scene: Scene; at: number }) {
         if (!p) return null;
         const cut = [0, 1, 2, 3, 4, 5].map((k) => `M${-13 + 6 * k} 18l-6 7`).join("");
         const thick = Math.max(0.45, thickness.value);
+        const marked = [state.picked.value, state.hovered.value].includes(`joint ${i}`) ? " marked" : "";
         return (
-          <g class={`joint ${joint.style}`} data-joint={joint.name} data-pick={`joint ${i}`} transform={`translate(${p.x.toFixed(2)},${p.y.toFixed(2)})`}>
+          <g class={`joint ${joint.style}${marked}`} data-joint={joint.name} data-pick={`joint ${i}`} transform={`translate(${p.x.toFixed(2)},${p.y.toFixed(2)})`}>
             <title>{joint.name}</title>
             {joint.style === "ground_pivot" && <path class="foot" d="M0 0L-11 18H11Z" />}
             {joint.style === "ground_pivot" && <path class="hatch" d={`M-18 18H18${cut}`} />}

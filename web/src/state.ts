@@ -69,9 +69,10 @@ export function load(carried: Carried, same = false): void {
       showArrows.acceleration.value = !forces && !velocities;
     }
     const there = same && before ? view.scenes.findIndex((s) => s.name === before.name) : -1;
-    const [place, line] = [position.peek(), row.peek()];
+    const [place, line, pick] = [position.peek(), row.peek(), picked.peek()];
     showScene(Math.max(0, there));
     if (there < 0) return;
+    if (whole.peek()!.joints.length === before!.joints.length) picked.value = pick;
     showRow(line);
     position.value = Math.min(place, Math.max(0, motion.peek().samples - 1));
   });

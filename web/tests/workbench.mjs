@@ -146,7 +146,7 @@ test("a pin that is dragged changes the links on it, and no other", async () => 
   // Its numbers are shown, and a number shows where it is.
   assert.deepEqual(await page.locator(".number.picked input").evaluateAll((all) => all.map((e) => e.dataset.key)), [0, 1].map((i) => `mechanism.body[2].points_m.B[${i}]`).concat([0, 1].map((i) => `mechanism.body[3].points_m.B[${i}]`)));
   await page.locator('input[data-key="mechanism.body[1].points_m.A[0]"]').hover();
-  await until(async () => /^A\b/.test(await page.locator("#picked").innerText()));
+  await until(async () => (await page.locator(".joint.marked").evaluateAll((all) => all.map((e) => e.dataset.joint))).includes("A"));
   await page.mouse.move(5, 5);
   // One gesture is one entry, and what comes back is the exact text.
   await page.locator("#undo").click();

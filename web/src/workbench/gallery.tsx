@@ -22,6 +22,7 @@ async function paint(): Promise<void> {
   for (let next = queue.shift(); next; next = queue.shift()) {
     if (next.name in pictures.value) continue;
     try {
+      // Of a search this is the best that is found in so long.
       const { carried } = await painter.run({ text: next.text, files: next.beside, seconds: 0.5 });
       pictures.value = { ...pictures.value, [next.name]: carried?.view.scenes[0] ?? null };
     } catch {
@@ -30,9 +31,6 @@ async function paint(): Promise<void> {
   }
   painting = false;
 }
-
-// Searches take longer than a picture is worth.
-const quick = (text: string) => !/^kind\s*=\s*"(synthesis|balancing)"/m.test(text) && !/^\[simulation\]/m.test(text);
 
 function Card({ example }: { example: Example }) {
   const box = useRef<HTMLButtonElement>(null);
@@ -43,7 +41,7 @@ function Card({ example }: { example: Example }) {
     return () => observer.disconnect();
   }, []);
   useEffect(() => {
-    if (!seen || !quick(example.text)) return;
+    if (!seen) return;
     queue.push(example);
     void paint();
   }, [seen]);

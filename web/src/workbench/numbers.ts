@@ -17,6 +17,8 @@ export interface Group {
 
 const axes = ["x", "y", "z"];
 const isNumbers = (value: Json): value is number[] => Array.isArray(value) && value.length > 0 && value.length <= 3 && value.every((v) => typeof v === "number");
+/** Lists of lengths and forces go by coordinates, those of angles or without a unit by number. */
+const isPlace = (key: string) => /^([µmkc]?m(\/s²?)?|k?N( m)?)$/.test(unitOf(unitKey(key)).symbol);
 const isRange = (value: Json): value is { min: number; max: number } =>
   value !== null && typeof value === "object" && !Array.isArray(value) && Object.keys(value).length === 2 && typeof value.min === "number" && typeof value.max === "number";
 
@@ -34,7 +36,7 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
     groups.push(group);
     const add = (key: string, label: string, value: Json) => {
       if (typeof value === "number" || isRange(value)) own.push({ key, label, value, rule: rule(key) });
-      else if (isNumbers(value)) value.forEach((v, i) => own.push({ key: `${key}[${i}]`, label: `${label} ${axes[i]}`, value: v, rule: rule(key) }));
+      else if (isNumbers(value)) value.forEach((v, i) => own.push({ key: `${key}[${i}]`, label: `${label} ${isPlace(key) ? axes[i] : i + 1}`, value: v, rule: rule(key) }));
       else if (typeof value === "string" || typeof value === "boolean") {
         const found = rule(key);
         if (found && (found.choices || found.flag)) own.push({ key, label, value, rule: found });
