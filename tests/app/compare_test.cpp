@@ -186,7 +186,8 @@ TEST(Compare, TheStudyInEveryResultIsReadBack) {
     const Value document = study::read_text(text, study::Syntax::json, "result.json", diagnostics);
     diagnostics.clear();
     const auto again = study::prepare(document, "result.json", {}, kinds, diagnostics);
-    EXPECT_TRUE(again.has_value()) << (diagnostics.empty() ? "" : to_string(diagnostics.front()));
+    ASSERT_TRUE(again.has_value()) << (diagnostics.empty() ? "" : to_string(diagnostics.front()));
+    EXPECT_EQ(study::to_json(again->canonical), text);
     ++count;
   }
   EXPECT_GE(count, 80u);

@@ -2,11 +2,12 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
 import { drawingSvg, dxf, png, save, slug } from "./exports";
-import type { Design } from "./data";
+import { hasResult, resultText, type Design } from "./data";
 import { fragment } from "./link";
+import { pack } from "./packed";
 import { isAssembled } from "./motion";
 import { space, still } from "./space_stage";
-import { designShown, motion, position, scene, spatial, view } from "./state";
+import { designShown, goOn, motion, position, scene, spatial, view } from "./state";
 
 // In space the drawing is the three views of the printed page, and the picture what is on the screen.
 const svg = () => (spatial.value ? new XMLSerializer().serializeToString(still()!) : drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!));
@@ -21,6 +22,12 @@ async function copyLink(): Promise<string> {
   history.replaceState(null, "", fragment());
   await navigator.clipboard.writeText(location.href);
   return "link copied";
+}
+
+/** The page of the workbench is looked for beside the report. */
+async function openWorkbench(name: string): Promise<void> {
+  const { study } = JSON.parse(resultText());
+  window.open(`workbench.html#study=${await pack(JSON.stringify({ name: `${name}.json`, text: JSON.stringify(study, null, 2) }))}`);
 }
 
 async function copyDesign(design: Design): Promise<string> {
@@ -75,6 +82,7 @@ export function ExportMenu() {
           {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
           {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
           {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
+          {hasResult() && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
         </div>
       </details>
     </>

@@ -12,6 +12,16 @@ export async function inflate(base64: string): Promise<ArrayBuffer> {
 type Entry = [count: number, order: number, decimals: number | null];
 const missingWhole = -(2 ** 31);
 
+const toUrl = (base64: string) => base64.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+const fromUrl = (text: string) => text.replace(/-/g, "+").replace(/_/g, "/");
+
+/** A text as part of an address. */
+export async function pack(text: string): Promise<string> {
+  const packed = await new Response(new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"))).arrayBuffer();
+  return toUrl(btoa(Array.from(new Uint8Array(packed), (b) => String.fromCharCode(b)).join("")));
+}
+export const unpack = async (packed: string) => new TextDecoder().decode(await inflate(fromUrl(packed)));
+
 /** Lists of numbers from their bytes: see NumberPack. */
 export function unpackLists(index: Entry[], bytes: Uint8Array): Num[][] {
   let at = 0;
@@ -57,3 +67,11 @@ export const parseWith = (lists: Num[][], text: string) =>
 
 /** The same text with its lists, as the program writes files. */
 export const textWith = (lists: Num[][], text: string) => text.replace(place, (_, i) => `[${lists[i].map(jsonNumber).join(", ")}]`);
+
+/** What a report carries, from the texts of its elements. */
+export async function unpackReport(textOf: (id: string) => string) {
+  const [numbers, ...texts] = await Promise.all(["numbers", "numbers-index", "result-data", "view-data"].map((id) => inflate(textOf(id))));
+  const [index, result, view] = texts.map((bytes) => new TextDecoder().decode(bytes));
+  const lists = unpackLists(JSON.parse(index), new Uint8Array(numbers));
+  return { view: parseWith(lists, view), result: parseWith(lists, result), resultText: () => textWith(lists, result) };
+}

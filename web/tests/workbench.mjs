@@ -556,6 +556,66 @@ test("it is found by keyboard and screen reader", async () => {
   await close();
 });
 
+test("target points come from a table, in its units", async () => {
+  const { page, errors, close } = await open({ example: "line-6-points" });
+  const text = await studyText(page);
+  const box = page.locator('.bar input[type="file"]');
+  const heights = [200, 245, 300, 350, 400, 450];
+  await box.setInputFiles({ name: "path.csv", mimeType: "text/csv", buffer: Buffer.from(`# measured\nX [mm];Y [mm]\n${heights.map((y) => `200,5;${y}\n`).join("")}`) });
+  await holds(page, async () => (await studyText(page)) !== text);
+  const now = await resultOf(page);
+  assert.deepEqual(now.study.target.points_m, heights.map((y) => [0.2005, y / 1000]));
+  assertSameTables({ ...now, tables: [] }, { ...asTheProgram(await studyText(page)), tables: [] });
+  await box.setInputFiles({ name: "words.csv", mimeType: "text/csv", buffer: Buffer.from("nothing\nof use\n") });
+  await page.locator("#stopped").waitFor();
+  assert.match(await page.locator("#stopped").innerText(), /words\.csv/);
+  await page.locator("#undo").click();
+  await holds(page, async () => (await studyText(page)) === text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a report opens in the workbench, and the workbench opens reports", async () => {
+  writeFileSync(join(scratch, "reported.toml"), await (async () => {
+    const { page, close } = await open({ example: "hoeken" });
+    const text = await studyText(page);
+    await close();
+    return text;
+  })());
+  const run = spawnSync(program, ["run", "reported.toml", "--out", "reported"], { cwd: scratch, encoding: "utf8" });
+  assert.equal(run.status, 0, run.stderr);
+  const report = join(scratch, "reported", "report.html");
+  const theirs = JSON.parse(readFileSync(join(scratch, "reported", "result.json"), "utf8"));
+  const context = await browser.newContext({ offline: true });
+  const reader = await context.newPage();
+  await reader.goto(pathToFileURL(report).href);
+  await reader.evaluate(() => (window.open = (address) => (window.asked = address)));
+  await reader.locator(".menu summary").click();
+  await reader.locator('[data-export="workbench"]').click();
+  await until(() => reader.evaluate(() => window.asked));
+  const [workbench, hash] = (await reader.evaluate(() => window.asked)).split("#");
+  assert.equal(workbench, "workbench.html");
+  await context.close();
+  const { page, errors, close } = await open({ hash: `#${hash}` });
+  assert.equal(await page.locator("h1").innerText(), theirs.study.title);
+  assertSameTables(await resultOf(page), theirs);
+  assert.deepEqual((await resultOf(page)).study, theirs.study);
+  // Dropped on another study, the report brings its own; and it is changed like any.
+  await choose(page, "jansen-leg");
+  await page.evaluate((html) => {
+    const files = new DataTransfer();
+    files.items.add(new File([html], "report.html", { type: "text/html" }));
+    document.querySelector("main").dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true }));
+  }, readFileSync(report, "utf8"));
+  await until(async () => (await page.locator("h1").innerText()) === theirs.study.title);
+  await settled(page);
+  assertSameTables(await resultOf(page), theirs);
+  await drag(page, await joint(page, "B"), { x: 30, y: -20 });
+  await holds(page, async () => JSON.stringify((await resultOf(page)).study.mechanism) !== JSON.stringify(theirs.study.mechanism));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a study of before is there again", async () => {
   const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served, reducedMotion: "reduce" });
   const page = await context.newPage();

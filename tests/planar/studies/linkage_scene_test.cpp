@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -49,6 +50,36 @@ TEST(LinkageScene, DrawsBodiesJointsTracesAndArrows) {
     return std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]);
   };
   for (std::size_t i = 1; i < 37; ++i) EXPECT_NEAR(length(i), length(0), 1e-14);
+}
+
+TEST(LinkageScene, DrawsLoadsAsTheyAct) {
+  LinkageSample sample = four_bar_sample();
+  Linkage& l = sample.linkage;
+  const int crank = l.joints[static_cast<std::size_t>(l.driven[0])].second.body;
+  const BodyPoint tip{crank, 1};
+  l.springs.push_back({.name = "spring", .first = {0, 0}, .second = tip, .stiffness = 100});
+  l.forces.push_back({.name = "push", .point = tip, .force = {3, 4}});
+  l.forces.push_back({.name = "thrust", .point = tip, .force = {0, 2}, .turns_with_body = true});
+  l.torques.push_back({.name = "brake", .body = crank, .torque = -0.5});
+  const study::Scene s = scene_of(sample);
+  const auto vector = [&](std::string_view name) {
+    const auto found = std::ranges::find(s.vectors, name, &study::Scene::Vector::name);
+    return found == s.vectors.end() ? study::Scene::Vector{} : *found;
+  };
+  const std::string on = ", load on " + l.bodies[static_cast<std::size_t>(crank)].name;
+  const study::Scene::Vector push = vector("push" + on), thrust = vector("thrust" + on);
+  ASSERT_EQ(push.x.size(), 37u);
+  ASSERT_EQ(thrust.x.size(), 37u);
+  const study::Scene::Frame& frame = s.frames[static_cast<std::size_t>(crank)];
+  for (std::size_t i = 0; i < 37; ++i) {
+    EXPECT_EQ(push.x[i], 3);
+    EXPECT_EQ(push.y[i], 4);
+    EXPECT_NEAR(thrust.x[i], -2 * std::sin(frame.angle[i]), 1e-15);
+    EXPECT_NEAR(thrust.y[i], 2 * std::cos(frame.angle[i]), 1e-15);
+  }
+  const auto brake = std::ranges::find(s.moments, "brake" + on, &study::Scene::Moment::name);
+  ASSERT_NE(brake, s.moments.end());
+  EXPECT_EQ(brake->value, std::vector<double>(37, -0.5));
 }
 
 TEST(LinkageScene, DrawsWhatDoesNotCloseWithItsGap) {

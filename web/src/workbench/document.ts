@@ -1,5 +1,6 @@
 // The study that is being worked on: its text is the document, and every change of it can be undone.
 import { batch, computed, signal } from "@preact/signals";
+import { pack, unpack } from "../packed";
 
 export interface Document {
   name: string; // of the file
@@ -84,22 +85,15 @@ export function asCommand({ text, files }: Document): string {
   return Object.entries(files).map(([name, content]) => here(`cat > ${quoted(name)}`, content)).join("") + here("linkwright run -", text);
 }
 
-const toUrl = (base64: string) => base64.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
-const fromUrl = (text: string) => text.replace(/-/g, "+").replace(/_/g, "/");
-const through = async (bytes: BlobPart, way: GenericTransformStream) =>
-  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(way)).arrayBuffer());
-
 /** The document as the fragment of an address: the link is the study, and no server sees it. */
 export async function asFragment(document: Document): Promise<string> {
-  const bytes = await through(JSON.stringify(document), new CompressionStream("deflate-raw"));
-  return `#study=${toUrl(btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join("")))}`;
+  return `#study=${await pack(JSON.stringify(document))}`;
 }
 export async function fromFragment(hash: string): Promise<Document | null> {
   const packed = /^#study=([\w-]+)$/.exec(hash)?.[1];
   if (!packed) return null;
   try {
-    const bytes = Uint8Array.from(atob(fromUrl(packed)), (c) => c.charCodeAt(0));
-    const read = JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+    const read = JSON.parse(await unpack(packed));
     return typeof read?.text === "string" ? { ...empty, ...read } : null;
   } catch {
     return null;

@@ -14,7 +14,7 @@ export interface Diagnostic {
 
 export interface Edit {
   key: string;
-  value: number | number[] | number[][] | boolean | string | { min: number; max: number };
+  value: number | number[] | number[][] | boolean | string | { min: number; max: number } | null; // null = left out
 }
 
 /** A study that the program has read and, if it is without errors, run. */

@@ -206,6 +206,17 @@ const problemOf = (answer: Answer) => answer.diagnostics.find((d) => d.severity 
 /** Target points that take the place of those of now. What makes a study with errors is not taken. */
 const setPoints = (edits: Edit[]) => edit(edits, Symbol(), (answer) => (answer.carried ? "" : `not taken: ${problemOf(answer)}`));
 
+/** Target points from a table, read as the program reads it. */
+export async function takePoints(name: string, text: string): Promise<void> {
+  const key = targetKey.peek();
+  const { text: study, files } = document_.peek();
+  const edits = [{ key, value: null }, { key: `${key.slice(0, key.lastIndexOf("."))}.points_file`, value: name }];
+  const answer = await engine.run({ text: study, files: { ...files, [name]: text }, edits, seconds: 0.1 });
+  const target = answer.carried?.view.scenes[0]?.targets[0];
+  if (!target) throw new Error(problemOf(answer) || `${name} has no points`);
+  setPoints([{ key, value: target.x.map((x, i) => [x!, target.y[i]!]) }]);
+}
+
 /** A press made a point, a drag a path of as many points as there were, or of some twenty. */
 function drawPoints(stroke: Place[], scene: Scene): void {
   const key = targetKey.value;

@@ -12,10 +12,11 @@ import { asCommand, asFragment, begin, canRedo, canUndo, document_, fromFragment
 import { Draw, showDraw } from "./draw";
 import { workerEngine, type Engine, type Progress } from "./engine";
 import { Gallery, paintWith, showGallery } from "./gallery";
+import { sortOut } from "./files";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
-import { adding, busy, catalogue, connect, editing, ending, open, progress, shown, stop, stopped, targetKey, took, trouble } from "./session";
+import { adding, busy, catalogue, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble } from "./session";
 
 const said = signal("");
 
@@ -43,12 +44,16 @@ async function keepStudy(): Promise<void> {
 }
 
 async function openFiles(list: FileList): Promise<void> {
-  const files = await Promise.all([...list].map(async (f) => ({ name: f.name, text: await f.text() })));
-  const study = files.find((f) => /\.(toml|json)$/i.test(f.name));
-  const beside = Object.fromEntries(files.filter((f) => f !== study).map((f) => [f.name, f.text]));
-  if (study) open({ name: study.name, text: study.text, files: beside });
-  // Tables alone are what the present study reads.
-  else replace({ ...document_.value, files: { ...document_.value.files, ...beside } });
+  try {
+    const { study, tables } = await sortOut(await Promise.all([...list].map(async (f) => ({ name: f.name, text: await f.text() }))));
+    if (study) return open(study);
+    const [name, ...more] = Object.keys(tables);
+    if (targetKey.value && !more.length && !document_.value.text.includes(name)) return await takePoints(name, tables[name]);
+    // What the present study reads.
+    replace({ ...document_.value, files: { ...document_.value.files, ...tables } });
+  } catch (error) {
+    stopped.value = error instanceof Error ? error.message : String(error);
+  }
 }
 
 const best = ({ best }: Progress) => (Number.isFinite(best) ? `, best ${best.toPrecision(4)}` : "");
@@ -72,7 +77,7 @@ function Bar() {
       <b class="brand">Linkwright</b>
       <button type="button" id="examples" onClick={() => (showGallery.value = true)}>Examples</button>
       <button type="button" id="draw" onClick={() => (showDraw.value = true)}>Draw</button>
-      <label class="button">Open<input type="file" multiple accept=".toml,.json,.csv,.txt" aria-label="Open a study and the tables it reads" onChange={(e) => {
+      <label class="button">Open<input type="file" multiple accept=".toml,.json,.html,.csv,.txt" aria-label="Open a study and the tables it reads, a report, or target points" onChange={(e) => {
         if (e.currentTarget.files?.length) void openFiles(e.currentTarget.files);
         e.currentTarget.value = "";
       }} /></label>
@@ -134,6 +139,11 @@ async function source(): Promise<Source> {
 
 async function main(): Promise<void> {
   document.addEventListener("keydown", onKey);
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (event.dataTransfer?.files.length) void openFiles(event.dataTransfer.files);
+  });
   render(<Workbench />, document.getElementById("app")!);
   const { engine: make, file } = await source();
   const engine = make();

@@ -96,11 +96,24 @@ std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType
   return axis ? std::vector{*axis} : std::vector<study::ObjectReader>();
 }
 
+Value written(const Linkage& l, InputGrid& grid, AtChangePoint at_change_point) {
+  Value out = Value::object();
+  Value::Array axes(l.driven.size(), Value::object());
+  for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
+    study::ObjectWriter writer(axes[i]);
+    writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
+    joint_fields(writer, input_joint(l, i).type == JointType::revolute, grid.inputs[i]);
+  }
+  out["type"] = "grid";
+  out["input"] = Value(std::move(axes));
+  study::ObjectWriter(out).operator()(change_point_field, at_change_point);
+  return out;
+}
+
 void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
                const study::DisplayUnits& units, LinkageStudy& s, Value& canonical) {
   InputGrid grid;
   grid.inputs.resize(l.driven.size());
-  Value::Array axes(l.driven.size(), Value::object());
   double rows = 1;
   for (study::ObjectReader& axis : axes_of(sweep, type)) {
     const auto input = input_of(axis, l);
@@ -123,18 +136,12 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
           "input",
           fmt::format("joint '{}' is driven, but the sweep has no input for it", input_joint(l, i).name),
           "add a [[sweep.input]] for it");
-    const bool rotary = input_joint(l, i).type == JointType::revolute;
-    study::ObjectWriter writer(axes[i]);
-    writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
-    joint_fields(writer, rotary, a);
   }
   if (rows > most_rows)
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
                 "take fewer samples");
   sweep(change_point_field, s.at_change_point);
-  canonical["type"] = "grid";
-  canonical["input"] = Value(std::move(axes));
-  study::ObjectWriter(canonical).operator()(change_point_field, s.at_change_point);
+  canonical = written(l, grid, s.at_change_point);
   s.sweep = std::move(grid);
 }
 
@@ -179,18 +186,9 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   } else if (!sweep) {  // a sample knows what motion to look at
     const LinkageSample& sample = linkage_sample(description->sample);
     InputGrid grid;
-    Value::Array axes;
-    for (std::size_t i = 0; i < l.driven.size(); ++i) {
-      const bool rotary = description->plan.rotary[i];
+    for (std::size_t i = 0; i < l.driven.size(); ++i)
       grid.inputs.push_back({input_joint(l, i).name, sample.from[i], sample.to[i], 361});
-      Value axis;
-      study::ObjectWriter writer(axis);
-      writer(Field{.key = "joint", .summary = {}}, grid.inputs[i].joint);
-      joint_fields(writer, rotary, grid.inputs.back());
-      axes.push_back(std::move(axis));
-    }
-    canonical_sweep["type"] = "grid";
-    canonical_sweep["input"] = Value(std::move(axes));
+    canonical_sweep = written(l, grid, s.at_change_point);
     if (grid.inputs.size() > 1)
       document.error("sweep", fmt::format("the sample '{}' has {} inputs", sample.name, grid.inputs.size()),
                      "add [sweep] with a [[sweep.input]] for each");

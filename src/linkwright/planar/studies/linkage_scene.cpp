@@ -370,6 +370,7 @@ class Artist {
       }
       scene_.vectors.push_back(std::move(v));
     }
+    loads();
     shaking_force();
     for (std::size_t k = 0; k < l_.driven.size(); ++k) {
       const LinkageJoint& joint = l_.joints[at(l_.driven[k])];
@@ -384,6 +385,36 @@ class Artist {
       }
       // A free joint has no drive: what is left of its torque is rounding.
       if (!(largest > 1e-9 * force * plan_.size)) continue;
+      scene_.moments.push_back(std::move(m));
+    }
+  }
+
+  void loads() {
+    const auto load = [](const LinkageRecord& r, std::size_t k) {
+      return k < r.loads.size() ? r.loads[k] : AppliedLoad{.force = {nan, nan}, .torque = nan};
+    };
+    for (std::size_t k = 0; k < l_.forces.size(); ++k) {
+      const PointForce& f = l_.forces[k];
+      study::Scene::Vector v{.name = fmt::format("{}, load on {}", f.name, l_.bodies[at(f.point.body)].name),
+                             .quantity = study::Scene::Quantity::force,
+                             .unit = "N",
+                             .point = point(f.point),
+                             .symbol = f.name};
+      for (const LinkageRecord& r : records_) {
+        const Vec<double> force = load(r, k).force;
+        v.x.push_back(force.x), v.y.push_back(force.y);
+      }
+      scene_.vectors.push_back(std::move(v));
+    }
+    for (std::size_t k = 0; k < l_.torques.size(); ++k) {
+      const BodyTorque& t = l_.torques[k];
+      const LinkageBody& body = l_.bodies[at(t.body)];
+      if (body.points.empty()) continue;
+      study::Scene::Moment m{.name = fmt::format("{}, load on {}", t.name, body.name),
+                             .unit = "N m",
+                             .point = first_[at(t.body)],
+                             .symbol = t.name};
+      for (const LinkageRecord& r : records_) m.value.push_back(load(r, l_.forces.size() + k).torque);
       scene_.moments.push_back(std::move(m));
     }
   }
@@ -427,6 +458,14 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
     r.joints = forces->joints;
     r.drives = forces->drives;
     r.shaking_force = forces->shaking_force;
+    // Behind those of springs, and of the two bodies of a torque the first.
+    const auto& loads = forces->loads;
+    const std::size_t springs = 2 * (linkage.springs.size() + linkage.torsion_springs.size());
+    const std::size_t torques = springs + linkage.forces.size();
+    if (loads.size() >= torques + 2 * linkage.torques.size()) {
+      r.loads.assign(loads.begin() + springs, loads.begin() + torques);
+      for (std::size_t k = 0; k < linkage.torques.size(); ++k) r.loads.push_back(loads[torques + 2 * k]);
+    }
   }
   return r;
 }

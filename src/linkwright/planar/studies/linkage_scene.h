@@ -21,6 +21,7 @@ struct LinkageRecord {
   int open_group = -1;                                       ///< the group that does not
   std::vector<JointReaction> joints;                         ///< empty without forces
   std::vector<double> drives;
+  std::vector<AppliedLoad> loads;   ///< of Linkage::forces and then of Linkage::torques; empty without forces
   Vec<double> shaking_force{0, 0};  ///< only with forces
 };
 /// `forces` may be null.
@@ -33,8 +34,8 @@ LinkageRecord open_record_of(const Linkage& linkage, const LinkagePlan& plan,
                              std::span<const InputMotion> inputs, LinkageMotion& motion, double input);
 
 /// Drawing of a linkage in motion, named "motion": bodies as bars and plates, sliders as blocks on their
-/// guides, springs, traces, and arrows of joint forces, shaking force and velocities of the traced points.
-/// Its points begin with those of the bodies, body after body, and its joints go by the names of the
+/// guides, springs, traces, and arrows of joint forces, loads, shaking force and velocities of the traced
+/// points. Its points begin with those of the bodies, body after body, and its joints go by the names of the
 /// linkage's.
 study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
                            const std::vector<LinkageRecord>& records, const std::vector<BodyPoint>& traces,
