@@ -31,8 +31,8 @@ export function prose(text: string): string {
     const plain = (v: number, few: number) => (power ? format(v, few) : digits.replace("-", "−"));
     if (word === undefined) return plain(value, significant(digits));
     const found = suffixCalled(word);
-    // Of numbers that share a unit only the last one has it: "0.1 to 0.2 m".
-    const shares = /\d(,| to| and|;| \.\.) $/.test(before);
+    // Of numbers that share a unit only the last one has it: "0.1 to 0.2 m", but not "at B0, 0.2 m".
+    const shares = /(^|[^\w.-])-?\d+(\.\d+)?(e[+-]?\d+)?(,| to| and|;| \.\.) $/.test(before);
     const sign = found && found.factor !== 1 && !shares ? spaced(found.symbol) : unitSign(word);
     if (value !== 0 && Math.abs(value) < rounding(word) && word !== "%") return `0${sign.startsWith("°") ? "" : "\u202f"}${sign} (rounding)`;
     const number = found && found.factor !== 1 && !shares ? format(value * found.factor, significant(digits)) : plain(value, significant(digits));

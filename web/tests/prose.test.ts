@@ -32,6 +32,7 @@ describe("sentences", () => {
     // One unit for several numbers: none of them is converted alone.
     ["contact at 0.00032363, -0.74308, -0.38372 m", "contact at 0.00032363, −0.74308, −0.38372\u202fm"],
     ["from 0.1 to 0.2 m", "from 0.1 to 0.2\u202fm"],
+    ["215.31 N at B0, 0.026 m", "215.31\u202fN at B0, 26\u202fmm"],
     // Code, names and words.
     ["limit it: min_deg = -30", "limit it: min_deg = -30"],
     ["write `crank_m = 0.1 m` for -5 deg", "write `crank_m = 0.1 m` for −5°"],
