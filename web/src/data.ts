@@ -162,6 +162,9 @@ export interface View {
   changes: Change[];
 }
 
+/** The text of the study that a report is of; "" when it compares several. */
+export const oneStudy = ({ study_toml }: Pick<View, "study_toml">) => (study_toml.startsWith("[[compare]]") ? "" : study_toml);
+
 export interface Table {
   name: string;
   names?: string[]; // of the rows, if they have any

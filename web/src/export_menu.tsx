@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
 import { drawingSvg, dxf, png, save, slug } from "./exports";
-import { hasResult, resultText, type Design } from "./data";
+import { oneStudy, type Design } from "./data";
 import { fragment } from "./link";
 import { pack } from "./packed";
 import { isAssembled } from "./motion";
@@ -26,8 +26,7 @@ async function copyLink(): Promise<string> {
 
 /** The page of the workbench is looked for beside the report. */
 async function openWorkbench(name: string): Promise<void> {
-  const { study } = JSON.parse(resultText());
-  window.open(`workbench.html#study=${await pack(JSON.stringify({ name: `${name}.json`, text: JSON.stringify(study, null, 2) }))}`);
+  window.open(`workbench.html#study=${await pack(JSON.stringify({ name: `${name}.toml`, text: oneStudy(view) }))}`);
 }
 
 async function copyDesign(design: Design): Promise<string> {
@@ -82,7 +81,7 @@ export function ExportMenu() {
           {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
           {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
           {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
-          {hasResult() && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
+          {oneStudy(view) && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
         </div>
       </details>
     </>

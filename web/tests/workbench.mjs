@@ -356,6 +356,22 @@ test("a search that is stopped keeps its best", async () => {
   await close();
 });
 
+test("the best so far moves while a search goes on", async () => {
+  const { page, errors, close } = await open({ example: "fourbar-18-points-grey-wolf" });
+  const text = await studyText(page);
+  await writeText(page, text.replace(/count = \d+/, "count = 10000").replace(/^title .*$/m, 'title = "For long"'));
+  await until(async () => (await page.locator("h1").innerText()) === "For long");
+  assert.equal(await page.locator("#stop").count(), 1);
+  assert.equal(await page.locator("#drawing .pose").count(), 1);
+  const better = async () => Number((await resultOf(page)).solutions[0].objectives.path_error_sum_sq_m2);
+  const first = await better();
+  await page.locator("#stop").click();
+  await settled(page);
+  assert.ok((await better()) <= first);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a found design is gone on with, and undo leads back to the search", async () => {
   const { page, errors, close } = await open({ example: "arc-5-points-timed" });
   const [text, found] = [await studyText(page), await resultOf(page)];
@@ -602,11 +618,14 @@ test("a report opens in the workbench, and the workbench opens reports", async (
   assert.deepEqual((await resultOf(page)).study, theirs.study);
   // Dropped on another study, the report brings its own; and it is changed like any.
   await choose(page, "jansen-leg");
-  await page.evaluate((html) => {
+  const drop = (html) => page.evaluate((html) => {
     const files = new DataTransfer();
     files.items.add(new File([html], "report.html", { type: "text/html" }));
     document.querySelector("main").dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true }));
-  }, readFileSync(report, "utf8"));
+  }, html);
+  await drop("<title>another page</title>");
+  await until(async () => /report\.html is no report/.test(await page.locator("#stopped").innerText()));
+  await drop(readFileSync(report, "utf8"));
   await until(async () => (await page.locator("h1").innerText()) === theirs.study.title);
   await settled(page);
   assertSameTables(await resultOf(page), theirs);

@@ -1,5 +1,5 @@
 // What users open or drop: studies, the tables that they read, and the reports and results that were made of studies.
-import type { JsonObject } from "../data";
+import { oneStudy, type JsonObject } from "../data";
 import { unpackReport } from "../packed";
 import type { Document } from "./document";
 
@@ -8,24 +8,20 @@ interface Dropped {
   text: string;
 }
 
-const asStudy = (name: string, result: JsonObject): Document => {
-  if (typeof result.study !== "object") throw new Error(`${name} holds no study`);
-  return { name: name.replace(/(\.result)?\.(html?|json)$/i, ".json"), text: JSON.stringify(result.study, null, 2), files: {} };
-};
-
 async function studyOfReport({ name, text }: Dropped): Promise<Document> {
   const page = new DOMParser().parseFromString(text, "text/html");
-  if (!page.getElementById("result-data")) throw new Error(`${name} is no report of Linkwright`);
-  const { result, resultText } = await unpackReport((id) => page.getElementById(id)!.textContent!);
-  if (!result) throw new Error(`${name} was written without its data: open the result.json beside it, or the study`);
-  return asStudy(name, JSON.parse(resultText()));
+  if (!page.getElementById("view-data")) throw new Error(`${name} is no report of Linkwright`);
+  const { view } = await unpackReport((id) => page.getElementById(id)!.textContent!);
+  const study = oneStudy(view);
+  if (!study) throw new Error(`${name} is of several studies: open one of them`);
+  return { name: name.replace(/html?$/i, "toml"), text: study, files: {} };
 }
 
 function studyOf({ name, text }: Dropped): Document {
   if (/^\s*\{/.test(text)) {
     try {
-      const read = JSON.parse(text);
-      if (read.study) return asStudy(name, read);
+      const { study } = JSON.parse(text) as JsonObject;
+      if (study) return { name, text: JSON.stringify(study, null, 2), files: {} };
     } catch {
       // The engine says where it is wrong.
     }

@@ -59,6 +59,8 @@ export const adding = signal(false);
 export const targetKey = computed(() => (shown.value && canonical.value ? listOf(state.scene.value) : ""));
 
 let engine: Engine;
+let second: Engine; // for what is seen of a search before it ends
+let looking = false; // the second engine is at work
 interface Wanted {
   task: Task;
   gesture?: unknown;
@@ -107,12 +109,28 @@ function accept(answer: Answer): void {
   shown.value = true;
 }
 
+/** What a search has found by now is found again within the same time, and shown, while the search goes on. */
+async function preview(of: NonNullable<typeof flying>): Promise<void> {
+  const goesOn = () => flying === of && !held;
+  for (;;) {
+    await new Promise((resolve) => setTimeout(resolve, patience));
+    if (!goesOn()) return;
+    if (!Number.isFinite(progress.peek()?.best)) continue;
+    looking = true;
+    const answer = await second.run({ ...of.task, seconds: (performance.now() - of.since) / 1000 }).catch(() => null);
+    looking = false;
+    if (!answer || !goesOn()) return;
+    if (answer.carried) accept(answer);
+  }
+}
+
 async function pump(): Promise<void> {
   if (flying || !wanted) return;
   const { task, gesture, hinders } = wanted;
   wanted = null;
   flying = { task, since: performance.now() };
   busy.value = true;
+  void preview(flying);
   try {
     const answer = await engine.run(task, (p) => (progress.value = p));
     trouble.value = "";
@@ -127,6 +145,7 @@ async function pump(): Promise<void> {
     if (!(error instanceof Stopped)) trouble.value = error instanceof Error ? error.message : String(error);
   } finally {
     flying = null;
+    if (looking) second.stop();
     ending.value = false;
     progress.value = null;
     busy.value = wanted !== null;
@@ -272,8 +291,9 @@ const hand: state.Hand = {
   },
 };
 
-export function connect(to: Engine): void {
-  engine = to;
+/** `other`: a second engine of the same kind. */
+export function connect(to: Engine, other: Engine): void {
+  [engine, second] = [to, other];
   state.hand.now = hand;
   state.goOn.now = (name, text) => replace({ name, text, files: {} });
   effect(() => {

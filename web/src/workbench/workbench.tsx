@@ -148,7 +148,7 @@ async function main(): Promise<void> {
   const { engine: make, file } = await source();
   const engine = make();
   const known = engine.catalogue();
-  connect(engine);
+  connect(engine, make());
   const shared = await fromFragment(location.hash);
   catalogue.value = await known;
   if (!shared) opened.value = file;

@@ -2,7 +2,7 @@
 interface Module {
   HEAPU8: Uint8Array;
   HEAPF64: Float64Array;
-  FS: { mkdirTree(path: string): void; writeFile(path: string, text: string): void };
+  FS: { mkdirTree(path: string): void; writeFile(path: string, text: string): void; unlink(path: string): void };
   _malloc(size: number): number;
   _free(at: number): void;
   _engine_json(): number;
@@ -32,6 +32,7 @@ export type Reply =
 
 const scope = globalThis as unknown as Scope;
 let engine: Module;
+let beside: string[] = []; // files of the study of now
 let asked = 0;
 let said = 0;
 
@@ -79,6 +80,8 @@ async function reply(question: Question): Promise<void> {
     engine._engine_schema(kind, size);
     engine._free(kind);
   } else {
+    for (const name of beside) engine.FS.unlink(`/study/${name}`);
+    beside = Object.keys(question.files);
     for (const [name, text] of Object.entries(question.files)) engine.FS.writeFile(`/study/${name}`, text);
     const [text, size] = bytesOf(question.text);
     const [edits, editsSize] = bytesOf(question.edits);
