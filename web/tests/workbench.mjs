@@ -555,6 +555,32 @@ test("a hard point is dragged in space, and the wheel parameters follow", async 
   await close();
 });
 
+test("the places that a robot's tool goes to are dragged, and the verdict follows", async () => {
+  const { page, errors, close } = await open({ example: "five-bar-robot" });
+  const [text, before] = [await studyText(page), await resultOf(page)];
+  await drag(page, await joint(page, "step 1"), { x: 12, y: -18 });
+  await holds(page, async () => (await studyText(page)) !== text);
+  const after = await resultOf(page);
+  const place = ({ study }) => study.motion.step[0].to_m;
+  assert.ok(place(after)[0] > place(before)[0] && place(after)[1] > place(before)[1] && place(after)[2] === 0, String(place(after)));
+  assert.deepEqual({ ...after.study.motion, step: 0 }, { ...before.study.motion, step: 0 });
+  assert.deepEqual(after.study.mechanism, before.study.mechanism);
+  assertSameTables(after, asTheProgram(await studyText(page)));
+  // While it is dragged the workspace is cut short; then it is whole again.
+  assert.equal(after.status, "done");
+  // Out of its reach the robot says so, and the place stays where it was put.
+  await drag(page, await joint(page, "step 1"), { x: 500, y: 0 });
+  await holds(page, async () => (await resultOf(page)).status !== "done");
+  assert.match((await resultOf(page)).answer.headline, /too short/);
+  assert.ok(place(await resultOf(page))[0] > place(after)[0] + 0.3);
+  await page.locator("#undo").click();
+  await settled(page);
+  await page.locator("#undo").click();
+  await holds(page, async () => (await studyText(page)) === text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a wheel suspension and a robot stand in space", async () => {
   const { page, errors, close } = await open({ example: "strut-suspension-sweep" });
   assert.match(await page.locator("h1").innerText(), /[Ss]trut/);

@@ -138,8 +138,9 @@ export function reached(before: Scene, after: Scene, grip: Grip, at: Place, size
     const p = placeAt(after, point, grip.sample);
     return p !== null && place !== null && distance(p, place) <= 1e-5 * size;
   };
-  // The tool of a robot is given, and its arms turn to it.
-  if (grip.handles.some((h) => h.held) && String((study?.mechanism as JsonObject | undefined)?.type).startsWith("parallel.")) return true;
+  // The tool of a robot is given, and its arms turn to it; whether they reach it the study says.
+  const robot = String((study?.mechanism as JsonObject | undefined)?.type).startsWith("parallel.");
+  if (robot && grip.handles.some((h) => h.held || !h.key.startsWith("mechanism."))) return true;
   if (!grip.points.every((point) => near(point, at))) return false;
   return !othersStay(study, grip) || before.joints.every(({ point, style }) => style === "tracer" || grip.points.includes(point) || near(point, placeAt(before, point, grip.sample)));
 }
@@ -180,6 +181,9 @@ export function moveTo(scene: Scene, grip: Grip, wish: Place, alone = false, stu
       const [dx, dy, c, s] = [to.x - ox, to.y - oy, Math.cos(turn), Math.sin(turn)];
       local = [c * dx + s * dy, -s * dx + c * dy];
     }
-    return [{ key, value: measure === "x" ? local[0] : measure === "y" ? local[1] : local }];
+    if (measure !== "place") return [{ key, value: local[measure === "x" ? 0 : 1] }];
+    // A place in the plane of a robot has a third coordinate.
+    const third = valueOf(study, key);
+    return [{ key, value: [...local, ...(Array.isArray(third) ? (third.slice(2) as number[]) : [])] }];
   });
 }

@@ -91,6 +91,9 @@ async function learn(study: JsonObject): Promise<void> {
 }
 
 const patience = 300; // ms after which a run that nobody waits for any longer is ended
+const timeLimit = 60; // s; the program itself has no limit
+const quick = 0.2; // s for what is seen while something is dragged
+let unfinished = false; // what is shown was cut short by that
 const print = (task: Task) => JSON.stringify([task.text, task.files]);
 
 function accept(answer: Answer): void {
@@ -136,10 +139,12 @@ async function pump(): Promise<void> {
     trouble.value = "";
     stopped.value = hinders?.(answer) ?? "";
     if (stopped.value) return;
-    if (task.edits) change(answer.text, gesture);
+    // Before the text changes, or it would be asked for again, in the place of what is wanted next.
     answered = print({ text: answer.text, files: task.files });
+    if (task.edits) change(answer.text, gesture);
     // While more is wanted, a text with errors is only half typed.
     if (!wanted || answer.carried) accept(answer);
+    if (answer.carried) unfinished = task.seconds === quick && answer.carried.view.status === "deadline";
     took.value = { engine: 1000 * answer.seconds, whole: performance.now() - flying.since };
   } catch (error) {
     if (!(error instanceof Stopped)) trouble.value = error instanceof Error ? error.message : String(error);
@@ -148,7 +153,8 @@ async function pump(): Promise<void> {
     if (looking) second.stop();
     ending.value = false;
     progress.value = null;
-    busy.value = wanted !== null;
+    complete();
+    busy.value = wanted !== null || flying !== null;
     void pump();
   }
 }
@@ -159,13 +165,19 @@ function want(next: Wanted): void {
   void pump();
 }
 
-const timeLimit = 60; // s; the program itself has no limit
-
 /** Makes changes of the study and shows what comes of them. */
-export function edit(edits: Edit[], gesture: unknown = Symbol(), hinders?: Wanted["hinders"]): void {
+export function edit(edits: Edit[], gesture: unknown = Symbol(), hinders?: Wanted["hinders"], seconds = timeLimit): void {
   if (!edits.length) return;
   const { text, files } = document_.peek();
-  want({ task: { text, files, edits, seconds: timeLimit }, gesture, hinders });
+  want({ task: { text, files, edits, seconds }, gesture, hinders });
+}
+
+/** Runs to its end what was cut short while something was dragged. */
+function complete(): void {
+  if (!unfinished || held || flying || wanted) return;
+  unfinished = false;
+  const { text, files } = document_.peek();
+  want({ task: { text, files, seconds: timeLimit } });
 }
 
 /** Of the best solution, a parameter by its name. */
@@ -281,13 +293,14 @@ const hand: state.Hand = {
       const drawn = answer.carried?.view.scenes[index];
       if (!drawn) return `stops here: ${problemOf(answer)}`;
       return exact && !reached(scene, drawn, grip, to, extent.value, study) ? "stops here: further on the linkage would turn over to its other branch" : "";
-    });
+    }, quick);
   },
   up() {
     if (state.stroke.value.length && state.scene.value) drawPoints(state.stroke.value, state.scene.value);
     state.stroke.value = [];
     held = null;
     stopped.value = "";
+    complete();
   },
 };
 

@@ -234,6 +234,26 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
   return out;
 }
 
+// Where the study sends the tool.
+std::vector<ToolPlace> places_of(const ToolPath& path, const Pose& home) {
+  std::vector<ToolPlace> out{
+      {"home", "home.position_m", {home.position.x, home.position.y, home.position.z}}};
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const auto place = [&](std::string_view what, const char* key, const Coordinates& at) {
+      out.push_back({fmt::format("step {}{}", i + 1, what), fmt::format("motion.step[{}].{}_m", i, key), at});
+    };
+    const auto& step = path.steps[i].form;
+    if (const auto* arc = std::get_if<ToolArc>(&step)) place(", on the way", "through", arc->through);
+    if (const auto* circle = std::get_if<ToolCircle>(&step)) place(", centre", "centre", circle->centre);
+    std::visit(
+        [&](const auto& s) {
+          if constexpr (requires { s.to; }) place("", "to", s.to);
+        },
+        step);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<MotionStudy> read_motion(study::ObjectReader& document, const study::Common& common,
@@ -360,6 +380,7 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
   }
   result.scenes.push_back(
       robot_scene(d.robot, d.drives, {"motion", "motion along the path", "time_s", "time"}, times, drawn));
+  add_places(result.scenes.back(), d.robot, places_of(study.form.path, home));
 }
 
 }  // namespace linkwright::parallel

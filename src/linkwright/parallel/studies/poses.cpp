@@ -388,6 +388,11 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     result.tables.push_back(assembly_table(result, d, form, solved, context));
   result.scenes.push_back(
       robot_scene(d.robot, d.drives, {"poses", "poses", "pose", "pose"}, numbers, samples));
+  std::vector<ToolPlace> places;
+  for (std::size_t i = 0; i < form.poses.size(); ++i)
+    if (const auto& at = form.poses[i].position)
+      places.push_back({form.poses[i].name, fmt::format("pose[{}].position_m", i), *at});
+  add_places(result.scenes.back(), d.robot, places);
 }
 
 }  // namespace linkwright::parallel

@@ -167,4 +167,14 @@ study::Scene robot_scene(const Robot& robot, const Drives& drives, const SceneIn
   return scene;
 }
 
+void add_places(Scene& scene, const Robot& robot, std::span<const ToolPlace> places) {
+  for (const auto& [name, key, at] : places) {
+    const int there = static_cast<int>(scene.points.size());
+    scene.points.push_back({name, {at[0]}, {at[1]}});
+    if (robot.freedom != Freedom::plane_translation) scene.points.back().z = {at[2]};
+    scene.joints.push_back({name, there, Scene::JointStyle::pivot});
+    scene.handles.push_back({.key = key, .point = there});
+  }
+}
+
 }  // namespace linkwright::parallel

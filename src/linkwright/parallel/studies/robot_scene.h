@@ -5,6 +5,7 @@
 #include <string>
 
 #include "linkwright/parallel/robot/drives.h"
+#include "linkwright/parallel/tool/path.h"
 #include "linkwright/study/scene.h"
 
 namespace linkwright::parallel {
@@ -27,5 +28,14 @@ struct SceneInput {
 /// point with its velocity, and of Pi-joints parallelogram and screw. Planar robots give a planar scene.
 study::Scene robot_scene(const Robot& robot, const Drives& drives, const SceneInput& input,
                          std::span<const double> values, std::span<const RobotSample> samples);
+
+/// A place of the tool that the study gives.
+struct ToolPlace {
+  std::string name;  ///< "step 2"
+  std::string key;   ///< "motion.step[1].to_m"
+  Coordinates at{};  ///< m
+};
+/// Marks them as joints that stand, which can be taken hold of.
+void add_places(study::Scene& scene, const Robot& robot, std::span<const ToolPlace> places);
 
 }  // namespace linkwright::parallel
