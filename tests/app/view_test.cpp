@@ -215,7 +215,8 @@ TEST(PageView, WhatIsDrawnMeasuresTheNumbersOfTheStudy) {
       }
       EXPECT_LE(design ? least : most, 1e-6);
     }
-    for (const std::string& key : c.keys) EXPECT_TRUE(keys.contains(key) || keys.contains("mechanism." + key)) << key;
+    for (const std::string& key : c.keys)
+      EXPECT_TRUE(keys.contains(key) || keys.contains("mechanism." + key)) << key;
   }
 }
 

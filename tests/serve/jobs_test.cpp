@@ -25,7 +25,7 @@ Read read_frame(std::string_view bytes) {
   EXPECT_EQ(bytes.size(), sizeof sizes + 8 * sizes[1] + sizes[0]);
   Read read;
   read.numbers.resize(sizes[1]);
-  std::memcpy(read.numbers.data(), bytes.data() + sizeof sizes, 8 * sizes[1]);
+  if (sizes[1] > 0) std::memcpy(read.numbers.data(), bytes.data() + sizeof sizes, 8 * sizes[1]);
   read.json = bytes.substr(bytes.size() - sizes[0]);
   return read;
 }
