@@ -2,6 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import type { JsonObject, Scene } from "../src/data";
 import { asCommand, asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
 import { withNumbers } from "../src/workbench/engine";
+import { sortOut } from "../src/workbench/files";
 import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
 import { along, listOf, tidy, withoutPoint, withPoint } from "../src/workbench/points";
@@ -299,4 +300,16 @@ test("a pin on a guide is dragged along it", () => {
   expect(to.y).toBeCloseTo(1 + 2 * Math.cos(Math.PI / 6) * Math.sin(Math.PI / 6), 12);
   // The guide itself is put where one likes, and so is a pin on none.
   for (const key of ["mechanism.body[0].points_m.G", "mechanism.body[1].points_m.A"]) expect(guided(scene, { ...grip, handles: handles(key) }, study).along).toBeUndefined();
+});
+
+test("of files that are dropped the study is found, and the tables beside it", async () => {
+  const [toml, table] = [{ name: "a.toml", text: "schema = 1" }, { name: "path.csv", text: "x_m,y_m\n0,0" }];
+  expect(await sortOut([table, toml])).toEqual({ study: { ...toml, files: { "path.csv": table.text } }, tables: { "path.csv": table.text } });
+  expect(await sortOut([table])).toEqual({ study: null, tables: { "path.csv": table.text } });
+  // A result holds its study; a study in JSON is one.
+  const study = { schema: 1, kind: "analysis" };
+  const of = async (text: string) => (await sortOut([{ name: "result.json", text }])).study!.text;
+  expect(JSON.parse(await of(JSON.stringify({ study, tables: [] })))).toEqual(study);
+  expect(await of(JSON.stringify(study))).toBe(JSON.stringify(study));
+  expect(await of("{ broken")).toBe("{ broken");
 });
