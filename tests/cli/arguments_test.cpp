@@ -96,7 +96,10 @@ TEST(Arguments, WrongUsage) {
     return a.text;
   };
   EXPECT_EQ(wrong({"help", "rnu"}), "error: there is no command 'rnu'; did you mean 'run'?\n");
-  EXPECT_EQ(wrong({"help", "x"}), "error: there is no command 'x'; `linkwright help` lists the commands\n");
+  EXPECT_EQ(
+      wrong({"help", "x"}),
+      "error: there is no command 'x'; `linkwright help` lists the commands; a study in FILE.toml runs by "
+      "`linkwright FILE.toml`\n");
   EXPECT_THAT(wrong({"run", "s.toml", "--json", "--quiet"}), HasSubstr("--json excludes --quiet"));
   EXPECT_THAT(wrong({"compare", "a"}), HasSubstr("RESULT: At least 2 required but received 1"));
   EXPECT_THAT(wrong({"completion", "csh"}), HasSubstr("SHELL: csh not in {bash,zsh,fish}"));

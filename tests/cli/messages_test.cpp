@@ -687,6 +687,27 @@ std::vector<Row> command_line() {
        {},
        "--seed 3: error: this kind of study has no seeds; leave out --seed\n",
        {"run", "s.toml", "--seed", "3"}},
+      {"an option misspelt",
+       four_bar,
+       {},
+       {},
+       "The following arguments were not expected: 3 --sed\nRun with --help for more information.\n"
+       "did you mean '--set'?\n",
+       {"run", "s.toml", "--sed", "3"}},
+      {"a command that there is not",
+       nullptr,
+       {},
+       {},
+       "error: there is no command 'simulate'; `linkwright help` lists the commands; a study in FILE.toml "
+       "runs "
+       "by `linkwright FILE.toml`\n",
+       {"simulate"}},
+      {"a command misspelt",
+       nullptr,
+       {},
+       {},
+       "error: there is no command 'rnu'; did you mean 'run'?\n",
+       {"rnu", "s.toml"}},
       {"folder is a file",
        four_bar,
        {},
@@ -731,6 +752,46 @@ TEST_F(Messages, Linkages) { expect(linkages()); }
 TEST_F(Messages, Samples) { expect(samples()); }
 TEST_F(Messages, Suspensions) { expect(suspensions()); }
 TEST_F(Messages, CommandLine) { expect(command_line()); }
+
+TEST_F(Messages, EmptyFiles) {
+  write("s.toml", "");
+  for (const std::string file : {"s.toml", "/dev/null"}) {
+    EXPECT_EQ(run({"check", file}), 2);
+    EXPECT_EQ(err_, file + ": error: the file is empty; write a first study with `linkwright new`\n");
+  }
+}
+
+TEST_F(Messages, NoCommandListsTheCommands) {
+  EXPECT_EQ(run({}), 2);
+  EXPECT_THAT(err_,
+              ::testing::AllOf(::testing::HasSubstr("\n  run         run a study and write its results\n"),
+                               ::testing::HasSubstr("\nTo begin: linkwright examples;")));
+}
+
+TEST_F(Messages, NamesInAnyScript) {
+  const std::string folder = "\xC3\xA4 \xC3\xB6/\xE6\x9C\xBA\xE6\x9E\x84";  // ä ö/机构
+  std::filesystem::create_directories(folder_ / folder);
+  ASSERT_EQ(run({"new", four_bar, folder + "/\xC3\xBC b.toml"}), 0);
+  EXPECT_EQ(run({folder + "/\xC3\xBC b.toml", "--out", folder + "/aus"}), 0) << err_;
+  EXPECT_THAT(out_, ::testing::EndsWith("\nopen " + folder + "/aus/report.html\n"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / folder / "aus" / "report.html"));
+}
+
+TEST_F(Messages, LinkagesThatDoNotCloseSayByHowMuch) {
+  const auto headline = [&](const char* coupler, const char* rocker, const char* ground) {
+    EXPECT_EQ(run({"new", four_bar, "-"}), 0);
+    std::string study = replaced(out_, "coupler_mm = 400.0", std::string("coupler_mm = ") + coupler);
+    study = replaced(std::move(study), "rocker_mm  = 320.0", std::string("rocker_mm = ") + rocker);
+    write("s.toml", replaced(std::move(study), "ground_mm  = 600.0", std::string("ground_mm = ") + ground));
+    EXPECT_EQ(run({"run", "s.toml", "--out", "out"}), 3);
+    return out_;
+  };
+  EXPECT_THAT(
+      headline("80", "90", "400"),
+      ::testing::AllOf(::testing::HasSubstr("coupler + rocker cannot close, a gap of 130 mm is left at 0"),
+                       ::testing::HasSubstr("one link is longer than the others together")));
+  EXPECT_THAT(headline("120", "120", "300"), ::testing::HasSubstr("assembles from -45.0 to 45.0 deg"));
+}
 
 }  // namespace
 }  // namespace linkwright::cli

@@ -177,13 +177,11 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command->get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  if (command == &app)
-    for (std::string& name : names_of_commands(app)) names.push_back(std::move(name));
   const std::vector<std::string_view> allowed(names.begin(), names.end());
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
     if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) continue;
-    if (command != &app && !word.starts_with("--")) continue;
+    if (!word.starts_with("--")) continue;
     if (const std::string hint = did_you_mean(word, allowed); !hint.empty()) return hint + "\n";
   }
   return {};
@@ -221,15 +219,17 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   } else if (first == "help" && argc == 2) {
     words[1] = "--help";
   } else if (first == "help" && words[2][0] != '-') {  // short for `COMMAND --help`
-    const std::vector<std::string> names = names_of_commands(app);
-    if (std::find(names.begin(), names.end(), words[2]) == names.end()) {
-      Diagnostic problem;
-      problem.message = fmt::format("there is no command '{}'", words[2]);
-      problem.hint =
-          did_you_mean(words[2], {names.begin(), names.end()}, "`linkwright help` lists the commands");
-      return wrong(to_string(problem) + "\n");
-    }
     words = {words[0], words[2], "--help"};
+  }
+  const std::string_view command = words[1];
+  const std::vector<std::string> names = names_of_commands(app);
+  if (!command.starts_with('-') && std::find(names.begin(), names.end(), command) == names.end()) {
+    Diagnostic problem;
+    problem.message = fmt::format("there is no command '{}'", command);
+    problem.hint = did_you_mean(command, {names.begin(), names.end()},
+                                "`linkwright help` lists the commands; a study in FILE.toml runs by "
+                                "`linkwright FILE.toml`");
+    return wrong(to_string(problem) + "\n");
   }
   argc = static_cast<int>(words.size());
   try {
