@@ -585,20 +585,20 @@ std::vector<Row> suspensions() {
        corner,
        {{"points   = [\"tie_inner\", \"tie_outer\"]", "points   = [\"tie_inner\", \"tie_outr\"]"}},
        {},
-       "s.toml:45:12: error: mechanism.link[2].points: there is no hard point 'tie_outr'; there are: "
+       "s.toml:46:12: error: mechanism.link[2].points: there is no hard point 'tie_outr'; there are: "
        "lower_front, lower_rear, lower_ball, upper_front, upper_rear, upper_ball, tie_inner, tie_outer, "
        "spring_top, spring_bottom, wheel_centre; did you mean 'tie_outer'?\n"},
       {"link type wishbone",
        corner,
        {{"type   = \"RS\"\npoints = [\"lower_front\"", "type   = \"wishbone\"\npoints = [\"lower_front\""}},
        {},
-       "s.toml:34:10: error: mechanism.link[0].type: is 'wishbone', must be one of: R, RR, S, RS, SR, SP, "
+       "s.toml:35:10: error: mechanism.link[0].type: is 'wishbone', must be one of: R, RR, S, RS, SR, SP, "
        "US, SS; did you mean 'RS' (wishbone: hinged to the body (two points), ball joint at the carrier)?\n"},
       {"link type A-arm",
        corner,
        {{"type   = \"RS\"\npoints = [\"lower_front\"", "type   = \"A-arm\"\npoints = [\"lower_front\""}},
        {},
-       "s.toml:34:10: error: mechanism.link[0].type: is 'A-arm', must be one of: R, RR, S, RS, SR, SP, US, "
+       "s.toml:35:10: error: mechanism.link[0].type: is 'A-arm', must be one of: R, RR, S, RS, SR, SP, US, "
        "SS; did you mean 'RS' (wishbone: hinged to the body (two points), ball joint at the carrier)?\n"},
       {"too few links",
        corner,
@@ -623,7 +623,7 @@ std::vector<Row> suspensions() {
        {{all_hard_points, listed("mm")}},
        {{"points.txt", replaced(hard_points(), "715.0", "7l5.0")}},
        "s.toml:13:8: warning: mechanism.hard_points.file: points.txt:3:1: lower_ball: '7l5.0' is not a "
-       "number, the line is passed over\ns.toml:26:10: error: mechanism.link[0].points: there is no hard "
+       "number, the line is passed over\ns.toml:27:10: error: mechanism.link[0].points: there is no hard "
        "point 'lower_ball'; there are: lower_front, lower_rear, upper_front, upper_rear, upper_ball, "
        "tie_inner, tie_outer, spring_top, spring_bottom, wheel_centre; did you mean 'upper_ball'?\n"},
       {"wrong side",

@@ -84,6 +84,38 @@ TEST(SweepStudy, RowsThatAreNotReachedHaveNoExtremes) {
   for (const study::Fact& f : result.facts) EXPECT_THAT(f.label, Not(HasSubstr("over the travel")));
 }
 
+TEST(SweepStudy, TellsToeAtTheRimAsALength) {
+  const std::string wheel = R"(
+[mechanism]
+type = "suspension.corner"
+
+[mechanism.wheel]
+centre_m         = [0, 0.76, 0]
+toe_deg          = 0.5
+tyre_diameter_mm = 640
+rim_diameter_mm  = 400
+
+[[mechanism.link]]
+name      = "arm"
+type      = "R"
+body_mm   = [[200, 300, 0], [-200, 320, 20]]
+)";
+  const std::string text = "schema = 1\nkind = \"analysis\"\n" + wheel + sweep;
+  const study::Result result = run_text(text);
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  const std::vector<double>&toe = column(result, "toe_rad"), &at_rim = column(result, "toe_at_rim_m");
+  const Table* bump = result.table("bump");
+  ASSERT_NE(bump, nullptr);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_DOUBLE_EQ(at_rim[i], 0.4 * std::sin(toe[i]));
+    EXPECT_DOUBLE_EQ(bump->find("toe_change_at_rim_m")->values[i], at_rim[i] - at_rim[2]);
+  }
+  EXPECT_NEAR(at_rim[2], 0.4 * std::sin(pi / 360), 1e-12);
+  EXPECT_EQ(problems_of(test::replaced(text, "rim_diameter_mm  = 400", "rim_diameter_mm = 700")),
+            "study.toml:11:19: error: mechanism.wheel.rim_diameter_mm: is 700 mm, larger than the tyre with "
+            "640 mm\n");
+}
+
 TEST(SweepStudy, TablesBumpSteerWithTheRackInItsMiddle) {
   const study::Result result = run_text(sample("5US", sweep + racks));
   const Table* bump = result.table("bump");

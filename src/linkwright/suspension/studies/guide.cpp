@@ -319,6 +319,11 @@ class GuideReader {
     out.toe = w.toe;
     out.camber = w.camber;
     out.tyre_diameter = w.tyre_diameter;
+    out_.rim_diameter = w.rim_diameter;
+    if (w.rim_diameter && *w.rim_diameter > w.tyre_diameter)
+      table->error("rim_diameter", fmt::format("is {}, larger than the tyre with {}",
+                                               common_.units.text(*w.rim_diameter, Dimension::length),
+                                               common_.units.text(w.tyre_diameter, Dimension::length)));
     out_.guide.side = form_.side;
   }
 
@@ -561,7 +566,8 @@ Value write_guide(const GuideDescription& d) {
                         .point = {},
                         .toe = g.wheel.toe,
                         .camber = g.wheel.camber,
-                        .tyre_diameter = g.wheel.tyre_diameter};
+                        .tyre_diameter = g.wheel.tyre_diameter,
+                        .rim_diameter = d.rim_diameter};
   for (std::size_t i = 0; i < g.links.size(); ++i) {
     const GuideLink& l = g.links[i];
     GuideLinkForm link{.name = l.name,

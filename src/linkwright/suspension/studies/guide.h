@@ -69,6 +69,7 @@ struct WheelForm {
   std::string point;  ///< hard point in the place of `centre`
   double toe = 0, camber = 0;
   double tyre_diameter = 0.6;
+  std::optional<double> rim_diameter;
 };
 template <class Visitor>
 void fields(Visitor&& visit, WheelForm& w) {
@@ -87,6 +88,12 @@ void fields(Visitor&& visit, WheelForm& w) {
               .maximum = 100,
               .required = true},
         w.tyre_diameter);
+  visit(Field{.key = "rim_diameter",
+              .summary = "where toe is measured as a length, between the front and the rear edge of the rim",
+              .dimension = Dimension::length,
+              .minimum = 0.01,
+              .maximum = 100},
+        w.rim_diameter);
 }
 
 struct GuideLinkForm {
@@ -251,8 +258,9 @@ enum class OpenPoints { none, boxes };
 struct GuideDescription {
   WheelGuide guide;             ///< open coordinates at their start
   std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
-  std::vector<CouplerTask> couplers;  ///< likewise
-  std::optional<SpringLaw> spring;    ///< of the spring, if its stiffness is known
+  std::vector<CouplerTask> couplers;   ///< likewise
+  std::optional<SpringLaw> spring;     ///< of the spring, if its stiffness is known
+  std::optional<double> rim_diameter;  ///< m, where toe is measured as a length
 };
 
 /// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that

@@ -60,6 +60,14 @@ struct Grid {
   }
 };
 
+/// The diameter at which toe is wanted as a length, as garages measure it; nothing where toe is not wanted.
+std::optional<double> rim_of(const SweepStudy& s) {
+  const auto columns = columns_of(s);
+  const bool wanted =
+      std::any_of(columns.begin(), columns.end(), [](const GuideColumn* c) { return c->key == "toe_rad"; });
+  return wanted ? s.description.rim_diameter : std::nullopt;
+}
+
 Table sweep_table(const Grid& grid, std::string name) {
   Table table{.name = std::move(name)};
   const std::size_t rows = grid.rows();
@@ -72,6 +80,11 @@ Table sweep_table(const Grid& grid, std::string name) {
   add("rack_m", "rack (m)", [&](std::size_t i) { return grid.rack(i); });
   for (const GuideColumn* c : columns_of(grid.study))
     add(c->key, c->label, [&](std::size_t i) { return value_of(*c, grid.row(i)); });
+  if (const auto rim = rim_of(grid.study))
+    add("toe_at_rim_m", "toe at the rim (m)", [&](std::size_t i) {
+      const bool there = grid.solved.positions[i].status == Status::done;
+      return there ? *rim * std::sin(grid.solved.wheels[i].angles.toe) : WheelParameters::missing;
+    });
   add("closure_residual_m", "closure residual (m)",
       [&](std::size_t i) { return grid.solved.positions[i].residual; });
   const bool complete = std::all_of(grid.solved.positions.begin(), grid.solved.positions.end(),
@@ -90,18 +103,22 @@ Table bump_table(const Grid& grid, std::string name) {
   const std::size_t first = rack * count, still = first + next_to_zero(grid.study.travels);
   if (grid.solved.positions[still].status != Status::done) return table;
   const WheelAngles& at_rest = grid.solved.wheels[still].angles;
-  std::vector<double> toe, camber;
+  const auto rim = rim_of(grid.study);
+  std::vector<double> toe, camber, at_rim;
   for (std::size_t i = first; i < first + count; ++i) {
     const bool there = grid.solved.positions[i].status == Status::done;
     const WheelAngles& now = grid.solved.wheels[i].angles;
     toe.push_back(there ? now.toe - at_rest.toe : WheelParameters::missing);
     camber.push_back(there ? now.camber - at_rest.camber : WheelParameters::missing);
+    at_rim.push_back(there && rim ? *rim * (std::sin(now.toe) - std::sin(at_rest.toe))
+                                  : WheelParameters::missing);
   }
   table.add("travel_m", "travel (m)", grid.study.travels);
   for (const GuideColumn* c : columns_of(grid.study)) {
     if (c->key == "toe_rad") table.add("toe_change_rad", "change of toe (rad)", toe);
     if (c->key == "camber_rad") table.add("camber_change_rad", "change of camber (rad)", camber);
   }
+  if (rim) table.add("toe_change_at_rim_m", "change of toe at the rim (m)", at_rim);
   return table;
 }
 
@@ -184,6 +201,8 @@ void add_plots(study::Result& result, const SweepStudy& s) {
     const double rack = s.racks[next_to_zero(s.racks)];
     const std::string at = s.racks.size() > 1 ? fmt::format(", rack {:.4g} mm", 1e3 * rack) : "";
     from_static("bump-steer", "Bump steer: change of toe from static" + at, {"toe_change_rad"});
+    from_static("bump-steer-at-rim", "Bump steer at the rim: change of toe from static" + at,
+                {"toe_change_at_rim_m"});
     from_static("bump-camber", "Change of camber from static" + at, {"camber_change_rad"});
   }
   const study::AddPlot over_travel{
@@ -253,6 +272,18 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
       fact(label + centred, fmt::format("{} to {}", degrees(least.value), degrees(greatest.value)));
   };
   span("toe over the travel", &WheelAngles::toe);
+  if (const auto rim = rim_of(s)) {
+    study::Extreme least, greatest;
+    for (std::size_t i = first; i < first + s.travels.size(); ++i) {
+      if (grid.solved.positions[i].status != Status::done) continue;
+      const double toe = *rim * std::sin(grid.solved.wheels[i].angles.toe);
+      least.least(toe, i);
+      greatest.greatest(toe, i);
+    }
+    if (least.any())
+      fact("toe at the rim over the travel" + centred,
+           fmt::format("{} to {}", millimetres(least.value), millimetres(greatest.value)));
+  }
   span("camber over the travel", &WheelAngles::camber);
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
