@@ -160,6 +160,19 @@ test("a pin that is dragged changes the links on it, and no other", async () => 
   await close();
 });
 
+test("a linkage that takes long to compute is dragged all the same", async () => {
+  const { page, errors, close } = await open({ example: "hoeken" });
+  await writeText(page, `${(await studyText(page)).replace("[output]", '[sweep]\n[[sweep.input]]\njoint = "O"\nfrom_deg = 0\nto_deg = 360\nsamples = 90001\n\n[output]')}`);
+  await holds(page, async () => (await resultOf(page)).tables[0].data[0].length === 90001);
+  const text = await studyText(page);
+  await page.locator("#scrub").fill("80000");
+  await drag(page, await joint(page, "B"), { x: 10, y: -8 });
+  await holds(page, async () => (await studyText(page)) !== text);
+  assert.equal((await resultOf(page)).status, "done");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a pivot dragged with Alt moves alone: links keep their lengths", async () => {
   const { page, close } = await open({ example: "hoeken" });
   const before = await resultOf(page);

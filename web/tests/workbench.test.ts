@@ -304,7 +304,7 @@ test("a pin on a guide is dragged along it", () => {
 
 test("of files that are dropped the study is found, and the tables beside it", async () => {
   const [toml, table] = [{ name: "a.toml", text: "schema = 1" }, { name: "path.csv", text: "x_m,y_m\n0,0" }];
-  expect(await sortOut([table, toml])).toEqual({ study: { ...toml, files: { "path.csv": table.text } }, tables: { "path.csv": table.text } });
+  expect(await sortOut([table, toml])).toEqual({ study: toml, tables: { "path.csv": table.text } });
   expect(await sortOut([table])).toEqual({ study: null, tables: { "path.csv": table.text } });
   // A result holds its study; a study in JSON is one.
   const study = { schema: 1, kind: "analysis" };

@@ -121,6 +121,8 @@ export function within(scene: Scene, grip: Grip, to: Place): Place | null {
   return grip.at.z === undefined ? { x, y } : { x, y, z };
 }
 
+export const isRobot = (study: JsonObject | null) => String((study?.mechanism as JsonObject | undefined)?.type).startsWith("parallel.");
+
 const pinned = ["planar.four_bar", "planar.slider_crank", "parallel.five_bar", "parallel.constant_orientation"];
 
 /** Whether all other joints stay where they are while a point is dragged: where nothing slides on what moves, and no frame is turned. */
@@ -139,8 +141,7 @@ export function reached(before: Scene, after: Scene, grip: Grip, at: Place, size
     return p !== null && place !== null && distance(p, place) <= 1e-5 * size;
   };
   // The tool of a robot is given, and its arms turn to it; whether they reach it the study says.
-  const robot = String((study?.mechanism as JsonObject | undefined)?.type).startsWith("parallel.");
-  if (robot && grip.handles.some((h) => h.held || !h.key.startsWith("mechanism."))) return true;
+  if (isRobot(study) && grip.handles.some((h) => h.held || !h.key.startsWith("mechanism."))) return true;
   if (!grip.points.every((point) => near(point, at))) return false;
   return !othersStay(study, grip) || before.joints.every(({ point, style }) => style === "tracer" || grip.points.includes(point) || near(point, placeAt(before, point, grip.sample)));
 }

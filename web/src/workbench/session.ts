@@ -6,7 +6,7 @@ import { extent } from "../camera";
 import * as state from "../state";
 import { begin, change, document_, keep, replace, type Document } from "./document";
 import { Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
-import { gripPoint, gripTarget, guided, moveTo, reached, valueOf, within, type Grip } from "./handles";
+import { gripPoint, gripTarget, guided, isRobot, moveTo, reached, valueOf, within, type Grip } from "./handles";
 import { opened } from "./opened";
 import { along, listOf, withoutPoint, withPoint } from "./points";
 
@@ -242,10 +242,11 @@ export async function takePoints(name: string, text: string): Promise<void> {
   const key = targetKey.peek();
   const { text: study, files } = document_.peek();
   const edits = [{ key, value: null }, { key: `${key.slice(0, key.lastIndexOf("."))}.points_file`, value: name }];
-  const answer = await engine.run({ text: study, files: { ...files, [name]: text }, edits, seconds: 0.1 });
-  const target = answer.carried?.view.scenes[0]?.targets[0];
-  if (!target) throw new Error(problemOf(answer) || `${name} has no points`);
-  setPoints([{ key, value: target.x.map((x, i) => [x!, target.y[i]!]) }]);
+  // What is asked for is the study with the points in it, not what a search finds.
+  const answer = await engine.run({ text: study, files: { ...files, [name]: text }, edits, seconds: 0.05 });
+  const points = valueOf(answer.canonical ?? null, key);
+  if (!points) throw new Error(problemOf(answer));
+  setPoints([{ key, value: points as number[][] }]);
 }
 
 /** A press made a point, a drag a path of as many points as there were, or of some twenty. */
@@ -293,7 +294,7 @@ const hand: state.Hand = {
       const drawn = answer.carried?.view.scenes[index];
       if (!drawn) return `stops here: ${problemOf(answer)}`;
       return exact && !reached(scene, drawn, grip, to, extent.value, study) ? "stops here: further on the linkage would turn over to its other branch" : "";
-    }, quick);
+    }, exact && !isRobot(study) ? timeLimit : quick); // the branch is told by the whole motion
   },
   up() {
     if (state.stroke.value.length && state.scene.value) drawPoints(state.stroke.value, state.scene.value);

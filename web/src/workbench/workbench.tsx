@@ -11,8 +11,8 @@ import "./workbench.css";
 import { asCommand, asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
 import { Draw, showDraw } from "./draw";
 import { workerEngine, type Engine, type Progress } from "./engine";
-import { Gallery, paintWith, showGallery } from "./gallery";
 import { sortOut } from "./files";
+import { Gallery, paintWith, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
@@ -46,7 +46,7 @@ async function keepStudy(): Promise<void> {
 async function openFiles(list: FileList): Promise<void> {
   try {
     const { study, tables } = await sortOut(await Promise.all([...list].map(async (f) => ({ name: f.name, text: await f.text() }))));
-    if (study) return open(study);
+    if (study) return open({ ...study, files: tables });
     const [name, ...more] = Object.keys(tables);
     if (targetKey.value && !more.length && !document_.value.text.includes(name)) return await takePoints(name, tables[name]);
     // What the present study reads.

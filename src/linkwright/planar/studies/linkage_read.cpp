@@ -96,7 +96,7 @@ std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType
   return axis ? std::vector{*axis} : std::vector<study::ObjectReader>();
 }
 
-Value written(const Linkage& l, InputGrid& grid, AtChangePoint at_change_point) {
+Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point) {
   Value out = Value::object();
   Value::Array axes(l.driven.size(), Value::object());
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {

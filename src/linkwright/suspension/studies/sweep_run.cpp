@@ -69,6 +69,8 @@ std::optional<double> rim_of(const SweepStudy& s) {
   return wanted ? s.description.rim_diameter : std::nullopt;
 }
 
+double toe_at(double rim, const WheelAngles& angles) { return rim * std::sin(angles.toe); }
+
 Table sweep_table(const Grid& grid, std::string name) {
   Table table{.name = std::move(name)};
   const std::size_t rows = grid.rows();
@@ -84,7 +86,7 @@ Table sweep_table(const Grid& grid, std::string name) {
   if (const auto rim = rim_of(grid.study))
     add("toe_at_rim_m", "toe at the rim (m)", [&](std::size_t i) {
       const bool there = grid.solved.positions[i].status == Status::done;
-      return there ? *rim * std::sin(grid.solved.wheels[i].angles.toe) : WheelParameters::missing;
+      return there ? toe_at(*rim, grid.solved.wheels[i].angles) : WheelParameters::missing;
     });
   add("closure_residual_m", "closure residual (m)",
       [&](std::size_t i) { return grid.solved.positions[i].residual; });
@@ -111,8 +113,7 @@ Table bump_table(const Grid& grid, std::string name) {
     const WheelAngles& now = grid.solved.wheels[i].angles;
     toe.push_back(there ? now.toe - at_rest.toe : WheelParameters::missing);
     camber.push_back(there ? now.camber - at_rest.camber : WheelParameters::missing);
-    at_rim.push_back(there && rim ? *rim * (std::sin(now.toe) - std::sin(at_rest.toe))
-                                  : WheelParameters::missing);
+    if (rim) at_rim.push_back(there ? toe_at(*rim, now) - toe_at(*rim, at_rest) : WheelParameters::missing);
   }
   table.add("travel_m", "travel (m)", grid.study.travels);
   for (const GuideColumn* c : columns_of(grid.study)) {
@@ -261,31 +262,23 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
   const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
-  const auto span = [&](const char* label, double WheelAngles::*angle) {
+  const auto span = [&](const char* label, auto&& value, auto&& text) {
     study::Extreme least, greatest;
     for (std::size_t i = first; i < first + s.travels.size(); ++i) {
       if (grid.solved.positions[i].status != Status::done) continue;
-      const double value = grid.solved.wheels[i].angles.*angle;
-      least.least(value, i);
-      greatest.greatest(value, i);
+      const double now = value(grid.solved.wheels[i].angles);
+      least.least(now, i);
+      greatest.greatest(now, i);
     }
-    if (least.any())
-      fact(label + centred, fmt::format("{} to {}", degrees(least.value), degrees(greatest.value)));
+    if (least.any()) fact(label + centred, fmt::format("{} to {}", text(least.value), text(greatest.value)));
   };
-  span("toe over the travel", &WheelAngles::toe);
-  if (const auto rim = rim_of(s)) {
-    study::Extreme least, greatest;
-    for (std::size_t i = first; i < first + s.travels.size(); ++i) {
-      if (grid.solved.positions[i].status != Status::done) continue;
-      const double toe = *rim * std::sin(grid.solved.wheels[i].angles.toe);
-      least.least(toe, i);
-      greatest.greatest(toe, i);
-    }
-    if (least.any())
-      fact("toe at the rim over the travel" + centred,
-           fmt::format("{} to {}", millimetres(least.value), millimetres(greatest.value)));
-  }
-  span("camber over the travel", &WheelAngles::camber);
+  span(
+      "toe over the travel", [](const WheelAngles& a) { return a.toe; }, degrees);
+  if (const auto rim = rim_of(s))
+    span(
+        "toe at the rim over the travel", [&](const WheelAngles& a) { return toe_at(*rim, a); }, millimetres);
+  span(
+      "camber over the travel", [](const WheelAngles& a) { return a.camber; }, degrees);
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
   if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
