@@ -1,9 +1,10 @@
-// Puts the workbench into one page that needs nothing else:
-//   node workbench.mjs SCRIPTS_FOLDER OUT.html ENGINE_FOLDER    with the engine inside, to be opened from disk
-//   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               without, to be served by the program, which is the engine
+// Puts the workbench together:
+//   node workbench.mjs SCRIPTS_FOLDER OUT.html ENGINE_FOLDER    one page with the engine inside, to be opened from disk
+//   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               one page without, to be served by the program, which is the engine
+//   node workbench.mjs SCRIPTS_FOLDER OUT/ ENGINE_FOLDER        a folder of files for any web host, which browsers keep one by one
 // SCRIPTS_FOLDER has workbench.js, workbench.css, space.js and, for the first, worker.js; ENGINE_FOLDER engine.js and engine.wasm.
 import { createHash } from "node:crypto";
-import { readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { deflateRawSync, gzipSync } from "node:zlib";
 
 const [scripts, out, engine] = process.argv.slice(2);
@@ -11,14 +12,23 @@ const read = (folder, name) => readFileSync(`${folder}/${name}`);
 const packed = (bytes) => deflateRawSync(bytes, { level: 9 }).toString("base64");
 // A script ends at the first "</script", wherever that stands.
 const inline = (name) => `\n${read(scripts, name).toString("utf8").replace(/<\/(script)/gi, "<\\/$1")}\n`;
+const folder = out.endsWith("/");
 const own = [inline("space.js"), inline("workbench.js")];
+const workerScript = engine && Buffer.concat([read(engine, "engine.js"), Buffer.from("\n"), read(scripts, "worker.js")]);
 
-const carried = engine ? `<script type="text/plain" id="engine-wasm">${packed(read(engine, "engine.wasm"))}</script>
-<script type="text/plain" id="engine-script">${packed(Buffer.concat([read(engine, "engine.js"), Buffer.from("\n"), read(scripts, "worker.js")]))}</script>
-` : "";
+const carried = !engine ? ""
+  : folder ? `<link id="engine-wasm" rel="preload" as="fetch" crossorigin href="engine.wasm">
+<link id="engine-script" rel="prefetch" href="engine.js">
+` : `<script type="text/plain" id="engine-wasm">${packed(read(engine, "engine.wasm"))}</script>
+<script type="text/plain" id="engine-script">${packed(workerScript)}</script>
+`;
 // The worker of the engine inherits what the page allows; a page without one allows its own two scripts and its own server.
-const allowed = engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:"
-  : `script-src ${own.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`).join(" ")}; connect-src 'self'`;
+const allowed = folder ? "script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'"
+  : engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:"
+    : `script-src ${own.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`).join(" ")}; connect-src 'self'`;
+const style = folder ? '<link rel="stylesheet" href="workbench.css">' : `<style>
+${read(scripts, "workbench.css").toString("utf8")}</style>`;
+const code = folder ? '<script src="space.js"></script>\n<script src="workbench.js"></script>' : own.map((script) => `<script>${script}</script>`).join("\n");
 
 const page = `<!doctype html>
 <html lang="en">
@@ -26,18 +36,26 @@ const page = `<!doctype html>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${allowed}; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${allowed}; style-src ${folder ? "'self' " : ""}'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
 <link rel="icon" href="data:,">
 <title>Linkwright workbench</title>
-<style>
-${read(scripts, "workbench.css").toString("utf8")}</style>
+${style}
 </head>
 <body>
 <div id="app"></div>
 <noscript><p>The workbench needs JavaScript${engine ? " and WebAssembly" : ""}.</p></noscript>
-${carried}${own.map((script) => `<script>${script}</script>`).join("\n")}
+${carried}${code}
 </body>
 </html>
 `;
-writeFileSync(out, out.endsWith(".gz") ? gzipSync(page, { level: 9 }) : page);
-console.log(`${out}: ${(page.length / 1e6).toFixed(2)} MB`);
+if (folder) {
+  rmSync(out, { recursive: true, force: true });
+  mkdirSync(out, { recursive: true });
+  for (const name of ["space.js", "workbench.js", "workbench.css"]) copyFileSync(`${scripts}/${name}`, out + name);
+  copyFileSync(`${engine}/engine.wasm`, `${out}engine.wasm`);
+  writeFileSync(`${out}engine.js`, workerScript);
+  writeFileSync(`${out}index.html`, page);
+} else {
+  writeFileSync(out, out.endsWith(".gz") ? gzipSync(page, { level: 9 }) : page);
+  console.log(`${out}: ${(page.length / 1e6).toFixed(2)} MB`);
+}

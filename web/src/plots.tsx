@@ -73,10 +73,12 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   );
 }
 
+const behindOf = (table: Table) => state.behind.value?.tables.find((t) => t.name === table.name);
+
 /** A diagram with a curve for each value of its group, bands or a baseline. */
 function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
   const linked = plot.scene !== "" && plot.scene === state.whole.value?.name;
-  const baseline = plot.baseline ? state.result.tables.find((t) => t.name === plot.baseline) : undefined;
+  const baseline = plot.baseline ? state.result.tables.find((t) => t.name === plot.baseline) : behindOf(table);
   const groups = useMemo(() => groupsOf(plot, table), [plot, table]);
   /** The group of the inputs that are shown; -1 = none. */
   const present = useMemo(() => {
@@ -111,7 +113,7 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
   return (
     <>
       <Chart label={plot.title} data={made.data} curves={made.curves} x={made.x} y={made.y} link={made.link} upright={plot.upright}
-        present={() => present.value} presentName={(now) => groups[now]?.label ?? ""} baseline={baseline?.name} family={groups.length > 1} />
+        present={() => present.value} presentName={(now) => groups[now]?.label ?? ""} baseline={plot.baseline ? baseline?.name : baseline && state.behind.value?.name} family={groups.length > 1} />
       {count > mostNamed && groups.length > 1 && <p class="note">{`${count} curves`}{`, ${groups[0].label} to ${groups[groups.length - 1].label}`}{present.value >= 0 && <>; strong: <b>{groups[present.value].label}</b></>}</p>}
       {made.clipped && <Clipped what="Values" why=": they are zero up to rounding" />}
     </>
@@ -218,7 +220,7 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
     {withTable(plots).map(({ plot, table }) => (
       <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
         <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
-        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.style === "map" ? <MapPlot plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
+        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.style === "map" ? <MapPlot plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
       </div>
     ))}
   </>

@@ -131,6 +131,9 @@ export interface Hand {
 }
 export const hand: { now: Hand | null } = { now: null };
 
+/** What the diagrams draw behind their own curves, to compare with. */
+export const behind = signal<{ name: string; tables: Result["tables"] } | null>(null);
+
 /** What is being drawn by hand. */
 export const stroke = signal<Place[]>([]);
 

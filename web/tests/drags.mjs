@@ -28,7 +28,7 @@ function answer() {
 function run(text, edits = []) {
   const [at, size] = bytes(text);
   const [made, length] = bytes(edits.length ? JSON.stringify({ edits }) : "");
-  engine._engine_run(at, size, made, length, 0);
+  engine._engine_run(at, size, made, length, 0, 0, 0);
   engine._free(at);
   engine._free(made);
   return answer();

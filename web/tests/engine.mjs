@@ -33,7 +33,7 @@ const answer = () => {
 };
 const ask = (text) => {
   const [at, size] = bytes(text);
-  engine._engine_run(at, size, 0, 0, 0);
+  engine._engine_run(at, size, 0, 0, 0, 0, 0);
   engine._free(at);
   return answer();
 };

@@ -1,12 +1,14 @@
 // Uses the workbench from disk, without network, as a designer would, and compares what it shows with the program.
 //   node workbench.mjs PAGE LINKWRIGHT CHROMIUM [PICTURES]; ONLY=WORDS in the environment picks tests by their names
-// PAGE is workbench.html, or "serve": then the page is the one that `LINKWRIGHT serve` has, and the program is its engine.
+// PAGE is workbench.html, or a folder, workbench/, as a web host would have it, or "serve": then the page is the one that `LINKWRIGHT serve`
+// has, and the program is its engine.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { extname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { launch, runAll } from "./scenarios.mjs";
 
@@ -19,17 +21,43 @@ async function serve(...words) {
   const said = await new Promise((done) => server.stdout.once("data", (bytes) => done(bytes.toString())));
   return { address: /^open (\S+)/.exec(said)[1], end: () => new Promise((done) => server.once("exit", done) && server.kill("SIGINT")) };
 }
+/** A host that knows no types but those that browsers insist on. */
+async function host(folder) {
+  const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css" };
+  const server = createServer((request, response) => {
+    const name = request.url === "/" ? "index.html" : request.url.slice(1).replaceAll("/", "");
+    try {
+      response.writeHead(200, { "Content-Type": types[extname(name)] ?? "application/octet-stream" }).end(readFileSync(join(folder, name)));
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  server.unref();
+  return `http://127.0.0.1:${server.address().port}/`;
+}
+const hosted = file.endsWith("/");
 const server = served && (await serve());
-const address = served ? server.address : pathToFileURL(resolve(file)).href;
+const address = served ? server.address : hosted ? await host(file) : pathToFileURL(resolve(file)).href;
 const site = address.split("#")[0];
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const scratch = mkdtempSync(join(tmpdir(), "linkwright-workbench-"));
 const browser = await launch(executablePath);
 
-async function open({ hash = "", example, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served, acceptDownloads: true, reducedMotion: "reduce", bypassCSP: true, ...options });
+async function open({ hash = "", example, workers, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served && !hosted, acceptDownloads: true, reducedMotion: "reduce", bypassCSP: !hosted, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(60_000); // a busy machine is slow
+  if (workers)
+    await page.addInitScript((count) => {
+      Object.defineProperty(navigator, "hardwareConcurrency", { value: count });
+      const Given = Worker;
+      globalThis.begun = 0;
+      globalThis.Worker = function (script) {
+        ++globalThis.begun;
+        return new Given(script);
+      };
+    }, workers);
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
@@ -369,6 +397,26 @@ test("a search that is stopped keeps its best", async () => {
   await close();
 });
 
+if (!served)
+  test("a search has one answer, however many workers share it", async () => {
+    const answers = [];
+    for (const workers of [1, 2, 5]) {
+      const { page, errors, close } = await open({ workers, example: "fourbar-18-points-grey-wolf" });
+      const before = await page.evaluate(() => globalThis.begun);
+      await writeText(page, (await studyText(page)).replace(/count = \d+/, "count = 6"));
+      await holds(page, async () => (await resultOf(page)).study.optimiser.seeds.count === 6);
+      const { solutions, statistics, tables, status } = await resultOf(page);
+      assert.equal(status, "done");
+      answers.push(JSON.stringify({ solutions, statistics, tables }));
+      const begun = await page.evaluate(() => globalThis.begun);
+      assert.ok(workers === 1 || begun >= workers, `${begun} workers, ${before} before`);
+      assert.deepEqual(errors, []);
+      await close();
+    }
+    assert.equal(answers[1], answers[0]);
+    assert.equal(answers[2], answers[0]);
+  });
+
 test("the best so far moves while a search goes on", async () => {
   const { page, errors, close } = await open({ example: "fourbar-18-points-grey-wolf" });
   const text = await studyText(page);
@@ -568,6 +616,30 @@ test("a hard point is dragged in space, and the wheel parameters follow", async 
   await close();
 });
 
+test("hard points stand in a table, and diagrams keep what was before", async () => {
+  const { page, errors, close } = await open({ example: "strut-suspension-sweep" });
+  await page.locator("#tab-points").click();
+  const key = "mechanism.link[2].body_m";
+  const row = page.locator(`[data-point="${key}"]`);
+  await row.locator("button.link").click();
+  assert.match(await row.getAttribute("class"), /picked/);
+  await page.locator("#compare").click();
+  const before = await resultOf(page);
+  const z = row.locator(`[data-key="${key}[2]"]`);
+  const unit = Number(await z.inputValue()) / before.study.mechanism.link[2].body_m[2];
+  await z.fill(String(-0.0667 * unit));
+  await z.press("Enter");
+  await holds(page, async () => (await resultOf(page)).study.mechanism.link[2].body_m[2] === -0.0667);
+  const toe = page.locator('[data-plot*="toe"]').first();
+  assert.match(await toe.innerText(), /before/);
+  await page.locator("#compare").click();
+  assert.doesNotMatch(await toe.innerText(), /before/);
+  await page.locator('[data-lock="mechanism.link[2].body_m"]').click();
+  assert.equal(await page.locator('[data-lock="mechanism.link[2].body_m"]').getAttribute("aria-pressed"), "true");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("the places that a robot's tool goes to are dragged, and the verdict follows", async () => {
   const { page, errors, close } = await open({ example: "five-bar-robot" });
   const [text, before] = [await studyText(page), await resultOf(page)];
@@ -675,7 +747,7 @@ test("a report opens in the workbench, and the workbench opens reports", async (
 });
 
 test("a study of before is there again", async () => {
-  const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served, reducedMotion: "reduce" });
+  const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served && !hosted, reducedMotion: "reduce" });
   const page = await context.newPage();
   await page.goto(address);
   await page.locator("#drawing .pose").waitFor();
@@ -763,21 +835,18 @@ if (served)
 if (pictures)
   test("pictures", async () => {
     mkdirSync(pictures, { recursive: true });
-    for (const [name, options, example] of [
-      ["laptop", {}, "jansen-leg"], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true }, "hoeken"], ["dark", { colorScheme: "dark" }, "klann-leg"],
-      ["search", {}, "fourbar-18-points"], ["suspension", {}, "strut-suspension-sweep"], ["robot", { colorScheme: "dark" }, "delta-pi-joints"]]) {
-      const { page, close } = await open({ example, ...options });
-      await page.waitForTimeout(700);
-      await page.screenshot({ path: join(pictures, `${name}.png`) });
-      if (name === "laptop") {
-        await page.locator("#tab-text").click();
-        await page.screenshot({ path: join(pictures, "text.png") });
-        await page.locator("#examples").click();
-        await page.waitForTimeout(6000);
-        await page.screenshot({ path: join(pictures, "examples.png") });
-      }
-      await close();
-    }
+    const screens = [["linkage", "jansen-leg"], ["search", "fourbar-18-points"], ["suspension", "strut-suspension-sweep", "#tab-points"], ["robot", "delta-pi-joints"],
+      ["elastic", "elastic-four-bar"], ["text", "klann-leg", "#tab-text"], ["draw", "hoeken", "#draw"], ["gallery", "hoeken", "#examples"]];
+    const sizes = [["laptop", {}], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true }]];
+    for (const [name, example, then] of screens)
+      for (const [size, options] of sizes)
+        for (const colorScheme of ["light", "dark"]) {
+          const { page, close } = await open({ example, colorScheme, ...options });
+          if (then) await page.locator(then).click();
+          await page.waitForTimeout(then === "#examples" ? 5000 : 700);
+          await page.screenshot({ path: join(pictures, `${name}-${size}-${colorScheme}.png`) });
+          await close();
+        }
   });
 
 const failed = await runAll(tests);

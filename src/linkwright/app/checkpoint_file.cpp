@@ -53,6 +53,19 @@ CheckpointOwner checkpoint_owner(const study::Study& study) {
   return {fmt::format("linkwright {}", version()), sha256(study::to_json(study.canonical))};
 }
 
+std::string checkpoint_line(std::string_view name, const Value& value) {
+  LINKWRIGHT_REQUIRE(!name.empty() && name.size() <= longest_text, "name of {} characters", name.size());
+  Value entry;
+  entry["name"] = name;
+  entry["value"] = value;
+  return study::to_json(entry);
+}
+
+Value checkpoint_value(std::string_view line) {
+  Value table = table_of(line);
+  return table.is_object() ? std::move(table["value"]) : Value();
+}
+
 std::string checkpoint_text(const CheckpointOwner& owner, const CheckpointLines& lines) {
   std::string body;
   for (const auto& [name, line] : lines) body.append(line).append("\n");
@@ -175,16 +188,11 @@ Value CheckpointFile::find(std::string_view name) const {
     if (found == lines_.end()) return {};
     line = found->second;
   }
-  Value table = table_of(line);
-  return std::move(table["value"]);
+  return checkpoint_value(line);
 }
 
 void CheckpointFile::keep(std::string_view name, const Value& value) {
-  LINKWRIGHT_REQUIRE(!name.empty() && name.size() <= longest_text, "name of {} characters", name.size());
-  Value entry;
-  entry["name"] = name;
-  entry["value"] = value;
-  std::string line = study::to_json(entry);
+  std::string line = checkpoint_line(name, value);
   const std::string below = std::string(name) + "/";
 
   const std::lock_guard lock(mutex_);

@@ -31,6 +31,9 @@ CheckpointOwner checkpoint_owner(const study::Study& study);
 
 /// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
 using CheckpointLines = std::map<std::string, std::string, std::less<>>;
+/// Such a line, and its value again; null for no line.
+std::string checkpoint_line(std::string_view name, const Value& value);
+Value checkpoint_value(std::string_view line);
 
 /// Text of a file: a line that names the owner, the number of bytes after it and their SHA-256; then the
 /// lines.

@@ -93,7 +93,8 @@ report::ReportInput report_input(const study::Study& study, const study::Result&
           .result_json = std::move(result_json)};
 }
 
-View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context) {
+View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context,
+              Sharing sharing) {
   Diagnostics diagnostics;
   const auto start = RunContext::Clock::now();
   Value out = Value::object();
@@ -109,7 +110,21 @@ View run_text(std::string_view text, std::string_view edits, const std::string& 
     view.json = study::to_json(out);
     return view;
   }
-  study::Result result = study::run_study(*study, context);
+  ShardCheckpoint checkpoint(sharing.shard, checkpoint_owner(*study));
+  Diagnostics refused;  // what cannot be used is done again
+  for (const std::string& kept : sharing.kept) checkpoint.take(kept, refused);
+  checkpoint.set_hand_on(std::move(sharing.hand_on));
+  checkpoint.set_leaves(std::move(sharing.leaves));
+  context.set_checkpoint(sharing.shard.count > 1 || !sharing.kept.empty() ? &checkpoint : nullptr);
+  study::Result result;
+  try {
+    result = study::run_study(*study, context);
+  } catch (const LeftToOthers&) {
+    out["left_to_others"] = true;
+    view.json = study::to_json(out);
+    return view;
+  }
+  context.set_checkpoint(nullptr);
   keep_handles(result, *study);
   const study::Result shown = presented(*study, std::move(result));
   report::ReportInput input = report_input(*study, shown, {}, {});

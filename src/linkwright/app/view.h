@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/app/shard.h"
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
@@ -26,12 +28,22 @@ struct View {
   std::vector<double> numbers;
 };
 
+/// How a run is shared with other runs of the same text and edits.
+struct Sharing {
+  Shard shard;
+  std::vector<std::string> kept;                         ///< what runs have handed on so far
+  std::function<void(const std::string&)> hand_on = {};  ///< receives what this one keeps
+  std::function<void()> leaves = {};  ///< called, once, when the run leaves something to the others
+};
+
 /// Changes the text of a study (edited()), reads, runs and presents it. `edits`: a document with the list
 /// `edits` of `key` and `value`, or empty. Files that the study names are looked for in `folder`. `document`:
 /// `text` as it is now, `diagnostics` of it (severity, line, column, key, message, hint); without errors also
 /// `canonical`, the study with all defaults in SI units, `view` and `result`, which are what a report
-/// carries, and `seconds`.
-View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context);
+/// carries, and `seconds`. A run that has left something to others has the member `left_to_others` in the
+/// place of those: the answer comes of one that begins with what all of them have handed on.
+View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context,
+              Sharing sharing = {});
 
 /// What there is to begin with: `version`, `kinds` (name, summary, group), `examples` (name, title, group,
 /// text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).

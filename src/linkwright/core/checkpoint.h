@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -39,6 +40,18 @@ class Checkpoint {
 
   /// How long a loop may work before it keeps its state again: short loops would else do nothing but keep.
   virtual std::chrono::duration<double> interval() const = 0;
+
+  /// Whether another run of the same study does piece `index` (0, 1, ...) of a loop whose pieces know nothing
+  /// of each other, for example of its seeds, and keeps it in a checkpoint of its own. A loop that leaves
+  /// pieces to others throws LeftToOthers when it has done the rest.
+  virtual bool is_left_to_others(std::size_t /*index*/) const { return false; }
+};
+
+/// The run is one of several that share a study, and has done and kept what is its own: there is a result
+/// when what all of them have kept is put together and the study run with it.
+class LeftToOthers : public std::runtime_error {
+ public:
+  LeftToOthers() : std::runtime_error("the rest of the study is left to other runs") {}
 };
 
 /// Doubles as text, 16 hexadecimal digits each: every bit comes back, also of infinities and NaN.

@@ -67,19 +67,24 @@ SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view
                    Checkpoint* checkpoint, Save save, Restore restore) {
   LINKWRIGHT_REQUIRE(seeds.count >= 1, "needs at least one seed, got {}", seeds.count);
   const auto count = static_cast<std::size_t>(seeds.count);
-  std::vector<char> ran(count, 0);  // not bits: written by several threads
+  std::vector<char> ran(count, 0), left(count, 0);  // not bits: written by several threads
   std::atomic<std::size_t> finished{0};
   std::atomic<double> best{infinity};
+  std::size_t own = count;
   if (checkpoint)
     for (std::size_t i = 0; i < count; ++i) {
       const Value value = checkpoint->find(seed_name(seeds.first + i));
-      if (value.is_null()) continue;
-      best = std::min(best.load(), restore(i, value));
-      ran[i] = 1;
-      ++finished;
+      if (!value.is_null()) {
+        best = std::min(best.load(), restore(i, value));
+        ran[i] = 1;
+        ++finished;
+      } else if (checkpoint->is_left_to_others(i)) {
+        left[i] = 1;
+        --own;
+      }
     }
   parallel_for(count, context.threads(), [&](std::size_t i) {
-    if (ran[i] != 0 || (i > 0 && context.interrupted())) return;
+    if (ran[i] != 0 || left[i] != 0 || (i > 0 && context.interrupted())) return;
     const double cost = body(i, seeds.first + i);
     ran[i] = 1;
     if (checkpoint)
@@ -89,9 +94,10 @@ SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view
     }
     const double now = best.load();
     context.report({.stage = stage,
-                    .fraction = static_cast<double>(++finished) / static_cast<double>(count),
+                    .fraction = static_cast<double>(++finished) / static_cast<double>(own),
                     .best = std::isfinite(now) ? now : nan});
   });
+  if (own < count) throw LeftToOthers();
   return {context.interruption(), std::vector<bool>(ran.begin(), ran.end())};
 }
 

@@ -71,7 +71,8 @@ std::string seed_name(std::uint64_t seed);
 /// The same with a checkpoint, if the run context has one: seeds that it holds are not run again.
 /// `save(i)` turns what seed i came to into a value, null if it was interrupted and is to be run again.
 /// `restore(i, value)` puts it back to the place of index i and returns the cost as the body does; it throws
-/// CheckpointError for a value that it cannot use. All seeds are restored before the first one runs.
+/// CheckpointError for a value that it cannot use. All seeds are restored before the first one runs. Throws
+/// LeftToOthers when the checkpoint leaves seeds to other runs.
 SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
                        math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body,
                        math::FunctionRef<Value(std::size_t index)> save,

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "linkwright/app/view.h"
+#include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
 // The program behind the functions of C that a page can call. Each answers with a document: engine_json() and
@@ -39,6 +40,32 @@ EM_JS(void, tell_progress, (const char* stage, int length, double fraction, doub
   if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, length), fraction, best);
 });
 
+// Likewise what the run keeps, for the runs that go before or after it, and that others can help it.
+EM_JS(void, hand_on, (const char* text, int length), {
+  if (Module["onKept"]) Module["onKept"](UTF8ToString(text, length));
+});
+EM_JS(void, tell_leaves, (), {
+  if (Module["onLeaves"]) Module["onLeaves"]();
+});
+
+/// From the document of a page: `index` and `count` of the runs that share the study, and what they `kept`.
+app::Sharing read_sharing(std::string_view text) {
+  app::Sharing out;
+  Diagnostics ignored;
+  const Value asked = study::read_text(text, study::Syntax::json, "sharing", ignored);
+  const Value *index = asked.find("index"), *count = asked.find("count"), *kept = asked.find("kept");
+  if (index && count && index->is_integer() && count->is_integer() && index->as_integer() >= 0 &&
+      index->as_integer() < count->as_integer())
+    out.shard = {static_cast<std::size_t>(index->as_integer()),
+                 static_cast<std::size_t>(count->as_integer())};
+  if (kept && kept->is_array())
+    for (const Value& one : kept->as_array())
+      if (one.is_string()) out.kept.push_back(one.as_string());
+  out.hand_on = [](const std::string& one) { hand_on(one.data(), static_cast<int>(one.size())); };
+  out.leaves = [] { tell_leaves(); };
+  return out;
+}
+
 }  // namespace
 
 extern "C" {
@@ -61,16 +88,19 @@ EMSCRIPTEN_KEEPALIVE void engine_schema(const char* kind, int size) {
 }
 
 /// app::run_text(); files are looked for in "/study". Ends after `seconds` with the best so far; 0 = never.
+/// `sharing`: a document as read_sharing() has it, or empty.
 EMSCRIPTEN_KEEPALIVE void engine_run(const char* text, int size, const char* edits, int edits_size,
-                                     double seconds) {
+                                     const char* sharing, int sharing_size, double seconds) {
   give([&] {
     RunContext context;
     if (seconds > 0) context.set_time_limit(std::chrono::duration<double>(seconds));
     context.set_progress([](const Progress& p) {
       tell_progress(p.stage.data(), static_cast<int>(p.stage.size()), p.fraction, p.best);
     });
-    return app::run_text({text, static_cast<std::size_t>(size)},
-                         {edits, static_cast<std::size_t>(edits_size)}, "/study", context);
+    return app::run_text(
+        {text, static_cast<std::size_t>(size)}, {edits, static_cast<std::size_t>(edits_size)}, "/study",
+        context,
+        sharing_size > 0 ? read_sharing({sharing, static_cast<std::size_t>(sharing_size)}) : app::Sharing());
   });
 }
 

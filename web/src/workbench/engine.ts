@@ -52,6 +52,7 @@ export interface Task {
   edits?: Edit[];
   files?: Record<string, string>; // that the study reads, by name
   seconds?: number; // after which the best so far is good enough; 0 = never
+  kept?: string[]; // what earlier runs of it have kept
 }
 
 export interface Engine {
@@ -59,6 +60,8 @@ export interface Engine {
   /** JSON Schema of the studies of a kind; null if there is no such kind. */
   schema(kind: string): Promise<JsonObject | null>;
   run(task: Task, progress?: (p: Progress) => void): Promise<Answer>;
+  /** What the run of now, or the last one, has kept for other runs of the same task. */
+  kept(): string[];
   /** Asks the run to end: its answer is then the best so far. */
   finish(): void;
   /** Ends what is being asked, which is then rejected with `Stopped`; the next question finds a fresh engine. */
@@ -95,12 +98,22 @@ export function readAnswer(json: string, numbers: Float64Array): Answer {
   return { text, diagnostics, canonical, seconds: seconds ?? 0, carried: view && { view, result, resultText: () => written(result) } };
 }
 
-/** The engine in a worker of its own, so that the page never waits. `script`: engine.js and worker.js. */
-export function workerEngine(module: WebAssembly.Module, script: string): Engine {
-  const source = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+type Asked = { ask: "start"; module: WebAssembly.Module } | { ask: "catalogue" } | { ask: "schema"; kind: string } | Omit<Extract<Question, { ask: "run" }>, "id">;
+interface Told {
+  json: string;
+  numbers: Float64Array;
+}
+interface Hears {
+  progress?: (p: Progress) => void;
+  kept?: (text: string) => void;
+  leaves?: () => void;
+}
+
+/** One worker with a program in it, begun when it is first asked, and again after it was ended. */
+function workerOf(module: WebAssembly.Module, script: string) {
   let worker: Worker | null = null;
   let count = 0;
-  const waiting = new Map<number, { done: (reply: { json: string; numbers: Float64Array }) => void; failed: (error: Error) => void; progress?: (p: Progress) => void }>();
+  const waiting = new Map<number, Hears & { done: (reply: Told) => void; failed: (error: Error) => void }>();
   const give_up = (error: Error) => {
     worker?.terminate();
     worker = null;
@@ -108,18 +121,20 @@ export function workerEngine(module: WebAssembly.Module, script: string): Engine
     waiting.clear();
     for (const { failed } of all) failed(error);
   };
-  const send = (question: { ask: "start"; module: WebAssembly.Module } | { ask: "catalogue" } | { ask: "schema"; kind: string } | Omit<Extract<Question, { ask: "run" }>, "id">, progress?: (p: Progress) => void) =>
-    new Promise<{ json: string; numbers: Float64Array }>((done, failed) => {
+  const send = (question: Asked, hears: Hears = {}) =>
+    new Promise<Told>((done, failed) => {
       const id = ++count;
-      waiting.set(id, { done, failed, progress });
+      waiting.set(id, { done, failed, ...hears });
       worker!.postMessage({ id, ...question });
     });
-  const ask: typeof send = (question, progress) => {
+  const ask: typeof send = (question, hears) => {
     if (!worker) {
-      worker = new Worker(source);
+      worker = new Worker(script);
       worker.onmessage = ({ data }: MessageEvent<Reply>) => {
         const who = waiting.get(data.id);
         if ("progress" in data) return who?.progress?.(data.progress);
+        if ("kept" in data) return who?.kept?.(data.kept);
+        if ("leaves" in data) return who?.leaves?.();
         waiting.delete(data.id);
         if ("problem" in data) {
           // What has thrown past its own answers may have lost its memory: the next question gets a new one.
@@ -130,25 +145,70 @@ export function workerEngine(module: WebAssembly.Module, script: string): Engine
       worker.onerror = (event) => give_up(new Error(event.message || "the engine has stopped"));
       void send({ ask: "start", module }).catch(() => {});
     }
-    return send(question, progress);
+    return send(question, hears);
   };
+  return { ask, give_up };
+}
+
+const mostWorkers = 8;
+const shortest = 1; // s: shorter runs are not shared
+const hasEnded = (kept: string[]) => kept.some((text) => /^\{"name":"[^"/]*"/m.test(text)); // the states on the way have names below those of the ended
+
+/** The engine in workers, so that the page never waits: one, and others that share searches with it. `script`: where engine.js with worker.js is. */
+export function workerEngine(module: WebAssembly.Module, script: string, workers = Math.min(navigator.hardwareConcurrency || 1, mostWorkers)): Engine {
+  const first = workerOf(module, script);
+  const others = Array.from({ length: workers - 1 }, () => workerOf(module, script));
+  let kept: string[] = []; // by all that share the run
+  const end = (error: Error) => [first, ...others].forEach((w) => w.give_up(error));
   return {
     catalogue: async () => {
-      const { json, numbers } = await ask({ ask: "catalogue" });
+      const { json, numbers } = await first.ask({ ask: "catalogue" });
       return withNumbers(json, numbers) as unknown as Catalogue;
     },
-    schema: async (kind) => JSON.parse((await ask({ ask: "schema", kind })).json) as JsonObject | null,
-    run: async ({ text, edits = [], files = {}, seconds = 0 }, progress) => {
+    schema: async (kind) => JSON.parse((await first.ask({ ask: "schema", kind })).json) as JsonObject | null,
+    run: async ({ text, edits = [], files = {}, seconds = 0, kept: before }, progress) => {
       const asked = performance.now();
-      const within = (limit: number) => ask({ ask: "run", text, edits: edits.length ? JSON.stringify({ edits }) : "", files, seconds: limit }, progress);
-      const { json, numbers } = await within(seconds).catch((error: unknown) => {
+      const passed = () => (performance.now() - asked) / 1000;
+      const within = (limit: number, sharing?: object, hears?: Hears, by = first) =>
+        by.ask({ ask: "run", text, edits: edits.length ? JSON.stringify({ edits }) : "", files, sharing: sharing ? JSON.stringify(sharing) : "", seconds: limit }, hears);
+      const own: string[] = (kept = [...(before ?? [])]);
+      const withKept = (limit: number) => within(limit, { index: 0, count: 1, kept: own }, { progress });
+      const shared = async () => {
+        const count = before || (seconds > 0 && seconds < shortest) ? 1 : workers;
+        const all: Progress[] = [];
+        const hears = (k: number): Hears => ({
+          kept: (one) => own.push(one),
+          progress: (p) => {
+            all[k] = p;
+            const told = Object.values(all);
+            const best = told.map((t) => t.best).filter(Number.isFinite);
+            const parts = all.length > 1 ? count : 1;
+            progress?.({ stage: p.stage, fraction: told.reduce((sum, t) => sum + t.fraction, 0) / parts, best: best.length ? Math.min(...best) : NaN });
+          },
+        });
+        if (count === 1) return own.length ? withKept(seconds) : within(seconds, undefined, { progress });
+        const help: Promise<unknown>[] = [];
+        const answer = await within(seconds, { index: 0, count, kept: [] }, {
+          ...hears(0),
+          // What another does not come to, because it has stopped, the first does in the end.
+          leaves: () => others.forEach((other, k) => help.push(within(seconds, { index: k + 1, count, kept: [] }, hears(k + 1), other).catch(() => {}))),
+        });
+        if (!help.length) return answer;
+        await Promise.all(help);
+        return withKept(seconds && Math.max(shortest, seconds - passed()));
+      };
+      const { json, numbers } = await shared().catch((error: unknown) => {
         if (!(error instanceof Finished)) throw error;
-        return within(Math.max(0.05, (performance.now() - asked) / 1000));
+        return withKept(soFar(own, passed()));
       });
       return readAnswer(json, numbers);
     },
+    kept: () => kept,
     // A worker hears nothing while it runs: what it has found by now is found again, within the same time.
-    finish: () => give_up(new Finished("finished")),
-    stop: () => give_up(new Stopped("stopped")),
+    finish: () => end(new Finished("finished")),
+    stop: () => end(new Stopped("stopped")),
   };
 }
+
+/** s in which what a run has found by now, after so many, is found again: with what ended parts of it have kept there is nothing to find. */
+export const soFar = (kept: string[], seconds: number): number => (hasEnded(kept) ? 0.05 : Math.max(0.05, seconds));

@@ -67,5 +67,22 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
   return groups.filter((g) => g.entries.length > 0);
 }
 
+export interface PointRow {
+  key: string; // of the list of three
+  owner: string; // "link front arm"
+  name: string; // "body"
+  entries: Entry[]; // x, y and z
+}
+
+/** The points in space of a study. */
+export const pointsOf = (groups: Group[]): PointRow[] =>
+  groups.flatMap(({ title, entries }) => entries.flatMap((first, i) => {
+    const [, key] = /^(.*)\[0\]$/.exec(first.key) ?? [];
+    const three = entries.slice(i, i + 3);
+    const symbol = key ? unitOf(unitKey(key)).symbol : "";
+    return key && /^[µmkc]?m$/.test(symbol) && three.length === 3 && three.every((e, k) => e.key === `${key}[${k}]`) && !/direction|axis/.test(key)
+      ? [{ key, owner: title, name: first.label.replace(/ x$/, ""), entries: three }] : [];
+  }));
+
 /** The key that carries the unit: the last one on the way that has one. */
 export const unitKey = (key: string) => key.split(".").map((part) => part.replace(/\[\d+\]/g, "")).reverse().find((part) => unitOf(part).symbol !== "") ?? "";

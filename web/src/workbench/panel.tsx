@@ -1,14 +1,16 @@
 // Beside the drawing: the study as text, and its numbers one by one.
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
+import { Fragment } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { spatial } from "../state";
 import { format, nameOf, unitOf } from "../units";
 import { change, document_ } from "./document";
-import { numbersOf, unitKey, type Entry } from "./numbers";
+import { numbersOf, pointsOf, unitKey, type Entry } from "./numbers";
 import type { Edit } from "./engine";
 import { absent } from "./schema";
-import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pointOut, schema, stale, toggleLock } from "./session";
+import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pickOut, pointOut, schema, shown, stale, toggleLock } from "./session";
 
-const tab = signal<"text" | "numbers">("numbers");
+const tab = signal<"text" | "numbers" | "points">("numbers");
 
 /** Typing is one entry of the history until it pauses. */
 let typing: symbol = Symbol();
@@ -87,6 +89,12 @@ function freed({ key, value, rule }: Entry): { min: number; max: number } | numb
   return { min: rule?.least === undefined ? min : Math.max(min, rule.open ? size / 1000 : rule.least), max: (value as number) + size };
 }
 
+const Lock = ({ name, label }: { name: string; label: string }) => (
+  <button type="button" class="lock" data-lock={name} aria-pressed={locked.value.has(name)} aria-label={`Keep ${label} while dragging`} title="Keep it while the drawing is dragged" onClick={() => toggleLock(name)}>
+    <svg viewBox="0 0 16 16" aria-hidden="true"><path d={`M3 7.5h10v7H3zM5 7.5V5a3 3 0 0 1 6 0${locked.value.has(name) ? "v2.5" : ""}`} /></svg>
+  </button>
+);
+
 function Field({ entry }: { entry: Entry }) {
   const { key, label, value, rule } = entry;
   const about = `${key}${rule?.help ? `: ${rule.help}` : ""}`;
@@ -104,7 +112,7 @@ function Field({ entry }: { entry: Entry }) {
       )}
       {typeof value === "boolean" && <input type="checkbox" data-key={key} aria-label={label} checked={value} onChange={(e) => edit([{ key, value: e.currentTarget.checked }])} />}
       {typeof value !== "string" && typeof value !== "boolean" && <em>{unitOf(unitKey(key), Math.abs(typeof value === "number" ? value : value.max)).symbol}</em>}
-      {drawn && (drawn === key || key.endsWith("[0]")) ? <button type="button" class="lock" data-lock={drawn} aria-pressed={locked.value.has(drawn)} aria-label={`Keep ${label.replace(/ x$/, "")} while dragging`} title="Keep it while the drawing is dragged" onClick={() => toggleLock(drawn)}><svg viewBox="0 0 16 16" aria-hidden="true"><path d={`M3 7.5h10v7H3zM5 7.5V5a3 3 0 0 1 6 0${locked.value.has(drawn) ? "v2.5" : ""}`} /></svg></button> : <i class="no-lock" />}
+      {drawn && (drawn === key || key.endsWith("[0]")) ? <Lock name={drawn} label={label.replace(/ x$/, "")} /> : <i class="no-lock" />}
       {rule?.free && <button type="button" class="free" data-free={key} aria-pressed={typeof value === "object"} title={typeof value === "object" ? "The search chooses it; press to fix it" : "Fixed; press to let the search choose it"} onClick={() => edit([{ key, value: freed(entry) }])}>{typeof value === "object" ? "free" : "fixed"}</button>}
       {rule?.help && <small class="help">{rule.help}</small>}
       {refused.value.startsWith(`${key}: `) && <small class="refused" role="alert">{refused.value.slice(key.length + 2)}</small>}
@@ -154,18 +162,53 @@ function Numbers() {
   );
 }
 
+const allPoints = computed(() => (canonical.value ? pointsOf(numbersOf(canonical.value, schema.value)) : []));
+const showPoints = computed(() => shown.value && spatial.value && allPoints.value.length > 2);
+
+/** Hard points row by row; the row of the point that is picked in the drawing stands out, and the other way round. */
+function Points() {
+  const symbol = unitOf(unitKey(allPoints.value[0].key), 0).symbol;
+  return (
+    <div class="points">
+      <table>
+        <thead><tr><th scope="col">point</th>{["x", "y", "z"].map((axis) => <th scope="col">{axis}{symbol && <small> {symbol}</small>}</th>)}<td /></tr></thead>
+        <tbody>
+          {allPoints.value.map(({ key, owner, name, entries }, i) => (
+            <Fragment key={key}>
+              {owner !== allPoints.value[i - 1]?.owner && <tr class="owner"><th scope="rowgroup" colSpan={5}>{owner}</th></tr>}
+              <tr data-point={key} class={pickedKeys.value.has(key) ? "picked" : ""} onPointerEnter={() => pointOut(key)} onPointerLeave={() => pointOut("")} onFocusCapture={() => handleKeys.value.has(key) && pickOut(key)}>
+                <th scope="row"><button type="button" class="link" disabled={!handleKeys.value.has(key)} onClick={() => pickOut(key)}>{name}</button></th>
+                {entries.map((entry) => <td key={entry.key}><NumberInput entry={entry} value={entry.value as number} label={`${owner}, ${entry.label}`} /></td>)}
+                <td>{handleKeys.value.has(key) && <Lock name={key} label={`${owner}, ${name}`} />}</td>
+              </tr>
+            </Fragment>))}
+        </tbody>
+      </table>
+      {refused.value && <p class="refused" role="alert">{refused.value}</p>}
+    </div>
+  );
+}
+
+/** On a small screen the panel lies over the page, and only its tabs are seen until one is pressed. */
+const folded = signal(true);
+function turnTo(to: typeof tab.value): void {
+  folded.value = tab.value === to && !folded.value;
+  tab.value = to;
+}
+
 export function Panel() {
   const errors = diagnostics.value.filter((d) => d.severity === "error").length;
   return (
-    <aside class="panel" aria-label="The study">
+    <aside class={folded.value ? "panel folded" : "panel"} aria-label="The study">
       <div class="tabs" role="tablist">
-        <button type="button" role="tab" id="tab-numbers" aria-selected={tab.value === "numbers"} onClick={() => (tab.value = "numbers")}>Numbers</button>
-        <button type="button" role="tab" id="tab-text" aria-selected={tab.value === "text"} onClick={() => (tab.value = "text")}>
+        <button type="button" role="tab" id="tab-numbers" aria-selected={tab.value === "numbers" || (tab.value === "points" && !showPoints.value)} onClick={() => turnTo("numbers")}>Numbers</button>
+        {showPoints.value && <button type="button" role="tab" id="tab-points" aria-selected={tab.value === "points"} onClick={() => turnTo("points")}>Points</button>}
+        <button type="button" role="tab" id="tab-text" aria-selected={tab.value === "text"} onClick={() => turnTo("text")}>
           Study{errors > 0 && <b class="count">{errors}</b>}
         </button>
       </div>
-      {stale.value && <p class="stale" role="alert">The study has an error; what is drawn is the last one without. {tab.value !== "text" && <button type="button" class="link" onClick={() => (tab.value = "text")}>Show it</button>}</p>}
-      {tab.value === "text" ? <Text /> : <Numbers />}
+      {stale.value && <p class="stale" role="alert">The study has an error; what is drawn is the last one without. {tab.value !== "text" && <button type="button" class="link" onClick={() => turnTo("text")}>Show it</button>}</p>}
+      {tab.value === "text" ? <Text /> : tab.value === "points" && showPoints.value ? <Points /> : <Numbers />}
     </aside>
   );
 }

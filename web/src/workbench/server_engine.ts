@@ -87,6 +87,7 @@ export function serverEngine(ask: Ask): Engine {
         throw own.signal.aborted ? new Stopped("stopped") : error;
       }
     },
+    kept: () => [], // its threads share a run
     finish: cancel,
     stop: () => {
       running?.abort();

@@ -5,7 +5,7 @@ import type { Place } from "../motion";
 import { extent } from "../camera";
 import * as state from "../state";
 import { begin, change, document_, keep, replace, type Document } from "./document";
-import { Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
+import { soFar, Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
 import { gripPoint, gripTarget, guided, isRobot, moveTo, reached, valueOf, within, type Grip } from "./handles";
 import { opened } from "./opened";
 import { along, listOf, withoutPoint, withPoint } from "./points";
@@ -26,12 +26,15 @@ export const pickedKeys = computed(() => {
   const scene = shown.value ? state.scene.value : undefined;
   return joint !== undefined && scene?.joints[Number(joint)] ? keysAt(scene, Number(joint)) : none;
 });
-/** Points out in the drawing what a number is of; "" = nothing any longer. */
-export function pointOut(key: string): void {
+/** The joint of the drawing that a number is of, as state.picked has it; "" = none. */
+function jointOf(key: string): string {
   const scene = state.scene.value;
   const joint = key && scene ? scene.joints.findIndex((_, i) => keysAt(scene, i).has(key)) : -1;
-  state.hovered.value = joint < 0 ? "" : `joint ${joint}`;
+  return joint < 0 ? "" : `joint ${joint}`;
 }
+/** Points out in the drawing what a number is of, for a moment or until something else is picked; "" = nothing any longer. */
+export const pointOut = (key: string) => (state.hovered.value = jointOf(key));
+export const pickOut = (key: string) => (state.picked.value = jointOf(key));
 
 export function toggleLock(key: string): void {
   const next = new Set(locked.value);
@@ -120,7 +123,8 @@ async function preview(of: NonNullable<typeof flying>): Promise<void> {
     if (!goesOn()) return;
     if (!Number.isFinite(progress.peek()?.best)) continue;
     looking = true;
-    const answer = await second.run({ ...of.task, seconds: (performance.now() - of.since) / 1000 }).catch(() => null);
+    const kept = engine.kept();
+    const answer = await second.run({ ...of.task, kept, seconds: soFar(kept, (performance.now() - of.since) / 1000) }).catch(() => null);
     looking = false;
     if (!answer || !goesOn()) return;
     if (answer.carried) accept(answer);
@@ -195,8 +199,14 @@ export function stop(): void {
   else engine.finish();
 }
 
+/** Keeps the curves of now behind those to come, or lets them go. */
+export function compareWithNow(): void {
+  state.behind.value = state.behind.value ? null : { name: "before", tables: state.result.tables };
+}
+
 export function open(document: Document): void {
   subject = "";
+  state.behind.value = null;
   locked.value = new Set();
   adding.value = false;
   opened.value = null;

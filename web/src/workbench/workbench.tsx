@@ -16,7 +16,7 @@ import { Gallery, paintWith, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
-import { adding, busy, catalogue, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble } from "./session";
+import { adding, busy, catalogue, compareWithNow, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble } from "./session";
 
 const said = signal("");
 
@@ -73,7 +73,7 @@ function State() {
 
 function Bar() {
   return (
-    <header class="bar" aria-label="Workbench">
+    <header class="bar bench-bar" aria-label="Workbench">
       <b class="brand">Linkwright</b>
       <button type="button" id="examples" onClick={() => (showGallery.value = true)}>Examples</button>
       <button type="button" id="draw" onClick={() => (showDraw.value = true)}>Draw</button>
@@ -84,6 +84,7 @@ function Bar() {
       <button type="button" id="save" title="Save the study (Ctrl S)" onClick={() => void keepStudy()}>Save</button>
       <button type="button" id="undo" disabled={!canUndo.value} title="Undo (Ctrl Z)" onClick={undo}>Undo</button>
       <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
+      <button type="button" id="compare" aria-pressed={state.behind.value !== null} disabled={!shown.value} title="Keep the curves of now in the diagrams, behind those of what is changed; once more lets them go" onClick={compareWithNow}>Compare</button>
       <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
       <button type="button" id="command" title="Copy the command that runs this study in a terminal" onClick={() => void copyCommand()}>Command</button>
       <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text="Add points" hint="Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it" />}</span>
@@ -128,9 +129,16 @@ interface Source {
 }
 async function source(): Promise<Source> {
   const wasm = document.getElementById("engine-wasm");
+  const script = document.getElementById("engine-script");
+  if (wasm instanceof HTMLLinkElement) {
+    // Not every host knows the type of the engine, which compiling while it comes asks for.
+    const module = await fetch(wasm.href).then((r) => r.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
+    return { engine: () => workerEngine(module, (script as HTMLLinkElement).href), file: null };
+  }
   if (wasm) {
-    const [module, script] = await Promise.all([inflate(wasm.textContent!).then((bytes) => WebAssembly.compile(bytes)), inflate(document.getElementById("engine-script")!.textContent!)]);
-    return { engine: () => workerEngine(module, new TextDecoder().decode(script)), file: null };
+    const [module, code] = await Promise.all([inflate(wasm.textContent!).then((bytes) => WebAssembly.compile(bytes)), inflate(script!.textContent!)]);
+    const address = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+    return { engine: () => workerEngine(module, address), file: null };
   }
   const ask = asks(takeToken());
   const file = await openedFile(ask);

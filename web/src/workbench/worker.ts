@@ -11,7 +11,7 @@ interface Module {
   _engine_numbers_count(): number;
   _engine_catalogue(): void;
   _engine_schema(kind: number, size: number): void;
-  _engine_run(text: number, size: number, edits: number, editsSize: number, seconds: number): void;
+  _engine_run(text: number, size: number, edits: number, editsSize: number, sharing: number, sharingSize: number, seconds: number): void;
 }
 declare function createEngine(options: object): Promise<Module>;
 /** What of a worker's own scope is used; the types of the page do not know it. */
@@ -24,10 +24,12 @@ export type Question =
   | { id: number; ask: "start"; module: WebAssembly.Module }
   | { id: number; ask: "catalogue" }
   | { id: number; ask: "schema"; kind: string }
-  | { id: number; ask: "run"; text: string; edits: string; files: Record<string, string>; seconds: number };
+  | { id: number; ask: "run"; text: string; edits: string; files: Record<string, string>; sharing: string; seconds: number };
 export type Reply =
   | { id: number; json: string; numbers: Float64Array }
   | { id: number; progress: { stage: string; fraction: number; best: number } }
+  | { id: number; kept: string } // what other runs of the same study can begin with
+  | { id: number; leaves: true } // the run leaves something to others that share it
   | { id: number; problem: string };
 
 const scope = globalThis as unknown as Scope;
@@ -63,6 +65,8 @@ async function start(module: WebAssembly.Module): Promise<void> {
       said = performance.now();
       scope.postMessage({ id: asked, progress: { stage, fraction, best } });
     },
+    onKept: (kept: string) => scope.postMessage({ id: asked, kept }),
+    onLeaves: () => scope.postMessage({ id: asked, leaves: true }),
   });
   engine.FS.mkdirTree("/study");
 }
@@ -85,9 +89,9 @@ async function reply(question: Question): Promise<void> {
     for (const [name, text] of Object.entries(question.files)) engine.FS.writeFile(`/study/${name}`, text);
     const [text, size] = bytesOf(question.text);
     const [edits, editsSize] = bytesOf(question.edits);
-    engine._engine_run(text, size, edits, editsSize, question.seconds);
-    engine._free(text);
-    engine._free(edits);
+    const [sharing, sharingSize] = bytesOf(question.sharing);
+    engine._engine_run(text, size, edits, editsSize, sharing, sharingSize, question.seconds);
+    for (const at of [text, edits, sharing]) engine._free(at);
   }
   answer(question.id);
 }

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "linkwright/app/checkpoint_file.h"
+#include "linkwright/core/checkpoint.h"
+
+namespace linkwright::app {
+
+/// Which of the runs that share a study one is: of the pieces of a loop it does index, index + count, ...
+struct Shard {
+  std::size_t index = 0;  ///< from 0
+  std::size_t count = 1;  ///< 1 = nothing is shared
+};
+
+/// What a run that shares a study begins with and hands on: a checkpoint in memory.
+class ShardCheckpoint final : public Checkpoint {
+ public:
+  ShardCheckpoint(Shard shard, CheckpointOwner owner) : shard_(shard), owner_(std::move(owner)) {}
+
+  /// Takes what another run of the study has handed on; false, with a diagnostic, if it cannot be used.
+  bool take(std::string_view text, Diagnostics& diagnostics);
+
+  /// Receives all that is kept, each a text for take(); call before the run starts.
+  void set_hand_on(std::function<void(const std::string& text)> hand_on) { hand_on_ = std::move(hand_on); }
+  /// Called, once, when the run finds that it leaves pieces to others; call before the run starts.
+  void set_leaves(std::function<void()> leaves) { leaves_ = std::move(leaves); }
+
+  Value find(std::string_view name) const override;
+  void keep(std::string_view name, const Value& value) override;
+  std::chrono::duration<double> interval() const override { return std::chrono::seconds(1); }
+  bool is_left_to_others(std::size_t index) const override;
+
+ private:
+  const Shard shard_;
+  const CheckpointOwner owner_;
+  std::function<void(const std::string&)> hand_on_;
+  std::function<void()> leaves_;
+  mutable std::mutex mutex_;
+  mutable bool leaves_some_ = false;
+  CheckpointLines lines_;
+};
+
+}  // namespace linkwright::app

@@ -1,0 +1,106 @@
+#include "linkwright/app/shard.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "linkwright/app/examples.h"
+#include "linkwright/app/view.h"
+#include "support/message.h"
+
+namespace linkwright::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+const CheckpointOwner owner = {"linkwright 9.8.7", std::string(64, 'a')};
+
+std::string text_of(std::string_view name) {
+  for (const Example& example : examples())
+    if (example.name == name) return std::string(example.text);
+  return {};
+}
+
+/// What a run shows, without what its clock says.
+View timeless(View view) {
+  const std::size_t at = view.json.rfind("\"seconds\":");
+  if (at != std::string::npos) view.json.erase(at, view.json.find_first_of(",}", at) - at);
+  return view;
+}
+
+View run_part(std::string_view text, std::string_view edits, Sharing sharing = {}) {
+  RunContext context;
+  context.set_threads(1);
+  return timeless(run_text(text, edits, {}, context, std::move(sharing)));
+}
+
+TEST(Shard, PiecesGoRoundTheRunsThatShareThem) {
+  int asked_for_help = 0;
+  ShardCheckpoint second({.index = 1, .count = 3}, owner);
+  second.set_leaves([&] { ++asked_for_help; });
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < 7; ++i)
+    if (!second.is_left_to_others(i)) own.push_back(i);
+  EXPECT_THAT(own, ::testing::ElementsAre(1, 4));
+  EXPECT_EQ(asked_for_help, 1);
+  const ShardCheckpoint alone({}, owner);
+  EXPECT_FALSE(alone.is_left_to_others(5));
+}
+
+TEST(Shard, WhatOneKeepsAnotherTakes) {
+  std::vector<std::string> kept;
+  ShardCheckpoint one({.index = 0, .count = 2}, owner);
+  one.set_hand_on([&](const std::string& text) { kept.push_back(text); });
+  one.keep("seed 1", Value(0.5));
+  EXPECT_EQ(one.find("seed 1").as_number(), 0.5);
+  ASSERT_THAT(kept, SizeIs(1));
+  ShardCheckpoint other({}, owner);
+  Diagnostics diagnostics;
+  EXPECT_TRUE(other.take(kept[0], diagnostics));
+  EXPECT_EQ(other.find("seed 1").as_number(), 0.5);
+  EXPECT_TRUE(other.find("seed 2").is_null());
+
+  ShardCheckpoint stranger({}, {owner.tool, std::string(64, 'b')});
+  EXPECT_FALSE(stranger.take(kept[0], diagnostics));
+  EXPECT_THAT(test::lines_of(diagnostics), HasSubstr("belongs to another study"));
+  EXPECT_TRUE(stranger.find("seed 1").is_null());
+}
+
+class SharedRuns : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SharedRuns, AnswerAsOneDoes) {
+  const std::string text = text_of(GetParam());
+  ASSERT_FALSE(text.empty());
+  const std::string edits = R"({"edits":[{"key":"optimiser.seeds.count","value":5}]})";
+  const View alone = run_part(text, edits);
+  ASSERT_THAT(alone.json, HasSubstr("\"view\":"));
+  for (const std::size_t count : {2u, 7u}) {
+    std::vector<std::string> kept;
+    for (std::size_t index = 0; index < count; ++index) {
+      const View part =
+          run_part(text, edits, {.shard = {index, count}, .kept = {}, .hand_on = [&](const std::string& one) {
+                                   kept.push_back(one);
+                                 }});
+      EXPECT_THAT(part.json, HasSubstr("\"left_to_others\":true"));
+      EXPECT_TRUE(part.numbers.empty());
+    }
+    const View whole = run_part(text, edits, {.shard = {}, .kept = kept});
+    EXPECT_EQ(whole.json, alone.json) << count;
+    EXPECT_EQ(whole.numbers, alone.numbers) << count;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Examples, SharedRuns,
+                         ::testing::Values("fourbar-18-points", "slider-crank-18-points",
+
+TEST(SharedRun, WithNothingToShareIsTheWholeRun) {
+  const std::string text = text_of("hoeken");
+  const View alone = run_part(text, {});
+  const View shared = run_part(text, {}, {.shard = {0, 4}, .kept = {}});
+  EXPECT_EQ(shared.json, alone.json);
+  EXPECT_EQ(shared.numbers, alone.numbers);
+}
+
+}  // namespace
+}  // namespace linkwright::app
