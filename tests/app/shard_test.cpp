@@ -93,6 +93,7 @@ TEST_P(SharedRuns, AnswerAsOneDoes) {
 }
 INSTANTIATE_TEST_SUITE_P(Examples, SharedRuns,
                          ::testing::Values("fourbar-18-points", "slider-crank-18-points",
+                                           "balance-four-bar-case-1"));
 
 TEST(SharedRun, WithNothingToShareIsTheWholeRun) {
   const std::string text = text_of("hoeken");

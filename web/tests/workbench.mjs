@@ -271,11 +271,20 @@ test("a link holds the study", async () => {
 
 test("the command that is copied runs the study", async () => {
   const { page, close } = await open({ example: "path-gates", permissions: ["clipboard-read", "clipboard-write"] });
-  await page.locator("#command").click();
-  await until(async () => (await page.locator(".state").innerText()) === "command copied");
+  await page.locator("#copy").selectOption("command line");
+  await until(async () => (await page.locator(".state").innerText()) === "command line copied");
   const copied = await page.evaluate(() => navigator.clipboard.readText());
   const run = spawnSync("sh", ["-c", copied.replace("linkwright run -", '"$0" check -'), program], { cwd: scratch, encoding: "utf8" });
   assert.equal(run.status, 0, run.stderr);
+  // A program in Python has the same text; its module is tested elsewhere.
+  const text = await studyText(page);
+  await writeText(page, `${text}# """ and a \\ and "`);
+  await page.locator("#copy").selectOption("Python");
+  await until(async () => (await page.locator(".state").innerText()) === "Python copied");
+  const stub = "import sys, types\nm = types.ModuleType('linkwright')\ndef study(text):\n  sys.stdout.write(text)\n  sys.exit()\nm.Study = study\nsys.modules['linkwright'] = m\nexec(sys.stdin.read())";
+  const python = spawnSync("python3", ["-c", stub], { cwd: scratch, encoding: "utf8", input: await page.evaluate(() => navigator.clipboard.readText()) });
+  assert.equal(python.stderr, "");
+  assert.equal(python.stdout, `${text}# """ and a \\ and "`);
   await close();
 });
 

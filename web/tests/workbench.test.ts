@@ -1,6 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
+import example from "../../examples/cpp/any_study.cpp?raw";
 import type { JsonObject, Scene } from "../src/data";
-import { asCommand, asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
+import { asCommand, asCpp, asFragment, begin, canRedo, canUndo, change, document_, fromFragment, redo, undo } from "../src/workbench/document";
 import { withNumbers } from "../src/workbench/engine";
 import { sortOut } from "../src/workbench/files";
 import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
@@ -312,4 +313,12 @@ test("of files that are dropped the study is found, and the tables beside it", a
   expect(JSON.parse(await of(JSON.stringify({ study, tables: [] })))).toEqual(study);
   expect(await of(JSON.stringify(study))).toBe(JSON.stringify(study));
   expect(await of("{ broken")).toBe("{ broken");
+});
+
+test("the program in C++ is the example that the tests of the library build", () => {
+  const text = /R"\(([^]*?)\)"/.exec(example)![1];
+  expect(asCpp({ name: "hoeken.toml", text, files: {} })).toBe(example);
+  // What a text holds ends no literal.
+  expect(asCpp({ name: "a", text: 'title = ")"', files: {} })).toContain('R"_(title = ")")_"');
+  expect(asCpp({ name: "a", text: "", files: { "t.csv": "1,2" } })).toContain('std::ofstream("t.csv") << R"(1,2)";');
 });

@@ -73,6 +73,9 @@ export function kept(): Document | null {
   }
 }
 
+/** Forms in which a study can be taken along, and what makes each. */
+export const copies = { "command line": asCommand, Python: asPython, "C++": asCpp };
+
 /** What runs a study in a terminal: the files that it reads are written first, and nothing in them is taken for anything but text. */
 export function asCommand({ text, files }: Document): string {
   const here = (command: string, content: string) => {
@@ -83,6 +86,51 @@ export function asCommand({ text, files }: Document): string {
   };
   const quoted = (name: string) => `'${name.replace(/'/g, "'\\''")}'`;
   return Object.entries(files).map(([name, content]) => here(`cat > ${quoted(name)}`, content)).join("") + here("linkwright run -", text);
+}
+
+export function asPython({ text, files }: Document): string {
+  const quoted = (content: string) => `"""\\\n${content.replace(/\\/g, "\\\\").replace(/"""/g, '\\"""').replace(/"$/, '\\"')}"""`;
+  const written = Object.entries(files).map(([name, content]) => `pathlib.Path(${JSON.stringify(name)}).write_text(${quoted(content)})\n`);
+  return `${written.length ? "import pathlib\n\n" : ""}import linkwright
+
+${written.join("")}study = linkwright.Study(${quoted(text)})
+result = study.run()
+print(result.headline)
+`;
+}
+
+/** A program against the library: c++ -std=c++20 study.cpp $(pkg-config --cflags --libs linkwright) */
+export function asCpp({ text, files }: Document): string {
+  const quoted = (content: string) => {
+    let mark = "";
+    while (content.includes(`)${mark}"`)) mark += "_";
+    return `R"${mark}(${content})${mark}"`;
+  };
+  const written = Object.entries(files).map(([name, content]) => `  std::ofstream(${JSON.stringify(name)}) << ${quoted(content)};\n`);
+  return `#include <cstdio>
+${written.length ? "#include <fstream>\n" : ""}#include <optional>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+
+constexpr const char* text = ${quoted(text)};
+
+int main() {
+  using namespace linkwright;
+${written.join("")}  Diagnostics problems;
+  const Value document = study::read_text(text, study::syntax_of({}, text), "study", problems);
+  std::optional<study::Study> study;
+  if (!has_errors(problems)) study = study::prepare(document, "study", {}, app::catalogue(), problems);
+  for (const Diagnostic& problem : problems) std::printf("%s\\n", to_string(problem).c_str());
+  if (!study) return 2;
+  RunContext context;
+  const study::Result result = study::run_study(*study, context);
+  std::printf("%s\\n", result.headline.c_str());
+  for (const Table& table : result.tables)
+    std::printf("%s: %zu columns\\n", table.name.c_str(), table.columns.size());
+}
+`;
 }
 
 /** The document as the fragment of an address: the link is the study, and no server sees it. */

@@ -8,7 +8,7 @@ import * as state from "../state";
 import "../report.css";
 import "../viewer.css";
 import "./workbench.css";
-import { asCommand, asFragment, begin, canRedo, canUndo, document_, fromFragment, kept, redo, replace, undo } from "./document";
+import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo } from "./document";
 import { Draw, showDraw } from "./draw";
 import { workerEngine, type Engine, type Progress } from "./engine";
 import { sortOut } from "./files";
@@ -30,10 +30,10 @@ async function share(): Promise<void> {
   }
 }
 
-async function copyCommand(): Promise<void> {
+async function copyAs(form: keyof typeof copies): Promise<void> {
   try {
-    await navigator.clipboard.writeText(asCommand(document_.value));
-    said.value = "command copied";
+    await navigator.clipboard.writeText(copies[form](document_.value));
+    said.value = `${form} copied`;
   } catch {
     said.value = "not copied: the browser keeps the clipboard";
   }
@@ -86,7 +86,14 @@ function Bar() {
       <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
       <button type="button" id="compare" aria-pressed={state.behind.value !== null} disabled={!shown.value} title="Keep the curves of now in the diagrams, behind those of what is changed; once more lets them go" onClick={compareWithNow}>Compare</button>
       <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
-      <button type="button" id="command" title="Copy the command that runs this study in a terminal" onClick={() => void copyCommand()}>Command</button>
+      <select id="copy" value="" aria-label="Copy the study as" title="Copy what runs this study: a command for a terminal, or a program" onChange={(e) => {
+        const form = e.currentTarget.value as keyof typeof copies;
+        e.currentTarget.value = "";
+        void copyAs(form);
+      }}>
+        <option value="" hidden>Copy as</option>
+        {Object.keys(copies).map((form) => <option key={form} value={form}>{form}</option>)}
+      </select>
       <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text="Add points" hint="Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it" />}</span>
       <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
       <span class="spring" />
