@@ -29,6 +29,7 @@ points_cm = [[1, 2]]
 step_deg = 5
 [other]
 speed_rpm = 60
+youngs_modulus_GPa = 210
 label_in = "a text"
 )"));
   EXPECT_EQ(units.of(Dimension::length).suffix, "mm");
@@ -37,6 +38,7 @@ label_in = "a text"
   EXPECT_EQ(units.of(Dimension::acceleration_angular).suffix, "deg_per_s2") << "follows the angle";
   EXPECT_EQ(units.of(Dimension::speed).suffix, "mm_per_s") << "follows the length";
   EXPECT_EQ(units.of(Dimension::mass).suffix, "kg") << "SI where nothing tells";
+  EXPECT_FALSE(units.chosen(Dimension::pressure)) << "no stress has the size of a modulus";
   EXPECT_EQ(units.text(0.0031, Dimension::length), "3.1 mm");
   EXPECT_EQ(units.text(pi, Dimension::angle), "180 deg");
   EXPECT_EQ(units.text(1.23456, Dimension::none), "1.235");

@@ -150,6 +150,16 @@ TEST(ReadText, OnlyUtf8AndAsciiOutsideStrings) {
 }
 
 // Left to toml++, these reach code that it believes unreachable.
+TEST(ReadText, TextThatIsToldApartFromJsonIsCheckedBeforeItIsParsed) {
+  // A study in TOML under a name of JSON is recognised, and characters that toml++ has no answer to are not
+  // shown to it.
+  EXPECT_THAT(messages("schema = 1\n", Syntax::json),
+              HasSubstr("the text is TOML, but the name of the file says JSON"));
+  EXPECT_THAT(messages("schema = 202\u0159\n", Syntax::json), testing::Not(HasSubstr("the text is TOML")));
+  EXPECT_THAT(messages("schema = " + std::string(100'000, '['), Syntax::json),
+              testing::Not(HasSubstr("the text is TOML")));
+}
+
 TEST(ReadText, QuotesInTheMiddleOfAValue) {
   EXPECT_THAT(messages("at = 202\"\u00e9\"\n"),
               HasSubstr("s.toml:1:9: error: is not valid TOML: a text cannot begin with \" here"));

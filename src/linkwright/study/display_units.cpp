@@ -27,7 +27,8 @@ void count(const Value& value, std::vector<Count>& counts) {
     // Texts and tables under such a key may be anything: only numbers show what the author thinks in.
     const bool numbers = member.value.is_number() || member.value.is_array() ||
                          (member.value.is_object() && member.value.find("min"));
-    if (const auto key = split_unit(member.key); key && numbers) {
+    // Moduli are in GPa, but no stress of a result is of their size.
+    if (const auto key = split_unit(member.key); key && numbers && key->unit->suffix != "GPa") {
       const auto same = std::find_if(counts.begin(), counts.end(),
                                      [&](const Count& c) { return c.unit.unit == key->unit; });
       if (same == counts.end())

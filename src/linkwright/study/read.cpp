@@ -36,8 +36,8 @@ bool is_bare_word(std::string_view text) {
 }
 
 bool is_study_in_toml(std::string_view text) {
-  Diagnostics problems;
-  return parse_toml(text, problems).find("schema") && problems.empty();
+  Diagnostics problems = check_characters(text, Syntax::toml);
+  return problems.empty() && parse_toml(text, problems).find("schema") && problems.empty();
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(LinkageElasticStudy, ReportsBendingBesideTheRigidLinkage) {
                                 HasSubstr(" mm from A; guide displacement error up to ")));
   EXPECT_THAT(fact(r, "rod: first frequency on two pins"),
               HasSubstr("104.2 Hz, 10.4 times the largest input speed; 4 segments"));
-  EXPECT_THAT(fact(r, "integration"), HasSubstr("explicit_runge_kutta_8, as no body is damped; "));
+  EXPECT_THAT(fact(r, "integration"), HasSubstr("Runge-Kutta of order 8, as no body is damped; "));
   EXPECT_THAT(fact(r, "joint force that grew most over the rigid linkage"),
               ::testing::MatchesRegex("[0-9.e-]+ N in [^,]+, [0-9.e-]+ times [0-9.e-]+ N"));
   EXPECT_THAT(fact(r, "largest drive torque at O"), HasSubstr(", of the rigid linkage "));
@@ -192,15 +192,16 @@ TEST(LinkageElasticStudy, TakesAMethodThatSuitsTheDamping) {
   };
   const study::Result swings = run_text(damped("1e-5")), dies = run_text(damped("1e-3"));
   EXPECT_THAT(fact(swings, "integration"),
-              AllOf(HasSubstr("explicit_runge_kutta_8, as the fastest vibration of rod has 0."),
+              AllOf(HasSubstr("Runge-Kutta of order 8, as the fastest vibration of rod has 0."),
                     HasSubstr(" of its critical damping and swings on")));
   EXPECT_THAT(fact(dies, "integration"),
-              AllOf(HasSubstr("bdf, as the fastest vibration of rod has "), HasSubstr("dies out at once")));
+              AllOf(HasSubstr("backward differentiation, as the fastest vibration of rod has "),
+                    HasSubstr("dies out at once")));
   EXPECT_EQ(dies.status, Status::done);
   EXPECT_THAT(fact(run_text(replaced(damped("1e-3"), "samples = 101",
                                      "samples = 101\nmethod = \"explicit_runge_kutta_5\"")),
                    "integration"),
-              HasSubstr("explicit_runge_kutta_5, as the study says"));
+              HasSubstr("Runge-Kutta of order 5, as the study says"));
 }
 
 TEST(LinkageElasticStudy, KeepsRowsWhenStepsAreUsedUp) {

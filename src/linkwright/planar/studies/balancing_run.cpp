@@ -92,6 +92,43 @@ std::string label_of(const Table& table, const std::string& key) {
   return c && !c->label.empty() ? c->label : key;
 }
 
+// "shaking force" and "N" of "shaking_force_N", whose label is "shaking force (N)".
+struct Said {
+  std::string name, unit;
+};
+Said said_of(const Table& table, const std::string& key) {
+  Said out{label_of(table, key), {}};
+  if (const auto unit = split_unit(key)) {
+    const std::string readable = readable_unit(unit->unit->suffix), bracket = " (" + readable + ")";
+    out.unit = " " + readable;
+    if (const std::size_t at = out.name.find(bracket); at != std::string::npos)
+      out.name.erase(at, bracket.size());
+    if (out.name == key) out.name = std::string(unit->base);
+  }
+  return out;
+}
+
+// "largest shaking force"
+std::string measured(Measure measure, const std::string& name) {
+  switch (measure) {
+    case Measure::rss_over_n:
+      return "root of squares over n of " + name;
+    case Measure::rms:
+      return "root mean square of " + name;
+    case Measure::mean_abs:
+      return "mean size of " + name;
+    case Measure::max_abs:
+      return "largest " + name;
+    case Measure::maximum:
+      return "maximum of " + name;
+    case Measure::minimum:
+      return "minimum of " + name;
+    case Measure::range:
+      return "range of " + name;
+  }
+  return name;
+}
+
 // A column is a force, torque, power or energy: what balancing is about.
 bool is_load(const std::string& key) {
   const auto unit = split_unit(key);
@@ -254,7 +291,7 @@ class Report {
   }
   std::string goal_label(std::size_t k) const {
     const BalancingGoal& o = p_.task.objectives[k];
-    return fmt::format("{}, {} over reference", label_of(balanced(), o.quantity), name_of(o.measure));
+    return measured(o.measure, said_of(balanced(), o.quantity).name) + " over reference";
   }
 
   // Every load by every measure, what was asked for first.
@@ -339,12 +376,13 @@ class Report {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const BalancingGoal& o = p_.task.objectives[k];
       const std::string change = percent(old[k], values[k]);
-      fact(fmt::format("{}, {}", label_of(balanced(), o.quantity), name_of(o.measure)),
-           fmt::format("{:.6g}, was {:.6g} ({})", values[k], old[k], change),
+      const Said said = said_of(balanced(), o.quantity);
+      const std::string name = measured(o.measure, said.name);
+      fact(name, fmt::format("{:.6g}{}, was {:.6g}{} ({})", values[k], said.unit, old[k], said.unit, change),
            values[k] < old[k]   ? Verdict::good
            : values[k] > old[k] ? Verdict::bad
                                 : Verdict::plain);
-      if (k < 3) told += fmt::format("{}{} {}", k ? ", " : "", o.quantity, change);
+      if (k < 3) told += fmt::format("{}{} {}", k ? ", " : "", name, change);
     }
     if (designs_.size() > 1)
       result_.headline =
@@ -361,7 +399,9 @@ class Report {
                          c.key.ends_with("torque_joint_N_m");
       if (!drive || !before) continue;
       const double now = max_abs(c.values), then = max_abs(before->values);
-      fact("largest " + c.label, fmt::format("{:.5g}, was {:.5g} ({})", now, then, percent(then, now)),
+      const Said said = said_of(balanced(), c.key);
+      fact("largest " + said.name,
+           fmt::format("{:.5g}{}, was {:.5g}{} ({})", now, said.unit, then, said.unit, percent(then, now)),
            now > then * 1.001 ? Verdict::bad : Verdict::plain);
     }
     double mass = 0, old_mass = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -21,6 +22,20 @@ constexpr double far_bent = 0.1;
 constexpr double steps_a_period = 2;
 
 double hertz(double frequency) { return frequency / (2 * pi); }
+
+std::string_view in_words(math::OdeMethod method) {
+  switch (method) {
+    case math::OdeMethod::explicit_runge_kutta_5:
+      return "Runge-Kutta of order 5";
+    case math::OdeMethod::explicit_runge_kutta_8:
+      return "Runge-Kutta of order 8";
+    case math::OdeMethod::adams:
+      return "Adams-Moulton";
+    case math::OdeMethod::bdf:
+      return "backward differentiation";
+  }
+  return {};
+}
 
 class ElasticReporter {
  public:
@@ -211,7 +226,7 @@ class ElasticReporter {
     if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
     fact("integration",
-         fmt::format("{}{}; {} steps, {} evaluations", name_of(s_.options.method),
+         fmt::format("{}{}; {} steps, {} evaluations", in_words(s_.options.method),
                      s_.method_reason.empty() ? ", as the study says" : ", as " + s_.method_reason,
                      r_.report.steps, r_.report.evaluations));
     if (r_.report.status == Status::done) return;
