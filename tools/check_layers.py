@@ -20,7 +20,7 @@ LAYERS = [
     ["clearance"],
     ["app"],
     ["serve"],
-    ["cli", "wasm"],
+    ["cli", "wasm", "python"],
 ]
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}

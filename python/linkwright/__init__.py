@@ -1,0 +1,19 @@
+"""Linkwright: analysis, balancing and synthesis of mechanisms.
+
+    import linkwright
+
+    result = linkwright.example("jansen-leg").run()
+    result.headline
+    result.tables["motion"].to_pandas()
+
+A study is what the command line reads: a mechanism, a task, how to search, what the answer must satisfy. Its names, units and
+results are those of the files. See docs/python.md.
+"""
+
+from ._linkwright import Diagnostic, version as __version__
+from .errors import StudyError
+from .studies import (Check, Example, Fact, Kind, Result, Sample, Solution, Study, Table, catalogue, example, examples, read,
+                      run_many, samples, schema, template)
+
+__all__ = ["Check", "Diagnostic", "Example", "Fact", "Kind", "Result", "Sample", "Solution", "Study", "StudyError", "Table",
+           "catalogue", "example", "examples", "read", "run_many", "samples", "schema", "template"]
