@@ -18,4 +18,8 @@ PYBIND11_MODULE(_linkwright, module) {
     }
   });
   linkwright::python::bind_studies(module);
+  linkwright::python::bind_planar(module);
+  linkwright::python::bind_suspension(module);
+  linkwright::python::bind_robots(module);
+  linkwright::python::bind_optimise(module);
 }
