@@ -20,7 +20,7 @@ LAYERS = [
     ["clearance"],
     ["app"],
     ["serve"],
-    ["cli", "wasm"],
+    ["cli", "wasm", "python"],
 ]
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}
@@ -47,7 +47,7 @@ OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/balancing/*",
 HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/Dense", "Eigen/QR", "Eigen/SVD",
          "pagmo/*"]
 # Headers that are there to show one of them, apart from everything else.
-SHOWN = {"optimise/pagmo_adapters.h": "pagmo/*"}
+SHOWN = {"optimise/pagmo_adapters.h": "pagmo/*", "python/arrays.h": "pybind11/*"}
 
 
 def fits(name, patterns):

@@ -1,0 +1,25 @@
+#include <pybind11/pybind11.h>
+
+#include <exception>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/core/check.h"
+#include "linkwright/python/bindings.h"
+
+PYBIND11_MODULE(_linkwright, module) {
+  module.doc() = "What the package linkwright is made of; its names are those of the package.";
+  module.attr("version") = linkwright::app::version();
+  // A contract that was broken is a wrong argument in Python's words.
+  pybind11::register_exception_translator([](std::exception_ptr error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const linkwright::ContractError& broken) {
+      PyErr_SetString(PyExc_ValueError, broken.what());
+    }
+  });
+  linkwright::python::bind_studies(module);
+  linkwright::python::bind_planar(module);
+  linkwright::python::bind_suspension(module);
+  linkwright::python::bind_robots(module);
+  linkwright::python::bind_optimise(module);
+}
