@@ -8,9 +8,9 @@ import * as state from "../state";
 import "../report.css";
 import "../viewer.css";
 import "./workbench.css";
-import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo } from "./document";
+import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo, type Document } from "./document";
 import { Draw, showDraw } from "./draw";
-import { workerEngine, type Engine, type Progress } from "./engine";
+import { workerEngine, type Engine, type Example, type Progress } from "./engine";
 import { sortOut } from "./files";
 import { Gallery, paintWith, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
@@ -128,6 +128,14 @@ function onKey(event: KeyboardEvent): void {
 }
 
 const first = "jansen-leg";
+const asDocument = (e: Example) => ({ name: `${e.name}.toml`, text: e.text, files: e.beside });
+
+/** The study that an address asks for: the one that it holds, or an example by its name. */
+async function asked(hash: string): Promise<Document | null> {
+  const name = /^#example=([\w-]+)$/.exec(hash)?.[1];
+  const example = catalogue.value?.examples.find((e) => e.name === name);
+  return example ? asDocument(example) : fromFragment(hash);
+}
 
 /** What answers this page: the engine that it carries, or the program that serves it. */
 interface Source {
@@ -164,12 +172,12 @@ async function main(): Promise<void> {
   const engine = make();
   const known = engine.catalogue();
   connect(engine, make());
-  const shared = await fromFragment(location.hash);
   catalogue.value = await known;
+  const shared = await asked(location.hash);
   if (!shared) opened.value = file;
   const own = file && { name: file.file.name, text: file.file.text, files: {} };
-  const example = catalogue.value.examples.find((e) => e.name === first)!;
-  begin(shared ?? own ?? kept() ?? { name: `${first}.toml`, text: example.text, files: example.beside });
+  begin(shared ?? own ?? kept() ?? asDocument(catalogue.value.examples.find((e) => e.name === first)!));
+  addEventListener("hashchange", () => void asked(location.hash).then((study) => study && open(study)));
   paintWith(make());
   state.start();
 }
