@@ -17,20 +17,21 @@ endif()
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
 
+# Components: program (what who runs it needs) and development (headers, libraries, packages of CMake and pkg-config).
 if(TARGET linkwright)
-  install(TARGETS linkwright RUNTIME)
+  install(TARGETS linkwright RUNTIME COMPONENT program)
   # What the program says of itself (src/linkwright/cli/CMakeLists.txt), where man, bash, zsh and fish look for it.
   if(NOT CMAKE_CROSSCOMPILING)
     set(described ${PROJECT_BINARY_DIR}/described)
-    install(FILES ${described}/linkwright.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-    install(FILES ${described}/linkwright DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-    install(FILES ${described}/_linkwright DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-    install(FILES ${described}/linkwright.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    install(FILES ${described}/linkwright.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    install(FILES ${described}/linkwright DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+    install(FILES ${described}/_linkwright DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+    install(FILES ${described}/linkwright.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
   endif()
 endif()
-install(TARGETS ${modules} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
-install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
-install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir})
+install(TARGETS ${modules} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE COMPONENT development)
+install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
+install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir} COMPONENT development)
 
 get_property(requirements GLOBAL PROPERTY LINKWRIGHT_REQUIREMENTS)
 list(REMOVE_DUPLICATES requirements)
@@ -41,7 +42,7 @@ configure_package_config_file(cmake/LinkwrightConfig.cmake.in LinkwrightConfig.c
 write_basic_package_version_file(LinkwrightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/LinkwrightConfig.cmake ${PROJECT_BINARY_DIR}/LinkwrightConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindSundialsSerial.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
 
 # pkg-config linkwright: the mechanics, without study files and reports.
 set(pc_libraries)
@@ -64,4 +65,4 @@ if(LINKWRIGHT_PAGMO)
 endif()
 file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/linkwright.pc.in linkwright.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/linkwright.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_BINARY_DIR}/linkwright.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

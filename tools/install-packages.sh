@@ -13,7 +13,8 @@ case "${1:-}" in
   run) ;;
   test) packages="$packages
 git clang-format libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema emscripten
-pybind11-dev python3-dev python3-numpy python3-pandas python3-pip python3-venv binutils" ;;
+pybind11-dev python3-dev python3-numpy python3-pandas python3-pip python3-venv binutils
+dpkg-dev patchelf xz-utils debootstrap" ;;
   *) echo "usage: tools/install-packages.sh run|test" >&2; exit 2 ;;
 esac
 
