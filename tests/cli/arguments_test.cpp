@@ -70,6 +70,14 @@ TEST(Arguments, TheOtherCommands) {
   EXPECT_EQ(compare.command, Command::compare);
   EXPECT_EQ(compare.inputs, (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_EQ(compare.out, "d");
+  const Arguments shard = parse({"run", "a.toml", "--shard", "3/64"});
+  EXPECT_EQ(shard.shard, 3);
+  EXPECT_EQ(shard.shards, 64);
+  EXPECT_EQ(parse({"run", "a.toml"}).shards, 0);
+  const Arguments merge = parse({"merge", "a", "b", "-o", "d"});
+  EXPECT_EQ(merge.command, Command::merge);
+  EXPECT_EQ(merge.inputs, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(merge.out, "d");
   EXPECT_EQ(parse({"completion", "zsh"}).shell, "zsh");
   EXPECT_EQ(parse({"help", "--man"}).command, Command::manual);
   EXPECT_EQ(parse({"reproduce"}).command, Command::reproduce);
@@ -121,6 +129,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
             "  run         run a study and write its results\n"
             "  check       read and validate a study, without running it\n"
             "  compare     put the results of several studies of one kind side by side\n"
+            "  merge       put together what the shards of a study have left, as one run\n"
             "  serve       open the workbench: a page of this machine, with this program behind it\n"
             "  examples    list the examples that come with the program, or copy one\n"
             "  new         write a study of a kind, to start from\n"
@@ -135,7 +144,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
 
 TEST(Arguments, CommandsDescribeThemselves) {
   const std::vector<CommandHelp> commands = command_help();
-  ASSERT_EQ(commands.size(), 12u);
+  ASSERT_EQ(commands.size(), 13u);
   const CommandHelp& run = commands.front();
   EXPECT_EQ(run.name, "run");
   ASSERT_EQ(run.positionals.size(), 1u);

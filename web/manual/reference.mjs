@@ -106,11 +106,11 @@ ${result ? `${heading("columns", "Tables of the result")}<p>Of the study above; 
   };
 }
 
-const commands = ["run", "check", "compare", "serve", "examples", "new", "catalogue", "samples", "schema", "reproduce", "completion"];
-
 function commandPage(ask) {
   const of = (name) => `<h2 id="${name}"><a href="#${name}">${name}</a></h2><pre tabindex="0"><code>${escaped(ask("help", name))}</code></pre>`;
-  return { path: "reference/commands.html", title: "Commands", lead: "The command line.", html: `<pre tabindex="0"><code>${escaped(ask("help"))}</code></pre>${commands.map(of).join("")}` };
+  const all = ask("help");
+  const commands = [...all.matchAll(/^ {2}([a-z]+) {2,}/gm)].map((m) => m[1]).filter((name) => name !== "help");
+  return { path: "reference/commands.html", title: "Commands", lead: "The command line.", html: `<pre tabindex="0"><code>${escaped(all)}</code></pre>${commands.map(of).join("")}` };
 }
 
 /** Public functions and types of a module: docstring and declaration. */

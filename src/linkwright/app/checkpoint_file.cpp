@@ -139,8 +139,8 @@ Diagnostic unusable_checkpoint(const fs::path& file, const CheckpointError& erro
       Diagnostic::Severity::error, file.string(), {}, {}, fmt::format("is damaged: {}", error.what()), mend};
 }
 
-CheckpointFile::CheckpointFile(fs::path file, CheckpointOwner owner)
-    : file_(std::move(file)), owner_(std::move(owner)), interval_(shortest_interval) {
+CheckpointFile::CheckpointFile(fs::path file, CheckpointOwner owner, Shard shard)
+    : file_(std::move(file)), owner_(std::move(owner)), shard_(shard), interval_(shortest_interval) {
   remove_leftovers(file_);
 }
 
@@ -178,6 +178,13 @@ bool CheckpointFile::load(Diagnostics& diagnostics) {
 std::size_t CheckpointFile::size() const {
   const std::lock_guard lock(mutex_);
   return lines_.size();
+}
+
+std::vector<std::string> CheckpointFile::names() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> all;
+  for (const auto& [name, line] : lines_) all.push_back(name);
+  return all;
 }
 
 Value CheckpointFile::find(std::string_view name) const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/diagnostic.h"
@@ -28,6 +29,14 @@ struct CheckpointOwner {
   std::string study_sha256;  ///< of the canonical study, as in result.json
 };
 CheckpointOwner checkpoint_owner(const study::Study& study);
+
+/// Which of the runs that share a study one is: of the pieces of a loop it does index, index + count, ...
+struct Shard {
+  std::size_t index = 0;  ///< from 0
+  std::size_t count = 1;  ///< 1 = nothing is shared
+
+  bool leaves(std::size_t piece) const { return piece % count != index; }
+};
 
 /// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
 using CheckpointLines = std::map<std::string, std::string, std::less<>>;
@@ -51,7 +60,7 @@ Diagnostic unusable_checkpoint(const std::filesystem::path& file, const Checkpoi
 /// second after something was kept, or later where writing would else take more than a twentieth of the time.
 class CheckpointFile final : public Checkpoint {
  public:
-  CheckpointFile(std::filesystem::path file, CheckpointOwner owner);
+  CheckpointFile(std::filesystem::path file, CheckpointOwner owner, Shard shard = {});
   ~CheckpointFile() override;
 
   /// Begins without what an earlier run has kept.
@@ -61,10 +70,13 @@ class CheckpointFile final : public Checkpoint {
   bool load(Diagnostics& diagnostics);
   /// Number of things kept.
   std::size_t size() const;
+  /// What they are called, in order.
+  std::vector<std::string> names() const;
 
   Value find(std::string_view name) const override;
   void keep(std::string_view name, const Value& value) override;
   std::chrono::duration<double> interval() const override;
+  bool is_left_to_others(std::size_t index) const override { return shard_.leaves(index); }
 
   /// Writes what is not on the disk yet; call when the run has ended. A failure is a warning.
   void finish(Diagnostics& diagnostics);
@@ -76,6 +88,7 @@ class CheckpointFile final : public Checkpoint {
 
   const std::filesystem::path file_;
   const CheckpointOwner owner_;
+  const Shard shard_;
   mutable std::mutex mutex_;
   std::condition_variable changes_;
   CheckpointLines lines_;

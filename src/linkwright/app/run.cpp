@@ -63,7 +63,8 @@ Value read_document(const fs::path& file, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<study::Study> load_study(const fs::path& file, const RunOptions& options,
-                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics) {
+                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics,
+                                       Value* as_written) {
   const std::size_t before = diagnostics.size();
   Value document = read_document(file, diagnostics);
   std::vector<Override> changes;
@@ -80,6 +81,7 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
   const std::string name = file == standard_input ? standard_input_name : file.string();
   auto study = study::prepare(document, name, file.parent_path(), kinds, diagnostics);
   name_overrides(diagnostics, changes);
+  if (as_written) *as_written = std::move(document);
   if (options.seed)
     for (Diagnostic& d : diagnostics)
       if (d.file == changes.back().origin && d.message == "unknown key")

@@ -26,9 +26,11 @@ inline constexpr const char* standard_input = "-";
 inline constexpr const char* standard_input_name = "standard input";
 
 /// Reads and validates a study file, or standard input. All problems are appended to `diagnostics`; nothing
-/// is returned if there is an error.
+/// is returned if there is an error. `as_written` receives the study as it is written, with the changes of
+/// the options.
 std::optional<study::Study> load_study(const std::filesystem::path& file, const RunOptions& options,
-                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics);
+                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics,
+                                       Value* as_written = nullptr);
 
 /// Folder for the results of a study: options.out, output.dir of the study, or "out/" and the name of its
 /// file ("out/standard-input" without one).

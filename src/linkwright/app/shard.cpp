@@ -28,7 +28,7 @@ void ShardCheckpoint::keep(std::string_view name, const Value& value) {
 }
 
 bool ShardCheckpoint::is_left_to_others(std::size_t index) const {
-  if (index % shard_.count == shard_.index) return false;
+  if (!shard_.leaves(index)) return false;
   const std::lock_guard lock(mutex_);
   if (!std::exchange(leaves_some_, true) && leaves_) leaves_();
   return true;

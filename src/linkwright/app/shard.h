@@ -11,12 +11,6 @@
 
 namespace linkwright::app {
 
-/// Which of the runs that share a study one is: of the pieces of a loop it does index, index + count, ...
-struct Shard {
-  std::size_t index = 0;  ///< from 0
-  std::size_t count = 1;  ///< 1 = nothing is shared
-};
-
 /// What a run that shares a study begins with and hands on: a checkpoint in memory.
 class ShardCheckpoint final : public Checkpoint {
  public:

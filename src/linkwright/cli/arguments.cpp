@@ -13,6 +13,8 @@
 namespace linkwright::cli {
 namespace {
 
+constexpr int most_shards = 1'000'000;
+
 /// The grammar of the command line. What is read goes to `arguments`, which must outlive it.
 class Grammar {
  public:
@@ -55,6 +57,25 @@ class Grammar {
           "N")
         ->check(CLI::Range(0, 4096).description(""));
   }
+  /// "3/64"
+  void shard(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "--shard",
+            [this](const std::string& text) {
+              const std::size_t slash = text.find('/');
+              const bool read = slash != std::string::npos &&
+                                CLI::detail::lexical_cast(text.substr(0, slash), arguments_.shard) &&
+                                CLI::detail::lexical_cast(text.substr(slash + 1), arguments_.shards);
+              if (!read || arguments_.shard < 1 || arguments_.shard > arguments_.shards ||
+                  arguments_.shards > most_shards)
+                throw CLI::ValidationError(
+                    "--shard",
+                    fmt::format("is '{}', must be K/N with K from 1 to N, N at most {}", text, most_shards));
+            },
+            "do this part of the seeds and keep it in the folder, for `merge`: 3/64 is the third of 64")
+        ->type_name("K/N");
+  }
   void report(CLI::App& command) {
     auto* json = command.add_flag("--json", arguments_.json, "print result.json instead of the summary");
     command.add_flag("-q,--quiet", arguments_.quiet, "print errors only")->excludes(json);
@@ -89,6 +110,7 @@ class Grammar {
             "");
     run.add_flag("--resume", arguments_.resume,
                  "continue an interrupted run of the same study in the same folder; without it, start again");
+    shard(run);
     report(run);
     CLI::App& compare =
         add("compare", "put the results of several studies of one kind side by side", Command::compare);
@@ -99,6 +121,15 @@ class Grammar {
     value(compare, "-o,--out", arguments_.out, "folder of the comparison (default: compare)", "FOLDER");
     threads(compare);
     report(compare);
+    CLI::App& merge =
+        add("merge", "put together what the shards of a study have left, as one run", Command::merge);
+    value(merge, "FOLDER", arguments_.inputs, "folders that `run --shard` has written; all of one study")
+        ->required()
+        ->expected(1, 1 << 20);
+    value(merge, "-o,--out", arguments_.out, "folder of the results (default: the first of the folders)",
+          "FOLDER");
+    threads(merge);
+    report(merge);
   }
 
   void serve_command() {

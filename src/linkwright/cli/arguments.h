@@ -15,6 +15,7 @@ struct Arguments {
     run,
     check,
     compare,
+    merge,
     make,
     examples,
     samples,
@@ -31,7 +32,7 @@ struct Arguments {
   std::string kind;   ///< make, schema
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
 
-  std::vector<std::string> inputs;  ///< compare: folders, results and studies
+  std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders
   std::vector<std::string> words;   ///< catalogue, samples: what each line of the list must hold
   std::string example;              ///< examples: name or a part of it; empty = all
   std::string folder;               ///< examples --copy: where to; empty = here
@@ -46,6 +47,7 @@ struct Arguments {
   std::vector<std::string> set;
   std::optional<double> time_limit;  ///< s
   bool resume = false;
+  int shard = 0, shards = 0;  ///< of run: "--shard 3/64"; 0 = the whole study
   bool json = false;
   bool quiet = false;
   int port = 0;          ///< of serve; 0 = any that is free

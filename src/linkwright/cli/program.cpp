@@ -12,6 +12,7 @@
 
 #include "linkwright/app/checkpoint_file.h"
 #include "linkwright/app/compare.h"
+#include "linkwright/app/merge.h"
 #include "linkwright/app/result_json.h"
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
@@ -38,17 +39,16 @@ std::string command_of(const Arguments& arguments) {
 }
 
 /// What an earlier run has kept, taken up or put away; false if it is to be taken up and cannot be.
-bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& folder, Diagnostics& diagnostics) {
+bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& file, Diagnostics& diagnostics) {
   if (!resume) {
     checkpoint.discard();
     return true;
   }
   if (!checkpoint.load(diagnostics)) return false;
-  const std::string file = (folder / app::checkpoint_name).string();
   if (checkpoint.size() == 0)
-    fmt::print(stderr, "{}: nothing to resume, the run starts from the beginning\n", file);
+    fmt::print(stderr, "{}: nothing to resume, the run starts from the beginning\n", file.string());
   else
-    fmt::print(stderr, "{}: the run resumes from here\n", file);
+    fmt::print(stderr, "{}: the run resumes from here\n", file.string());
   return true;
 }
 
@@ -84,19 +84,58 @@ void print_outcome(const Arguments& arguments, const study::Study& study, const 
   if (arguments.open) open_report(written);
 }
 
+/// One of several runs that share a study: what it finds is kept for `merge`, there is no result yet.
+int run_shard(const Arguments& arguments, const study::Study& study, const fs::path& file,
+              app::CheckpointFile& kept, RunContext& context) {
+  bool shares = false;
+  {
+    const ProgressBar bar(context, arguments.quiet);
+    try {
+      app::run_and_record(study, context);
+    } catch (const LeftToOthers&) {
+      shares = true;
+    }
+  }
+  const bool ended = context.interruption() == Status::done;
+  if (ended) app::end_shard(kept);
+  Diagnostics problems;
+  kept.finish(problems);
+  print_diagnostics(problems);
+  if (!problems.empty()) return bad_input;
+  if (!ended) {
+    fmt::print(stderr, "{}: has not ended; the same command with --resume continues from here\n",
+               file.string());
+    return cancelled;
+  }
+  if (arguments.quiet) return 0;
+  if (!shares && arguments.shards > 1)
+    fmt::print("{}: nothing of this study can be shared, so that each shard does all of it\n", file.string());
+  fmt::print(
+      "{}: shard {} of {} is done; when all are, `linkwright merge` with their folders makes the result\n",
+      file.string(), arguments.shard, arguments.shards);
+  return 0;
+}
+
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);
   Diagnostics diagnostics;
   const app::RunOptions options{arguments.out, arguments.seed, arguments.set};
-  const auto study = app::load_study(arguments.study, options, kinds, diagnostics);
+  Value as_written;
+  const auto study = app::load_study(arguments.study, options, kinds, diagnostics, &as_written);
   const fs::path folder = study ? app::output_folder(*study, arguments.study, options) : fs::path();
   if (!study || !app::prepare_folder(folder, diagnostics)) {
     print_diagnostics(diagnostics);
     return bad_input;
   }
-  app::CheckpointFile checkpoint(folder / app::checkpoint_name, app::checkpoint_owner(*study));
-  if (!take_up(checkpoint, arguments.resume, folder, diagnostics)) {
+  const bool whole = arguments.shards == 0;
+  const app::Shard shard = whole ? app::Shard{}
+                                 : app::Shard{static_cast<std::size_t>(arguments.shard) - 1,
+                                              static_cast<std::size_t>(arguments.shards)};
+  const fs::path kept = folder / (whole ? std::string(app::checkpoint_name) : app::shard_name(shard));
+  app::CheckpointFile checkpoint(kept, app::checkpoint_owner(*study), shard);
+  if ((!whole && !app::write_shard_study(as_written, arguments.study, folder, diagnostics)) ||
+      !take_up(checkpoint, arguments.resume, kept, diagnostics)) {
     print_diagnostics(diagnostics);
     return bad_input;
   }
@@ -105,10 +144,11 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;
   try {
+    if (!whole) return run_shard(arguments, *study, kept, checkpoint, context);
     const ProgressBar bar(context, arguments.quiet);
     outcome = app::run_and_record(*study, context);
   } catch (const CheckpointError& error) {
-    print_diagnostics({app::unusable_checkpoint(folder / app::checkpoint_name, error)});
+    print_diagnostics({app::unusable_checkpoint(kept, error)});
     return bad_input;
   }
   Diagnostics problems;
@@ -201,6 +241,38 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
 }
 
+/// The result of a study from what its shards have kept.
+int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  RunContext context;
+  const Interruptible guard(context);
+  context.set_threads(arguments.threads);
+  Diagnostics diagnostics;
+  const std::vector<fs::path> folders(arguments.inputs.begin(), arguments.inputs.end());
+  const fs::path folder = arguments.out.empty() ? folders.front() : fs::path(arguments.out);
+  const auto merged = app::read_shards(folders, kinds, diagnostics);
+  if (!merged || !app::prepare_folder(folder, diagnostics)) {
+    print_diagnostics(diagnostics);
+    return bad_input;
+  }
+  context.set_checkpoint(merged->kept.get());
+  app::RunOutcome outcome;
+  try {
+    const ProgressBar bar(context, arguments.quiet);
+    outcome = app::run_and_record(merged->study, context);
+  } catch (const CheckpointError& error) {
+    print_diagnostics({app::unusable_checkpoint(folders.front(), error)});
+    return bad_input;
+  }
+  outcome.command = "linkwright merge";
+  for (const std::string& input : arguments.inputs) outcome.command += " " + input;
+  outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
+                                    diagnostics.end());
+  Diagnostics problems;
+  const std::vector<fs::path> written = app::write_results(merged->study, outcome, folder, problems);
+  print_outcome(arguments, merged->study, outcome, written, problems);
+  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+}
+
 int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics diagnostics;
   const auto study =
@@ -229,6 +301,8 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
       return check(arguments, kinds);
     case Command::compare:
       return compare(arguments, kinds);
+    case Command::merge:
+      return merge(arguments, kinds);
     case Command::make:
       return make_study(arguments, kinds);
     case Command::examples:
