@@ -35,6 +35,8 @@ TEST(Overrides, WhatIsWrong) {
   EXPECT_EQ(with("list[1].name=x"), "--set list[1].name=x: error: 'list' has 1 entries, counted from 0");
   EXPECT_EQ(with("t[0]=x"), "--set t[0]=x: error: 't' is not an array");
   EXPECT_EQ(with("a.b=x"), "--set a.b=x: error: 'b' is not in a table");
+  EXPECT_EQ(with("list.name=x"),
+            "--set list.name=x: error: 'list' is a list of 1; say which one is meant: list[0].name, ...");
   EXPECT_THAT(with("a=[1"), HasSubstr("--set a=[1: error: '[1' is not a value"));
 }
 

@@ -43,7 +43,7 @@ const liveAddress = (name, body) => (body.trim() ? asFragment(name || "study.tom
 
 /** A page: where it goes, what it is called and what is on it; `section` is the entry of the navigation that it belongs to. */
 const pages = [];
-const add = (path, section, title, body, { lead = "", wide = false } = {}) => pages.push({ path, section, title, body, lead, wide });
+const add = (path, section, title, body, { lead = "", live = false, broad = false } = {}) => pages.push({ path, section, title, body, lead, live, broad });
 
 const listed = (folder) => (existsSync(join(texts, folder)) ? readdirSync(join(texts, folder)).filter((n) => n.endsWith(".md")).sort() : []);
 const page = (file) => {
@@ -58,17 +58,17 @@ const page = (file) => {
 const lessons = listed("learn").map((name) => page(`learn/${name}`));
 lessons.forEach((lesson, i) => {
   const around = [lessons[i - 1], lessons[i + 1]].map((other, k) => (other ? `<a href="${other.path.replace("learn/", "")}">${k ? `${escaped(other.title)} →` : `← ${escaped(other.title)}`}</a>` : "<span></span>"));
-  add(lesson.path, "Learn", lesson.title, `${lesson.html}<nav class="around">${around.join("")}</nav>`, { lead: lesson.lead, wide: lesson.html.includes("data-live") });
+  add(lesson.path, "Learn", lesson.title, `${lesson.html}<nav class="around">${around.join("")}</nav>`, { lead: lesson.lead, live: lesson.html.includes("data-live") });
 });
 const cards = (items) => `<ul class="cards">${items.map(({ href, title, text, picture }) => `<li><a href="${href}">${picture ?? ""}<b>${escaped(title)}</b>${text ? `<span>${escaped(text)}</span>` : ""}</a></li>`).join("")}</ul>`;
 if (lessons.length) add("learn/index.html", "Learn", "Learn", `<p>Ten lessons of ten minutes, each with the mechanism beside the text.</p>${cards(lessons.map((l, i) => ({ href: l.path.replace("learn/", ""), title: `${i + 1}. ${l.title}`, text: l.lead })))}`);
 const theory = listed("theory").map((name) => page(`theory/${name}`));
-for (const t of theory) add(t.path, "Theory", t.title, t.html);
+for (const t of theory) add(t.path, "Theory", t.title, t.html, { lead: t.lead });
 if (theory.length) add("theory/index.html", "Theory", "Theory", cards(theory.map((t) => ({ href: t.path.replace("theory/", ""), title: t.title, text: t.lead }))));
-for (const [file, section] of [["do.md", "Do"], ["trust.md", "Trust"], ["faq.md", "FAQ"], ["glossary.md", "Glossary"]])
+for (const [file, section] of [["do.md", "Do"], ["files.md", "Reference"], ["trust.md", "Trust"], ["faq.md", "FAQ"], ["glossary.md", "Glossary"]])
   if (existsSync(join(texts, file))) {
     const made = page(file);
-    add(made.path, section, made.title, made.html, { lead: made.lead });
+    add(made.path, section, made.title, made.html, { lead: made.lead, broad: section === "Glossary" });
   }
 
 const groups = [...new Set(examples.map((e) => e.group))];
@@ -83,12 +83,12 @@ add("gallery.html", "Gallery", "Gallery", groups.map((group) => `<h2>${escaped(g
 for (const { path, title, html, lead } of referencePages({ ask, json, root })) add(path, "Reference", title, html, { lead });
 
 const home = existsSync(join(texts, "index.md")) ? page("index.md") : { title: "Linkwright", html: "", lead: "" };
-add("index.html", "Home", home.title, home.html, { lead: home.lead, wide: home.html.includes("data-live") });
+add("index.html", "Home", home.title, home.html, { lead: home.lead, live: home.html.includes("data-live") });
 
 const sections = [["Home", "index.html"], ["Learn", "learn/index.html"], ["Do", "do.html"], ["Gallery", "gallery.html"], ["Reference", "reference/index.html"],
   ["Theory", "theory/index.html"], ["Trust", "trust.html"], ["FAQ", "faq.html"], ["Glossary", "glossary.html"]].filter(([, path]) => pages.some((p) => p.path === path));
 
-function framed({ path, section, title, body, lead, wide }) {
+function framed({ path, section, title, body, lead, live, broad }) {
   const depth = "../".repeat(path.split("/").length - 1);
   const nav = sections.map(([name, href]) => `<a href="${depth}${href}"${name === section ? ' aria-current="page"' : ""}>${name}</a>`).join("");
   return `<!doctype html>
@@ -99,18 +99,18 @@ function framed({ path, section, title, body, lead, wide }) {
 <meta name="color-scheme" content="light dark">
 <link rel="icon" href="data:,">
 <title>${escaped(title)}${path === "index.html" ? "" : " - Linkwright"}</title>
-<link rel="stylesheet" href="${depth}page.css">
+${body.includes("<!--formula-->") ? `<link rel="stylesheet" href="${depth}formulas/katex.min.css">\n` : ""}<link rel="stylesheet" href="${depth}page.css">
 </head>
-<body data-root="${depth}"${path === "index.html" ? " data-begins" : ""}>
+<body data-root="${depth}">
 <header><a class="brand" href="${depth}index.html">Linkwright</a><nav aria-label="Manual">${nav}</nav>
 <label class="search"><span>Search</span><input type="search" id="search" placeholder="Search" autocomplete="off" aria-controls="found"></label><div id="found" role="status"></div></header>
-<main${wide ? ' class="wide"' : ""}>
+<main${live ? ' class="beside"' : broad ? ' class="broad"' : ""}>
 <article>
 <h1>${escaped(title)}</h1>
 ${lead ? `<p class="lead">${escaped(lead)}</p>` : ""}
 ${body}
 </article>
-${wide ? `<aside aria-label="The mechanism"><iframe title="The workbench" id="live" hidden></iframe><p class="note" id="no-live">Press <b>Show it live</b> in the text: the mechanism stands here, to take hold of.</p></aside>` : ""}
+${live ? `<aside aria-label="The mechanism"><iframe title="The workbench" id="live" hidden></iframe><p class="note" id="no-live">Press <b>Show it live</b> in the text: the mechanism stands here, to take hold of.</p></aside>` : ""}
 </main>
 <footer>linkwright ${escaped(version)}</footer>
 <script src="${depth}search.js"></script>
@@ -122,7 +122,7 @@ ${wide ? `<aside aria-label="The mechanism"><iframe title="The workbench" id="li
 
 /** What is searched: each part of a page from heading to heading. */
 function parts({ path, section, title, body, lead }) {
-  const plain = (html) => html.replace(/<math[^]*?<\/math>/g, " ").replace(/<[^>]*>/g, " ").replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&quot;/g, '"').replace(/&amp;/g, "&").replace(/\s+/g, " ").trim();
+  const plain = (html) => html.replace(/<!--formula-->[^]*?<!--end-->/g, " ").replace(/<[^>]*>/g, " ").replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&quot;/g, '"').replace(/&amp;/g, "&").replace(/\s+/g, " ").trim();
   return body.split(/(?=<h[23] id=)/).map((part, i) => {
     const [, id, heading] = /^<h[23] id="([^"]*)"[^>]*>([^]*?)<\/h/.exec(part) ?? [];
     return { at: id ? `${path}#${id}` : path, in: section, title: heading ? `${title}: ${plain(heading)}` : title, text: `${i ? "" : lead} ${plain(part)}`.slice(0, 4000) };
@@ -136,6 +136,10 @@ for (const p of pages) {
 }
 writeFileSync(join(out, "search.js"), `const manual = ${JSON.stringify(pages.flatMap(parts))};\n`);
 for (const name of ["page.css", "page.js"]) copyFileSync(join(dirname(fileURLToPath(import.meta.url)), name), join(out, name));
+const katex = join(root, "web/node_modules/katex/dist");
+mkdirSync(join(out, "formulas/fonts"), { recursive: true });
+copyFileSync(join(katex, "katex.min.css"), join(out, "formulas/katex.min.css"));
+for (const font of readdirSync(join(katex, "fonts")).filter((n) => n.endsWith(".woff2"))) copyFileSync(join(katex, "fonts", font), join(out, "formulas/fonts", font));
 if (options.pictures) mkdirSync(join(out, "pictures"));
 for (const [path, svg] of pictureOf) writeFileSync(join(out, "pictures", relative(dirname(path), path).replace(/\.toml$/, ".svg")), svg);
 if (options.workbench) copyFileSync(options.workbench, join(out, "workbench.html"));

@@ -5,14 +5,15 @@ import { Marked } from "marked";
 export const escaped = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;");
 export const slug = (text) => text.toLowerCase().replace(/<[^>]*>/g, "").replace(/&[a-z]+;/g, "").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-|-$/g, "");
 
-const formula = (tex, displayMode) => katex.renderToString(tex, { displayMode, output: "mathml", throwOnError: true });
+// The comments are for the search, which leaves formulas out.
+const formula = (tex, displayMode) => `<!--formula-->${katex.renderToString(tex, { displayMode, throwOnError: true })}<!--end-->`;
 const display = {
   name: "display", level: "block", start: (source) => source.indexOf("$$"),
   tokenizer: (source) => {
     const found = /^\$\$([^]+?)\$\$(?:\n|$)/.exec(source);
     return found && { type: "display", raw: found[0], tex: found[1].trim() };
   },
-  renderer: ({ tex }) => `<p class="formula">${formula(tex, true)}</p>\n`,
+  renderer: ({ tex }) => `<p class="formula" tabindex="0">${formula(tex, true)}</p>\n`,
 };
 const inline = {
   name: "inline", level: "inline", start: (source) => source.indexOf("$"),

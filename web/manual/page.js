@@ -68,5 +68,6 @@
       for (const other of document.querySelectorAll(".live")) other.setAttribute("aria-pressed", String(other === button));
       if (matchMedia("(max-width: 900px)").matches) frame.scrollIntoView();
     });
-  if ("begins" in document.body.dataset && matchMedia("(min-width: 901px)").matches) document.querySelector(".live")?.click();
+  // On a phone it would lie over the text, and be loaded by those who only read.
+  if (matchMedia("(min-width: 901px)").matches) document.querySelector(".live")?.click();
 })();

@@ -72,7 +72,14 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
   Value* at = &document;
   for (const KeyStep& step : *steps) {
     if (!at->is_null() && !at->is_object()) {
-      problem(diagnostics, change, fmt::format("'{}' is not in a table", step.key));
+      if (at->is_array() && &step != &steps->front()) {
+        // "drive.speed_rpm" where there are several drives
+        const KeyStep& list = *(&step - 1);
+        problem(diagnostics, change, fmt::format("'{}' is a list of {}", list.key, at->as_array().size()),
+                fmt::format("say which one is meant: {}[0].{}, ...", list.key, step.key));
+      } else {
+        problem(diagnostics, change, fmt::format("'{}' is not in a table", step.key));
+      }
       return false;
     }
     if (&step == &steps->back() && at->is_object()) {

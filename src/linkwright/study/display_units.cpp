@@ -24,9 +24,10 @@ void count(const Value& value, std::vector<Count>& counts) {
     for (const Value& element : value.as_array()) count(element, counts);
   if (!value.is_object()) return;
   for (const Value::Member& member : value.as_object()) {
-    // Texts and tables under such a key may be anything: only numbers show what the author thinks in.
-    const bool numbers = member.value.is_number() || member.value.is_array() ||
-                         (member.value.is_object() && member.value.find("min"));
+    // Texts and tables under such a key may be anything: only numbers show what the author thinks in, and
+    // nought is the same in all units.
+    const bool numbers = (member.value.is_number() && member.value.as_number() != 0) ||
+                         member.value.is_array() || (member.value.is_object() && member.value.find("min"));
     // Moduli are in GPa, but no stress of a result is of their size.
     if (const auto key = split_unit(member.key); key && numbers && key->unit->suffix != "GPa") {
       const auto same = std::find_if(counts.begin(), counts.end(),
