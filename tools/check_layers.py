@@ -32,7 +32,7 @@ FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS
 # files beside the folders; above all stand STUDIES and the DOORS, which are the only ones that use the study module.
 BASE, STUDIES = "", "studies"
 FOLDERS = {
-    "planar": [[BASE], ["linkage", "serial_arm"], ["four_bar"], ["simulation", "path", "balancing"]],
+    "planar": [[BASE], ["linkage", "serial_arm"], ["four_bar"], ["simulation", "path", "balancing"], ["exact"]],
     "suspension": [["guide"], ["wheel", "indirect"], ["compliance", "direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
     "clearance": [[BASE]],
@@ -41,7 +41,7 @@ FOLDERS = {
 DOORS = ["studies.*", "reproductions*"]
 
 # Below the studies, what looks for the best uses the optimisers, and so does what works on many cores.
-OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*"]
+OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/exact/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*"]
 
 # Seconds of compile time each: they stay in the sources that need them, away from the headers.
 HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/Dense", "Eigen/QR", "Eigen/SVD",

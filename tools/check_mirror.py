@@ -62,7 +62,10 @@ NO_TEST = {
     "planar/serial_arm/samples.h": "published numbers; run by the tests of serial arms and their balancing",
     "planar/sweep_input.h": "plain data; run by the tests of both sweeps",
     "suspension/guide/point_box.h": "plain data; used by the tests of links to be found",
+    "math/lanes.h": "what path_tracker.h needs of a scalar; tested by path_tracker_test.cpp",
     "planar/linkage/detail/sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
+    "planar/exact/detail/follow_kernel.h": "part of follow, compiled once per instruction set and compared by its test",
+    "planar/exact/detail/monodromy.h": "finds the start sets; tested by nine_point_starts_test.cpp and five_points_test.cpp",
     "planar/path/detail/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
     "planar/path/detail/slider_crank_objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
@@ -78,7 +81,7 @@ def listed(cmake_lists):
 
 # Modules whose headers are for users, and headers that they include one by one: they show a heavy library.
 FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance"]
-ONE_BY_ONE = {"math/simd.h", "optimise/pagmo_adapters.h"}
+ONE_BY_ONE = {"math/lanes.h", "math/path_tracker.h", "math/simd.h", "optimise/pagmo_adapters.h"}
 
 
 def public_headers(root, module):

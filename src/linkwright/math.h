@@ -3,9 +3,12 @@
 // Vectors, derivatives, equations, least squares, differential equations, motion laws, splines.
 
 #include "linkwright/math/angles.h"
+#include "linkwright/math/ball.h"
 #include "linkwright/math/band_solve.h"
+#include "linkwright/math/complex.h"
 #include "linkwright/math/dense.h"
 #include "linkwright/math/differences.h"
+#include "linkwright/math/double_double.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/least_squares.h"

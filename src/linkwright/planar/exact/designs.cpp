@@ -1,0 +1,191 @@
+#include "linkwright/planar/exact/designs.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <tuple>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/exact/detail/path_systems.h"
+#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/path/usability.h"
+
+namespace linkwright::planar {
+namespace {
+
+std::complex<double> target_point(const PathProblem& problem, std::size_t k) {
+  return {problem.x[k], problem.y[k]};
+}
+
+// e^(i gamma) of the coupler's turn from the first point to `point`, which it passes.
+std::complex<double> coupler_turn(const TracingFourBar& bars, const std::complex<double>& first,
+                                  const std::complex<double>& point) {
+  ComplexFourBar<> z;
+  const std::complex<double> places[4] = {bars.crank_pin - first, bars.crank_pivot - first,
+                                          bars.rocker_pin - first, bars.rocker_pivot - first};
+  for (std::size_t i = 0; i < 4; ++i) {
+    z[i] = {places[i].real(), places[i].imag()};
+    z[i + 4] = math::conj(z[i]);
+  }
+  const std::complex<double> d = point - first;
+  const ComplexNumber place(d.real(), d.imag());
+  const CurveEquation<ComplexNumber> curve(z.data(), place, math::conj(place));
+  // 1 + gt / delta without the division
+  const ComplexNumber turn = (curve.gt + curve.delta) * math::conj(curve.delta);
+  const std::complex<double> out(turn.re, turn.im);
+  return out / std::abs(out);
+}
+
+// Steps from point to point, each in [0, 2 pi), and their sum.
+double forward_step(double sense, double from, double to) {
+  const double step = sense * (to - from);
+  return step - 2 * pi * std::floor(step / (2 * pi));
+}
+double turned_in_all(const std::vector<double>& angles, double sense) {
+  double sum = 0;
+  for (std::size_t k = 1; k < angles.size(); ++k) sum += forward_step(sense, angles[k - 1], angles[k]);
+  return sum;
+}
+
+// Whether the crank goes through the points without passing an end of its range.
+bool turned_in_order(const PathDesign& design) {
+  const FourBarClass type = classify(design.linkage);
+  const auto [low, high] = std::minmax(design.angles.front(), design.angles.back());
+  const double first = low, last = high;
+  return std::any_of(type.inputs.begin(), type.inputs.end(), [&](const AngleInterval& interval) {
+    const double turns = 2 * pi * std::floor((first - interval.from + 1e-9) / (2 * pi));
+    return last - turns <= interval.to + 1e-9;
+  });
+}
+
+// Whether a crank that does not rotate fully can go to every point, if not in their order.
+bool one_rocking_interval(const PathDesign& design) {
+  const FourBarClass type = classify(design.linkage);
+  if (type.crank_rotates_fully || turned_in_order(design)) return false;
+  return std::any_of(type.inputs.begin(), type.inputs.end(), [&](const AngleInterval& interval) {
+    return std::all_of(design.angles.begin(), design.angles.end(), [&](double angle) {
+      const double inside = angle - 2 * pi * std::floor((angle - interval.from + 1e-9) / (2 * pi));
+      return inside <= interval.to + 1e-9;
+    });
+  });
+}
+
+}  // namespace
+
+ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve) {
+  const std::complex<double> ground = bars.rocker_pivot - bars.crank_pivot,
+                             coupler = bars.rocker_pin - bars.crank_pin, first = target_point(problem, 0);
+  FourBar linkage;
+  linkage.ground = std::abs(ground);
+  linkage.crank = std::abs(bars.crank_pin - bars.crank_pivot);
+  linkage.coupler = std::abs(coupler);
+  linkage.rocker = std::abs(bars.rocker_pin - bars.rocker_pivot);
+  const std::complex<double> tracing = (first - bars.crank_pin) / coupler * linkage.coupler;
+  linkage.coupler_u = tracing.real();
+  linkage.coupler_v = tracing.imag();
+  linkage.pivot_x = bars.crank_pivot.real();
+  linkage.pivot_y = bars.crank_pivot.imag();
+  linkage.frame_angle = std::arg(ground);
+
+  std::vector<double> angles;
+  std::size_t changed = 0;  // the first point on another branch than the first
+  for (std::size_t k = 0; k < problem.x.size(); ++k) {
+    const std::complex<double> point = target_point(problem, k),
+                               turn = k == 0 ? 1.0 : coupler_turn(bars, first, point),
+                               pin = point + turn * (bars.crank_pin - first),
+                               other = point + turn * (bars.rocker_pin - first);
+    angles.push_back(std::arg((pin - bars.crank_pivot) / ground));
+    const double side = (std::conj(bars.rocker_pivot - pin) * (other - pin)).imag();
+    const Branch branch = side > 0 ? Branch::open : Branch::crossed;
+    if (k == 0) linkage.branch = branch;
+    if (changed == 0 && branch != linkage.branch) changed = k;
+  }
+  const double sense = turned_in_all(angles, -1) < turned_in_all(angles, 1) ? -1 : 1;
+  for (std::size_t k = 1; k < angles.size(); ++k)
+    angles[k] = angles[k - 1] + sense * forward_step(sense, angles[k - 1], angles[k]);
+
+  ExactDesign out;
+  out.curve = curve;
+  out.design = measure(problem, linkage, sense, std::move(angles));
+  if (changed > 0)
+    out.defects.push_back(
+        {DefectKind::branch,
+         fmt::format("meets point {} on one branch and point {} on the other", changed, changed + 1)});
+  else if (one_rocking_interval(out.design))
+    out.defects.push_back(
+        {DefectKind::order, "the crank, which rocks, would have to turn back between the points"});
+  else
+    out.defects = defects(problem, out.design);
+  return out;
+}
+
+int severity(const ExactDesign& design) {
+  int worst = 0;
+  for (const Defect& defect : design.defects) switch (defect.kind) {
+      case DefectKind::order:
+        worst = std::max(worst, 1);
+        break;
+      case DefectKind::circuit:
+        worst = std::max(worst, 2);
+        break;
+      case DefectKind::branch:
+      case DefectKind::assembly:
+        worst = 3;
+        break;
+    }
+  return worst;
+}
+
+namespace {
+
+void sort_exact_designs(const PathProblem& problem, std::vector<ExactDesign>& designs) {
+  struct Rank {
+    int severity, drags;
+    double transmission;
+    std::size_t number;
+  };
+  std::vector<Rank> ranks;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const ExactDesign& d = designs[i];
+    const int worst = severity(d);
+    // Two designs that differ by rounding alone keep their order: to 1e-6 rad.
+    const double transmission = worst < 2 ? std::round(path_transmission(problem, d.design).used * 1e6) : 0;
+    ranks.push_back({worst, classify(d.design.linkage).crank_rotates_fully ? 0 : 1, transmission, i});
+  }
+  std::stable_sort(ranks.begin(), ranks.end(), [](const Rank& a, const Rank& b) {
+    return std::tuple(a.severity, a.drags, -a.transmission) <
+           std::tuple(b.severity, b.drags, -b.transmission);
+  });
+  std::vector<ExactDesign> sorted;
+  for (const Rank& rank : ranks) sorted.push_back(std::move(designs[rank.number]));
+  designs = std::move(sorted);
+}
+
+}  // namespace
+
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePointSolutions& solutions) {
+  std::vector<ExactDesign> out;
+  for (std::size_t i = 0; i < solutions.classes.size(); ++i) {
+    if (!solutions.classes[i].real) continue;
+    for (const TracingFourBar& bars : cognates_of(solutions.classes[i], target_point(problem, 0))) {
+      out.push_back(exact_design(problem, bars, static_cast<int>(i)));
+      out.push_back(exact_design(problem,
+                                 {bars.rocker_pivot, bars.rocker_pin, bars.crank_pin, bars.crank_pivot},
+                                 static_cast<int>(i)));
+    }
+  }
+  sort_exact_designs(problem, out);
+  return out;
+}
+
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePointSolutions& solutions) {
+  std::vector<ExactDesign> out;
+  for (std::size_t i = 0; i < solutions.real.size(); ++i)
+    out.push_back(exact_design(problem, solutions.real[i], static_cast<int>(i)));
+  sort_exact_designs(problem, out);
+  return out;
+}
+
+}  // namespace linkwright::planar

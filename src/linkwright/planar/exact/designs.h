@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/path/defects.h"
+
+namespace linkwright::planar {
+
+/// A four-bar with its driver whose coupler point passes all points, if not always in one motion.
+struct ExactDesign {
+  PathDesign design;            ///< on the branch of the first point
+  std::vector<Defect> defects;  ///< empty = it traces the points in one motion, in their order
+  int curve = 0;                ///< number of its class, from 0
+};
+
+/// A four-bar that passes the points of a problem, with the crank on its first pivot: crank angles from the
+/// turn of the coupler, not from the branch, so that points on the other branch are found out.
+ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve);
+
+/// Every cognate of the real classes with either of its cranks as the driver, best first: without defects
+/// before order, circuit and branch, then a crank that rotates fully, then the larger transmission angle on
+/// the path.
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePointSolutions& solutions);
+/// The same of five points, where the pivots say which link drives.
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePointSolutions& solutions);
+
+/// How far a design is from tracing the points: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.
+int severity(const ExactDesign& design);
+
+}  // namespace linkwright::planar

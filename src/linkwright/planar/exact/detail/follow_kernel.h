@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+
+#include "linkwright/core/kernels.h"
+#include "linkwright/math/path_tracker.h"
+#include "linkwright/planar/exact/detail/path_systems.h"
+
+namespace linkwright::planar {
+
+/// Paths that one call follows one after the other.
+template <class System>
+struct FollowJob {
+  const System& system;
+  const SystemData<System>&from, &to;
+  std::span<const math::TrackedPath<double, System::unknowns>> starts;
+  const math::TrackerOptions& options;
+  std::span<math::TrackedPath<double, System::unknowns>> ends;
+};
+
+template <class System>
+using FollowKernels = KernelSet<void (*)(const FollowJob<System>&)>;
+/// One for each instruction set; defined in follow.cpp.
+template <class System>
+FollowKernels<System> follow_kernels();
+
+void follow_baseline(const FollowJob<NinePoints>& job);
+void follow_baseline(const FollowJob<NinePointsTrace>& job);
+void follow_baseline(const FollowJob<FivePointsTwoPivots>& job);
+void follow_avx2(const FollowJob<NinePoints>& job);
+void follow_avx2(const FollowJob<NinePointsTrace>& job);
+void follow_avx2(const FollowJob<FivePointsTwoPivots>& job);
+void follow_avx512(const FollowJob<NinePoints>& job);
+void follow_avx512(const FollowJob<NinePointsTrace>& job);
+void follow_avx512(const FollowJob<FivePointsTwoPivots>& job);
+
+template <class Batch, class System>
+LINKWRIGHT_KERNEL void follow_by(const FollowJob<System>& job) {
+  math::track_paths<Batch>(job.system, job.from, job.to, job.starts, job.options, job.ends);
+}
+
+}  // namespace linkwright::planar

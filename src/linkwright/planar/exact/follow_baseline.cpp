@@ -1,0 +1,13 @@
+#include "linkwright/planar/exact/detail/follow_kernel.h"
+
+namespace linkwright::planar {
+
+void follow_baseline(const FollowJob<NinePoints>& job) { follow_by<xsimd::batch<double, xsimd::sse2>>(job); }
+void follow_baseline(const FollowJob<NinePointsTrace>& job) {
+  follow_by<xsimd::batch<double, xsimd::sse2>>(job);
+}
+void follow_baseline(const FollowJob<FivePointsTwoPivots>& job) {
+  follow_by<xsimd::batch<double, xsimd::sse2>>(job);
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,165 @@
+#include "linkwright/planar/exact/detail/monodromy.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <string_view>
+#include <utility>
+
+#include "linkwright/core/numbers.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr int most_monodromy_loops = 80, first_mechanisms = 40;
+constexpr double identity_tolerance = 1e-9;
+
+// The point of the coupler curve of a complex four-bar when its coupler has turned by `rotation`: the
+// equation of either dyad is d D + u d + v D + w = 0; their difference is linear.
+void complex_curve_point(const ComplexFourBar<>& z, std::complex<double> rotation, ComplexNumber& d,
+                         ComplexNumber& D) {
+  const std::complex<double> g = rotation - 1.0, G = 1.0 / rotation - 1.0;
+  struct {
+    std::complex<double> u, v, w;
+  } dyad[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto x = standard_complex(z[2 * k]), a = standard_complex(z[2 * k + 1]),
+               X = standard_complex(z[2 * k + 4]), A = standard_complex(z[2 * k + 5]);
+    dyad[k] = {X - A + X * G, x - a + x * g, -A * x * g - a * X * G};
+  }
+  const auto u = dyad[0].u - dyad[1].u, v = dyad[0].v - dyad[1].v, w = dyad[0].w - dyad[1].w;
+  const auto linear = dyad[0].u * v - dyad[0].v * u - w, constant = dyad[0].w * v - dyad[0].v * w;
+  const auto place = (-linear + std::sqrt(linear * linear + 4.0 * u * constant)) / (-2.0 * u);
+  d = complex_number(place);
+  D = complex_number(-(u * place + w) / v);
+}
+
+// A four-bar with points of its curve, from which paths start well: among some, the one whose equations are
+// the farthest from singular.
+template <class System>
+void first_solution(RandomStream& stream, SystemData<System>& data, SystemPoint<System>& point) {
+  double best = infinity;
+  for (int trial = 0; trial < first_mechanisms; ++trial) {
+    ComplexFourBar<> four_bar;
+    for (ComplexNumber& value : four_bar) value = random_complex(stream);
+    std::array<ComplexNumber, System::others> d, D;
+    for (std::size_t j = 0; j < System::others; ++j)
+      complex_curve_point(four_bar, std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi)),
+                          d[j], D[j]);
+    SystemData<System> p;
+    SystemPoint<System> z;
+    System::put(four_bar, d.data(), D.data(), p, z);
+    double worst = 0;
+    for (int side = 0; side < 3; ++side) {
+      ComplexNumber values[System::unknowns], right[1][System::unknowns];
+      math::tracker::Lu<double, System::unknowns> lu;
+      System().evaluate(z.data(), p.data(), values, lu.a);
+      for (ComplexNumber& value : right[0]) value = random_complex(stream);
+      lu.solve(right);
+      worst = std::max(worst, math::tracker::size(right[0]));
+    }
+    if (worst < best) best = worst, data = p, point = z;
+  }
+}
+
+template <class System>
+SystemData<System> random_data(RandomStream& stream) {
+  SystemData<System> p;
+  for (ComplexNumber& value : p) value = random_complex(stream);
+  return p;
+}
+
+template <class System>
+void scale_solution(const Scaling& scaling, SystemPoint<System>& z) {
+  for (std::size_t i = 0; i < System::unknowns; ++i)
+    z[i] = (i < System::unknowns / 2 ? scaling.place : scaling.partner) * z[i];
+}
+
+}  // namespace
+
+bool same_identity(const ComplexNumber& a, const ComplexNumber& b) {
+  const double size = 1 + std::sqrt(math::norm(a));
+  return math::norm(a - b) < identity_tolerance * identity_tolerance * size * size;
+}
+
+int Identities::find(const ComplexNumber& identity) const {
+  const double reach = identity_tolerance * (1 + std::sqrt(math::norm(identity)));
+  auto at = std::lower_bound(sorted_.begin(), sorted_.end(), identity.re - reach,
+                             [](const Entry& e, double re) { return e.identity.re < re; });
+  for (; at != sorted_.end() && at->identity.re <= identity.re + reach; ++at)
+    if (same_identity(identity, at->identity)) return at->number;
+  return -1;
+}
+
+void Identities::add(const ComplexNumber& identity) {
+  const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), identity.re,
+                                   [](const Entry& e, double re) { return e.identity.re < re; });
+  sorted_.insert(at, {identity, count_++});
+}
+
+template <class System>
+StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContext& context,
+                             std::string_view stage) {
+  RandomStream stream({.seed = seed, .run = System::data});
+  const System system;
+  const math::TrackerOptions options;
+  StartSet<System> out;
+  Paths<System> known(1);
+  SystemData<System> first;
+  first_solution<System>(stream, first, known[0].z);
+  out.base = random_data<System>(stream);
+  scale_solution<System>(scale_towards<System>(out.base, first), known[0].z);
+  known = follow(system, first, out.base, known, options, context);
+  out.followed = 1;
+  Identities identities;
+  // Takes what is not known yet among the ends of ways around.
+  const auto take = [&](Paths<System>& ends) {
+    for (auto& end : ends) {
+      if (!end.arrived) continue;
+      System::settle(end.z);
+      if (!(polish(system, out.base, end.z, 1e-14) < 1e-11)) continue;
+      const ComplexNumber identity = System::identity(end.z);
+      if (identities.find(identity) >= 0) continue;
+      identities.add(identity);
+      out.points.push_back(end.z);
+    }
+  };
+  take(known);
+  for (std::size_t quiet = 0; quiet < 1 || out.points.size() < expected;) {
+    if (context.interrupted() || out.points.empty() || out.loops == most_monodromy_loops) break;
+    SystemData<System> a = random_data<System>(stream), b = random_data<System>(stream);
+    scale_towards<System>(out.base, a);
+    scale_towards<System>(out.base, b);
+    Paths<System> paths(out.points.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].z = out.points[i];
+    const SystemData<System>* from = &out.base;
+    const std::array<const SystemData<System>*, 3> corners = {&a, &b, &out.base};
+    for (const SystemData<System>* to : corners) {
+      paths = follow(system, *from, *to, paths, options, context);
+      out.followed += static_cast<int>(paths.size());
+      const std::size_t before = paths.size();
+      std::erase_if(paths, [](const auto& path) { return !path.arrived; });
+      out.lost += static_cast<int>(before - paths.size());
+      for (auto& path : paths) path.at = 0;
+      from = to;
+    }
+    const std::size_t before = out.points.size();
+    take(paths);
+    quiet = out.points.size() == before ? quiet + 1 : 0;
+    ++out.loops;
+    if (!stage.empty())
+      context.report({stage,
+                      std::min(1.0, static_cast<double>(out.points.size()) / static_cast<double>(expected)),
+                      nan});
+  }
+  out.status = context.interrupted()           ? context.interruption()
+               : out.points.size() == expected ? Status::done
+                                               : Status::not_converged;
+  return out;
+}
+
+template StartSet<NinePoints> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view);
+template StartSet<FivePointsTwoPivots> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view);
+
+}  // namespace linkwright::planar

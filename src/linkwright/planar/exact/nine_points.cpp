@@ -1,0 +1,404 @@
+#include "linkwright/planar/exact/nine_points.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/optimise/parallel.h"
+#include "linkwright/planar/exact/detail/certificate.h"
+#include "linkwright/planar/exact/detail/nine_point_starts.h"
+
+namespace linkwright::planar {
+namespace {
+
+using FineFourBar = ComplexFourBar<math::DoubleDouble>;
+constexpr std::string_view following = "paths", proving_classes = "certificates";
+constexpr double class_settled = 1e-13, fine_from = 1e-11, fine_settled = 1e-18;
+constexpr double nearly_real = 1e-7;
+// A path that stops this near to its end has come to it; one that ends at infinity is then far outside.
+constexpr double nearly_there = 1e-6, far_out = 100;
+// Small steps in doubles for what got lost or ran into another path, before more digits are taken.
+constexpr math::TrackerOptions small_steps = {.predicted = 1e-4, .corrected = 1e-7, .most_steps = 2000};
+
+// A solution in the units of the target, where conjugates are exact.
+struct FoundClass {
+  FineFourBar fine;
+  ComplexFourBar<> z;
+  bool extended = false;
+  ComplexNumber identity;
+};
+
+// The target in units of a power of two near its size: the differences to the first point are exact.
+struct NineTarget {
+  ExactNinePoints fine;
+  SystemData<NinePoints> p;
+  double unit = 1;  // m
+
+  explicit NineTarget(std::span<const std::complex<double>> points) {
+    double size = 0;
+    for (std::size_t j = 1; j < points.size(); ++j) size = std::max(size, std::abs(points[j] - points[0]));
+    unit = std::exp2(std::floor(std::log2(size)));
+    const auto difference = [&](double a, double b) {
+      const math::DoubleDouble exact = math::DoubleDouble::sum(a, -b);
+      return math::DoubleDouble(exact.high / unit, exact.low / unit);
+    };
+    for (std::size_t j = 0; j < NinePoints::others; ++j) {
+      const std::complex<double>&point = points[j + 1], &first = points[0];
+      fine[j] = {difference(point.real(), first.real()), difference(point.imag(), first.imag())};
+      fine[NinePoints::others + j] = math::conj(fine[j]);
+    }
+    p = rounded(fine);
+  }
+};
+
+// Newton's method to the last digits, with more of them where doubles do not settle; nullopt where solutions
+// meet or there is none.
+std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<> z) {
+  NinePoints::settle(z);
+  FoundClass out;
+  const double length = polish(NinePoints(), target.p, z, class_settled, 10);
+  out.extended = !(length < fine_from);
+  out.fine = widened(z);
+  if (out.extended) {
+    if (!(polish(NinePoints(), target.fine, out.fine, 1e-26, 14) < fine_settled)) return std::nullopt;
+    z = rounded(out.fine);
+  }
+  out.z = z;
+  out.identity = NinePoints::identity(z);
+  return out;
+}
+
+template <class T>
+ComplexFourBar<T> conjugate_class(const ComplexFourBar<T>& z) {
+  ComplexFourBar<T> out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = math::conj(z[i + 4]), out[i + 4] = math::conj(z[i]);
+  return out;
+}
+
+bool is_real_class(const ComplexFourBar<>& z) {
+  double off = 0;
+  for (std::size_t i = 0; i < 4; ++i) off += math::norm(z[i + 4] - math::conj(z[i]));
+  return off < nearly_real * nearly_real * squared_size(z);
+}
+
+// The mean of a solution and its conjugate: a place that is its own conjugate, exactly.
+template <class T>
+ComplexFourBar<T> symmetric_class(const ComplexFourBar<T>& z) {
+  const ComplexFourBar<T> other = conjugate_class(z);
+  ComplexFourBar<T> out;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out[i] = T(0.5) * (z[i] + other[i]);
+    out[i + 4] = math::conj(out[i]);
+  }
+  return out;
+}
+
+// The classes that are known, with the paths that led to them.
+class ClassCollection {
+ public:
+  // False: known already.
+  bool add(FoundClass found, int path) {
+    const int known = identities_.find(found.identity);
+    if (known >= 0) {
+      if (path >= 0) {
+        collided_.push_back(path);
+        if (paths_[at(known)] >= 0) collided_.push_back(paths_[at(known)]);
+      }
+      return false;
+    }
+    identities_.add(found.identity);
+    paths_.push_back(path);
+    found_.push_back(std::move(found));
+    return true;
+  }
+  // Points are real: the conjugate of a solution is one as well.
+  void add_conjugates(const NineTarget& target) {
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      if (identities_.find(NinePoints::identity(conjugate_class(found_[i].z))) < 0)
+        if (auto partner = finish_class(target, conjugate_class(found_[i].z))) add(std::move(*partner), -1);
+  }
+  std::vector<int> take_collided() {
+    std::sort(collided_.begin(), collided_.end());
+    collided_.erase(std::unique(collided_.begin(), collided_.end()), collided_.end());
+    return std::exchange(collided_, {});
+  }
+  bool full() const { return found_.size() >= nine_point_classes; }
+  std::vector<FoundClass>& found() { return found_; }
+
+ private:
+  Identities identities_;
+  std::vector<FoundClass> found_;
+  std::vector<int> paths_, collided_;
+};
+
+// Follows all classes of the start set to a target and collects what they become.
+class NineSearch {
+ public:
+  NineSearch(const StartSet<NinePoints>& starts, const NineTarget& target, RunContext& context)
+      : starts_(starts), target_(target), context_(context), scaled_(target.p) {
+    scaling_ = scale_towards<NinePoints>(starts.base, scaled_);
+    back_ = {math::inverse(scaling_.place), math::inverse(scaling_.partner)};
+  }
+
+  void run(NinePointSolutions& out) {
+    std::vector<int> all(starts_.points.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<int> open = attempt(all, {}, following);
+    out.first_lost = static_cast<int>(open.size());
+    classes.add_conjugates(target_);
+    if (open.empty() || classes.full() || context_.interrupted()) return;
+    open = attempt(open, small_steps, {});
+    classes.add_conjugates(target_);
+    if (open.empty() || classes.full() || context_.interrupted()) return;
+    last_attempt(open, out);
+    classes.add_conjugates(target_);
+  }
+
+  ClassCollection classes;
+
+ private:
+  ComplexFourBar<> to_target(ComplexFourBar<> z) const {
+    for (std::size_t i = 0; i < 4; ++i) z[i] = back_.place * z[i], z[i + 4] = back_.partner * z[i + 4];
+    return z;
+  }
+
+  // Which paths have not led to a class of their own; both of two that led to the same.
+  std::vector<int> attempt(const std::vector<int>& which, const math::TrackerOptions& options,
+                           std::string_view stage) {
+    Paths<NinePoints> paths;
+    for (const int i : which) paths.push_back({.z = starts_.points[at(i)]});
+    paths = follow(NinePoints(), starts_.base, scaled_, paths, options, context_, stage);
+    std::vector<std::optional<FoundClass>> ends(paths.size());
+    optimise::parallel_for(paths.size(), context_.threads(), [&](std::size_t i) {
+      if (paths[i].arrived) ends[i] = finish_class(target_, to_target(paths[i].z));
+    });
+    std::vector<int> open;
+    stopped_.clear();
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (ends[i]) {
+        classes.add(std::move(*ends[i]), which[i]);
+      } else {
+        open.push_back(which[i]);
+        stopped_.push_back(paths[i]);
+      }
+    }
+    for (const int i : classes.take_collided())
+      if (std::find(open.begin(), open.end(), i) == open.end()) {
+        open.push_back(i);
+        stopped_.push_back({.z = starts_.points[at(i)]});
+      }
+    return open;
+  }
+
+  // With twice the digits, on from where doubles stopped; what does not arrive is told by how it ends.
+  void last_attempt(const std::vector<int>& open, NinePointSolutions& out) {
+    enum class End { found, infinite, singular, lost };
+    std::vector<End> ends(open.size(), End::lost);
+    std::vector<std::optional<FoundClass>> found(open.size());
+    optimise::parallel_for(open.size(), context_.threads(), [&](std::size_t i) {
+      if (context_.interrupted()) return;
+      math::TrackedPath<math::DoubleDouble, NinePoints::unknowns> path{.z = widened(stopped_[i].z),
+                                                                       .at = stopped_[i].at};
+      RunContext alone;  // the loop over paths is interrupted, not a path
+      alone.set_threads(1);
+      if (path.at < 1 - nearly_there)
+        path = follow(NinePoints(), starts_.base, scaled_, Paths<NinePoints, math::DoubleDouble>{path},
+                      careful, alone)[0];
+      const ComplexFourBar<> z = rounded(path.z);
+      if (path.at >= 1 - nearly_there) found[i] = finish_class(target_, to_target(z));
+      ComplexFourBar<> smallest = z;
+      take_smaller_cognate(smallest, 1);
+      ends[i] = found[i]                                     ? End::found
+                : path.at < 1 - nearly_there                 ? End::lost
+                : squared_size(smallest) > far_out * far_out ? End::infinite
+                                                             : End::singular;
+    });
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (ends[i] == End::found) classes.add(std::move(*found[i]), -1);
+      if (ends[i] == End::infinite) ++out.infinite;
+      if (ends[i] == End::lost) ++out.lost;
+    }
+  }
+
+  const StartSet<NinePoints>& starts_;
+  const NineTarget& target_;
+  RunContext& context_;
+  SystemData<NinePoints> scaled_;
+  Scaling scaling_, back_;
+  Paths<NinePoints> stopped_;
+};
+
+// What a class is, with its certificate.
+struct ClassProof {
+  CurveClass curve;
+  std::optional<CertifiedIdentity> identity;
+};
+
+std::optional<CertifiedIdentity> prove_class(const NineTarget& target, const FoundClass& found, bool real) {
+  const auto proved = [&](const auto& z) -> std::optional<CertifiedIdentity> {
+    const auto ball = certify(target.fine, z);
+    if (!ball) return std::nullopt;
+    return certified_identity(z, *ball);
+  };
+  if (!found.extended)
+    if (const auto identity = proved(real ? symmetric_class(found.z) : found.z)) return identity;
+  FineFourBar z = found.fine;
+  for (int cognate = 0; cognate < 3; ++cognate, z = next_cognate(z)) {
+    FineFourBar polished = z;
+    polish(NinePoints(), target.fine, polished, 1e-26, 6);
+    if (const auto identity = proved(real ? symmetric_class(polished) : polished)) return identity;
+  }
+  return std::nullopt;
+}
+
+std::vector<ClassProof> classify_classes(const NineTarget& target, const std::vector<FoundClass>& found,
+                                         bool certify_them, RunContext& context) {
+  std::vector<ClassProof> proofs(found.size());
+  std::atomic<std::size_t> done{0};
+  optimise::parallel_for(found.size(), context.threads(), [&](std::size_t i) {
+    ClassProof& proof = proofs[i];
+    proof.curve.extended = found[i].extended;
+    proof.curve.real = is_real_class(found[i].z);
+    const ComplexFourBar<> z = proof.curve.real ? symmetric_class(found[i].z) : found[i].z;
+    for (std::size_t k = 0; k < z.size(); ++k) proof.curve.four_bar[k] = target.unit * standard_complex(z[k]);
+    proof.identity = CertifiedIdentity{found[i].identity, infinity};
+    if (!certify_them || context.interrupted()) return;
+    if (const auto identity = prove_class(target, found[i], proof.curve.real)) {
+      proof.identity = identity;
+      proof.curve.certified = true;
+    }
+    if (++done % 64 == 0)
+      context.report(
+          {proving_classes, static_cast<double>(done.load()) / static_cast<double>(found.size()), nan});
+  });
+  // Certified ones are different from each other if their identities are.
+  std::sort(proofs.begin(), proofs.end(), [](const ClassProof& a, const ClassProof& b) {
+    return std::pair(a.identity->identity.re, a.identity->identity.im) <
+           std::pair(b.identity->identity.re, b.identity->identity.im);
+  });
+  double widest = 0;
+  for (const ClassProof& p : proofs)
+    if (p.curve.certified) widest = std::max(widest, p.identity->radius);
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    if (!proofs[i].curve.certified) continue;
+    for (std::size_t j = i; j-- > 0;) {
+      if (proofs[i].identity->identity.re - proofs[j].identity->identity.re >
+          proofs[i].identity->radius + widest)
+        break;
+      if (!proofs[j].curve.certified) continue;
+      const double reach = proofs[i].identity->radius + proofs[j].identity->radius;
+      if (math::norm(proofs[i].identity->identity - proofs[j].identity->identity) <= reach * reach)
+        proofs[i].curve.certified = false;
+    }
+  }
+  std::stable_partition(proofs.begin(), proofs.end(), [](const ClassProof& p) { return p.curve.real; });
+  return proofs;
+}
+
+}  // namespace
+
+NinePointSolutions solve_nine_points(std::span<const std::complex<double>> points,
+                                     const NinePointOptions& options, RunContext& context) {
+  LINKWRIGHT_REQUIRE(points.size() == 9, "needs 9 points, got {}", points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    LINKWRIGHT_REQUIRE(std::isfinite(std::abs(points[i])), "point {} is not finite", i + 1);
+  const PointObstacle blocked = obstacle(points);
+  LINKWRIGHT_REQUIRE(blocked.kind == PointObstacle::none, "{} points are repeated, on a line or on a circle",
+                     blocked.points.size());
+  NinePointSolutions out;
+  const auto starts = nine_point_starts(options.cache, context);
+  if (starts->status != Status::done) {
+    out.status = starts->status;
+    return out;
+  }
+  const NineTarget target(points);
+  NineSearch search(*starts, target, context);
+  search.run(out);
+  std::vector<ClassProof> proofs = classify_classes(target, search.classes.found(), options.certify, context);
+  // Where paths end without a class, what cannot be proved to be a simple solution is one of the places where
+  // they meet.
+  if (options.certify && proofs.size() < nine_point_classes && !context.interrupted())
+    std::erase_if(proofs, [](const ClassProof& proof) { return !proof.curve.certified; });
+  for (const ClassProof& proof : proofs) {
+    out.classes.push_back(proof.curve);
+    out.certified += proof.curve.certified;
+    out.real += proof.curve.real;
+  }
+  // Each class takes one path. Of the others, some end at infinity, some got lost unless a conjugate made up
+  // for them; the rest ended where classes meet.
+  const int missing = static_cast<int>(nine_point_classes) - static_cast<int>(out.classes.size());
+  out.infinite = std::min(out.infinite, missing);
+  out.lost = std::min(out.lost, missing - out.infinite);
+  out.singular = missing - out.infinite - out.lost;
+  const bool all = out.classes.size() == nine_point_classes;
+  out.completeness = all && out.certified == static_cast<int>(nine_point_classes) ? Completeness::complete
+                     : all           ? Completeness::complete_uncertified
+                     : out.lost == 0 ? Completeness::special_target
+                                     : Completeness::incomplete;
+  out.status = context.interruption();
+  if (out.status != Status::done) {
+    out.completeness = Completeness::incomplete;
+    out.infinite = out.singular = out.lost = 0;  // nobody knows: they were not followed to their end
+  }
+  return out;
+}
+
+std::vector<TracingFourBar> cognates_of(const CurveClass& curve, std::complex<double> first_point) {
+  std::vector<TracingFourBar> out;
+  ComplexFourBar<> z;
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] = complex_number(curve.four_bar[k]);
+  for (int i = 0; i < 3; ++i, z = next_cognate(z)) {
+    const auto place = [&](FourBarUnknown which) { return first_point + standard_complex(z[which]); };
+    const TracingFourBar bars{place(pivot_a), place(pin_x), place(pin_y), place(pivot_b)};
+    const double size = std::sqrt(squared_size(z));
+    if (std::isfinite(size) && std::abs(bars.crank_pin - bars.rocker_pin) > 0) out.push_back(bars);
+  }
+  return out;
+}
+
+PointObstacle obstacle(std::span<const std::complex<double>> points) {
+  const int n = static_cast<int>(points.size());
+  std::complex<double> centre;
+  for (const auto& p : points) centre += p / static_cast<double>(n);
+  double size = 0;
+  for (const auto& p : points) size = std::max(size, std::abs(p - centre));
+  const double same = 1e-9 * size;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j)
+      if (std::abs(points[at(i)] - points[at(j)]) <= same) return {PointObstacle::repeated, {j, i}};
+  constexpr std::size_t too_many = 7;
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const std::complex<double> along = points[at(j)] - points[at(i)];
+      std::vector<int> on;
+      for (int k = 0; k < n; ++k)
+        if (std::abs((std::conj(along) * (points[at(k)] - points[at(i)])).imag()) <= same * std::abs(along))
+          on.push_back(k);
+      if (on.size() >= too_many) return {PointObstacle::collinear, on};
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j)
+      for (int k = j + 1; k < n; ++k) {
+        // Centre of the circle through three points, from the first one.
+        const std::complex<double> u = points[at(j)] - points[at(i)], v = points[at(k)] - points[at(i)];
+        const double area = 2 * (std::conj(u) * v).imag();
+        if (std::abs(area) <= 1e-6 * std::abs(u) * std::abs(v)) continue;
+        const std::complex<double> middle =
+            std::complex<double>(0, 1) * (std::norm(v) * u - std::norm(u) * v) / area;
+        std::vector<int> on;
+        for (int m = 0; m < n; ++m)
+          if (std::abs(std::abs(points[at(m)] - points[at(i)] - middle) - std::abs(middle)) <= same)
+            on.push_back(m);
+        if (on.size() >= too_many) return {PointObstacle::concyclic, on};
+      }
+  return {};
+}
+
+}  // namespace linkwright::planar

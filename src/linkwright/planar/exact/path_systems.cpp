@@ -1,0 +1,42 @@
+#include "linkwright/planar/exact/detail/path_systems.h"
+
+#include <cmath>
+
+namespace linkwright::planar {
+namespace {
+
+RandomForms draw_forms() {
+  RandomForms out;
+  RandomStream stream({.seed = 1442});
+  for (std::size_t m = 0; m < RandomForms::count; ++m)
+    for (ComplexNumber* value : {&out.d[m], &out.D[m], &out.above[m], &out.below[m]})
+      *value = random_complex(stream);
+  return out;
+}
+
+}  // namespace
+
+const RandomForms& random_forms() {
+  static const RandomForms forms = draw_forms();
+  return forms;
+}
+
+ComplexNumber random_complex(RandomStream& stream) {
+  const double re = stream.normal(), im = stream.normal();
+  return {re * std::sqrt(0.5), im * std::sqrt(0.5)};
+}
+
+ComplexNumber NinePoints::identity(const SystemPoint<NinePoints>& z) {
+  ComplexNumber above, below;
+  identity_parts(z.data(), above, below);
+  return above * math::inverse(below);
+}
+
+ComplexNumber FivePointsTwoPivots::identity(const SystemPoint<FivePointsTwoPivots>& z) {
+  const RandomForms& forms = random_forms();
+  ComplexNumber sum;
+  for (std::size_t i = 0; i < unknowns; ++i) sum = sum + forms.above[i] * z[i];
+  return sum;
+}
+
+}  // namespace linkwright::planar

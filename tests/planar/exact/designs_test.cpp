@@ -1,0 +1,105 @@
+#include "linkwright/planar/exact/designs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/four_bar/classify.h"
+#include "planar/exact_cases.h"
+
+namespace linkwright::planar {
+namespace {
+
+std::vector<ExactDesign> designs_of(const char* id, PathProblem& problem) {
+  const auto points = test::exact_points(id);
+  problem = test::exact_problem(points);
+  RunContext context;
+  return exact_designs(problem, solve_nine_points(points, {.certify = false}, context));
+}
+
+std::string worst_defect(const ExactDesign& design) {
+  constexpr const char* names[] = {"none", "order", "circuit", "branch"};
+  return names[severity(design)];
+}
+
+TEST(ExactDesigns, DefectsOfPublishedTargets) {
+  for (const char* id : {"NP-WMS-3", "NP-demo", "NP-known-four-bar"}) {
+    PathProblem problem;
+    const auto designs = designs_of(id, problem);
+    const Value& expected =
+        linkwright::test::at(test::exact_case(id), "computed.linkages_with_driver_by_defect");
+    for (const char* name : {"none", "order", "circuit", "branch"}) {
+      const Value* count = expected.find(name);
+      EXPECT_EQ(std::count_if(designs.begin(), designs.end(),
+                              [&](const ExactDesign& design) { return worst_defect(design) == name; }),
+                count ? count->as_number() : 0)
+          << id << ' ' << name;
+    }
+    EXPECT_TRUE(
+        std::is_sorted(designs.begin(), designs.end(),
+                       [](const ExactDesign& a, const ExactDesign& b) { return severity(a) < severity(b); }));
+  }
+}
+
+TEST(ExactDesigns, ThoseWithoutDefectHaveTheListedNumbersAndPassThePoints) {
+  for (const char* id : {"NP-WMS-3", "NP-known-four-bar"}) {
+    PathProblem problem;
+    const auto designs = designs_of(id, problem);
+    const auto& listed =
+        linkwright::test::at(test::exact_case(id), "computed.designs_without_defect").as_array();
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      // Timed cognates share their rank: in whatever order.
+      const auto like = std::find_if(designs.begin(), designs.begin() + 2, [&](const ExactDesign& design) {
+        return std::abs(design.design.linkage.ground - linkwright::test::number_at(listed[i], "ground_m")) <
+               1e-8;
+      });
+      ASSERT_NE(like, designs.begin() + 2) << id;
+      const FourBar& l = like->design.linkage;
+      const auto expect = [&](const char* key, double value) {
+        EXPECT_NEAR(value, linkwright::test::number_at(listed[i], key), 1e-8) << id << ' ' << key;
+      };
+      expect("crank_m", l.crank);
+      expect("coupler_m", l.coupler);
+      expect("rocker_m", l.rocker);
+      expect("coupler_u_m", l.coupler_u);
+      expect("coupler_v_m", l.coupler_v);
+      expect("pivot_x_m", l.pivot_x);
+      expect("pivot_y_m", l.pivot_y);
+      expect("frame_angle_rad", l.frame_angle);
+      expect("branch", sign(l.branch));
+      expect("sense", like->design.sense);
+      EXPECT_TRUE(classify(l).crank_rotates_fully);
+      EXPECT_TRUE(like->defects.empty());
+      EXPECT_TRUE(like->design.violations.empty());
+      EXPECT_LT(like->design.error, 1e-26);  // by the kinematics of the linkage
+    }
+  }
+}
+
+// A rocker as the driver goes to and fro: points that it meets forwards, then backwards, are out of its
+// order.
+TEST(ExactDesigns, ARockingDriverThatWouldTurnBackHasAnOrderDefect) {
+  const FourBar linkage{
+      .ground = 1, .crank = 0.8, .coupler = 0.4, .rocker = 0.9, .coupler_u = 0.3, .coupler_v = 0.2};
+  const FourBarClass type = classify(linkage);
+  ASSERT_FALSE(type.crank_rotates_fully);
+  const AngleInterval range = type.inputs.front();
+  const auto designed = [&](const std::vector<double>& shares) {
+    std::vector<std::complex<double>> points;
+    for (const double share : shares)
+      points.push_back(position(linkage, range.from + share * (range.to - range.from)).coupler_point);
+    const FourBarPosition first = position(linkage, range.from + shares[0] * (range.to - range.from));
+    return exact_design(test::exact_problem(points),
+                        {crank_pivot(linkage), first.crank_pin, first.coupler_pin, rocker_pivot(linkage)}, 0);
+  };
+  EXPECT_EQ(worst_defect(designed({0.1, 0.3, 0.5, 0.7, 0.9})), "none");
+  EXPECT_EQ(worst_defect(designed({0.9, 0.7, 0.5, 0.3, 0.1})), "none");
+  EXPECT_EQ(worst_defect(designed({0.1, 0.5, 0.9, 0.7, 0.3})), "order");
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <complex>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/planar/path/problem.h"
+#include "support/published.h"
+
+namespace linkwright::planar::test {
+
+inline const Value& exact_case(std::string_view id) {
+  return linkwright::test::published_case("exact-path-synthesis.json", id);
+}
+
+inline std::vector<std::complex<double>> places(const Value& points) {
+  std::vector<std::complex<double>> out;
+  for (const Value& point : points.as_array())
+    out.emplace_back(point.as_array()[0].as_number(), point.as_array()[1].as_number());
+  return out;
+}
+/// The points of a case (m).
+inline std::vector<std::complex<double>> exact_points(std::string_view id) {
+  return places(linkwright::test::at(exact_case(id), "inputs.points_m"));
+}
+
+/// Any crank and any timing, open.
+inline PathProblem exact_problem(const std::vector<std::complex<double>>& points) {
+  PathProblem problem;
+  for (const auto& point : points) problem.x.push_back(point.real()), problem.y.push_back(point.imag());
+  problem.closed = false;
+  problem.crank_rotates_fully = false;
+  problem.bounds = derive_bounds(problem.x, problem.y);
+  return problem;
+}
+
+}  // namespace linkwright::planar::test
