@@ -13,7 +13,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // Links of the compatibility linkage below this, relative to the greatest, are none.
-constexpr double no_link = 1e-12;
+constexpr double no_compatibility_link = 1e-12;
 
 struct Compatibility {
   std::array<Complex, 3> displacement, turn;  // of poses 2 to 4 from the first: delta, epsilon
@@ -64,7 +64,7 @@ std::vector<BurmesterPoint> burmester_curves(std::span<const BodyPose> poses, in
   for (const Complex& link : c.link) most = std::max(most, std::abs(link));
   if (!(most > 0)) return {};
   for (const Complex& link : c.link)
-    if (std::abs(link) <= no_link * most) return {};
+    if (std::abs(link) <= no_compatibility_link * most) return {};
   // |Delta_1 + Delta_2 e^(i beta)| is between the difference and the sum of the other two.
   const double base = std::abs(c.link[0]), crank = std::abs(c.link[1]);
   const double reference = std::arg(c.link[0] / c.link[1]), scale = 2 * base * crank;
