@@ -8,6 +8,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/path/objective.h"
@@ -316,6 +317,25 @@ void recommended_free_timing_many_points(benchmark::State& state) {
   }
 }
 BENCHMARK(recommended_free_timing_many_points)->Arg(18)->Arg(140)->Arg(300)->Unit(benchmark::kMillisecond);
+
+// All dyads through five poses, of a hundred sets in turn: at most 20 us a set.
+void five_poses(benchmark::State& state) {
+  std::vector<std::array<BodyPose, 5>> sets(100);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    RandomStream random({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
+    for (BodyPose& pose : sets[i]) {
+      const double x = random.normal(), y = random.normal();
+      pose = {{x, y}, random.uniform(-pi, pi)};
+    }
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const GuidingDyads dyads = solve_dyads(sets[i]);
+    benchmark::DoNotOptimize(dyads.count);
+    i = (i + 1) % sets.size();
+  }
+}
+BENCHMARK(five_poses)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace linkwright::planar

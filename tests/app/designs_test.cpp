@@ -105,6 +105,17 @@ void slider_crank_path(const Designed& d) {
   EXPECT_NEAR(*most - *least, stroke, 1e-3 * stroke) << "at steps of a degree";
 }
 
+void poses(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &motion = table_of(d.found, d.numbered("motion"));
+  const std::string point = sweep.find("coupler_C_x_m") ? "coupler_C" : "body_P";
+  const std::size_t rows = column(sweep, point + "_x_m").size();
+  for (const char* axis : {"x_m", "y_m"}) {
+    std::vector<double> found = column(motion, axis);
+    ASSERT_EQ(found.size(), rows);
+    expect_same(found, column(sweep, point + "_" + axis), exact, axis);
+  }
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -197,6 +208,7 @@ void clearance_masses(const Designed& d) {
 const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.four_bar/path_points", four_bar_path},
     {"synthesis/planar.slider_crank/path_points", slider_crank_path},
+    {"synthesis/planar.four_bar/poses", poses},
     {"balancing/planar.four_bar", balanced},
     {"balancing/planar.linkage", balanced},
     {"balancing/planar.slider_crank", balanced},

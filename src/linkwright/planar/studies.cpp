@@ -3,6 +3,7 @@
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
@@ -13,6 +14,7 @@ namespace linkwright::planar {
 std::vector<study::Kind> studies() {
   std::vector<study::Kind> kinds = {path_kind(),
                                     slider_path_kind(),
+                                    pose_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),

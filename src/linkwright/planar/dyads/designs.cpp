@@ -1,0 +1,276 @@
+#include "linkwright/planar/dyads/designs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/core/random.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/dyads/pose_fit.h"
+
+namespace linkwright::planar {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Directions of the lines by which one condition, and two, are swept.
+constexpr int directions_of_one = 120, directions_of_two = 18;
+// Swept dyads with pivots or links farther than this times the size of the motion are left out.
+constexpr double far = 12;
+// Links and pivots nearer than this, times the size, are one.
+constexpr double no_link = 1e-6;
+// Swept designs whose four pivots are not this far apart in all, times the size, are one.
+constexpr double same_swept = 0.6;
+// The same of designs that were fitted from different starts.
+constexpr double same_fitted = 1e-4;
+// Sets of five poses from which a fit is started where nothing else is free of defects.
+constexpr int random_starts = 120;
+// Starts farther than this from the poses, times the size, are not fitted.
+constexpr double near_start = 0.5;
+
+Complex middle_of(const std::vector<BodyPose>& poses) {
+  Complex sum = 0;
+  for (const BodyPose& pose : poses) sum += pose.origin;
+  return sum / static_cast<double>(poses.size());
+}
+
+bool wanted(const PoseProblem& p, const GuidingDyad& dyad) {
+  return std::find(p.types.begin(), p.types.end(), dyad.type) != p.types.end();
+}
+
+// A link of some length within reach, or a slide.
+bool usable(const GuidingDyad& dyad, Complex middle, double size, double reach) {
+  if (dyad.type == GuidingDyadType::rr && !(dyad.length > no_link * size)) return false;
+  const double most = dyad.type == GuidingDyadType::pr
+                          ? std::abs(dyad.moving)
+                          : std::max(std::abs(dyad.fixed - middle), std::abs(dyad.moving));
+  return most <= reach * size;
+}
+
+// All dyads of one prescription, a condition that is missing replaced by lines in all directions.
+std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& solutions) {
+  const Prescription& given = p.pivots[which];
+  const int missing = freedoms(p, which);
+  const Complex middle = middle_of(p.poses);
+  const double size = size_of_motion(p.poses);
+  std::vector<GuidingDyad> out;
+  const auto take = [&](const Prescription& prescription) {
+    const GuidingDyads dyads = solve_dyads(p.poses, prescription);
+    solutions += dyads.solutions;
+    for (const GuidingDyad& dyad : dyads.real())
+      if (wanted(p, dyad) && usable(dyad, middle, size, missing > 0 ? far : infinity)) out.push_back(dyad);
+  };
+  const bool fixed_free = !given.fixed && !given.fixed_line;
+  const auto line = [](Complex point, int k, int count) {
+    return PivotLine{point, std::polar(1.0, pi * k / count)};
+  };
+  if (missing == 0) take(given);
+  if (missing == 1)
+    for (int k = 0; k < directions_of_one; ++k) {
+      Prescription swept = given;
+      // Lines through one point meet every other point of the plane once.
+      (fixed_free ? swept.fixed_line : swept.moving_line) =
+          line(fixed_free ? middle : Complex(0), k, directions_of_one);
+      take(swept);
+    }
+  if (missing == 2)
+    for (int k = 0; k < directions_of_two; ++k)
+      for (int l = 0; l < directions_of_two; ++l) {
+        Prescription swept = given;
+        swept.fixed_line = line(middle, k, directions_of_two);
+        swept.moving_line = line(0, l, directions_of_two);
+        take(swept);
+      }
+  if (p.poses.size() == 4 && missing == 1)
+    for (const GuidingDyadType type : {GuidingDyadType::pr, GuidingDyadType::rp})
+      if (const auto slide = slide_dyad(p.poses, type); slide && slide->type == type && wanted(p, *slide))
+        out.push_back(*slide);
+  return out;
+}
+
+// Two dyads that hold the body: not one twice, nor two that turn it about one point or shift it along one
+// line.
+bool makes_linkage(const GuidingDyad& a, const GuidingDyad& b, double size) {
+  const bool pivots = a.type != GuidingDyadType::rp && b.type != GuidingDyadType::rp;
+  if (pivots && std::abs(a.moving - b.moving) <= no_link * size) return false;
+  const bool grounds = a.type != GuidingDyadType::pr && b.type != GuidingDyadType::pr;
+  return !(grounds && std::abs(a.fixed - b.fixed) <= no_link * size);
+}
+
+double link_ratio(const GuidingDyad& a, const GuidingDyad& b) {
+  if (a.type != GuidingDyadType::rr || b.type != GuidingDyadType::rr) return nan;
+  const auto [least, most] =
+      std::minmax({a.length, b.length, std::abs(a.moving - b.moving), std::abs(a.fixed - b.fixed)});
+  return most / least;
+}
+
+bool better(const PoseDesign& a, const PoseDesign& b) {
+  const bool fa = a.passage.defect == PoseDefect::none, fb = b.passage.defect == PoseDefect::none;
+  if (fa != fb) return fa;
+  if (a.cost != b.cost) return a.cost < b.cost;
+  return a.passage.pair_angle > b.passage.pair_angle;
+}
+
+double distance_between(const PoseDesign& a, const PoseDesign& b) {
+  const auto apart = [](const GuidingDyad& x, const GuidingDyad& y) {
+    return x.type != y.type ? infinity
+                            : std::abs(x.fixed - y.fixed) + std::abs(x.moving - y.moving) +
+                                  std::abs(x.length - y.length) + std::abs(x.offset - y.offset);
+  };
+  return apart(a.driver, b.driver) + apart(a.other, b.other);
+}
+
+class Finder {
+ public:
+  Finder(const PoseProblem& problem, RunContext& context)
+      : p_(problem), context_(context), size_(size_of_motion(problem.poses)) {}
+
+  PoseAnswer find() {
+    if (p_.exact)
+      exact();
+    else
+      near();
+    std::stable_sort(out_.designs.begin(), out_.designs.end(), better);
+    thin();
+    return std::move(out_);
+  }
+
+ private:
+  void exact() {
+    std::array<std::vector<GuidingDyad>, 2> families;
+    const bool alike = poses_replaced(p_.pivots[0]) == 0 && poses_replaced(p_.pivots[1]) == 0;
+    families[0] = family(p_, 0, out_.solutions);
+    if (!alike) families[1] = family(p_, 1, out_.solutions);
+    out_.swept = freedoms(p_, 0) > 0 || freedoms(p_, 1) > 0;
+    if (out_.swept) out_.solutions = 0;
+    out_.dyads = families[0];
+    if (!alike) out_.dyads.insert(out_.dyads.end(), families[1].begin(), families[1].end());
+    const std::vector<GuidingDyad>&first = families[0], &second = alike ? families[0] : families[1];
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (stopped(static_cast<double>(i) / static_cast<double>(first.size()))) return;
+      for (std::size_t j = alike ? i + 1 : 0; j < second.size(); ++j) both(first[i], second[j], p_.poses, 0);
+    }
+  }
+
+  void near() {
+    const DyadFit fit = fit_dyads(p_.poses);
+    out_.misfit = fit.misfit;
+    out_.dyads = fit.dyads;
+    pairs(fit.dyads);
+    // The algebraic start is one; where it ends with a defect, five poses at a time give others.
+    const std::size_t n = p_.poses.size();
+    for (int start = 0; start < random_starts && (out_.free == 0 || out_.designs.empty()); ++start) {
+      if (stopped(static_cast<double>(start) / random_starts)) return;
+      RandomStream random({.seed = 1, .individual = static_cast<std::uint32_t>(start)});
+      std::vector<std::size_t> order(n);
+      for (std::size_t k = 0; k < n; ++k) order[k] = k;
+      std::vector<BodyPose> five;
+      for (std::size_t k = 0; k < 5; ++k) {
+        std::swap(order[k], order[k + random.below(static_cast<std::uint32_t>(n - k))]);
+        five.push_back(p_.poses[order[k]]);
+      }
+      const GuidingDyads dyads = solve_dyads(five);
+      pairs({dyads.real().begin(), dyads.real().end()});
+    }
+  }
+
+  // Fits every pair of dyads to the poses.
+  void pairs(const std::vector<GuidingDyad>& dyads) {
+    for (std::size_t i = 0; i < dyads.size(); ++i)
+      for (std::size_t j = i + 1; j < dyads.size(); ++j) {
+        const GuidingDyad &a = dyads[i], &b = dyads[j];
+        if (context_.interrupted()) return;
+        if (!wanted(p_, a) || !wanted(p_, b) || !makes_linkage(a, b, size_)) continue;
+        if (spread(a, p_.poses) > near_start * size_ || spread(b, p_.poses) > near_start * size_) continue;
+        const double length = p_.angle_length > 0 ? p_.angle_length : size_;
+        PoseFit fit = fit_pair(p_.poses, a, b, length);
+        ++out_.starts;
+        if (!fit.converged || !makes_linkage(fit.first, fit.second, size_)) continue;
+        both(fit.first, fit.second, fit.reached, fit.cost);
+      }
+  }
+
+  // The linkage of two dyads by either drive.
+  void both(const GuidingDyad& a, const GuidingDyad& b, const std::vector<BodyPose>& reached, double cost) {
+    if (!makes_linkage(a, b, size_)) return;
+    for (const bool turned : {false, true}) {
+      PoseDesign design;
+      design.driver = turned ? b : a;
+      design.other = turned ? a : b;
+      design.passage = passage(reached, design.driver, design.other);
+      ++out_.tried;
+      ++out_.defects[static_cast<std::size_t>(design.passage.defect)];
+      if (design.passage.defect == PoseDefect::none) ++out_.free;
+      design.cost = cost;
+      design.link_ratio = link_ratio(a, b);
+      design.reached = reached;
+      if (p_.exact) {
+        for (const BodyPose& pose : p_.poses)
+          design.distance = std::max({design.distance, std::abs(gap(a, pose)), std::abs(gap(b, pose))});
+      } else {
+        for (std::size_t k = 0; k < reached.size(); ++k) {
+          design.distance = std::max(design.distance, std::abs(reached[k].origin - p_.poses[k].origin));
+          design.rotation =
+              std::max(design.rotation, std::abs(math::wrap_angle(reached[k].angle - p_.poses[k].angle)));
+        }
+      }
+      // Of a sweep many have the same defect: a few show which.
+      if (out_.swept && design.passage.defect != PoseDefect::none && kept_defective_++ >= p_.most_designs)
+        continue;
+      out_.designs.push_back(std::move(design));
+    }
+  }
+
+  void thin() {
+    const double apart = size_ * (out_.swept ? same_swept : p_.exact ? 0 : same_fitted);
+    std::vector<PoseDesign> kept;
+    for (PoseDesign& design : out_.designs) {
+      if (kept.size() == static_cast<std::size_t>(p_.most_designs)) break;
+      if (std::none_of(kept.begin(), kept.end(),
+                       [&](const PoseDesign& k) { return distance_between(k, design) < apart; }))
+        kept.push_back(std::move(design));
+    }
+    out_.designs = std::move(kept);
+  }
+
+  bool stopped(double fraction) {
+    out_.status = context_.interruption();
+    if (out_.status != Status::done) return true;
+    context_.report({"linkages", fraction, nan});
+    return false;
+  }
+
+  const PoseProblem& p_;
+  RunContext& context_;
+  const double size_;
+  int kept_defective_ = 0;
+  PoseAnswer out_;
+};
+
+}  // namespace
+
+double size_of_motion(const std::vector<BodyPose>& poses) {
+  const Complex middle = middle_of(poses);
+  double sum = 0;
+  for (const BodyPose& pose : poses) sum += std::norm(pose.origin - middle);
+  const double rms = std::sqrt(sum / static_cast<double>(poses.size()));
+  return rms > 0 ? rms : 1;
+}
+
+int freedoms(const PoseProblem& problem, std::size_t dyad) {
+  return 5 - static_cast<int>(problem.poses.size()) - poses_replaced(problem.pivots[dyad]);
+}
+
+PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context) {
+  for (const std::size_t dyad : {std::size_t{0}, std::size_t{1}})
+    LINKWRIGHT_REQUIRE(
+        !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= most_freedoms),
+        "dyad {} has {} freedoms", dyad + 1, freedoms(problem, dyad));
+  LINKWRIGHT_REQUIRE(problem.exact || problem.poses.size() >= 5, "{} poses", problem.poses.size());
+  return Finder(problem, context).find();
+}
+
+}  // namespace linkwright::planar

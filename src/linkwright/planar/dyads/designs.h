@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/status.h"
+#include "linkwright/planar/dyads/passage.h"
+#include "linkwright/planar/dyads/solve.h"
+
+// Linkages of two dyads that lead a body through poses.
+namespace linkwright::planar {
+
+struct PoseProblem {
+  std::vector<BodyPose> poses;
+  std::array<Prescription, 2> pivots;  ///< of the two dyads
+  std::vector<GuidingDyadType> types = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
+  bool exact = true;        ///< every pose is met; else as near as can be, without prescriptions
+  double angle_length = 0;  ///< m: what a rotation of a radian counts as (not exact); 0 = size of the motion
+  int most_designs = 12;
+};
+/// Root mean square distance of the places from their middle (m).
+double size_of_motion(const std::vector<BodyPose>& poses);
+
+/// How many conditions a dyad lacks for a finite number of solutions: 5 - poses - what is prescribed. One
+/// or two are swept.
+int freedoms(const PoseProblem& problem, std::size_t dyad);
+inline constexpr int most_freedoms = 2;
+
+struct PoseDesign {
+  GuidingDyad driver, other;
+  std::vector<BodyPose> reached;  ///< where the linkage holds the body next to each pose
+  Passage passage;
+  double distance = 0;    ///< m, greatest distance of the body's origin from where it should be
+  double rotation = 0;    ///< rad, greatest error of rotation
+  double cost = 0;        ///< see PoseFit; 0 = exact
+  double link_ratio = 0;  ///< longest over shortest of links, ground and body, of RR and RR
+};
+
+struct PoseAnswer {
+  Status status = Status::done;  ///< deadline and cancelled: of what was looked at by then
+  std::vector<PoseDesign>
+      designs;                     ///< best first: free of defects, then near (not exact), then by pair angle
+  std::vector<GuidingDyad> dyads;  ///< where a finite number fits both prescriptions, those; else of a sweep
+  int solutions = 0;               ///< dyads, complex ones included; 0 where they are swept
+  bool swept = false;
+  int tried = 0, free = 0;         ///< linkages with a drive, and those without defect
+  std::array<int, 4> defects{};    ///< of the tried, by PoseDefect
+  std::array<double, 8> misfit{};  ///< of fit_dyads (not exact)
+  int starts = 0;                  ///< pairs that were fitted (not exact)
+};
+
+/// All linkages of an exact problem, or of its sweeps the best ones that differ; else those next to the
+/// poses. Throws ContractError where `freedoms` are not 0 to 2, or for fewer than five poses that are not met
+/// exactly.
+PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "linkwright/planar/dyads/dyad.h"
+
+namespace linkwright::planar {
+
+/// Two dyads near poses, and where they hold the body next to each pose.
+struct PoseFit {
+  GuidingDyad first, second;
+  std::vector<BodyPose> reached;
+  double cost = 0;  ///< sum of (|d - d_j| / length)^2 + (angle - angle_j)^2 over the poses
+  bool converged = false;
+};
+
+/// The pair of the least cost next to a given one, by damped Gauss-Newton steps (Levenberg-Marquardt) over
+/// the numbers of both dyads; the place of the linkage at each pose is eliminated: it is the nearest one.
+/// `length` (m) is what a rotation of one radian counts as.
+///
+/// Throws ContractError for fewer than three poses or a length that is not positive.
+PoseFit fit_pair(std::span<const BodyPose> poses, const GuidingDyad& first, const GuidingDyad& second,
+                 double length);
+
+/// Gap of a dyad and its derivatives: by x, y and the angle of the pose, and by the numbers of the dyad - RR:
+/// G, W and length; PR: W, angle of the normal and offset; RP: G, likewise.
+struct GapSlopes {
+  double gap = 0;
+  std::array<double, 3> pose{};
+  std::array<double, 5> dyad{};
+};
+GapSlopes gap_slopes(const GuidingDyad& dyad, const BodyPose& pose);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/dyads/designs.h"
+#include "linkwright/study/kind.h"
+
+// Linkages that lead a body through poses: what their file holds, how it is read, run and reported.
+namespace linkwright::planar {
+
+/// One `[[target.pose]]`.
+struct PoseForm {
+  double x = 0, y = 0, angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PoseForm& p) {
+  visit(
+      Field{.key = "x", .summary = "origin of the body, x", .dimension = Dimension::length, .required = true},
+      p.x);
+  visit(
+      Field{.key = "y", .summary = "origin of the body, y", .dimension = Dimension::length, .required = true},
+      p.y);
+  visit(
+      Field{
+          .key = "angle", .summary = "rotation of the body", .dimension = Dimension::angle, .required = true},
+      p.angle);
+}
+
+struct PivotLineForm {
+  std::array<double, 2> point{};
+  double direction = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PivotLineForm& l) {
+  visit(
+      Field{
+          .key = "point", .summary = "on the line [x, y]", .dimension = Dimension::length, .required = true},
+      l.point);
+  visit(Field{.key = "direction", .summary = "of the line", .dimension = Dimension::angle, .required = true},
+        l.direction);
+}
+
+/// One `[[mechanism.pivot]]`: what is known of the pivots of a dyad.
+struct PivotForm {
+  int dyad = 1;
+  std::optional<std::array<double, 2>> fixed, moving;
+  std::optional<PivotLineForm> fixed_on_line, moving_on_line;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PivotForm& p) {
+  visit(
+      Field{.key = "dyad", .summary = "which of the two dyads", .minimum = 1, .maximum = 2, .required = true},
+      p.dyad);
+  visit(Field{.key = "fixed", .summary = "its pivot on the ground [x, y]", .dimension = Dimension::length},
+        p.fixed);
+  visit(Field{.key = "moving",
+              .summary = "its pivot on the body, in the frame of the body [x, y]",
+              .dimension = Dimension::length},
+        p.moving);
+  visit(Field{.key = "fixed_on_line", .summary = "a line that its pivot on the ground lies on"},
+        p.fixed_on_line);
+  visit(Field{.key = "moving_on_line",
+              .summary = "a line of the body that its pivot on the body lies on, in the frame of the body"},
+        p.moving_on_line);
+}
+
+struct PoseMechanism {
+  std::vector<GuidingDyadType> dyads = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
+  std::vector<PivotForm> pivots;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PoseMechanism& m) {
+  visit(Field{.key = "dyads", .summary = "what may join the body to the ground"}, m.dyads);
+  visit(Field{.key = "pivot", .summary = "pivots that are given, or lie on given lines"}, m.pivots);
+}
+
+/// How the poses are met.
+enum class PoseFitting { automatic, exact, least_squares };
+constexpr std::array<EnumName<PoseFitting>, 3> names(PoseFitting) {
+  return {{{PoseFitting::automatic, "automatic", "exactly up to five poses, more by least squares"},
+           {PoseFitting::exact, "exact", "every pose is met: two to five poses"},
+           {PoseFitting::least_squares, "least_squares", "as near as can be: five poses and more"}}};
+}
+
+struct PoseTarget {
+  PoseFitting fit = PoseFitting::automatic;
+  std::vector<PoseForm> poses;
+  std::optional<std::string> file;
+  std::optional<double> angle_length;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PoseTarget& t) {
+  visit(Field{.key = "fit", .summary = "how the poses are met"}, t.fit);
+  visit(Field{.key = "pose", .summary = "places of the body in their order"}, t.poses);
+  visit(Field{.key = "file",
+              .summary = "CSV file with columns x_mm, y_mm, angle_deg (any units) instead of poses"},
+        t.file);
+  visit(
+      Field{.key = "angle_length",
+            .summary =
+                "what a rotation error of a radian counts as (least_squares); default: the root mean square "
+                "distance of the places from their middle",
+            .dimension = Dimension::length,
+            .minimum = 0,
+            .exclusive_minimum = true},
+      t.angle_length);
+}
+
+struct PoseSearch {
+  int max_solutions = 12;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PoseSearch& s) {
+  visit(
+      Field{.key = "max_solutions", .summary = "how many linkages are listed", .minimum = 1, .maximum = 100},
+      s.max_solutions);
+}
+
+struct PoseStudy {
+  PoseMechanism mechanism;
+  PoseTarget target;
+  PoseSearch search;
+  PoseProblem problem;  ///< what follows from the above
+};
+
+/// "synthesis" of "planar.four_bar" for "poses".
+study::Kind pose_kind();
+
+/// Reads the tables of the study; problems go to the reader.
+PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& common);
+
+study::Result run_pose_study(const PoseStudy& study, const study::Common& common, RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,255 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/csv.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/studies/poses.h"
+#include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/beside.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::size_t most_poses = 200;
+// Places and angles that agree to this share of the size of the motion, and of a radian, are one.
+constexpr double same_pose = 1e-9;
+
+// The poses of a file beside the study; nothing where that has been reported.
+std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Common& common,
+                                    const std::string& file) {
+  const std::optional<std::string> text = study::read_beside(target, "file", common.folder, file);
+  if (!text) return {};
+  Diagnostics problems;
+  const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
+  for (const Diagnostic& problem : problems) target.unreadable("file", study::in_file(problem));
+  if (!table) return {};
+  const auto column = [&](std::string_view base, Dimension dimension) -> const Column* {
+    for (const Column& c : table->columns) {
+      const auto key = split_unit(c.key);
+      if (key && key->base == base && key->dimension == dimension) return &c;
+    }
+    return nullptr;
+  };
+  const Column *x = column("x", Dimension::length), *y = column("y", Dimension::length),
+               *angle = column("angle", Dimension::angle);
+  if (!x || !y || !angle) {
+    std::vector<std::string> found;
+    for (const Column& c : table->columns) found.push_back(c.key);
+    target.error("file",
+                 fmt::format("'{}' has the columns {}, but needs x, y and angle, each with its unit", file,
+                             fmt::join(found, ", ")),
+                 "name them x_mm, y_mm, angle_deg");
+    return {};
+  }
+  std::vector<PoseForm> out;
+  for (std::size_t k = 0; k < x->values.size(); ++k) {
+    const auto si = [&](const Column& c) { return split_unit(c.key)->unit->to_si(c.values[k]); };
+    out.push_back({si(*x), si(*y), si(*angle)});
+    if (std::isfinite(out.back().x) && std::isfinite(out.back().y) && std::isfinite(out.back().angle))
+      continue;
+    target.error("file", fmt::format("'{}': pose {} is incomplete", file, k + 1),
+                 "give it x, y and an angle");
+    return {};
+  }
+  return out;
+}
+
+bool same(const BodyPose& a, const BodyPose& b, double size) {
+  return std::abs(a.origin - b.origin) <= same_pose * size &&
+         std::abs(math::wrap_angle(a.angle - b.angle)) <= same_pose;
+}
+
+// What is wrong with poses by themselves; they are reported at `key`.
+void check_poses(study::ObjectReader& target, const char* key, std::vector<BodyPose>& poses) {
+  const std::size_t n = poses.size();
+  if (n < 2) {
+    target.error(key, fmt::format("{} pose{}, a motion needs at least 2", n, n == 1 ? "" : "s"),
+                 "write a [[target.pose]] for each");
+    return;
+  }
+  if (n > most_poses) {
+    target.error(key, fmt::format("{} poses, at most {} are allowed", n, most_poses),
+                 "keep every second or third");
+    return;
+  }
+  const double size = size_of_motion(poses);
+  double far = 0;
+  for (const BodyPose& pose : poses) far = std::max(far, std::abs(pose.origin));
+  if (far > 1e9) {
+    target.error(key, fmt::format("a pose lies {:.3g} m from the origin, at most 1e9 m are allowed", far),
+                 "check the unit");
+    return;
+  }
+  if (size < 1e-9 * far)
+    target.warning(
+        key,
+        fmt::format("the poses are {:.3g} m from the origin and {:.3g} m apart: digits are lost", far, size),
+        "put the origin near the poses");
+  if (n > 2 && same(poses.front(), poses.back(), size)) {
+    target.warning(key, fmt::format("the last of {} poses repeats the first: taken once", n), "remove it");
+    poses.pop_back();
+  }
+  for (std::size_t a = 0; a < poses.size(); ++a)
+    for (std::size_t b = a + 1; b < poses.size(); ++b)
+      if (same(poses[a], poses[b], size)) {
+        target.error(key, fmt::format("pose {} repeats pose {}", b + 1, a + 1), "remove one of them");
+        return;
+      }
+  if (poses.size() > 2 && std::all_of(poses.begin(), poses.end(), [&](const BodyPose& pose) {
+        return std::abs(math::wrap_angle(pose.angle - poses[0].angle)) <= same_pose;
+      }))
+    target.error(key, "all poses have the same angle: the body only shifts, and all its points move alike",
+                 "a parallelogram carries a body so: look for its path with target type \"path_points\"");
+}
+
+Complex complex(const std::array<double, 2>& place) { return {place[0], place[1]}; }
+
+void set_pivots(study::ObjectReader& mechanism, PoseStudy& s) {
+  const auto line = [](const PivotLineForm& form) {
+    return PivotLine{complex(form.point), std::polar(1.0, form.direction)};
+  };
+  for (const PivotForm& form : s.mechanism.pivots) {
+    if (form.dyad != 1 && form.dyad != 2) continue;  // reported already
+    Prescription& p = s.problem.pivots[static_cast<std::size_t>(form.dyad - 1)];
+    const auto twice = [&](const char* what) {
+      mechanism.error("pivot", fmt::format("the {} pivot of dyad {} is given twice", what, form.dyad),
+                      "keep one of them");
+    };
+    const bool fixed_before = p.fixed || p.fixed_line, moving_before = p.moving || p.moving_line;
+    if ((form.fixed && form.fixed_on_line) || ((form.fixed || form.fixed_on_line) && fixed_before))
+      return twice("fixed");
+    if ((form.moving && form.moving_on_line) || ((form.moving || form.moving_on_line) && moving_before))
+      return twice("moving");
+    if (form.fixed) p.fixed = complex(*form.fixed);
+    if (form.moving) p.moving = complex(*form.moving);
+    if (form.fixed_on_line) p.fixed_line = line(*form.fixed_on_line);
+    if (form.moving_on_line) p.moving_line = line(*form.moving_on_line);
+    if (p.fixed && p.moving) {
+      mechanism.error("pivot",
+                      fmt::format("both pivots of dyad {} are given: nothing is left to choose", form.dyad),
+                      "keep one of them");
+      return;
+    }
+  }
+  for (std::size_t a = 0; a < 2; ++a) {
+    const std::optional<Complex>&fixed = s.problem.pivots[a].fixed, &other = s.problem.pivots[1 - a].fixed;
+    if (a == 0 && fixed && other && *fixed == *other)
+      mechanism.error("pivot", "both dyads have the same fixed pivot: the body would only turn about it",
+                      "put them apart");
+  }
+}
+
+// Whether poses and pivots leave a number of linkages that can be listed.
+void check_counts(study::ObjectReader& target, PoseStudy& s) {
+  const std::size_t n = s.problem.poses.size();
+  const int given = poses_replaced(s.problem.pivots[0]) + poses_replaced(s.problem.pivots[1]);
+  const PoseFitting fit = s.target.fit;
+  s.problem.exact = fit == PoseFitting::exact || (fit == PoseFitting::automatic && n <= 5);
+  if (!s.problem.exact) {
+    if (n < 5)
+      target.error("fit", fmt::format("{} poses are met exactly, least_squares needs 5 at least", n),
+                   "write fit = \"exact\", or leave it out");
+    if (given > 0)
+      target.error(
+          "fit", "pivots are prescribed for poses that are met exactly, up to five",
+          n > 5 ? "keep the poses that matter, or remove [[mechanism.pivot]]" : "write fit = \"exact\"");
+    return;
+  }
+  if (n > 5) {
+    target.error("fit", fmt::format("{} poses, a linkage of links and slides meets five exactly", n),
+                 "write fit = \"least_squares\", or keep five poses");
+    return;
+  }
+  for (const std::size_t dyad : {std::size_t{0}, std::size_t{1}}) {
+    const int free = freedoms(s.problem, dyad);
+    if (free < 0)
+      target.error(
+          "pose",
+          fmt::format("{} poses and what is given of the pivots of dyad {} are {} conditions, a dyad meets 5",
+                      n, dyad + 1, 5 - free),
+          "a pivot that is given counts as two poses, one on a line as one: remove a pose or a pivot");
+    if (free > most_freedoms) {
+      target.error("pose", fmt::format("{} poses leave {} numbers of dyad {} open", n, free, dyad + 1),
+                   "add a pose, or [[mechanism.pivot]] with a pivot of it or a line for one");
+    }
+  }
+}
+
+}  // namespace
+
+PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& common) {
+  PoseStudy s;
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
+    mechanism->read(s.mechanism);
+    if (s.mechanism.dyads.empty())
+      mechanism->error("dyads", "no type of dyad is allowed", "write dyads = [\"RR\"]");
+    set_pivots(*mechanism, s);
+  }
+  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+    target->read(s.target);
+    const bool has_poses = target->has("pose"), has_file = target->has("file");
+    if (has_poses && has_file)
+      target->error("file", "the target has both poses and a file", "keep one of them");
+    else if (!has_poses && !has_file)
+      target->error("pose", "the target has no poses",
+                    "write [[target.pose]] with x_mm, y_mm, angle_deg for each, or file = \"poses.csv\"");
+    if (s.target.file && !has_poses) s.target.poses = poses_of_file(*target, common, *s.target.file);
+    for (const PoseForm& form : s.target.poses) s.problem.poses.push_back({{form.x, form.y}, form.angle});
+    if (!s.target.poses.empty() && !(has_poses && has_file)) {
+      check_poses(*target, has_file ? "file" : "pose", s.problem.poses);
+      if (s.problem.poses.size() >= 2) check_counts(*target, s);
+    }
+  }
+  if (auto search = document.table("optimiser")) search->read(s.search);
+  s.problem.types = s.mechanism.dyads;
+  s.problem.angle_length = s.target.angle_length.value_or(0);
+  s.problem.most_designs = s.search.max_solutions;
+  return s;
+}
+
+study::Kind pose_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "planar.four_bar";
+  kind.target = "poses";
+  kind.summary =
+      "four-bars, slider-cranks and other linkages of links and slides that lead a body through poses";
+  kind.example = templates::synthesis_four_bar_poses();
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "what holds the body"},
+                      study::schema_fields<PoseMechanism>());
+    document.property(Field{.key = "target", .summary = "the poses"}, study::schema_fields<PoseTarget>());
+    document.property(Field{.key = "optimiser", .summary = "how linkages are listed"},
+                      study::schema_fields<PoseSearch>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const PoseStudy s = read_pose_study(document, common);
+    study::Prepared prepared;
+    PoseStudy resolved = s;
+    resolved.target.file.reset();
+    resolved.target.poses.clear();
+    for (const BodyPose& pose : s.problem.poses)
+      resolved.target.poses.push_back({pose.origin.real(), pose.origin.imag(), pose.angle});
+    prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
+    prepared.canonical["target"] = study::write_fields(resolved.target);
+    prepared.canonical["optimiser"] = study::write_fields(resolved.search);
+    prepared.run = [s, common](RunContext& context) { return run_pose_study(s, common, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,497 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/dyads/burmester.h"
+#include "linkwright/planar/dyads/linkage.h"
+#include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/poses.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
+
+namespace linkwright::planar {
+namespace {
+
+using Complex = std::complex<double>;
+using Verdict = study::Fact::Verdict;
+using study::metres;
+
+// A pair angle below this passes force badly (rad).
+constexpr double flat_pair = 0.35;
+// Points of the Burmester curves for each piece and branch, and how far they are drawn, times the size of the
+// motion.
+constexpr int curve_samples = 240;
+constexpr double curve_reach = 8;
+
+bool defective(const PoseDesign& d) { return d.passage.defect != PoseDefect::none; }
+bool rotary(const PoseDesign& d) { return d.driver.type == GuidingDyadType::rr; }
+
+std::string type_of(const PoseDesign& d) {
+  return fmt::format("{}+{}", name_of(d.driver.type), name_of(d.other.type));
+}
+std::string_view name_of_linkage(const PoseDesign& d) {
+  const bool rr = d.driver.type == GuidingDyadType::rr && d.other.type == GuidingDyadType::rr;
+  const bool pr = d.driver.type == GuidingDyadType::pr || d.other.type == GuidingDyadType::pr;
+  const bool rp = d.driver.type == GuidingDyadType::rp || d.other.type == GuidingDyadType::rp;
+  const bool link = d.driver.type == GuidingDyadType::rr || d.other.type == GuidingDyadType::rr;
+  if (rr) return "four-bar";
+  if (link) return pr ? "slider-crank" : "inverted slider-crank";
+  return pr && rp ? "slide and sleeve" : pr ? "double slider" : "double sleeve";
+}
+std::string_view drive_of(const PoseDesign& d) {
+  if (rotary(d)) return d.passage.drive_turns ? "a crank" : "a rocker";
+  return d.driver.type == GuidingDyadType::pr ? "a slide" : "a cylinder";
+}
+
+std::string defect_text(const PoseDesign& d) {
+  switch (d.passage.defect) {
+    case PoseDefect::none:
+      return {};
+    case PoseDefect::branch:
+      if (d.passage.from == d.passage.to)
+        return fmt::format("branch: at a dead point at pose {}", d.passage.to + 1);
+      return fmt::format("branch: poses {} and {} are on both sides of a dead point", d.passage.from + 1,
+                         d.passage.to + 1);
+    case PoseDefect::circuit:
+      return fmt::format("circuit: cannot move from pose {} to pose {} without leaving where it assembles",
+                         d.passage.from + 1, d.passage.to + 1);
+    case PoseDefect::order:
+      break;
+  }
+  return "order: meets the poses in another order";
+}
+
+// The four-bar of two links, its coupler point the body's origin.
+FourBar four_bar_of(const PoseDesign& d) {
+  const Complex ground = d.other.fixed - d.driver.fixed, coupler = d.other.moving - d.driver.moving;
+  const Complex point = -d.driver.moving * std::conj(coupler) / std::abs(coupler);
+  return {.ground = std::abs(ground),
+          .crank = d.driver.length,
+          .coupler = std::abs(coupler),
+          .rocker = d.other.length,
+          .coupler_u = point.real(),
+          .coupler_v = point.imag(),
+          .pivot_x = d.driver.fixed.real(),
+          .pivot_y = d.driver.fixed.imag(),
+          .frame_angle = std::arg(ground),
+          .branch = d.passage.side > 0 ? Branch::open : Branch::crossed};
+}
+
+// Inputs that a design is shown at: a turn from the first pose, or from the first to the last pose.
+std::vector<double> shown_inputs(const PoseDesign& d, int samples) {
+  const double from = d.passage.drive.front();
+  double to = d.passage.drive.back();
+  if (d.passage.drive_turns) to = from + std::copysign(2 * pi, to - from);
+  std::vector<double> out(static_cast<std::size_t>(samples));
+  for (int i = 0; i < samples; ++i) out[static_cast<std::size_t>(i)] = from + (to - from) * i / (samples - 1);
+  return out;
+}
+
+// The study of a design as any linkage: its drive at a steady rate over the inputs shown.
+Value linkage_study(const Linkage& linkage, bool is_rotary, const std::vector<double>& inputs) {
+  Value out;
+  out["mechanism"]["type"] = "planar.linkage";
+  Value form = study::write_fields(form_of(linkage));
+  for (Value::Member& member : form.as_object()) out["mechanism"][member.key] = std::move(member.value);
+  const std::string joint = linkage.joints[static_cast<std::size_t>(linkage.driven[0])].name;
+  LinkageDrive drive{.rate = is_rotary ? 2 * pi : std::abs(inputs.back() - inputs.front())};
+  Value rates;
+  rates["joint"] = joint;
+  study::ObjectWriter drives(rates);
+  joint_fields(drives, is_rotary, drive);
+  std::erase_if(rates.as_object(), [](const Value::Member& m) { return m.value == Value(0.0); });
+  out["drive"].push_back(std::move(rates));
+  out["sweep"]["type"] = "grid";
+  InputSamples range{.from = inputs.front(), .to = inputs.back(), .samples = static_cast<int>(inputs.size())};
+  Value axis;
+  axis["joint"] = joint;
+  study::ObjectWriter writer(axis);
+  joint_fields(writer, is_rotary, range);
+  out["sweep"]["input"].push_back(std::move(axis));
+  Value trace;
+  trace["point"] = "body.P";
+  out["trace"].push_back(std::move(trace));
+  for (const char* quantity : {"position", "rates"}) out["output"]["quantities"].push_back(quantity);
+  return out;
+}
+
+class PoseReport {
+ public:
+  PoseReport(const PoseStudy& s, const study::Common& common, PoseAnswer answer)
+      : s_(s), p_(s.problem), common_(common), answer_(std::move(answer)) {}
+
+  study::Result make() {
+    result_.status = answer_.status != Status::done ? answer_.status
+                     : answer_.free > 0             ? Status::done
+                                                    : Status::infeasible;
+    // Where some pass the poses, the others are only counted.
+    for (const PoseDesign& design : answer_.designs)
+      if (answer_.free == 0 || !defective(design)) shown_.push_back(&design);
+    for (std::size_t i = 0; i < shown_.size(); ++i) solution(*shown_[i], i + 1);
+    statistics();
+    design_table();
+    dyad_table();
+    curves();
+    say();
+    return std::move(result_);
+  }
+
+ private:
+  void solution(const PoseDesign& d, std::size_t number) {
+    study::Solution out;
+    out.label = fmt::format("{} ({}), driven by {}", name_of_linkage(d), type_of(d), drive_of(d));
+    const auto add = [&](std::string key, std::string label, double value) {
+      out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
+    };
+    const auto dyad = [&](const GuidingDyad& one, const std::string& key, const std::string& label) {
+      if (one.type != GuidingDyadType::pr) {
+        add(key + "_fixed_x_m", label + ", fixed pivot x", one.fixed.real());
+        add(key + "_fixed_y_m", label + ", fixed pivot y", one.fixed.imag());
+      }
+      if (one.type != GuidingDyadType::rp) {
+        add(key + "_moving_x_m", label + ", pivot on the body x", one.moving.real());
+        add(key + "_moving_y_m", label + ", pivot on the body y", one.moving.imag());
+      }
+      if (one.type == GuidingDyadType::rr) {
+        add(key + "_length_m", label + ", length", one.length);
+      } else {
+        add(key + "_direction_rad", label + ", direction of the slide", std::arg(Complex(0, 1) * one.normal));
+        add(key + "_offset_m", label + ", the slide to the right of the origin by", one.offset);
+      }
+    };
+    dyad(d.driver, "drive", "driven dyad");
+    dyad(d.other, "guide", "other dyad");
+    out.objectives["least_pair_angle_rad"] = d.passage.pair_angle;
+    out.objectives["pose_error_m"] = d.distance;
+    out.objectives["pose_error_rad"] = d.rotation;
+    out.classification["linkage"] = name_of_linkage(d);
+    out.classification["dyads"] = type_of(d);
+    out.classification["drive_turns_fully"] = d.passage.drive_turns;
+    out.classification["defect"] = name_of(d.passage.defect);
+    if (std::isfinite(d.link_ratio)) out.classification["link_ratio"] = d.link_ratio;
+    out.defects = Value::array();
+    if (defective(d)) out.defects.push_back(defect_text(d));
+    motion(d, out, number);
+    result_.solutions.push_back(std::move(out));
+  }
+
+  // Drawing, tables and study of a design; without a motion through the poses it is drawn at each.
+  void motion(const PoseDesign& d, study::Solution& out, std::size_t number) {
+    const Linkage linkage = guided_body(d.driver, d.other, d.reached[0]);
+    const PlanResult planned = plan_linkage(linkage);
+    if (!planned.problems.empty()) return;
+    const std::string suffix = number == 1 ? "" : fmt::format("-{}", number);
+    const std::vector<double> inputs =
+        defective(d) ? d.passage.drive : shown_inputs(d, common_.output.samples);
+    std::vector<LinkageRecord> records;
+    std::vector<double> x, y, angle;
+    std::vector<std::string> status;
+    LinkageMotion moving(planned.plan);
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      BodyPose body;
+      if (defective(d)) {
+        body = d.reached[k];
+        const Linkage there = guided_body(d.driver, d.other, body);
+        LinkageRecord record{.input = static_cast<double>(k + 1)};
+        for (const LinkageBody& part : there.bodies) {
+          const math::Pose at = part.start.value_or(math::Pose{});
+          record.bodies.push_back({.origin = {at.x, at.y}, .direction = unit(at.angle)});
+        }
+        records.push_back(std::move(record));
+      } else {
+        const InputMotion input{inputs[k], 0, 0};
+        solve_motion(planned.plan, std::span(&input, 1), moving);
+        records.push_back(record_of(linkage, planned.plan, moving, nullptr, inputs[k]));
+        const LinkageRecord& record = records.back();
+        status.emplace_back(to_string(record.status));
+        if (record.bodies.empty()) {
+          body = {{nan, nan}, nan};
+        } else {
+          body = {number_of(record.bodies[1].origin), angle_of(record.bodies[1].direction)};
+        }
+      }
+      x.push_back(body.origin.real());
+      y.push_back(body.origin.imag());
+      angle.push_back(body.angle);
+    }
+    math::unwrap_angles(angle);
+    scene(d, out, linkage, planned.plan, records, fmt::format("solution-{}", number), number);
+    pose_table(d, "poses" + suffix);
+    if (defective(d)) return;
+    Table table;
+    table.name = "motion" + suffix;
+    table.status = std::move(status);
+    const std::string input = rotary(d) ? "drive_angle_rad" : "drive_m";
+    table.add(input, rotary(d) ? "angle of the drive (rad)" : "place of the drive on its slide (m)", inputs);
+    table.add("x_m", "origin of the body, x (m)", std::move(x));
+    table.add("y_m", "origin of the body, y (m)", std::move(y));
+    table.add("angle_rad", "rotation of the body (rad)", std::move(angle));
+    result_.tables.push_back(std::move(table));
+    const study::AddPlot plot{result_, {.table = "motion" + suffix, .x = input, .scene = out.scene}};
+    plot("rotation" + suffix, "Rotation of the body", {"angle_rad"});
+    if (rotary(d) && d.driver.type == GuidingDyadType::rr && d.other.type == GuidingDyadType::rr) {
+      const FourBar four_bar = four_bar_of(d);
+      std::vector<double> crank = inputs, on_path = d.passage.drive;
+      for (double& a : crank) a -= four_bar.frame_angle;
+      for (double& a : on_path) a -= four_bar.frame_angle;
+      out.study = motion_study("planar.four_bar", study::write_fields(FourBarMechanism{four_bar, {}}), crank,
+                               on_path);
+    } else {
+      out.study = linkage_study(linkage, rotary(d), inputs);
+    }
+  }
+
+  void scene(const PoseDesign& d, study::Solution& out, const Linkage& linkage, const LinkagePlan& plan,
+             const std::vector<LinkageRecord>& records, std::string name, std::size_t number) {
+    constexpr int body = 1;
+    std::string key = "pose", label = "pose";
+    if (!defective(d)) {
+      key = rotary(d) ? "drive_angle_rad" : "drive_m";
+      label = rotary(d) ? "angle of the drive" : "place of the drive";
+    }
+    study::Scene scene = linkage_scene(linkage, plan, records, {{body, 2}}, key, label);
+    scene.name = std::move(name);
+    scene.title = fmt::format("{}: {}", number, out.label);
+    // The body at every pose, pale behind, and its origin as what is to be reached.
+    scene.runs = {"linkage", "poses"};
+    study::Scene::Target target{"poses", {}, {}, {}, {}, {}, false};
+    for (std::size_t k = 0; k < p_.poses.size(); ++k) {
+      study::Scene::Body ghost{fmt::format("pose {}", k + 1), {}, study::Scene::BodyStyle::plate, 1};
+      for (const LinkagePoint& point : linkage.bodies[body].points) {
+        const Complex at = place(p_.poses[k], point.at);
+        ghost.points.push_back(static_cast<int>(scene.points.size()));
+        scene.points.push_back({fmt::format("{} at pose {}", point.name, k + 1), {at.real()}, {at.imag()}});
+      }
+      scene.bodies.push_back(std::move(ghost));
+      target.x.push_back(p_.poses[k].origin.real());
+      target.y.push_back(p_.poses[k].origin.imag());
+      target.achieved_x.push_back(d.reached[k].origin.real());
+      target.achieved_y.push_back(d.reached[k].origin.imag());
+      target.achieved_input.push_back(defective(d) ? static_cast<double>(k + 1) : d.passage.drive[k]);
+    }
+    scene.targets = {std::move(target)};
+    out.scene = scene.name;
+    result_.scenes.push_back(std::move(scene));
+  }
+
+  void pose_table(const PoseDesign& d, std::string name) {
+    Table table{.name = std::move(name), .columns{}, .status{}};
+    std::vector<double> number, x, y, angle, distance, rotation;
+    for (std::size_t k = 0; k < p_.poses.size(); ++k) {
+      number.push_back(static_cast<double>(k + 1));
+      x.push_back(p_.poses[k].origin.real());
+      y.push_back(p_.poses[k].origin.imag());
+      angle.push_back(p_.poses[k].angle);
+      distance.push_back(std::abs(d.reached[k].origin - p_.poses[k].origin));
+      rotation.push_back(math::wrap_angle(d.reached[k].angle - p_.poses[k].angle));
+    }
+    table.add("pose", "pose", std::move(number));
+    table.add(rotary(d) ? "drive_angle_rad" : "drive_m",
+              rotary(d) ? "angle of the drive (rad)" : "place of the drive on its slide (m)",
+              d.passage.drive);
+    table.add("x_m", "origin of the body, x (m)", std::move(x));
+    table.add("y_m", "origin of the body, y (m)", std::move(y));
+    table.add("angle_rad", "rotation of the body (rad)", std::move(angle));
+    table.add("distance_m", "distance from it (m)", std::move(distance));
+    table.add("rotation_error_rad", "error of rotation (rad)", std::move(rotation));
+    result_.tables.push_back(std::move(table));
+  }
+
+  void statistics() {
+    Value& st = result_.statistics;
+    st["solutions"] = answer_.solutions;
+    st["real_dyads"] = static_cast<int>(answer_.dyads.size());
+    st["linkages"] = answer_.tried;
+    st["defect_free"] = answer_.free;
+    for (const PoseDefect defect : {PoseDefect::branch, PoseDefect::circuit, PoseDefect::order})
+      st[std::string(name_of(defect)) + "_defects"] = answer_.defects[static_cast<std::size_t>(defect)];
+    if (!p_.exact) st["fitted_pairs"] = answer_.starts;
+    st["outcome"] = answer_.free > 0        ? "done"
+                    : answer_.tried > 0     ? "all_defective"
+                    : answer_.dyads.empty() ? "no_real_solution"
+                                            : "no_solution";
+  }
+
+  // Every linkage that was kept, with what is wrong with it.
+  void design_table() {
+    Table table{.name = "designs", .columns{}, .status{}};
+    std::vector<double> number, defect, pair, turns, ratio, distance, rotation;
+    for (std::size_t i = 0; i < answer_.designs.size(); ++i) {
+      const PoseDesign& d = answer_.designs[i];
+      table.names.push_back(type_of(d));
+      number.push_back(static_cast<double>(i + 1));
+      defect.push_back(static_cast<double>(d.passage.defect));
+      pair.push_back(d.passage.pair_angle);
+      turns.push_back(d.passage.drive_turns ? 1 : 0);
+      ratio.push_back(d.link_ratio);
+      distance.push_back(d.distance);
+      rotation.push_back(d.rotation);
+    }
+    table.add("design", "linkage and drive", std::move(number));
+    table.add("defect", "defect (0 none, 1 branch, 2 circuit, 3 order)", std::move(defect));
+    table.add("least_pair_angle_rad", "least pair angle (rad)", std::move(pair));
+    table.add("drive_turns_fully", "drive turns fully", std::move(turns));
+    table.add("link_ratio", "longest over shortest link", std::move(ratio));
+    table.add("pose_error_m", "greatest distance from a pose (m)", std::move(distance));
+    table.add("pose_error_rad", "greatest error of rotation (rad)", std::move(rotation));
+    if (!answer_.designs.empty()) result_.tables.push_back(std::move(table));
+  }
+
+  void dyad_table() {
+    if (answer_.dyads.empty() || answer_.swept) return;
+    Table table{.name = "dyads", .columns{}, .status{}};
+    constexpr const char* keys[] = {"fixed_x_m", "fixed_y_m",     "moving_x_m", "moving_y_m",
+                                    "length_m",  "direction_rad", "offset_m",   "spread_m"};
+    for (const char* key : keys) table.add(key, key);
+    for (const GuidingDyad& d : answer_.dyads) {
+      const bool fixed = d.type != GuidingDyadType::pr, moving = d.type != GuidingDyadType::rp;
+      const bool link = d.type == GuidingDyadType::rr;
+      const double values[] = {
+          fixed ? d.fixed.real() : nan,   fixed ? d.fixed.imag() : nan,
+          moving ? d.moving.real() : nan, moving ? d.moving.imag() : nan,
+          link ? d.length : nan,          link ? nan : std::arg(Complex(0, 1) * d.normal),
+          link ? nan : d.offset,          spread(d, p_.poses)};
+      for (std::size_t j = 0; j < std::size(values); ++j) table.columns[j].values.push_back(values[j]);
+      table.names.emplace_back(name_of(d.type));
+    }
+    result_.tables.push_back(std::move(table));
+  }
+
+  // Where the pivots of links through four poses can be.
+  void curves() {
+    if (!p_.exact || p_.poses.size() != 4) return;
+    const std::vector<BurmesterPoint> points = burmester_curves(p_.poses, curve_samples);
+    if (points.empty()) return;
+    const double reach = curve_reach * size_of_motion(p_.poses);
+    const Complex middle = p_.poses[0].origin;
+    Table table{.name = "curve_points", .columns{}, .status{}};
+    std::vector<double> piece, turn, fixed_x, fixed_y, moving_x, moving_y, at_x, at_y;
+    for (const BurmesterPoint& p : points) {
+      const bool near = std::abs(p.fixed - middle) <= reach && std::abs(p.moving) <= reach;
+      const Complex at = near ? place(p_.poses[0], p.moving) : Complex(nan, nan);
+      const Complex fixed = near ? p.fixed : Complex(nan, nan), moving = near ? p.moving : Complex(nan, nan);
+      piece.push_back(p.piece + 1);
+      turn.push_back(p.turn);
+      fixed_x.push_back(fixed.real());
+      fixed_y.push_back(fixed.imag());
+      moving_x.push_back(moving.real());
+      moving_y.push_back(moving.imag());
+      at_x.push_back(at.real());
+      at_y.push_back(at.imag());
+    }
+    table.add("piece", "piece", std::move(piece));
+    table.add("turn_rad", "rotation of the link to the second pose (rad)", std::move(turn));
+    table.add("fixed_x_m", "fixed pivot x (m)", std::move(fixed_x));
+    table.add("fixed_y_m", "fixed pivot y (m)", std::move(fixed_y));
+    table.add("moving_x_m", "pivot on the body x (m)", std::move(moving_x));
+    table.add("moving_y_m", "pivot on the body y (m)", std::move(moving_y));
+    table.add("moving_at_first_x_m", "pivot on the body at the first pose x (m)", std::move(at_x));
+    table.add("moving_at_first_y_m", "pivot on the body at the first pose y (m)", std::move(at_y));
+    result_.tables.push_back(std::move(table));
+    result_.plots.push_back(
+        {.name = "burmester",
+         .title = "Burmester curves: fixed pivots, and pivots on the body at the first pose",
+         .table = "curve_points",
+         .x = "turn_rad",
+         .y = {"fixed_x_m", "fixed_y_m", "moving_at_first_x_m", "moving_at_first_y_m"},
+         .style = study::Plot::Style::polar});
+  }
+
+  std::string why() const {
+    std::vector<std::string> parts;
+    for (const PoseDefect defect : {PoseDefect::branch, PoseDefect::circuit, PoseDefect::order})
+      if (const int count = answer_.defects[static_cast<std::size_t>(defect)])
+        parts.push_back(fmt::format("{} {}", count, name_of(defect)));
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
+
+  void say() {
+    const study::AddFact fact{result_.facts};
+    const study::AddWarning warn{result_.diagnostics};
+    const std::size_t n = p_.poses.size();
+    fact("poses", fmt::format("{}, {}", n, p_.exact ? "met exactly" : "by least squares"));
+    if (!answer_.swept)
+      fact("dyads", p_.exact ? fmt::format("{} real of {}", answer_.dyads.size(), answer_.solutions)
+                             : fmt::format("{} next to the poses", answer_.dyads.size()));
+    fact("linkages with a drive", fmt::format("{}", answer_.tried));
+    fact("free of defects", fmt::format("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
+    if (answer_.tried > answer_.free) fact("defects", why());
+    if (shown_.empty()) {
+      result_.headline =
+          answer_.status != Status::done ? "Stopped before a linkage was found."
+          : answer_.dyads.size() == 0
+              ? fmt::format("No dyad holds the body in all {} poses: there is no real solution.", n)
+              : fmt::format("The {} dyads through the poses make no linkage.", answer_.dyads.size());
+      relax(warn);
+      return;
+    }
+    const PoseDesign& best = *shown_[0];
+    if (answer_.free == 0) {
+      result_.headline = fmt::format(
+          "None of {} linkages through the {} poses passes them in one motion: {}.", answer_.tried, n, why());
+      relax(warn);
+      return;
+    }
+    const double pair = math::degrees(best.passage.pair_angle);
+    result_.headline = fmt::format(
+        "A {} driven by {} leads the body through {} poses{}, least pair angle {:.1f}°.",
+        name_of_linkage(best), drive_of(best), n,
+        p_.exact ? std::string()
+                 : fmt::format(" within {} and {:.3g}°", metres(best.distance), math::degrees(best.rotation)),
+        pair);
+    fact("least pair angle", fmt::format("{:.1f}°", pair),
+         best.passage.pair_angle < flat_pair ? Verdict::bad : Verdict::plain);
+    fact("drive", std::string(drive_of(best)));
+    if (!p_.exact) {
+      fact("worst distance", metres(best.distance));
+      fact("worst rotation", fmt::format("{:.4g}°", math::degrees(best.rotation)));
+      fact("misfit of the poses to a four-bar", fmt::format("{:.3g}", answer_.misfit[6]));
+    }
+    if (best.passage.pair_angle < flat_pair)
+      warn(fmt::format(
+               "the pair angle falls to {:.1f}° between the poses: the linkage is near a dead point there",
+               pair),
+           "move a pose, or take out one that need not be met");
+  }
+
+  void relax(const study::AddWarning& warn) const {
+    if (answer_.status != Status::done) return;
+    if (!p_.exact)
+      warn("target", "no linkage near the poses passes them in one motion",
+           "take poses of a smoother motion, or allow other dyads in mechanism.dyads");
+    else if (p_.poses.size() == 5)
+      warn("target", "five poses leave at most four dyads, and most of their linkages have defects",
+           "take out the pose that matters least: four poses leave a curve to choose from; or write fit = "
+           "\"least_squares\"");
+    else
+      warn("target", "no linkage through the poses passes them in one motion",
+           "take out a pose or a pivot that is given, or allow other dyads in mechanism.dyads");
+  }
+
+  static Complex number_of(const Vec<double>& v) { return {v.x, v.y}; }
+
+  const PoseStudy& s_;
+  const PoseProblem& p_;
+  const study::Common& common_;
+  const PoseAnswer answer_;
+  std::vector<const PoseDesign*> shown_;
+  study::Result result_;
+};
+
+}  // namespace
+
+study::Result run_pose_study(const PoseStudy& s, const study::Common& common, RunContext& context) {
+  return PoseReport(s, common, find_pose_designs(s.problem, context)).make();
+}
+
+}  // namespace linkwright::planar

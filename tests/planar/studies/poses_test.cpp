@@ -1,0 +1,104 @@
+#include "linkwright/planar/studies/poses.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using test::problems_of;
+using test::run_text;
+using ::testing::HasSubstr;
+
+std::string pose_study(const std::string& target, const std::string& mechanism = "") {
+  return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.four_bar\"\n" +
+         mechanism + "[target]\ntype = \"poses\"\n" + target;
+}
+std::string one_pose(double x, double y, double angle) {
+  return "[[target.pose]]\nx_mm = " + std::to_string(x) + "\ny_mm = " + std::to_string(y) +
+         "\nangle_deg = " + std::to_string(angle) + "\n";
+}
+std::string some_poses(int count) {
+  std::string out;
+  for (int k = 0; k < count; ++k) out += one_pose(100 * k, 20 * k * k, 10 * k + k * k);
+  return out;
+}
+
+TEST(PoseStudyRead, SaysWhatIsWrongWithThePoses) {
+  EXPECT_THAT(problems_of(pose_study("")), HasSubstr("the target has no poses"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(1))), HasSubstr("1 pose, a motion needs at least 2"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(4) + one_pose(100, 20, 11))),
+              HasSubstr("pose 5 repeats pose 2"));
+  EXPECT_THAT(problems_of(pose_study(one_pose(0, 0, 10) + one_pose(1, 0, 10) + one_pose(2, 2, 370))),
+              HasSubstr("all poses have the same angle: the body only shifts"));
+  EXPECT_THAT(problems_of(pose_study("file = \"poses.csv\"\n" + some_poses(4))),
+              HasSubstr("both poses and a file"));
+}
+
+TEST(PoseStudyRead, SaysHowManyConditionsADyadMeets) {
+  EXPECT_THAT(problems_of(pose_study("fit = \"exact\"\n" + some_poses(6))),
+              HasSubstr("6 poses, a linkage of links and slides meets five exactly"));
+  EXPECT_THAT(problems_of(pose_study("fit = \"least_squares\"\n" + some_poses(4))),
+              HasSubstr("least_squares needs 5 at least"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(2))), HasSubstr("2 poses leave 3 numbers of dyad 1 open"));
+  const std::string pivot = "[[mechanism.pivot]]\ndyad = 1\nfixed_mm = [0, 0]\n";
+  EXPECT_THAT(
+      problems_of(pose_study(some_poses(4), pivot)),
+      HasSubstr("4 poses and what is given of the pivots of dyad 1 are 6 conditions, a dyad meets 5"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(3), pivot + pivot)),
+              HasSubstr("the fixed pivot of dyad 1 is given twice"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(6), pivot)),
+              HasSubstr("pivots are prescribed for poses that are met exactly"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(3), "[[mechanism.pivot]]\ndyad = 3\nfixed_mm = [0, 0]\n")),
+              HasSubstr("mechanism.pivot[0].dyad"));
+}
+
+TEST(PoseStudy, FourPosesHaveTheirCurves) {
+  const study::Result result = run_text(pose_study(some_poses(4)));
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_TRUE(result.table("curve_points"));
+  EXPECT_GT(result.table("curve_points")->columns[0].values.size(), 100u);
+  EXPECT_EQ(result.plots.back().name, "burmester");
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_FALSE(result.solutions[0].study.is_null());
+}
+
+TEST(PoseStudy, DrawsThePosesBehindTheLinkage) {
+  const study::Result result = run_text(pose_study(some_poses(4)));
+  ASSERT_FALSE(result.scenes.empty());
+  const study::Scene& scene = result.scenes[0];
+  ASSERT_EQ(scene.targets.size(), 1u);
+  EXPECT_EQ(scene.targets[0].x.size(), 4u);
+  int ghosts = 0;
+  for (const auto& body : scene.bodies) ghosts += body.run == 1;
+  EXPECT_EQ(ghosts, 4);
+}
+
+TEST(PoseStudy, KeepsDefectiveLinkagesAndSaysWhatToRelax) {
+  // Scattered poses: every linkage through them has a defect.
+  const std::string scattered = one_pose(12, 80, 170) + one_pose(-160, 30, -40) + one_pose(90, -120, 75) +
+                                one_pose(-20, -60, -130) + one_pose(140, 100, 20);
+  const study::Result result = run_text(pose_study(scattered));
+  EXPECT_EQ(result.status, Status::infeasible);
+  ASSERT_FALSE(result.diagnostics.empty());
+  EXPECT_THAT(result.diagnostics[0].message, HasSubstr("five poses leave at most four dyads"));
+  if (!result.solutions.empty()) {
+    EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
+    EXPECT_THAT(result.headline, HasSubstr("passes them in one motion"));
+    EXPECT_FALSE(result.solutions[0].defects.as_array().empty());
+    EXPECT_FALSE(result.solutions[0].scene.empty());
+  }
+}
+
+TEST(PoseStudy, ManyPosesByLeastSquares) {
+  const study::Result result = run_text(pose_study(some_poses(8)));
+  EXPECT_TRUE(result.status == Status::done || result.status == Status::infeasible);
+  EXPECT_THAT(result.facts[0].text, HasSubstr("by least squares"));
+  ASSERT_FALSE(result.solutions.empty());
+}
+
+}  // namespace
+}  // namespace linkwright::planar
