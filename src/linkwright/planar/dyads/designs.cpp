@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 // Directions of the lines by which one condition, and two, are swept.
 constexpr int directions_of_one = 120, directions_of_two = 18;
 // Swept dyads with pivots or links farther than this times the size of the motion are left out.
-constexpr double far = 12;
+constexpr double far = 5;
 // Links and pivots nearer than this, times the size, are one.
 constexpr double no_link = 1e-6;
 // Swept designs whose four pivots are not this far apart in all, times the size, are one.
