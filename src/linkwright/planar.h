@@ -31,6 +31,8 @@
 #include "linkwright/planar/four_bar/rates.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
+#include "linkwright/planar/function/generator.h"
+#include "linkwright/planar/function/synthesis.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"

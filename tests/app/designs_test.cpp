@@ -116,6 +116,17 @@ void poses(const Designed& d) {
   }
 }
 
+void function(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &error = table_of(d.found, d.numbered("structural_error"));
+  const bool slider = error.find("output_m") != nullptr;
+  std::vector<double> found = column(error, slider ? "output_m" : "output_rad"),
+                      again = column(sweep, slider ? "guide_displacement_m" : "rocker_angle_rad");
+  const double from = found[0], from_again = again[0];
+  for (double& v : found) v -= from;
+  for (double& v : again) v -= from_again;
+  expect_same(found, again, exact, "output");
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -209,6 +220,8 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.four_bar/path_points", four_bar_path},
     {"synthesis/planar.slider_crank/path_points", slider_crank_path},
     {"synthesis/planar.four_bar/poses", poses},
+    {"synthesis/planar.four_bar/function", function},
+    {"synthesis/planar.slider_crank/function", function},
     {"balancing/planar.four_bar", balanced},
     {"balancing/planar.linkage", balanced},
     {"balancing/planar.slider_crank", balanced},

@@ -1,6 +1,7 @@
 #include "linkwright/planar/studies.h"
 
 #include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/poses.h"
@@ -15,6 +16,8 @@ std::vector<study::Kind> studies() {
   std::vector<study::Kind> kinds = {path_kind(),
                                     slider_path_kind(),
                                     pose_kind(),
+                                    rocker_function_kind(),
+                                    slider_function_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),

@@ -257,6 +257,42 @@ TEST(SolveDyads, AllocateNothing) {
   EXPECT_EQ(dyads.solutions, 4);
 }
 
+// Points with crank angles: the crank is a body that holds its angle on a dyad, and with its rotation at each
+// point the coupler is another one (exact synthesis of timed paths).
+TEST(SolveDyads, GiveTheTwelveLinkagesThroughFiveTimedPoints) {
+  const Value& stored = synthesis_case("TP-5-anchor");
+  const std::vector<double> angles = linkwright::test::numbers(at(stored, "inputs.crank_angles_rad"));
+  std::vector<BodyPose> cranks;
+  for (const Value& p : at(stored, "inputs.points_m").as_array())
+    cranks.push_back({{p.as_array()[0].as_number(), p.as_array()[1].as_number()}, angles[cranks.size()]});
+  struct Timed {
+    Complex pivot, crank;
+    GuidingDyad other;
+  };
+  std::vector<Timed> found;
+  for (const GuidingDyad& crank : solve_dyads(cranks).real()) {
+    const Complex vector = -crank.moving;
+    std::vector<BodyPose> coupler;
+    for (const BodyPose& pose : cranks)
+      coupler.push_back(
+          {pose.origin, std::arg(pose.origin - crank.fixed - vector * std::polar(1.0, pose.angle))});
+    for (const GuidingDyad& other : solve_dyads(coupler).real())
+      if (std::abs(other.fixed - crank.fixed) > 1e-6) found.push_back({crank.fixed, vector, other});
+  }
+  const auto& listed = at(stored, "computed.designs").as_array();
+  ASSERT_EQ(listed.size(), 12u);
+  EXPECT_EQ(found.size(), 12u);
+  for (const Value& value : listed) {
+    double least = infinity;
+    for (const Timed& t : found)
+      least = std::min(least, std::abs(t.pivot - complex_at(value, "crank_pivot_m")) +
+                                  std::abs(t.crank - complex_at(value, "crank_vector_at_angle_0_m")) +
+                                  apart(t.other, listed_dyad(at(value, "other"))));
+    // The points are printed with twelve digits.
+    EXPECT_LT(least, 1e-8);
+  }
+}
+
 // Poses of the anchor's coupler, between and beyond its five.
 std::vector<BodyPose> coupler_poses(int count, double noise) {
   RandomStream random({.seed = 3});

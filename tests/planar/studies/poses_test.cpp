@@ -93,6 +93,15 @@ TEST(PoseStudy, KeepsDefectiveLinkagesAndSaysWhatToRelax) {
   }
 }
 
+TEST(PoseStudy, SaysWhenTheBodyOnlyTurns) {
+  std::string turning;
+  for (const double angle : {0.0, 40.0, 90.0, 120.0, 170.0}) turning += one_pose(30, 10, angle);
+  const study::Result result = run_text(pose_study(turning));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "dependent_poses");
+  EXPECT_THAT(result.headline, HasSubstr("infinitely many dyads"));
+}
+
 TEST(PoseStudy, ManyPosesByLeastSquares) {
   const study::Result result = run_text(pose_study(some_poses(8)));
   EXPECT_TRUE(result.status == Status::done || result.status == Status::infeasible);

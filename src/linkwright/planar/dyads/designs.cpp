@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 // Directions of the lines by which one condition, and two, are swept.
 constexpr int directions_of_one = 120, directions_of_two = 18;
 // Swept dyads with pivots or links farther than this times the size of the motion are left out.
-constexpr double far = 12;
+constexpr double far = 5;
 // Links and pivots nearer than this, times the size, are one.
 constexpr double no_link = 1e-6;
 // Swept designs whose four pivots are not this far apart in all, times the size, are one.
@@ -51,7 +51,7 @@ bool usable(const GuidingDyad& dyad, Complex middle, double size, double reach) 
 }
 
 // All dyads of one prescription, a condition that is missing replaced by lines in all directions.
-std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& solutions) {
+std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& solutions, bool& dependent) {
   const Prescription& given = p.pivots[which];
   const int missing = freedoms(p, which);
   const Complex middle = middle_of(p.poses);
@@ -60,6 +60,7 @@ std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& so
   const auto take = [&](const Prescription& prescription) {
     const GuidingDyads dyads = solve_dyads(p.poses, prescription);
     solutions += dyads.solutions;
+    dependent = dependent || dyads.status == Status::singular;
     for (const GuidingDyad& dyad : dyads.real())
       if (wanted(p, dyad) && usable(dyad, middle, size, missing > 0 ? far : infinity)) out.push_back(dyad);
   };
@@ -142,8 +143,8 @@ class Finder {
   void exact() {
     std::array<std::vector<GuidingDyad>, 2> families;
     const bool alike = poses_replaced(p_.pivots[0]) == 0 && poses_replaced(p_.pivots[1]) == 0;
-    families[0] = family(p_, 0, out_.solutions);
-    if (!alike) families[1] = family(p_, 1, out_.solutions);
+    families[0] = family(p_, 0, out_.solutions, out_.dependent);
+    if (!alike) families[1] = family(p_, 1, out_.solutions, out_.dependent);
     out_.swept = freedoms(p_, 0) > 0 || freedoms(p_, 1) > 0;
     if (out_.swept) out_.solutions = 0;
     out_.dyads = families[0];

@@ -43,6 +43,7 @@ struct PoseAnswer {
       designs;                     ///< best first: free of defects, then near (not exact), then by pair angle
   std::vector<GuidingDyad> dyads;  ///< where a finite number fits both prescriptions, those; else of a sweep
   int solutions = 0;               ///< dyads, complex ones included; 0 where they are swept
+  bool dependent = false;  ///< poses and prescriptions depend on each other: infinitely many dyads fit
   bool swept = false;
   int tried = 0, free = 0;         ///< linkages with a drive, and those without defect
   std::array<int, 4> defects{};    ///< of the tried, by PoseDefect

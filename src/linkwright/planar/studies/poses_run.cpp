@@ -318,6 +318,7 @@ class PoseReport {
     if (!p_.exact) st["fitted_pairs"] = answer_.starts;
     st["outcome"] = answer_.free > 0        ? "done"
                     : answer_.tried > 0     ? "all_defective"
+                    : answer_.dependent     ? "dependent_poses"
                     : answer_.dyads.empty() ? "no_real_solution"
                                             : "no_solution";
   }
@@ -426,12 +427,20 @@ class PoseReport {
     fact("linkages with a drive", fmt::format("{}", answer_.tried));
     fact("free of defects", fmt::format("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
     if (answer_.tried > answer_.free) fact("defects", why());
+    if (shown_.empty() && answer_.dependent) {
+      result_.headline =
+          "The poses depend on each other: infinitely many dyads hold the body in all of them.";
+      warn("target", "the body only turns about one point, or repeats a part of its motion",
+           "a pin at that point holds it; or add a pose off that motion");
+      return;
+    }
     if (shown_.empty()) {
       result_.headline =
           answer_.status != Status::done ? "Stopped before a linkage was found."
           : answer_.dyads.size() == 0
               ? fmt::format("No dyad holds the body in all {} poses: there is no real solution.", n)
-              : fmt::format("The {} dyads through the poses make no linkage.", answer_.dyads.size());
+              : fmt::format("Of the dyads through the poses ({}) no two make a linkage.",
+                            answer_.dyads.size());
       relax(warn);
       return;
     }

@@ -1,0 +1,123 @@
+#include "linkwright/planar/function/synthesis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "planar/dyad_cases.h"
+
+namespace linkwright::planar {
+namespace {
+
+using namespace linkwright::planar::test;
+using linkwright::test::at;
+using linkwright::test::number_at;
+
+// The functions of the stored generators: 90 degrees of crank and rocker each.
+FunctionProblem stored_function(const std::string& name) {
+  double from = 0, to = 1;
+  double (*y)(double) = nullptr;
+  if (name == "x^1.5 1..4") from = 1, to = 4, y = [](double x) { return std::pow(x, 1.5); };
+  if (name == "log10 1..10") from = 1, to = 10, y = [](double x) { return std::log10(x); };
+  if (name == "log10 1..2") from = 1, to = 2, y = [](double x) { return std::log10(x); };
+  if (name == "sin 0..90") to = pi / 2, y = [](double x) { return std::sin(x); };
+  if (name == "tan 0..45") to = pi / 4, y = [](double x) { return std::tan(x); };
+  if (name == "exp 0..1") y = [](double x) { return std::exp(x); };
+  if (name == "x^2 0..1") y = [](double x) { return x * x; };
+  if (name == "1/x 1..2") from = 1, to = 2, y = [](double x) { return 1 / x; };
+  FunctionProblem p;
+  p.input_range = pi / 2;
+  p.output = [=](double share) {
+    return pi / 2 * (y(from + (to - from) * share) - y(from)) / (y(to) - y(from));
+  };
+  p.fit = FunctionFit::minimax;
+  return p;
+}
+
+TEST(FunctionErrors, OfTheStoredGenerators) {
+  int compared = 0;
+  for (const Value& stored : at(synthesis_case("FG-minimax-best-known"), "computed.designs").as_array()) {
+    if (at(stored, "type").as_string() != "four") continue;
+    const std::vector<double> x = linkwright::test::numbers(at(stored, "parameters"));
+    const FunctionGenerator g{
+        false, {x[0], x[1]}, {x[2], x[3]}, x[4], at(stored, "branch").as_array()[0].as_number()};
+    const FunctionDesign d = assess(stored_function(at(stored, "function").as_string()), g, 4001);
+    ASSERT_TRUE(d.assembles);
+    const double degrees = 180 / pi;
+    // Printed with eight digits; of the pair angle with six.
+    const double error = number_at(stored, "max_error_recomputed_deg");
+    EXPECT_NEAR(d.greatest_error * degrees, error, 1e-6 * error);
+    EXPECT_NEAR(d.pair_angle * degrees, number_at(stored, "min_pair_angle_recomputed_deg"), 1e-3);
+    ++compared;
+  }
+  EXPECT_GE(compared, 12);
+}
+
+TEST(FindGenerators, TheLeastGreatestErrorsOfEightFunctions) {
+  // Best known, in degrees, without a limit on the pair angle.
+  const std::pair<const char*, double> known[] = {
+      {"x^1.5 1..4", 0.0048603}, {"log10 1..10", 0.13891}, {"log10 1..2", 0.015204}, {"sin 0..90", 0.19057},
+      {"tan 0..45", 0.038029},   {"exp 0..1", 0.025947},   {"x^2 0..1", 0.067117},   {"1/x 1..2", 0.012805}};
+  for (const auto& [name, best] : known) {
+    RunContext context;
+    const FunctionAnswer answer = find_generators(stored_function(name), context);
+    ASSERT_FALSE(answer.designs.empty()) << name;
+    const FunctionDesign d = assess(stored_function(name), answer.designs[0].generator, 4001);
+    EXPECT_TRUE(d.assembles) << name;
+    EXPECT_LT(d.greatest_error * 180 / pi, 1.01 * best) << name;
+  }
+}
+
+TEST(FindGenerators, LeastSquaresAreBetterOnAverageThanMinimax) {
+  FunctionProblem p = stored_function("exp 0..1");
+  RunContext context;
+  const FunctionDesign largest = find_generators(p, context).designs[0];
+  p.fit = FunctionFit::least_squares;
+  const FunctionDesign squares = find_generators(p, context).designs[0];
+  EXPECT_LT(squares.rms_error, largest.rms_error);
+  EXPECT_GT(squares.greatest_error, largest.greatest_error);
+}
+
+TEST(FindGenerators, ExactOnesThatDoNotAssembleBetweenTheirPointsComeLast) {
+  FunctionProblem p = stored_function("log10 1..10");
+  p.fit = FunctionFit::points;
+  p.at = chebyshev_shares(5);
+  RunContext context;
+  const FunctionAnswer answer = find_generators(p, context);
+  ASSERT_EQ(answer.designs.size(), 1u);
+  EXPECT_FALSE(answer.designs[0].assembles);
+  p = stored_function("x^1.5 1..4");
+  p.fit = FunctionFit::points;
+  p.at = chebyshev_shares(5);
+  const FunctionAnswer power = find_generators(p, context);
+  ASSERT_EQ(power.designs.size(), 3u);
+  EXPECT_TRUE(power.designs[0].assembles);
+  EXPECT_EQ(power.designs[0].other_branch, 0);
+  for (const double share : p.at)
+    EXPECT_NEAR(*structural_error(p, power.designs[0].generator, share), 0, 1e-9);
+}
+
+TEST(FindGenerators, SliderCranks) {
+  FunctionProblem p = stored_function("x^1.5 1..4");
+  p.slider = true;
+  p.input_range = pi / 3;
+  const auto angle = p.output;
+  p.output = [angle](double share) { return 0.08 * angle(share) / (pi / 2); };
+  p.most_link = 1.6;
+  RunContext context;
+  const FunctionAnswer answer = find_generators(p, context);
+  ASSERT_FALSE(answer.designs.empty());
+  EXPECT_TRUE(answer.designs[0].assembles);
+  EXPECT_LT(answer.designs[0].greatest_error, 1e-3 * 0.08);
+}
+
+TEST(FindGenerators, EndWhenTheyAreAskedTo) {
+  RunContext context;
+  context.cancel();
+  EXPECT_EQ(find_generators(stored_function("exp 0..1"), context).status, Status::cancelled);
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,81 @@
+#include "linkwright/planar/studies/function.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using test::problems_of;
+using test::run_text;
+using ::testing::HasSubstr;
+
+std::string function_study(const std::string& target, const std::string& mechanism = "") {
+  return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.four_bar\"\n" +
+         mechanism + "[target]\ntype = \"function\"\ninput_range_deg = 90\noutput_range_deg = 90\n" + target;
+}
+const std::string exponential = "function = \"exp\"\nx = { from = 0, to = 1 }\n";
+
+TEST(FunctionStudyRead, SaysWhatIsWrongWithTheFunction) {
+  EXPECT_THAT(problems_of(function_study("")), HasSubstr("the target has no function"));
+  EXPECT_THAT(problems_of(function_study("function = \"log\"\nx = { from = 0, to = 2 }\n")),
+              HasSubstr("log has no value at x = 0"));
+  EXPECT_THAT(problems_of(function_study("function = \"tan\"\nx = { from = 0, to = 90 }\n")),
+              HasSubstr("tan has no value at x = 90"));
+  EXPECT_THAT(problems_of(function_study("function = \"exp\"\nx = { from = 2, to = 2 }\n")),
+              HasSubstr("the range of x is not more than a point"));
+  EXPECT_THAT(problems_of(function_study("function = \"power\"\nx = { from = 1, to = 2 }\n")),
+              HasSubstr("power needs its exponent"));
+  std::string said;
+  EXPECT_TRUE(test::prepare(function_study("function = \"sin\"\nx = { from = 0, to = 170 }\n"), said));
+  EXPECT_THAT(said, HasSubstr("sin both rises and falls over the range"));
+  EXPECT_THAT(problems_of(function_study("table = [[0, 0], [2, 1], [1, 3]]\n")), HasSubstr("x must rise"));
+}
+
+TEST(FunctionStudyRead, CountsPointsAndStartAngles) {
+  EXPECT_THAT(problems_of(function_study(exponential + "points = 4\n")),
+              HasSubstr("4 precision points and 0 start angles are 4 conditions, the linkage meets 5"));
+  std::string said;
+  EXPECT_TRUE(test::prepare(function_study(exponential + "points = 4\n", "input_start_deg = 30\n"), said));
+  EXPECT_EQ(said, "");
+  EXPECT_THAT(problems_of(function_study(exponential + "at = [0.1, 0.3, 0.5, 0.7, 1.2]\n")),
+              HasSubstr("x = 1.2 is not in the range 0 to 1"));
+  EXPECT_THAT(problems_of(function_study(exponential + "fit = \"minimax\"\npoints = 5\n")),
+              HasSubstr("points are for fit \"points\""));
+  EXPECT_THAT(problems_of(function_study(exponential + "fit = \"minimax\"\n", "input_start_deg = 30\n")),
+              HasSubstr("start angles are given for precision points"));
+}
+
+TEST(FunctionStudy, GivesTheErrorOverTheRange) {
+  const study::Result result = run_text(function_study(exponential + "fit = \"minimax\"\n"));
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_TRUE(result.table("structural_error"));
+  ASSERT_FALSE(result.solutions.empty());
+  const double most = result.solutions[0].objectives.find("structural_error_rad")->as_number();
+  EXPECT_NEAR(most * 57.29577951308232, 0.025947, 1e-5);
+  double seen = 0;
+  for (const double e : result.table("structural_error")->find("error_rad")->values)
+    seen = std::max(seen, std::abs(e));
+  EXPECT_NEAR(seen, most, 1e-3 * most);
+  EXPECT_FALSE(result.solutions[0].scene.empty());
+}
+
+TEST(FunctionStudy, SaysWhenNoGeneratorCoversTheRange) {
+  const study::Result result = run_text(function_study("function = \"log10\"\nx = { from = 1, to = 10 }\n"));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
+  EXPECT_THAT(result.headline, HasSubstr("stays on one branch over the whole range"));
+}
+
+TEST(FunctionStudy, ATableIsAFunctionToo) {
+  const study::Result result =
+      run_text(function_study("table = [[0, 0], [1, 0.8], [2, 2.1], [3, 4]]\nfit = \"least_squares\"\n"));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_THAT(result.facts[0].text, HasSubstr("a table of 4 points, x = 0 to 3"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar
