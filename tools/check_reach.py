@@ -59,8 +59,6 @@ REASONS = {
     "planar/reactions_newton_euler": ROUTE,
     "planar/reactions_redundant": ROUTE,
     "planar/slider_path_kernel_name": KERNEL,
-    "planar/solve_five_points": LIBRARY,
-    "planar/solve_nine_points": LIBRARY,
     "planar/sweep_kernel_name": KERNEL,
     "planar/transmission_ranges": LIBRARY,
     "planar/two_link_arm": SAMPLE,

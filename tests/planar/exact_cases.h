@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <complex>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +25,12 @@ inline std::vector<std::complex<double>> places(const Value& points) {
 /// The points of a case (m).
 inline std::vector<std::complex<double>> exact_points(std::string_view id) {
   return places(linkwright::test::at(exact_case(id), "inputs.points_m"));
+}
+
+/// Where tests keep the start set of nine points, which takes seconds to find and is the same in each of
+/// them.
+inline std::filesystem::path starts_folder() {
+  return std::filesystem::path(testing::TempDir()) / "linkwright-nine-point-starts";
 }
 
 /// Any crank and any timing, open.

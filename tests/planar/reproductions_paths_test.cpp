@@ -69,6 +69,19 @@ TEST(PathReproductions, TheSliderCranksOfTable43AreDominated) {
   EXPECT_NEAR(table.at("least path error at a stroke of 0.47 m, m2").ours, 0.0335, 0.0008);
 }
 
+TEST(PathReproductions, ExactSynthesis) {
+  const auto nine = rows("wampler-morgan-sommese-1992-problem-3"),
+             five = rows("morgan-wampler-1990-problem-7");
+  EXPECT_EQ(nine.at("classes of six four-bars with the same coupler curve").ours, 1442);
+  EXPECT_EQ(nine.at("real classes").ours, 64);
+  EXPECT_EQ(nine.at("real four-bars with their driver").ours, 384);
+  EXPECT_THAT(nine.at("real four-bars with their driver").note, HasSubstr("2 of them"));
+  EXPECT_EQ(five.at("finite solutions").ours, 33);
+  EXPECT_EQ(five.at("real solutions").ours, 15);
+  for (const auto* table : {&nine, &five})
+    for (const auto& [item, row] : *table) EXPECT_EQ(row.verdict, "reproduced") << item;
+}
+
 // The same tables, printed twice.
 TEST(PathReproductions, ThePaperPrintsTheTablesOfTheThesis) {
   const auto thesis = rows("boskovic-2018-table-4.3"), paper = rows("boskovic-gwo-table-3");

@@ -26,6 +26,9 @@ Result sample() {
   sweep.add("rack_m", "rack (m)", {0, 0, 0.03, 0});
   sweep.add("toe_rad", "toe (rad)", {-0.01, 0.02, 0.03, std::nan("")});
   result.tables.push_back(sweep);
+  Table counts{.name = "counts", .columns = {}, .status = {"done"}};
+  counts.add("classes", "classes", {1442});
+  result.tables.push_back(counts);
   return result;
 }
 
@@ -54,6 +57,11 @@ TEST(Checks, StatisticsOfColumnsSkipMissingValues) {
   EXPECT_NEAR(check("sweep.toe_rad.mean").value, 0.04 / 3, 1e-17);
   EXPECT_NEAR(check("sweep.toe_rad.rms").value, std::sqrt(0.0014 / 3), 1e-17);
   EXPECT_DOUBLE_EQ(check("sweep.toe_deg.max").value, 0.03 * 180 / pi);
+}
+
+TEST(Checks, ATableWithOneRowNeedsNoStatistic) {
+  EXPECT_EQ(check("counts.classes").value, 1442);
+  EXPECT_EQ(check("counts.classes.max").value, 1442);
 }
 
 TEST(Checks, RowsAreChosenByColumnsInAnyUnit) {

@@ -3,13 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/path/eighteen_points.h"
 #include "linkwright/planar/path/slider_crank_samples.h"
 #include "linkwright/planar/path/slider_crank_synthesis.h"
@@ -143,6 +147,47 @@ study::Comparisons several(const std::string& source, RunContext& context) {
   return slider_cranks(std::span(all).subspan(1), source, true, context);
 }
 
+std::string verdict_of(double published, double ours) {
+  return ours == published ? "reproduced" : "not reproduced";
+}
+
+study::Comparisons nine_points(const std::string& source, RunContext& context) {
+  const std::vector<std::complex<double>> points = {{0.25, 0.0}, {0.52, 0.1}, {0.8, 0.7},
+                                                    {1.2, 1.0},  {1.4, 1.3},  {1.1, 1.48},
+                                                    {0.7, 1.4},  {0.2, 1.0},  {0.02, 0.4}};
+  const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
+  PathProblem problem;
+  problem.closed = problem.crank_rotates_fully = false;
+  for (const auto& point : points) problem.x.push_back(point.real()), problem.y.push_back(point.imag());
+  problem.bounds = derive_bounds(problem.x, problem.y);
+  const std::vector<ExactDesign> designs = exact_designs(problem, found);
+  const auto free =
+      std::count_if(designs.begin(), designs.end(), [](const ExactDesign& d) { return d.defects.empty(); });
+  const auto classes = static_cast<double>(found.classes.size()), real = static_cast<double>(found.real),
+             linkages = static_cast<double>(designs.size());
+  return {{"classes of six four-bars with the same coupler curve", source, 1442, classes,
+           verdict_of(1442, classes), fmt::format("{} of them with a certificate", found.certified)},
+          {"real classes", source, 64, real, verdict_of(64, real), ""},
+          {"real four-bars with their driver", source, 384, linkages, verdict_of(384, linkages),
+           fmt::format("{} of them pass the points in one motion and in their order", free)}};
+}
+
+study::Comparisons five_points(const std::string& source, RunContext& context) {
+  constexpr std::array<std::complex<double>, 5> points = {
+      {{0.5, 1.06}, {-0.83, -0.27}, {-0.34, 0.22}, {-0.13, 0.43}, {0.22, 0.78}}};
+  const FivePointSolutions found = solve_five_points(points, {{{0.0, 0.0}, {1.0, 0.0}}}, context);
+  const auto finite = static_cast<double>(found.finite), real = static_cast<double>(found.real.size());
+  return {{"finite solutions", source, 33, finite, verdict_of(33, finite),
+           fmt::format("the points lie on a line: {} of 36 are at infinity", found.infinite)},
+          {"real solutions", source, 15, real, verdict_of(15, real), ""}};
+}
+
+const std::vector<std::string> nine_point_notes = {
+    "Certified counts of the same points: Hauenstein and Sottile 2012.",
+    "A class has three cognates, each with either of its cranks as the driver: 64 x 6 = 384."};
+const std::vector<std::string> five_point_notes = {
+    "Both fixed pivots are given; points of any kind have 36 solutions."};
+
 const std::vector<std::string> four_bar_notes = {
     "Branch open, sense +1, crank angle from the ground link, step 20 deg: the only convention that gives "
     "four of "
@@ -182,7 +227,12 @@ std::vector<study::Reproduction> path_reproductions() {
           entry("boskovic-2018-table-4.3", stroke, thesis + "4.3", slider_notes, several),
           entry("boskovic-gwo-table-1", four, paper + "1", four_bar_notes, four_bars),
           entry("boskovic-gwo-table-2", path, paper + "2", slider_notes, single),
-          entry("boskovic-gwo-table-3", stroke, paper + "3", slider_notes, several)};
+          entry("boskovic-gwo-table-3", stroke, paper + "3", slider_notes, several),
+          entry("morgan-wampler-1990-problem-7",
+                "four-bars through five points of a line, both fixed pivots given",
+                "Morgan and Wampler 1990, problem 7", five_point_notes, five_points),
+          entry("wampler-morgan-sommese-1992-problem-3", "all four-bars through nine points",
+                "Wampler, Morgan and Sommese 1992, problem 3", nine_point_notes, nine_points)};
 }
 
 }  // namespace linkwright::planar

@@ -150,6 +150,8 @@ Resolved of_table(const Table& table, std::string_view rest, const CheckRequest&
     answer = of_row(table, *column, request);
   else if (request.at.empty() && dot != std::string_view::npos)
     answer = statistic(*column, rest.substr(dot + 1));
+  else if (request.at.empty() && table.rows() == 1)
+    answer = statistic(*column, "last");
   else if (request.at.empty())
     answer.message =
         "a column has many values: add a statistic (.max, .min, .max_abs, .mean, .rms, .first, .last) or "

@@ -44,6 +44,7 @@ Value write_checks(const std::vector<CheckRequest>& checks);
 ///   <table>.<column>           with `at`: the row whose columns have these values (to 1e-6 of the column's
 ///   span) <table>.<column>.<what>    max, min, max_abs, mean, rms, first or last of the rows that have a
 ///   value
+///   <table>.<column>           of a table with one row
 /// Keys match in any unit of their dimension: sweep.toe_deg is found in the column toe_rad and converted. A
 /// quantity that cannot be found is a failed check whose message says why.
 Check evaluate(const CheckRequest& request, const Result& result);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/planar/exact/detail/nine_point_starts.h"
+#include "planar/exact_cases.h"
 
 namespace linkwright::planar {
 namespace {
@@ -15,7 +16,7 @@ using Fine = ComplexFourBar<math::DoubleDouble>;
 
 const StartSet<NinePoints>& known_classes() {
   RunContext context;
-  static const auto starts = nine_point_starts({}, context);
+  static const auto starts = nine_point_starts(test::starts_folder(), context);
   return *starts;
 }
 

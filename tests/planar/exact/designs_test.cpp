@@ -18,7 +18,8 @@ std::vector<ExactDesign> designs_of(const char* id, PathProblem& problem) {
   const auto points = test::exact_points(id);
   problem = test::exact_problem(points);
   RunContext context;
-  return exact_designs(problem, solve_nine_points(points, {.certify = false}, context));
+  return exact_designs(
+      problem, solve_nine_points(points, {.cache = test::starts_folder(), .certify = false}, context));
 }
 
 std::string worst_defect(const ExactDesign& design) {

@@ -16,10 +16,10 @@ namespace {
 
 using Points = std::vector<std::complex<double>>;
 
-NinePointSolutions solve(const Points& points, int threads = 2, const NinePointOptions& options = {}) {
+NinePointSolutions solve(const Points& points, int threads = 2, bool certify = true) {
   RunContext context;
   context.set_threads(threads);
-  return solve_nine_points(points, options, context);
+  return solve_nine_points(points, {.cache = test::starts_folder(), .certify = certify}, context);
 }
 
 Points random_points(RandomStream& random) {
@@ -84,12 +84,12 @@ TEST(NinePoints, PointsInAnotherOrderAndPlaceHaveTheSameClasses) {
 
 TEST(NinePoints, LargeAndSmallUnitsGiveTheSameNumbers) {
   const Points points = test::exact_points("NP-WMS-3");
-  const auto found = solve(points, 2, {.certify = false});
+  const auto found = solve(points, 2, false);
   EXPECT_EQ(found.completeness, Completeness::complete_uncertified);
   for (const double unit : {0x1p-20, 0x1p20}) {
     Points scaled = points;
     for (auto& point : scaled) point *= unit;
-    const auto other = solve(scaled, 2, {.certify = false});
+    const auto other = solve(scaled, 2, false);
     ASSERT_EQ(found.classes.size(), other.classes.size());
     for (std::size_t i = 0; i < found.classes.size(); ++i)
       EXPECT_EQ(unit * found.classes[i].four_bar[0], other.classes[i].four_bar[0]);
@@ -99,7 +99,7 @@ TEST(NinePoints, LargeAndSmallUnitsGiveTheSameNumbers) {
 // Every real class has three linkages whose coupler point is at every point in one of its two positions.
 TEST(NinePoints, CognatesOfARealClassShareTheirCurve) {
   const Points points = test::exact_points("NP-known-four-bar");
-  const auto found = solve(points, 2, {.certify = false});
+  const auto found = solve(points, 2, false);
   int linkages = 0;
   for (const CurveClass& curve : found.classes) {
     if (!curve.real) break;
@@ -154,16 +154,16 @@ TEST(NinePoints, WhatHasNoSolutionIsKnownBeforehand) {
 
 TEST(NinePoints, AnInterruptedRunIsNeverComplete) {
   const Points points = test::exact_points("NP-WMS-3");
-  solve(points, 2, {.certify = false});  // the start set is there
+  solve(points, 2, false);  // the start set is there
   RunContext cancelled;
   cancelled.cancel();
-  const auto none = solve_nine_points(points, {}, cancelled);
+  const auto none = solve_nine_points(points, {.cache = test::starts_folder()}, cancelled);
   EXPECT_EQ(none.status, Status::cancelled);
   EXPECT_EQ(none.completeness, Completeness::incomplete);
   RunContext hurried;
   hurried.set_threads(1);
   hurried.set_time_limit(std::chrono::milliseconds(30));
-  const auto some = solve_nine_points(points, {}, hurried);
+  const auto some = solve_nine_points(points, {.cache = test::starts_folder()}, hurried);
   EXPECT_EQ(some.status, Status::deadline);
   EXPECT_EQ(some.completeness, Completeness::incomplete);
 }
@@ -177,7 +177,7 @@ TEST(NinePoints, ReportsProgress) {
     EXPECT_LE(progress.fraction, 1);
     last = progress.fraction;
   });
-  solve_nine_points(test::exact_points("NP-WMS-3"), {}, context);
+  solve_nine_points(test::exact_points("NP-WMS-3"), {.cache = test::starts_folder()}, context);
   ASSERT_GE(stages.size(), 2U);
   EXPECT_EQ(stages[stages.size() - 2], "paths");
   EXPECT_EQ(stages.back(), "certificates");

@@ -98,6 +98,15 @@ void fields(Visitor&& visit, PathTiming& t) {
         t.angles);
 }
 
+/// How points are met.
+enum class PathFit { least_squares, exact };
+constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
+  return {
+      {{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
+       {PathFit::exact, "exact",
+        "exactly, by all four-bars that pass them: nine points, or five with both fixed pivots as numbers"}}};
+}
+
 /// The point that traces.
 enum class TracingPoint { coupler };
 constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
@@ -126,6 +135,7 @@ void fields(Visitor&& visit, PathGate& g) {
 
 struct PathTarget : PathPointsForm {
   TracingPoint point = TracingPoint::coupler;
+  PathFit fit = PathFit::least_squares;
   bool closed = false;
   std::optional<std::vector<PathGate>> gates;
   std::optional<double> tolerance;
@@ -135,6 +145,7 @@ struct PathTarget : PathPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, PathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
+  visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
   visit(Field{.key = "closed",
               .summary =
                   "the last point is followed by the first; default: whether the last repeats the first"},

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/exact_path.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
@@ -245,6 +246,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   set_rocker_pivot(s);
   set_search(s);
   set_constraints(document, s);
+  if (target && s.target.fit == PathFit::exact) read_exact_path(document, *target, s);
   return s;
 }
 
@@ -271,7 +273,8 @@ study::Kind path_kind() {
     const PathStudy s = read_path_study(document, common);
     study::Prepared prepared;
     PathStudy resolved = s;
-    for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
+    const bool exact = s.target.fit == PathFit::exact;
+    for (std::size_t j = 0; j < four_bar_parameter_count && !exact; ++j)
       if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
     resolve_targets(s.problem, resolved.target);
@@ -281,7 +284,9 @@ study::Kind path_kind() {
     prepared.canonical["objective"] = study::ObjectWriter::to_value(resolved.objectives);
     prepared.canonical["constraint"] = study::ObjectWriter::to_value(resolved.constraints);
     prepared.canonical["optimiser"] = study::write_fields(resolved.optimiser);
-    prepared.run = [s, common](RunContext& context) { return run_path_study(s, common, context); };
+    prepared.run = [s, common, exact](RunContext& context) {
+      return exact ? run_exact_path_study(s, common, context) : run_path_study(s, common, context);
+    };
     return prepared;
   };
   return kind;

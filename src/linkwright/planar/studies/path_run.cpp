@@ -22,6 +22,7 @@
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_scene.h"
+#include "linkwright/planar/studies/path_solution.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
@@ -145,91 +146,7 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   return out;
 }
 
-std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool with_start) {
-  std::array<double, four_bar_parameter_count> out{};
-  std::size_t j = 0;
-  FourBar l = d.linkage;
-  fields([&](const Field&, double& value) { out[j++] = value; }, l);
-  out[j] = with_start ? d.angles[0] : 0.0;
-  return out;
-}
-
-study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number, int samples) {
-  constexpr std::array<std::string_view, four_bar_parameter_count> labels = {"ground length",
-                                                                             "crank length",
-                                                                             "coupler length",
-                                                                             "rocker length",
-                                                                             "tracing point along coupler",
-                                                                             "tracing point across",
-                                                                             "crank pivot x",
-                                                                             "crank pivot y",
-                                                                             "frame angle",
-                                                                             "start angle"};
-  const PathProblem& p = s.problem;
-  const FourBarClass type = classify(d.linkage);
-  study::Solution out;
-  out.label = fmt::format("{}, {}", in_words(type.type), name_of(d.linkage.branch));
-  const bool with_start = p.timing == Timing::equal_steps;
-  const auto values = values_of(d, with_start);
-  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
-    const bool angle = j >= index(FourBarParameter::frame_angle);
-    if (j == index(FourBarParameter::start_angle) && !with_start) continue;
-    double value = values[j];
-    const Range& range = p.bounds[j];
-    if (angle) {
-      const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
-      if (turned <= range.upper) value = turned;
-    }
-    out.parameters.push_back({std::string(name(FourBarParameter(j))) + (angle ? "_rad" : "_m"),
-                              std::string(labels[j]), value, range.lower, range.upper});
-  }
-  const PathErrors errors = path_errors(p, d);
-  out.objectives["path_error_sum_sq_m2"] = d.error;
-  out.objectives["path_error_rms_m"] = std::sqrt(d.error / static_cast<double>(p.x.size()));
-  out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
-  out.classification["type"] = name_of(type.type);
-  out.classification["branch"] = name_of(d.linkage.branch);
-  out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
-  out.classification["grashof"] = type.grashof;
-  out.classification["circuits"] = type.circuits;
-  out.classification["crank_rotates_fully"] = type.crank_rotates_fully;
-  out.classification["crank_margin_m"] = type.crank_margin;
-  const PathTransmission transmission = path_transmission(p, d);
-  out.classification["min_transmission_angle_rad"] = transmission.used;  // over the path
-  out.classification["whole_motion_min_transmission_angle_rad"] = transmission.whole;
-  out.classification["active_bounds"] = Value::array();
-  for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
-  const std::vector<Drawback> bad = drawbacks(p, d);
-  out.classification["usable"] = d.violations.empty() && bad.empty();
-  out.classification["drawbacks"] = Value::array();
-  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(drawback.text);
-  out.defects = Value::array();
-  for (const auto& violation : d.violations)
-    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
-  for (const Defect& defect : defects(p, d))
-    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
-  out.scene = fmt::format("solution-{}", number);
-  out.study = motion_study("planar.four_bar", study::write_fields(FourBarMechanism{d.linkage, {}}),
-                           shown_angles(d, samples), d.angles);
-  return out;
-}
-
-void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
-                const std::vector<PathDesign>& designs, const Run& run) {
-  using Style = study::Plot::Style;
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    // The best design's tables have plain names, those of the others carry the number of the solution.
-    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
-    result.tables.push_back(point_table(s.problem, designs[i], "points" + suffix));
-    result.tables.push_back(motion_table(designs[i], "motion" + suffix, common.output.samples));
-    const study::AddPlot of_points{
-        result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
-        of_motion{result, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
-    of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
-    of_motion("transmission" + suffix, "Transmission angle", {"transmission_angle_rad"});
-    of_motion("angles" + suffix, "Coupler and rocker angle", {"coupler_angle_rad", "rocker_angle_rad"});
-  }
-
+void add_seed_table(study::Result& result, const Run& run) {
   Table seeds{.name = "seeds"};
   std::vector<double> number, error, evaluations;
   for (std::size_t i = 0; i < run.runs.size(); ++i) {
@@ -299,9 +216,6 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
 
 using study::metres;
 
-// Distances below this share of the size of the path are rounding.
-constexpr double exact_share = 1e-12;
-
 // "passes the 9 points within 0.2 mm (root mean square 0.1 mm)"
 std::string how_near(const PathProblem& p, const PathDesign& d) {
   const PathErrors errors = path_errors(p, d);
@@ -313,15 +227,6 @@ std::string how_near(const PathProblem& p, const PathDesign& d) {
                                : fmt::format("passes the {} within their tolerance", what);
   return fmt::format("passes the {} within {}{} (root mean square {})", what, metres(worst), allowed,
                      metres(std::sqrt(d.error / static_cast<double>(p.x.size()))));
-}
-
-// "crank-rocker (open branch)"
-std::string called(const PathDesign& d) {
-  const FourBarClass type = classify(d.linkage);
-  const std::string_view branch = name_of(d.linkage.branch);
-  if (!type.grashof)
-    return fmt::format("linkage in which no link rotates fully ({}; {} branch)", in_words(type.type), branch);
-  return fmt::format("{} ({} branch)", name_of(type.type), branch);
 }
 
 std::string_view short_name(DrawbackKind kind) {
@@ -349,22 +254,6 @@ std::string caution(const PathProblem& p, const std::vector<PathDesign>& designs
       return fmt::format("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
                          called(designs[i]), how_near(p, designs[i]));
   return out + ". No design without such drawbacks was found.";
-}
-
-// Where the crank has to turn fully, the whole motion counts, else what the path uses.
-double judged_transmission(const PathProblem& p, const PathDesign& d) {
-  const PathTransmission mu = path_transmission(p, d);
-  return p.crank_rotates_fully ? mu.whole : mu.used;
-}
-
-study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
-  const PathTransmission mu = path_transmission(p, d);
-  std::string text = fmt::format("{:.1f}°", math::degrees(mu.used));
-  if (!p.closed)
-    text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
-  const bool poor = math::degrees(judged_transmission(p, d)) < 20;
-  return {"minimum transmission angle", std::move(text),
-          poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};
 }
 
 study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
@@ -428,13 +317,14 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   result.status = run.status != Status::done ? run.status : feasible ? Status::done : Status::infeasible;
 
   for (std::size_t i = 0; i < designs.size(); ++i) {
-    result.solutions.push_back(solution_of(s, designs[i], i + 1, common.output.samples));
+    result.solutions.push_back(path_solution(s.problem, designs[i], i + 1, common.output.samples));
     result.scenes.push_back(path_scene(s.problem, designs[i], result.solutions[i].scene,
                                        fmt::format("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));
   }
   add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
-  add_tables(result, s, common, designs, run);
+  add_design_tables(result, s.problem, designs, common.output.samples);
+  add_seed_table(result, run);
   add_cognates(result, best);
   add_published(result, s.problem, feasible ? best.error : infinity);
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "linkwright/planar/studies/path.h"
+
+// fit = "exact" of the path synthesis study: all four-bars through nine points, or through five with given
+// pivots.
+namespace linkwright::planar {
+
+/// Checks what a study with fit = "exact" asks for, and sets its problem up; the rest of the study has been
+/// read. Problems go to the reader.
+void read_exact_path(study::ObjectReader& document, study::ObjectReader& target, PathStudy& study);
+
+/// Runs it and reports.
+study::Result run_exact_path_study(const PathStudy& study, const study::Common& common, RunContext& context);
+
+}  // namespace linkwright::planar

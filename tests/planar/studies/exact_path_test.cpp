@@ -1,0 +1,196 @@
+#include "linkwright/planar/studies/exact_path.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using test::prepare;
+using test::problems_of;
+using test::run_text;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* nine =
+    "points_m = [[0.25, 0.0], [0.52, 0.1], [0.8, 0.7], [1.2, 1.0], [1.4, 1.3], [1.1, 1.48], [0.7, 1.4], "
+    "[0.2, "
+    "1.0], [0.02, 0.4]]\n";
+constexpr const char* five =
+    "points_m = [[0.5, 1.06], [-0.83, -0.27], [-0.34, 0.22], [-0.13, 0.43], [0.22, 0.78]]\n";
+constexpr const char* pivots =
+    "[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = 0\nrocker_pivot_x_m = 1\nrocker_pivot_y_m = 0\n";
+
+std::string exact(const std::string& parameters, const std::string& target) {
+  return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.four_bar\"\n" +
+         parameters + "[target]\ntype = \"path_points\"\nfit = \"exact\"\n" + target;
+}
+
+double count(const study::Result& result, const char* key) {
+  const Table* table = result.table("counts");
+  return table ? table->find(key)->values.at(0) : nan;
+}
+
+TEST(ExactPathRead, SaysHowManyPointsThereMayBe) {
+  EXPECT_THAT(
+      problems_of(exact("", five)),
+      HasSubstr("target.points_m: 5 points with free pivots are passed by infinitely many four-bars, fit = "
+                "\"exact\" takes 9; give 9; or 5 and both pivots as numbers"));
+  EXPECT_THAT(
+      problems_of(exact(pivots, nine)),
+      HasSubstr(
+          "9 points with both pivots given are more than a four-bar passes exactly, which are 5; give 5, "
+          "or use what searches: fit = \"least_squares\""));
+  EXPECT_THAT(problems_of(exact(pivots, "points_m = [[0, 0], [1, 0], [1, 1], [0, 3]]\n")),
+              HasSubstr("4 points with both pivots given are passed by infinitely many"));
+}
+
+TEST(ExactPathRead, PivotsAreNumbersAndNothingElseIsGiven) {
+  EXPECT_THAT(
+      problems_of(exact("[mechanism.parameters]\ncrank_m = 0.3\n", nine)),
+      HasSubstr("mechanism.parameters: crank is given, fit = \"exact\" leaves no number of the four-bar to "
+                "choose but both fixed pivots"));
+  EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0.3\n", nine)),
+              HasSubstr("fit = \"exact\" takes both fixed pivots as numbers, or none of them"));
+  EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = { min = 0, max = 1 }\n"
+                                "rocker_pivot_x_m = 1\nrocker_pivot_y_m = 0\n",
+                                five)),
+              HasSubstr("takes both fixed pivots as numbers"));
+  EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 1\npivot_y_m = 0\nrocker_pivot_x_m = 1\n"
+                                "rocker_pivot_y_m = 0\n",
+                                five)),
+              HasSubstr("the two fixed pivots coincide"));
+}
+
+TEST(ExactPathRead, PointsAreDifferentAndHaveNeitherAnglesNorTolerances) {
+  std::string again = nine;
+  again.replace(again.find("[0.2, 1.0]"), 10, "[0.8, 0.7]");
+  EXPECT_THAT(problems_of(exact("", again)), HasSubstr("point 8 repeats point 3; give different points"));
+  EXPECT_THAT(
+      problems_of(exact("", std::string(nine) + "timing = { mode = \"equal_steps\", step_deg = 10 }\n")),
+      HasSubstr("target.timing: fit = \"exact\" takes points without crank angles; write timing = { mode = "
+                "\"free\" }"));
+  EXPECT_THAT(problems_of(exact("", std::string(nine) + "tolerance_mm = 1\n")),
+              HasSubstr("fit = \"exact\" passes its points without tolerance"));
+  EXPECT_THAT(
+      problems_of(exact("",
+                        "gates_m = [{ from = [0, 0], to = [1, 0] }, { from = [2, 0], to = [2, 1] }, { from "
+                        "= [3, 0], to = [4, 1] }]\n")),
+      HasSubstr("fit = \"exact\" passes points, not gates"));
+  EXPECT_THAT(problems_of(exact("", std::string(nine) + "[optimiser]\nmethod = \"grey_wolf\"\n")),
+              HasSubstr("fit = \"exact\" finds all solutions, there is nothing to search"));
+  EXPECT_THAT(problems_of(exact("", std::string(nine) + "fit_ = 1\n")), HasSubstr("did you mean 'fit'?"));
+}
+
+TEST(ExactPathRead, WarnsWhereThePointsAreFarFromTheOrigin) {
+  std::string points = "points_m = [", messages;
+  for (int i = 0; i < 9; ++i)
+    points += (i ? ", [" : "[") + std::to_string(1e8 + 1e-4 * i) + ", " + std::to_string(1e-4 * i * i) + "]";
+  EXPECT_TRUE(prepare(exact("", points + "]\n"), messages));
+  EXPECT_THAT(messages,
+              HasSubstr("warning: target.points_m: the points lie within 6.4e-11 of their distance"));
+}
+
+TEST(ExactPathRead, TheResolvedStudyReadsAgain) {
+  std::string messages;
+  const auto study = prepare(exact(pivots, five), messages);
+  ASSERT_TRUE(study) << messages;
+  const Value& parameters = *study->canonical.find("mechanism")->find("parameters");
+  EXPECT_EQ(parameters.find("crank_m"), nullptr);
+  EXPECT_EQ(parameters.find("rocker_pivot_x_m")->as_number(), 1);
+  EXPECT_EQ(study->canonical.find("target")->find("fit")->as_string(), "exact");
+}
+
+// Wampler, Morgan and Sommese 1992, problem 3.
+TEST(ExactPathRun, AllFourBarsThroughNinePoints) {
+  const study::Result result = run_text(exact("", std::string(nine) + "closed = false\n"));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_EQ(count(result, "classes"), 1442);
+  EXPECT_EQ(count(result, "certified"), 1442);
+  EXPECT_EQ(count(result, "real_classes"), 64);
+  EXPECT_EQ(count(result, "designs"), 384);
+  EXPECT_EQ(count(result, "defect_free"), 2);
+  EXPECT_EQ(count(result, "branch_defects"), 382);
+  EXPECT_EQ(count(result, "infinite") + count(result, "singular") + count(result, "lost"), 0);
+  EXPECT_EQ(
+      result.headline,
+      "All 1442 coupler curves through the nine points, each certified; 64 of them are real. 2 of their 384 "
+      "four-bars pass the points in one motion and in their order; the best is a crank-rocker (open "
+      "branch).");
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "complete");
+  ASSERT_EQ(result.solutions.size(), 2U);
+  EXPECT_EQ(result.scenes.size(), 2U);
+  EXPECT_EQ(result.table("classes")->rows(), 1442U);
+  EXPECT_EQ(result.table("designs")->rows(), 384U);
+  EXPECT_EQ(result.table("points")->rows(), 9U);
+  EXPECT_NE(result.table("motion-2"), nullptr);
+  for (const study::Solution& solution : result.solutions) {
+    EXPECT_TRUE(solution.defects.as_array().empty());
+    EXPECT_LT(solution.objectives.find("path_error_sum_sq_m2")->as_number(), 1e-26);
+    EXPECT_TRUE(std::isinf(solution.parameters[0].upper));  // nothing bounds them
+    EXPECT_FALSE(solution.study.is_null());
+  }
+}
+
+TEST(ExactPathRun, LimitsOfTheStudyChooseAmongTheAnswers) {
+  const study::Result result = run_text(exact(
+      "",
+      std::string(nine) + "closed = false\n[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 30\n"));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_EQ(count(result, "defect_free"), 2);
+  EXPECT_THAT(result.headline,
+              HasSubstr("None of the 2 four-bars that pass the points in one motion and in their order "
+                        "keeps the limits of the study."));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_THAT(result.solutions[0].defects.as_array()[0].as_string(),
+              HasSubstr("violates transmission_angle"));
+}
+
+// Morgan and Wampler 1990, problem 7: collinear points.
+TEST(ExactPathRun, AllFourBarsOnTwoPivotsThroughFivePoints) {
+  const study::Result result = run_text(exact(pivots, std::string(five) + "closed = false\n"));
+  EXPECT_EQ(count(result, "classes"), 33);
+  EXPECT_EQ(count(result, "real_classes"), 15);
+  EXPECT_EQ(count(result, "designs"), 15);
+  EXPECT_EQ(count(result, "infinite"), 3);
+  EXPECT_EQ(result.table("counts")->find("certified"), nullptr);
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
+  EXPECT_EQ(result.statistics.find("completeness")->as_string(), "special_target");
+  EXPECT_THAT(result.headline,
+              HasSubstr("13 change branch on the way, 1 circuit, 1 meet them in another order"));
+  EXPECT_EQ(result.solutions.size(), 6U);
+  EXPECT_THAT(result.solutions[0].defects.as_array()[0].as_string(), HasSubstr("order: "));
+}
+
+TEST(ExactPathRun, SevenPointsOnALineHaveNoSolution) {
+  const study::Result result = run_text(exact(
+      "", "points_m = [[0, 0], [1, 0.5], [2, 1], [3, 1.5], [4, 2], [5, 2.5], [6, 3], [7, 2], [8, -1]]\n"));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "no_solution");
+  EXPECT_EQ(result.headline,
+            "No four-bar passes the points: 7 of them (1, 2, 3, 4, 5, 6, 7) lie on a line, which no coupler "
+            "curve meets "
+            "in more than six points.");
+  EXPECT_EQ(count(result, "classes"), 0);
+}
+
+TEST(ExactPathRun, WhatIsInterruptedIsNotComplete) {
+  std::string messages;
+  const auto study = prepare(exact("", nine), messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext context;
+  context.cancel();
+  const study::Result result = study->run(context);
+  EXPECT_EQ(result.status, Status::cancelled);
+  EXPECT_EQ(result.statistics.find("outcome")->as_string(), "cancelled");
+  EXPECT_EQ(result.statistics.find("completeness")->as_string(), "incomplete");
+  EXPECT_THAT(result.headline, HasSubstr("others may be missing"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar
