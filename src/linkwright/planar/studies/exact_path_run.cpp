@@ -224,10 +224,15 @@ class ExactReport {
   std::string answer_text() const {
     if (designs_.empty()) return "There is no four-bar to build.";
     const char* pass = "in one motion and in their order";
-    if (answers_ > 0)
-      return fmt::format("{} of their {} four-bars {} the points {}; the best is a {}.", answers_,
-                         designs_.size(), answers_ == 1 ? "passes" : "pass", pass,
+    if (answers_ > 0) {
+      const auto free = static_cast<std::size_t>(counts_.defect_free);
+      return fmt::format("{} of their {} four-bars {} the points {}{}; the best is a {}.", free,
+                         designs_.size(), free == 1 ? "passes" : "pass", pass,
+                         free == answers_
+                             ? std::string()
+                             : fmt::format(", {} of them within the limits of the study", answers_),
                          called(designs_[0].design));
+    }
     if (counts_.defect_free > 0)
       return fmt::format("None of the {} four-bars that pass the points {} keeps the limits of the study.",
                          counts_.defect_free, pass);
