@@ -150,6 +150,12 @@ TEST_F(RealLists, SamplesSayWhichMechanismTakesThem) {
             "\n`sample = \"NAME\"` in [mechanism] takes one of them, with its dimensions and masses.\n");
   EXPECT_EQ(run({"samples", "helicopter"}), 2);
   EXPECT_EQ(err_, "error: nothing in the list holds 'helicopter'; `linkwright samples` lists all\n");
+  // Who looks in the wrong list is shown the right ones.
+  EXPECT_EQ(run({"catalogue", "jansen"}), 2);
+  EXPECT_EQ(
+      err_,
+      "error: nothing in the list holds 'jansen'; `linkwright catalogue` lists all; `linkwright samples "
+      "jansen` finds 1; `linkwright examples jansen` finds 1\n");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 namespace linkwright::cli {
 namespace {
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::MatchesRegex;
 
 class Workbench : public test::ProgramFixture {
@@ -70,9 +71,14 @@ TEST_F(Workbench, OpensThePageIfItCan) {
   ::setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
   const pid_t child = start({"serve", "--open"});
   const std::string opened = written("opened", "\n");
+  // What a browser is started with is seen by all users of the machine: a page of this one leads on.
+  EXPECT_THAT(opened, MatchesRegex("/.*/linkwright-[A-Za-z0-9]+/workbench.html\n"));
+  const fs::path page = opened.substr(0, opened.size() - 1);
+  EXPECT_THAT(text_of(page), ContainsRegex("url=http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]+\""));
+  EXPECT_EQ(fs::status(page.parent_path()).permissions(), fs::perms::owner_all);
   ::kill(child, SIGINT);
   EXPECT_EQ(finish(child), 0);
-  EXPECT_THAT(opened, MatchesRegex("http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]+\n"));
+  EXPECT_FALSE(fs::exists(page.parent_path()));
   ::setenv("PATH", "/nowhere", 1);
   fs::remove(folder_ / "stderr");
   const pid_t other = start({"serve", "--open"});

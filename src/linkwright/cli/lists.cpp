@@ -59,6 +59,14 @@ int nothing_holds(const std::vector<std::string>& words, std::string_view comman
   Diagnostic problem;
   problem.message = fmt::format("nothing in the list holds '{}'", all);
   problem.hint = fmt::format("`linkwright {}` lists all", command);
+  // A six-bar is no kind of study, but there are six-bars.
+  const auto samples = app::samples();
+  const auto of_samples = std::count_if(samples.begin(), samples.end(), [&](const app::Sample& s) {
+    return app::holds_words(words, {s.group, s.name, s.summary});
+  });
+  if (of_samples > 0) problem.hint += fmt::format("; `linkwright samples {}` finds {}", all, of_samples);
+  if (const std::size_t found = app::find_examples(all).size(); found > 0)
+    problem.hint += fmt::format("; `linkwright examples {}` finds {}", all, found);
   print_diagnostics({problem});
   return bad_input;
 }

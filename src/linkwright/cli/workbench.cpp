@@ -4,7 +4,12 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "linkwright/cli/terminal.h"
@@ -14,6 +19,42 @@
 #include "linkwright/study/read.h"
 
 namespace linkwright::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// A page that only this user can read and that leads to the address: everybody on the machine sees in the
+/// list of processes what a browser is started with, and the address is the key.
+class Door {
+ public:
+  explicit Door(const std::string& address) {
+    const char* runtime = std::getenv("XDG_RUNTIME_DIR");  // this user's own, and gone after the session
+    std::error_code error;
+    fs::path parent = runtime && *runtime ? fs::path(runtime) : fs::path();
+    if (!fs::is_directory(parent, error)) parent = fs::temp_directory_path(error);
+    std::string name = (parent / "linkwright-XXXXXX").string();
+    if (!::mkdtemp(name.data())) return;  // readable for this user alone
+    folder_ = name;
+    std::ofstream page(file());
+    page << fmt::format(
+        "<!doctype html><meta charset=\"utf-8\"><title>Linkwright</title>"
+        "<meta http-equiv=\"refresh\" content=\"0;url={0}\"><a href=\"{0}\">the workbench</a>\n",
+        address);
+  }
+  ~Door() {
+    std::error_code error;
+    if (!folder_.empty()) fs::remove_all(folder_, error);
+  }
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
+
+  /// Empty = it could not be made.
+  std::string file() const { return folder_.empty() ? std::string() : (folder_ / "workbench.html").string(); }
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace
 
 int serve_workbench(const Arguments& arguments) {
   RunContext context;
@@ -33,9 +74,14 @@ int serve_workbench(const Arguments& arguments) {
   }
   fmt::print("open {}\nCtrl-C ends the workbench; the address is for you alone\n", server->address());
   std::fflush(stdout);
-  if (arguments.open)
-    if (problem = open_on_desktop(server->address()); !problem.empty())
+  std::optional<Door> door;
+  if (arguments.open) {
+    door.emplace(server->address());
+    problem = door->file().empty() ? std::string("there is no folder for a page of your own")
+                                   : open_on_desktop(door->file());
+    if (!problem.empty())
       fmt::print(stderr, "the page was not opened: {}; open the address in a browser\n", problem);
+  }
   while (!context.interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   server.reset();
   fmt::print("\nthe workbench has ended\n");

@@ -214,7 +214,12 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     } else if (!own_drives) {
       l.driven.push_back(j);
     } else if (std::find(l.driven.begin(), l.driven.end(), j) == l.driven.end()) {
-      drive.error("joint", fmt::format("joint '{}' has no drive in this mechanism", joint), {});
+      std::vector<std::string_view> driven;
+      for (const int d : l.driven) driven.push_back(l.joints[static_cast<std::size_t>(d)].name);
+      drive.error(
+          "joint",
+          fmt::format("this mechanism is driven at {}, not at '{}'", fmt::join(driven, " and "), joint),
+          "drive it there, or give its bodies and joints instead, which may be driven anywhere");
       good = false;
     }
   }
