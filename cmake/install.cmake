@@ -46,7 +46,7 @@ install(FILES ${PROJECT_BINARY_DIR}/LinkwrightConfig.cmake ${PROJECT_BINARY_DIR}
 
 # pkg-config linkwright: the mechanics, without study files and reports.
 set(pc_libraries)
-foreach(module clearance flexible parallel suspension planar optimise math core)
+foreach(module parameter_study clearance flexible parallel suspension planar optimise math core)
   if(TARGET linkwright_${module})
     string(APPEND pc_libraries " -llinkwright_${module}")
   endif()

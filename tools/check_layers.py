@@ -17,13 +17,13 @@ LAYERS = [
     ["optimise"],
     ["study"],
     ["planar", "flexible", "suspension", "parallel", "report"],
-    ["clearance"],
+    ["clearance", "parameter_study"],
     ["app"],
     ["serve"],
     ["cli", "wasm", "python"],
 ]
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
-DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}
+DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance", "parameter_study"}
 
 # What a module may not use although it lies below.
 FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS}}
@@ -36,12 +36,14 @@ FOLDERS = {
     "suspension": [["guide"], ["wheel", "indirect"], ["compliance", "direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
     "clearance": [[BASE]],
+    "parameter_study": [[BASE]],
     "flexible": [[BASE]],
 }
 DOORS = ["studies.*", "reproductions*"]
 
 # Below the studies, what looks for the best uses the optimisers, and so does what works on many cores.
-OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/exact/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*"]
+OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/exact/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*",
+            "parameter_study/*"]
 
 # Seconds of compile time each: they stay in the sources that need them, away from the headers.
 HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/Dense", "Eigen/QR", "Eigen/SVD",

@@ -80,7 +80,7 @@ def listed(cmake_lists):
 
 
 # Modules whose headers are for users, and headers that they include one by one: they show a heavy library.
-FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance"]
+FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance", "parameter_study"]
 ONE_BY_ONE = {"math/lanes.h", "math/path_tracker.h", "math/simd.h", "optimise/pagmo_adapters.h"}
 
 

@@ -7,7 +7,7 @@ execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/fetch-sources.sh ${sources} 
 # Headers of the machine that know no machine; the rest of /usr/include must not be seen.
 set(headers ${PROJECT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
-foreach(library fmt toml++ nlohmann xsimd Random123 tl eigen3/Eigen eigen3/unsupported)
+foreach(library boost fmt toml++ nlohmann xsimd Random123 tl eigen3/Eigen eigen3/unsupported)
   if(NOT EXISTS /usr/include/${library})
     message(FATAL_ERROR "/usr/include/${library} is missing; tools/install-packages.sh wasm installs it")
   endif()

@@ -8,6 +8,7 @@
 #include "linkwright/math.h"
 #include "linkwright/optimise.h"
 #include "linkwright/parallel.h"
+#include "linkwright/parameter_study.h"
 #include "linkwright/planar.h"
 #include "linkwright/suspension.h"
 #include "linkwright/version.h"

@@ -27,6 +27,7 @@
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/optimise/pareto.h"
 #include "linkwright/optimise/particle_swarm.h"
+#include "linkwright/optimise/pieces.h"
 #include "linkwright/optimise/population.h"
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/optimise/priorities.h"

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/app/overrides.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/overrides.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
@@ -67,9 +67,9 @@ TEST(PageView, AStudyIsRunAndShowsWhatAReportWould) {
 
 /// A number or a list of a document, by its key.
 const Value* value_at(const Value& document, std::string_view key) {
-  const auto path = parse_path(key);
+  const auto path = study::parse_path(key);
   const Value* out = &document;
-  for (const KeyStep& step : path.value()) {
+  for (const study::KeyStep& step : path.value()) {
     out = out->find(step.key);
     for (const std::size_t index : step.indices) out = out ? &out->as_array().at(index) : nullptr;
     if (!out) return nullptr;

@@ -21,6 +21,22 @@ TEST(RunContext, CancelAndDeadlineInterrupt) {
   EXPECT_THROW(timed.set_time_limit(std::chrono::seconds(-1)), ContractError);
 }
 
+TEST(RunContext, EndsWithTheRunThatItIsAPartOf) {
+  RunContext whole, part;
+  part.set_part_of(whole);
+  EXPECT_EQ(part.interruption(), Status::done);
+  whole.set_time_limit(std::chrono::seconds(0));
+  EXPECT_EQ(part.interruption(), Status::deadline);
+  whole.cancel();
+  EXPECT_EQ(part.interruption(), Status::cancelled);
+
+  RunContext free_run, cancelled;
+  cancelled.set_part_of(free_run);
+  cancelled.cancel();
+  EXPECT_EQ(cancelled.interruption(), Status::cancelled);
+  EXPECT_EQ(free_run.interruption(), Status::done);
+}
+
 TEST(RunContext, PassesProgressOn) {
   RunContext context;
   std::vector<double> seen;

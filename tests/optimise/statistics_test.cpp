@@ -68,7 +68,7 @@ TEST(Statistics, ForEachSeedRunsEachOnceAndReportsProgress) {
     });
     std::vector<int> calls(20, 0);
     std::vector<std::uint64_t> seeds(20);
-    const SeedLoop loop = for_each_seed({7, 20}, context, "test", [&](std::size_t i, std::uint64_t seed) {
+    const PieceLoop loop = for_each_seed({7, 20}, context, "test", [&](std::size_t i, std::uint64_t seed) {
       ++calls[i];
       seeds[i] = seed;
       return 1.0;
@@ -85,7 +85,7 @@ TEST(Statistics, ForEachSeedRunsEachOnceAndReportsProgress) {
 TEST(Statistics, ForEachSeedLeavesOutSeedsAfterACancel) {
   RunContext context;
   context.set_threads(1);
-  const SeedLoop loop = for_each_seed({1, 10}, context, "test", [&](std::size_t i, std::uint64_t) {
+  const PieceLoop loop = for_each_seed({1, 10}, context, "test", [&](std::size_t i, std::uint64_t) {
     if (i == 3) context.cancel();
     return 0.0;
   });
@@ -104,7 +104,7 @@ TEST(Statistics, SeedsOfTheCheckpointAreNotRunAgain) {
     std::atomic<int> ran = 0;
     std::atomic<bool> interrupted = false;
     results.assign(6, 0);
-    const SeedLoop loop = for_each_seed(
+    const PieceLoop loop = for_each_seed(
         {10, 6}, context, "test",
         [&](std::size_t i, std::uint64_t seed) {
           ++ran;

@@ -43,7 +43,7 @@ def main():
     def kind_of(study):
         name = f"{study.get('kind')}/{study.get('mechanism', {}).get('type')}"
         target = study.get("target", {}).get("type") if isinstance(study.get("target"), dict) else None
-        return kinds.get(f"{name}/{target}") or kinds.get(name)
+        return kinds.get(f"{name}/{target}") or kinds.get(name) or kinds.get(study.get("kind"))
 
     refused = 0
     count = 0

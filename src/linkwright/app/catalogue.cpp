@@ -14,6 +14,7 @@
 #include "linkwright/flexible/studies.h"
 #include "linkwright/parallel/reproductions.h"
 #include "linkwright/parallel/studies.h"
+#include "linkwright/parameter_study/studies.h"
 #include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/renamed.h"
@@ -43,6 +44,7 @@ constexpr Group groups[] = {
     {"", "parallel.", "Parallel robots and Pi-joints"},
     {"", "clearance.", "Joint clearance and tolerances"},
     {"", "flexible.", "Flexible links"},
+    {"sweep", "", "Parameter studies"},
 };
 constexpr std::string_view no_group = "Other studies";
 
@@ -63,8 +65,9 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies(),
-                                   flexible::studies(), clearance::studies()});
+  static const Kinds domains = join({planar::studies(), suspension::studies(), parallel::studies(),
+                                     flexible::studies(), clearance::studies()});
+  static const Kinds kinds = join({domains, parameter_study::studies(domains)});
   return kinds;
 }
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/app/overrides.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/display_units.h"
+#include "linkwright/study/overrides.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"
@@ -31,9 +31,9 @@ struct Found {
 
 // Tables whose members are named by users, such as points_mm, carry the unit themselves: the last unit on the
 // way counts.
-Found find(const Value& document, std::span<const KeyStep> path) {
+Found find(const Value& document, std::span<const study::KeyStep> path) {
   Found out{&document};
-  for (const KeyStep& step : path) {
+  for (const study::KeyStep& step : path) {
     if (!out.value->is_object()) return {};
     const Value* next = out.value->find(step.key);
     const auto wanted = split_unit(step.key);
@@ -157,7 +157,7 @@ std::optional<std::string> text_of(const Value& value, const Found& found, study
 /// or a list or table of such in one piece.
 std::optional<std::string> replaced(std::string_view text, const Value& document, const Edit& edit,
                                     study::Syntax syntax) {
-  const auto path = parse_path(edit.key);
+  const auto path = study::parse_path(edit.key);
   if (!path) return std::nullopt;
   const Found found = find(document, *path);
   if (!found.value) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<std::string> replaced(std::string_view text, const Value& document
 /// with a table that the text does not have either; nothing if neither can be. `units`: of the study.
 std::optional<std::string> inserted(std::string_view text, const Value& document, const Edit& edit,
                                     const study::DisplayUnits& units) {
-  auto path = parse_path(edit.key);
+  auto path = study::parse_path(edit.key);
   if (!path || path->size() < 2 || !path->back().indices.empty() || find(document, *path).value)
     return std::nullopt;
   const study::DisplayUnits::Key shown = units.key(path->back().key);
@@ -193,7 +193,7 @@ std::optional<std::string> inserted(std::string_view text, const Value& document
     return fmt::format("{}{}{}", text.substr(0, end + 1), line, text.substr(end + 1));
   }
   std::string name;
-  for (const KeyStep& step : *path) {
+  for (const study::KeyStep& step : *path) {
     if (!step.indices.empty()) return std::nullopt;
     name += (name.empty() ? "" : ".") + step.key;
   }
@@ -219,7 +219,7 @@ study::DisplayUnits units_of(const study::Study& study) {
 }  // namespace
 
 bool has_key(const Value& document, std::string_view key) {
-  const auto path = parse_path(key);
+  const auto path = study::parse_path(key);
   return path && find(document, *path).value != nullptr;
 }
 
@@ -236,7 +236,7 @@ std::string edited(std::string_view text, std::span<const Edit> edits, Diagnosti
     }
     Diagnostics ignored;
     const auto study = study::prepare(document, page_text, {}, catalogue(), ignored);
-    const auto path = parse_path(edit.key);
+    const auto path = study::parse_path(edit.key);
     // What has a default is put in where its table stands, unless that makes a study out of order.
     if (syntax == study::Syntax::toml)
       if (auto next = inserted(out, document, edit, study::units_of(document))) {
@@ -256,7 +256,7 @@ std::string edited(std::string_view text, std::span<const Edit> edits, Diagnosti
         continue;
       }
     }
-    if (!path || !apply_override(document, {edit.key, edit.key, edit.value}, diagnostics)) {
+    if (!path || !study::apply_override(document, {edit.key, edit.key, edit.value}, diagnostics)) {
       if (!path)
         diagnostics.push_back(
             {Diagnostic::Severity::error, page_text, {}, edit.key, "is not the path of a key", {}});

@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/app/overrides.h"
 #include "linkwright/app/view.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/core/table.h"
@@ -23,6 +22,7 @@
 #include "linkwright/report/html.h"
 #include "linkwright/report/svg.h"
 #include "linkwright/study/design.h"
+#include "linkwright/study/overrides.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/write.h"
@@ -67,20 +67,20 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
                                        Value* as_written) {
   const std::size_t before = diagnostics.size();
   Value document = read_document(file, diagnostics);
-  std::vector<Override> changes;
+  std::vector<study::Override> changes;
   for (const std::string& text : options.set) {
-    Override change;
-    if (parse_override(text, change, diagnostics)) changes.push_back(std::move(change));
+    study::Override change;
+    if (study::parse_override(text, change, diagnostics)) changes.push_back(std::move(change));
   }
   if (options.seed)
     changes.push_back(
         {fmt::format("--seed {}", *options.seed), "optimiser.seeds.first", Value(*options.seed)});
   if (diagnostics.size() != before) return std::nullopt;
-  for (const Override& change : changes) apply_override(document, change, diagnostics);
+  for (const study::Override& change : changes) study::apply_override(document, change, diagnostics);
   if (diagnostics.size() != before) return std::nullopt;
   const std::string name = file == standard_input ? standard_input_name : file.string();
   auto study = study::prepare(document, name, file.parent_path(), kinds, diagnostics);
-  name_overrides(diagnostics, changes);
+  study::name_overrides(diagnostics, changes);
   if (as_written) *as_written = std::move(document);
   if (options.seed)
     for (Diagnostic& d : diagnostics)

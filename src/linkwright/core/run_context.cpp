@@ -16,6 +16,7 @@ void RunContext::set_time_limit(std::chrono::duration<double> limit) {
 Status RunContext::interruption() const {
   if (cancelled_.load(std::memory_order_relaxed)) return Status::cancelled;
   const bool late = deadline_ != Clock::time_point::max() && Clock::now() >= deadline_;
+  if (whole_ && !late) return whole_->interruption();
   return counted_look(late ? Status::deadline : Status::done);
 }
 

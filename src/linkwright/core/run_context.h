@@ -37,6 +37,10 @@ class RunContext {
   /// Time after which the run ends with the best so far; call before the run starts.
   void set_time_limit(std::chrono::duration<double> limit);
 
+  /// Ends with another run of which this one is a part: when that is cancelled or out of time, so is this
+  /// one; call before the run starts. `whole` must outlive this.
+  void set_part_of(const RunContext& whole) { whole_ = &whole; }
+
   /// Receives progress; call before the run starts. The function must not throw.
   void set_progress(std::function<void(const Progress&)> report) { report_ = std::move(report); }
 
@@ -62,6 +66,7 @@ class RunContext {
   std::function<void(const Progress&)> report_;
   int threads_ = 0;
   Checkpoint* checkpoint_ = nullptr;
+  const RunContext* whole_ = nullptr;
 };
 
 }  // namespace linkwright

@@ -3,13 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
 
@@ -57,61 +55,20 @@ SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshol
 
 std::string seed_name(std::uint64_t seed) { return fmt::format("seed {}", seed); }
 
-namespace {
-
-using Body = math::FunctionRef<double(std::size_t index, std::uint64_t seed)>;
-using Save = math::FunctionRef<Value(std::size_t index)>;
-using Restore = math::FunctionRef<double(std::size_t index, const Value& value)>;
-
-SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body,
-                   Checkpoint* checkpoint, Save save, Restore restore) {
-  LINKWRIGHT_REQUIRE(seeds.count >= 1, "needs at least one seed, got {}", seeds.count);
-  const auto count = static_cast<std::size_t>(seeds.count);
-  std::vector<char> ran(count, 0), left(count, 0);  // not bits: written by several threads
-  std::atomic<std::size_t> finished{0};
-  std::atomic<double> best{infinity};
-  std::size_t own = count;
-  if (checkpoint)
-    for (std::size_t i = 0; i < count; ++i) {
-      const Value value = checkpoint->find(seed_name(seeds.first + i));
-      if (!value.is_null()) {
-        best = std::min(best.load(), restore(i, value));
-        ran[i] = 1;
-        ++finished;
-      } else if (checkpoint->is_left_to_others(i)) {
-        left[i] = 1;
-        --own;
-      }
-    }
-  parallel_for(count, context.threads(), [&](std::size_t i) {
-    if (ran[i] != 0 || left[i] != 0 || (i > 0 && context.interrupted())) return;
-    const double cost = body(i, seeds.first + i);
-    ran[i] = 1;
-    if (checkpoint)
-      if (const Value value = save(i); !value.is_null()) checkpoint->keep(seed_name(seeds.first + i), value);
-    double least = best.load();
-    while (cost < least && !best.compare_exchange_weak(least, cost)) {
-    }
-    const double now = best.load();
-    context.report({.stage = stage,
-                    .fraction = static_cast<double>(++finished) / static_cast<double>(own),
-                    .best = std::isfinite(now) ? now : nan});
-  });
-  if (own < count) throw LeftToOthers();
-  return {context.interruption(), std::vector<bool>(ran.begin(), ran.end())};
+PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
+                        math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body) {
+  return for_each_piece(static_cast<std::size_t>(seeds.count), context, stage,
+                        [&](std::size_t i) { return body(i, seeds.first + i); });
 }
 
-}  // namespace
-
-SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body) {
-  return run_seeds(
-      seeds, context, stage, body, nullptr, [](std::size_t) { return Value(); },
-      [](std::size_t, const Value&) { return 0.0; });
-}
-
-SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body,
-                       Save save, Restore restore) {
-  return run_seeds(seeds, context, stage, body, context.checkpoint(), save, restore);
+PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
+                        math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body,
+                        math::FunctionRef<Value(std::size_t index)> save,
+                        math::FunctionRef<double(std::size_t index, const Value& value)> restore) {
+  return for_each_piece(
+      static_cast<std::size_t>(seeds.count), context, stage,
+      [&](std::size_t i) { return seed_name(seeds.first + i); },
+      [&](std::size_t i) { return body(i, seeds.first + i); }, save, restore);
 }
 
 SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& method,
@@ -121,7 +78,7 @@ SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& metho
   MinimiseOptions quiet = options;
   quiet.progress = false;
   std::vector<Report> all(static_cast<std::size_t>(seeds.count));
-  const SeedLoop loop =
+  const PieceLoop loop =
       for_each_seed(seeds, context, name_of(method.method), [&](std::size_t i, std::uint64_t seed) {
         MinimiseOptions own = quiet;
         if (!own.checkpoint.empty()) own.checkpoint += "/" + seed_name(seed);

@@ -13,6 +13,7 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/optimise/pieces.h"
 
 namespace linkwright::optimise {
 
@@ -51,32 +52,18 @@ double quantile(std::span<const double> sorted, double p);
 
 SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshold);
 
-/// How a loop over seeds ended.
-struct SeedLoop {
-  Status status = Status::done;  ///< done, deadline or cancelled
-  /// One a seed, also of those taken from the checkpoint; seeds that had not begun when the run was
-  /// interrupted are left out.
-  std::vector<bool> ran;
-};
-
-/// Calls body(i, seed i) for every seed, on RunContext::threads() threads, and reports progress under the
-/// name `stage`. The body returns the cost that its seed came to (for the progress; infinite if none), writes
-/// its results to a place of its own (index i) and heeds the run context itself. The first seed always runs.
-SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
-                       math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body);
+/// Calls body(i, seed i) for every seed as for_each_piece does.
+PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
+                        math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body);
 
 /// Name of a seed in the checkpoint: "seed 7". What the body keeps on the way has names below it.
 std::string seed_name(std::uint64_t seed);
 
-/// The same with a checkpoint, if the run context has one: seeds that it holds are not run again.
-/// `save(i)` turns what seed i came to into a value, null if it was interrupted and is to be run again.
-/// `restore(i, value)` puts it back to the place of index i and returns the cost as the body does; it throws
-/// CheckpointError for a value that it cannot use. All seeds are restored before the first one runs. Throws
-/// LeftToOthers when the checkpoint leaves seeds to other runs.
-SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
-                       math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body,
-                       math::FunctionRef<Value(std::size_t index)> save,
-                       math::FunctionRef<double(std::size_t index, const Value& value)> restore);
+/// The same with a checkpoint, if the run context has one, which holds seeds under their names.
+PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
+                        math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body,
+                        math::FunctionRef<Value(std::size_t index)> save,
+                        math::FunctionRef<double(std::size_t index, const Value& value)> restore);
 
 /// The same method on the same problem with many seeds.
 struct SeedsReport {

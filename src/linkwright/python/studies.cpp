@@ -18,7 +18,6 @@
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/examples.h"
-#include "linkwright/app/overrides.h"
 #include "linkwright/app/result_json.h"
 #include "linkwright/app/run.h"
 #include "linkwright/app/view.h"
@@ -30,6 +29,7 @@
 #include "linkwright/report/html.h"
 #include "linkwright/study/answer.h"
 #include "linkwright/study/design.h"
+#include "linkwright/study/overrides.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
@@ -74,9 +74,9 @@ StudySource read_source_file(const fs::path& file) {
 
 void change(StudySource& source, const std::string& key, const py::object& value) {
   Diagnostics diagnostics;
-  app::Override change{{}, key, to_value(value, key)};
+  study::Override change{{}, key, to_value(value, key)};
   change.origin = fmt::format("set(\"{}\", {})", key, study::to_json(change.value));
-  const auto steps = app::parse_path(key);
+  const auto steps = study::parse_path(key);
   if (!steps || steps->size() > study::deepest_nesting)
     diagnostics.push_back({Diagnostic::Severity::error,
                            change.origin,
@@ -84,14 +84,14 @@ void change(StudySource& source, const std::string& key, const py::object& value
                            {},
                            fmt::format("'{}' is not the path of a key", key),
                            "write it like mechanism.link[0].name"});
-  else if (Value document = source.document; app::apply_override(document, change, diagnostics))
+  else if (Value document = source.document; study::apply_override(document, change, diagnostics))
     source.document = std::move(document);
   if (has_errors(diagnostics)) raise_study_error(diagnostics);
   source.changes.push_back(std::move(change));
 }
 
 py::object value_at(const Value& document, const std::string& key) {
-  const auto steps = app::parse_path(key);
+  const auto steps = study::parse_path(key);
   const Value* at = steps ? &document : nullptr;
   for (std::size_t i = 0; at && i < steps->size(); ++i) {
     at = at->find((*steps)[i].key);

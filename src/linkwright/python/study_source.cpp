@@ -9,7 +9,7 @@ namespace linkwright::python {
 
 std::optional<study::Study> prepared(const StudySource& source, Diagnostics& diagnostics) {
   auto study = study::prepare(source.document, source.file, source.folder, app::catalogue(), diagnostics);
-  app::name_overrides(diagnostics, source.changes);
+  study::name_overrides(diagnostics, source.changes);
   return study;
 }
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/app/overrides.h"
 #include "linkwright/app/run.h"
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
+#include "linkwright/study/overrides.h"
 #include "linkwright/study/result.h"
 #include "linkwright/study/study.h"
 
@@ -22,7 +22,7 @@ struct StudySource {
   std::string file;              ///< what messages call it
   std::filesystem::path folder;  ///< where the files that it names are looked for
   bool from_file = false;        ///< `file` is one
-  std::vector<app::Override> changes;
+  std::vector<study::Override> changes;
 };
 
 /// As the command line reads a study; nothing when `diagnostics` has errors.

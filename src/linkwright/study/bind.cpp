@@ -270,7 +270,9 @@ void DocumentReader::finish_missing(const Value& table, Record& record) {
 
 void DocumentReader::drop_follow_ups() {
   const auto builds = [](std::string_view table) { return table != "output" && table != "check"; };
-  const bool inputs = std::any_of(unreadable_.begin(), unreadable_.end(), builds);
+  // What is computed decides what is needed: without the list it is everything.
+  const bool inputs = std::any_of(unreadable_.begin(), unreadable_.end(), builds) ||
+                      std::find(misspelt_.begin(), misspelt_.end(), "output.quantities") != misspelt_.end();
   const auto follows = [&](const Meaning& meaning) {
     if (meaning.lacking) return meaning.lacking->misspelt;
     const std::string& path = diagnostics_[meaning.diagnostic].key;

@@ -182,19 +182,23 @@ Resolved resolve(const CheckRequest& request, const Result& result) {
 
 }  // namespace
 
+void read_row(ObjectReader& reader, CheckRequest& check) {
+  auto at = reader.table("at");
+  if (!at) return;
+  for (const Value::Member& m : at->members()) {
+    if (m.value.is_number() && std::isfinite(m.value.as_number()))
+      check.at.emplace_back(m.key, m.value.as_number());
+    else
+      at->error(m.key, "must be a finite number: the value of a column of the table");
+  }
+}
+
 std::vector<CheckRequest> read_checks(ObjectReader& document) {
   std::vector<CheckRequest> checks;
   for (ObjectReader& reader : document.tables(Field{.key = "check", .summary = {}})) {
     CheckRequest check;
     reader.read(check);
-    if (auto at = reader.table("at")) {
-      for (const Value::Member& m : at->members()) {
-        if (m.value.is_number() && std::isfinite(m.value.as_number()))
-          check.at.emplace_back(m.key, m.value.as_number());
-        else
-          at->error(m.key, "must be a finite number: the value of a column of the table");
-      }
-    }
+    read_row(reader, check);
     // A limit that is there but could not be read has been reported already.
     const bool equals = reader.has("equals"), limits = reader.has("at_most") || reader.has("at_least");
     if (!equals && !limits)

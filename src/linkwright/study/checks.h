@@ -32,6 +32,9 @@ void fields(Visitor&& visit, CheckRequest& c) {
         c.tolerance);
 }
 
+/// Reads the row of a table that a quantity is of, `at` of its table, if it has one.
+void read_row(ObjectReader& reader, CheckRequest& check);
+
 /// Reads `[[check]]`: each needs limits that fit together.
 std::vector<CheckRequest> read_checks(ObjectReader& document);
 

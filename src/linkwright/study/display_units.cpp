@@ -19,6 +19,33 @@ struct Count {
   int times = 0;
 };
 
+void count_key(std::string_view text, std::vector<Count>& counts) {
+  // Moduli are in GPa, but no stress of a result is of their size.
+  const auto key = split_unit(text);
+  if (!key || key->unit->suffix == "GPa") return;
+  const auto same =
+      std::find_if(counts.begin(), counts.end(), [&](const Count& c) { return c.unit.unit == key->unit; });
+  if (same == counts.end())
+    counts.push_back({*key, 1});
+  else
+    ++same->times;
+}
+
+/// The paths of keys and quantities that a list of parameters or measures names.
+void count_paths(const Value& list, std::vector<Count>& counts) {
+  if (!list.is_array()) return;
+  for (const Value& element : list.as_array())
+    for (const char* name : {"key", "quantity"})
+      if (const Value* path = element.find(name); path && path->is_string()) {
+        std::string_view rest = path->as_string();
+        while (!rest.empty()) {
+          const std::string_view part = rest.substr(0, rest.find('.'));
+          count_key(part, counts);
+          rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+        }
+      }
+}
+
 void count(const Value& value, std::vector<Count>& counts) {
   if (value.is_array())
     for (const Value& element : value.as_array()) count(element, counts);
@@ -28,15 +55,8 @@ void count(const Value& value, std::vector<Count>& counts) {
     // nought is the same in all units.
     const bool numbers = (member.value.is_number() && member.value.as_number() != 0) ||
                          member.value.is_array() || (member.value.is_object() && member.value.find("min"));
-    // Moduli are in GPa, but no stress of a result is of their size.
-    if (const auto key = split_unit(member.key); key && numbers && key->unit->suffix != "GPa") {
-      const auto same = std::find_if(counts.begin(), counts.end(),
-                                     [&](const Count& c) { return c.unit.unit == key->unit; });
-      if (same == counts.end())
-        counts.push_back({*key, 1});
-      else
-        ++same->times;
-    }
+    if (numbers) count_key(member.key, counts);
+    if (member.key == "parameter" || member.key == "measure") count_paths(member.value, counts);
     count(member.value, counts);
   }
 }

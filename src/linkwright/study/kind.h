@@ -91,7 +91,7 @@ struct Prepared {
 /// file.
 struct Kind {
   std::string kind;       ///< "synthesis"
-  std::string mechanism;  ///< "planar.four_bar"
+  std::string mechanism;  ///< "planar.four_bar"; empty = the study has no mechanism of its own
   std::string target;     ///< "path_points"; empty = the study has no target
   std::string summary;    ///< one sentence for the catalogue
   std::string example;    ///< a complete study as TOML: what `linkwright new` writes

@@ -56,7 +56,7 @@ auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, 
   const auto count = static_cast<std::size_t>(asked.count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(asked.first), asked.count};
   std::vector<Answer> all(count);
-  const optimise::SeedLoop loop = optimise::for_each_seed(
+  const optimise::PieceLoop loop = optimise::for_each_seed(
       seeds, context, stage,
       [&](std::size_t i, std::uint64_t seed) {
         all[i] = run(seed);

@@ -57,6 +57,7 @@ const Kind* find_kind(ObjectReader& root, std::span<const Kind> all) {
   for (const Kind& kind : all) kinds.push_back(&kind);
   choose(kinds, &Kind::kind, root, kind_field);
   if (kinds.empty()) return nullptr;
+  if (kinds.front()->mechanism.empty()) return kinds.front();
 
   std::optional<ObjectReader> mechanism =
       root.table(Field{.key = "mechanism", .summary = {}, .required = true});
@@ -123,7 +124,7 @@ Value canonical(const Kind& kind, const Common& common, Value own) {
   if (!common.title.empty()) all["title"] = common.title;
   if (!common.source.empty()) all["source"] = common.source;
   if (own.is_null()) own = Value::object();
-  put_first(own["mechanism"], "type", kind.mechanism);
+  if (!kind.mechanism.empty()) put_first(own["mechanism"], "type", kind.mechanism);
   if (!kind.target.empty()) put_first(own["target"], "type", kind.target);
   if (kind.seeded) own["optimiser"]["seeds"] = write_fields(common.seeds);
   for (Value::Member& member : own.as_object()) all[member.key] = std::move(member.value);
@@ -301,7 +302,7 @@ Value schema_of(const Kind& kind) {
   document["description"] = kind.summary;
   Value own = std::move(writer).finish();
   for (Value::Member& member : own.as_object()) document[member.key] = std::move(member.value);
-  add_property(document, "mechanism", "type", constant(kind.mechanism), true);
+  if (!kind.mechanism.empty()) add_property(document, "mechanism", "type", constant(kind.mechanism), true);
   if (!kind.target.empty()) add_property(document, "target", "type", constant(kind.target), true);
   if (kind.seeded) add_property(document, "optimiser", "seeds", schema_fields<Seeds>(), false);
   return document;
@@ -322,7 +323,10 @@ Value schema_of(std::span<const Kind> kinds) {
 }
 
 std::string name_of(const Kind& kind) {
-  return kind.kind + "/" + kind.mechanism + (kind.target.empty() ? "" : "/" + kind.target);
+  std::string name = kind.kind;
+  for (const std::string& part : {kind.mechanism, kind.target})
+    if (!part.empty()) name += "/" + part;
+  return name;
 }
 
 std::string schema_file(std::string_view kind) {

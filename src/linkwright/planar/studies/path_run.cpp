@@ -98,7 +98,7 @@ Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& conte
   const auto count = static_cast<std::size_t>(common.seeds.count);
   std::vector<PathSeedRun> all(count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop = optimise::for_each_seed(
+  const optimise::PieceLoop loop = optimise::for_each_seed(
       seeds, context, out.method,
       [&](std::size_t i, std::uint64_t seed) {
         all[i] =

@@ -175,7 +175,7 @@ SliderPathRuns run_slider_path_seeds(const SliderPathStudy& s, const study::Comm
   const auto count = static_cast<std::size_t>(common.seeds.count);
   std::vector<SliderPathSynthesis> all(count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop = optimise::for_each_seed(
+  const optimise::PieceLoop loop = optimise::for_each_seed(
       seeds, context, out.method,
       [&](std::size_t i, std::uint64_t seed) {
         all[i] =

@@ -8,7 +8,7 @@
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/value.h"
 
-namespace linkwright::app {
+namespace linkwright::study {
 
 /// One name of the path of a key, with the places in lists behind it.
 struct KeyStep {
@@ -37,4 +37,4 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
 /// Lets the diagnostics that an override caused name it instead of the file.
 void name_overrides(Diagnostics& diagnostics, const std::vector<Override>& changes);
 
-}  // namespace linkwright::app
+}  // namespace linkwright::study

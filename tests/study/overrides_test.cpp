@@ -1,22 +1,22 @@
-#include "linkwright/app/overrides.h"
+#include "linkwright/study/overrides.h"
 
 #include <gmock/gmock.h>
 
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
-namespace linkwright::app {
+namespace linkwright::study {
 namespace {
 using ::testing::HasSubstr;
 
 /// The document after an override, or the message that came instead.
 std::string with(std::string_view text) {
   Diagnostics diagnostics;
-  Value document = study::read_text("a = 1\n[t]\ncrank_mm = 5\n[[list]]\nname = 'x'\n", study::Syntax::toml,
-                                    "s", diagnostics);
+  Value document =
+      read_text("a = 1\n[t]\ncrank_mm = 5\n[[list]]\nname = 'x'\n", Syntax::toml, "s", diagnostics);
   Override change;
   if (parse_override(text, change, diagnostics)) apply_override(document, change, diagnostics);
-  return diagnostics.empty() ? study::to_json(document) : to_string(diagnostics[0]);
+  return diagnostics.empty() ? to_json(document) : to_string(diagnostics[0]);
 }
 
 TEST(Overrides, SetReplaceAndMake) {
@@ -54,4 +54,4 @@ TEST(Overrides, DiagnosticsNameTheOverride) {
 }
 
 }  // namespace
-}  // namespace linkwright::app
+}  // namespace linkwright::study

@@ -1,4 +1,4 @@
-#include "linkwright/app/overrides.h"
+#include "linkwright/study/overrides.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/read.h"
 
-namespace linkwright::app {
+namespace linkwright::study {
 namespace {
 
 void problem(Diagnostics& diagnostics, const Override& change, std::string message, std::string hint = {}) {
@@ -57,13 +57,13 @@ bool parse_override(std::string_view text, Override& result, Diagnostics& diagno
   };
   result.key = trimmed(text.substr(0, equals));
   const auto steps = parse_path(result.key);
-  if (!steps || steps->size() > study::deepest_nesting) {
+  if (!steps || steps->size() > deepest_nesting) {
     problem(diagnostics, result, fmt::format("'{}' is not the path of a key", result.key),
             "write it like mechanism.link[0].name");
     return false;
   }
   const std::size_t before = diagnostics.size();
-  result.value = study::read_value(trimmed(text.substr(equals + 1)), result.origin, diagnostics);
+  result.value = read_value(trimmed(text.substr(equals + 1)), result.origin, diagnostics);
   return diagnostics.size() == before;
 }
 
@@ -122,4 +122,4 @@ void name_overrides(Diagnostics& diagnostics, const std::vector<Override>& chang
   }
 }
 
-}  // namespace linkwright::app
+}  // namespace linkwright::study

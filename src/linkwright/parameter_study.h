@@ -1,0 +1,6 @@
+#pragma once
+
+// Samples of parameters, and what they say of a quantity.
+
+#include "linkwright/parameter_study/sampling.h"
+#include "linkwright/parameter_study/sensitivity.h"

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+// Where the parameters of a study are tried: points of the unit cube [0, 1]^n, which the study maps to the
+// ranges of its parameters.
+namespace linkwright::parameter_study {
+
+/// Points of the unit cube, one after the other: coordinate j of point i is at(i, j).
+struct Points {
+  std::size_t dimension = 0;
+  std::vector<double> coordinates;
+
+  std::size_t count() const { return dimension == 0 ? 0 : coordinates.size() / dimension; }
+  double at(std::size_t point, std::size_t coordinate) const {
+    return coordinates[point * dimension + coordinate];
+  }
+};
+
+/// Dimensions for which there are Sobol sequences.
+inline constexpr std::size_t most_sobol_dimensions = 3667;
+
+/// All combinations of levels[j] >= 1 equal steps from 0 to 1 (0.5 where there is one step); the last
+/// coordinate runs fastest.
+Points grid(const std::vector<std::size_t>& levels);
+
+/// Latin hypercube (McKay, Beckman and Conover 1979): each coordinate falls once into each of `count` equal
+/// intervals, anywhere in it.
+Points latin_hypercube(std::size_t count, std::size_t dimension, std::uint64_t seed);
+
+/// The first points of a Sobol sequence (direction numbers of Joe and Kuo 2008) behind the origin, which is
+/// left out. dimension <= most_sobol_dimensions.
+Points sobol_sequence(std::size_t count, std::size_t dimension);
+
+/// Trajectories of Morris (1991): from a random point of a grid of `levels` (even, >= 2) each coordinate is
+/// moved once, in random order, by levels / (2 (levels - 1)). Points of a trajectory follow each other,
+/// dimension + 1 of them.
+Points morris_trajectories(std::size_t trajectories, std::size_t dimension, std::size_t levels,
+                           std::uint64_t seed);
+
+/// The points of Saltelli et al. (2010) for sensitivity indices: for each of `samples` rows of a Sobol
+/// sequence in twice the dimension, whose halves are a and b, the points a, b, and for each coordinate j the
+/// point a with coordinate j of b: dimension + 2 points that follow each other.
+Points saltelli_points(std::size_t samples, std::size_t dimension);
+
+}  // namespace linkwright::parameter_study
