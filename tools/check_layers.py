@@ -43,7 +43,7 @@ DOORS = ["studies.*", "reproductions*"]
 
 # Below the studies, what looks for the best uses the optimisers, and so does what works on many cores.
 OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/exact/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*",
-            "parameter_study/*"]
+            "parameter_study/*", "clearance/sensitivity*"]
 
 # Seconds of compile time each: they stay in the sources that need them, away from the headers.
 HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/Dense", "Eigen/QR", "Eigen/SVD",

@@ -12,6 +12,7 @@
 #include "linkwright/core/looks.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/samples.h"
+#include "support/memory_checkpoint.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {
@@ -154,6 +155,29 @@ TEST(ClearanceSensitivity, MonteCarloAgreesWithTheFirstOrder) {
     }
     EXPECT_LT(drawn.samples[s].worst_error[0], first[s].worst_error[0] * 1.001);
   }
+  // In pieces that are kept, on any threads: the same bits.
+  test::MemoryCheckpoint kept;
+  for (const int threads : {1, 3}) {
+    RunContext own;
+    own.set_threads(threads);
+    own.set_checkpoint(&kept);
+    const MonteCarloResult resumed = clearance_monte_carlo(l, tolerances, outputs, samples, 4000, 5, own);
+    EXPECT_EQ(resumed.draws, 4000);
+    EXPECT_EQ(resumed.missed, drawn.missed);
+    EXPECT_EQ(resumed.largest, drawn.largest);
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+      EXPECT_EQ(resumed.samples[s].mean, drawn.samples[s].mean);
+      EXPECT_EQ(resumed.samples[s].deviation, drawn.samples[s].deviation);
+      EXPECT_EQ(resumed.samples[s].most, drawn.samples[s].most);
+      EXPECT_EQ(resumed.samples[s].worst_error, drawn.samples[s].worst_error);
+    }
+    EXPECT_GT(kept.entries.size(), 100u);
+    std::erase_if(kept.entries, [](const auto& entry) { return entry.first.size() % 2 == 0; });
+  }
+  kept.entries["linkages 2"] = pack_numbers(std::vector<double>(3));
+  RunContext own;
+  own.set_checkpoint(&kept);
+  EXPECT_THROW(clearance_monte_carlo(l, tolerances, outputs, samples, 4000, 5, own), CheckpointError);
   // The same seed, the same numbers.
   const MonteCarloResult again = clearance_monte_carlo(l, tolerances, outputs, samples, 100, 5, context),
                          same = clearance_monte_carlo(l, tolerances, outputs, samples, 100, 5, context);

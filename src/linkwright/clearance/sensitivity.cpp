@@ -1,14 +1,21 @@
 #include "linkwright/clearance/sensitivity.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <optional>
+#include <string_view>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
+#include "linkwright/optimise/pieces.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/reactions.h"
 
@@ -348,29 +355,111 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
   return out;
 }
 
+namespace {
+
+/// What some draws make. Deviations are Welford's sums of squares until all pieces are together.
+struct DrawnPiece {
+  int draws = 0;
+  std::vector<MonteCarloSample> samples;
+  std::vector<int> missed;
+  std::vector<double> largest;
+
+  DrawnPiece(std::size_t count, std::size_t values, std::size_t quantities)
+      : samples(count, {.assembled = 0,
+                        .mean = std::vector<double>(values, 0),
+                        .deviation = std::vector<double>(values, 0),
+                        .least = std::vector<double>(values, infinity),
+                        .most = std::vector<double>(values, -infinity),
+                        .worst_error = std::vector<double>(quantities, 0)}) {}
+};
+
+template <class Sample, class Visit>
+void each_list(Sample& s, Visit&& visit) {
+  for (auto* list : {&s.mean, &s.deviation, &s.least, &s.most, &s.worst_error}) visit(*list);
+}
+
+Value kept(const DrawnPiece& piece) {
+  std::vector<double> numbers;
+  for (const MonteCarloSample& s : piece.samples) {
+    numbers.push_back(s.assembled);
+    each_list(s, [&](const auto& list) { numbers.insert(numbers.end(), list.begin(), list.end()); });
+  }
+  numbers.insert(numbers.end(), piece.missed.begin(), piece.missed.end());
+  numbers.insert(numbers.end(), piece.largest.begin(), piece.largest.end());
+  return pack_numbers(numbers);
+}
+
+/// `piece` has the room, `draws` is what it must hold.
+void restore(DrawnPiece& piece, const Value& value, std::string_view what, int draws,
+             std::size_t quantities) {
+  const std::vector<double> numbers = unpack_numbers(value, what);
+  std::size_t wanted = at(draws) * (1 + quantities);
+  for (MonteCarloSample& s : piece.samples) {
+    ++wanted;
+    each_list(s, [&](const auto& list) { wanted += list.size(); });
+  }
+  if (numbers.size() != wanted)
+    throw CheckpointError(fmt::format("{}: holds {} numbers, must be {}", what, numbers.size(), wanted));
+  auto next = numbers.begin();
+  const auto count = [&](std::size_t most) {
+    const double n = *next++;
+    if (!(n >= 0 && n <= static_cast<double>(most) && n == std::floor(n)))
+      throw CheckpointError(fmt::format("{}: {} is not a number of linkages", what, n));
+    return static_cast<int>(n);
+  };
+  for (MonteCarloSample& s : piece.samples) {
+    s.assembled = count(at(draws));
+    each_list(s, [&](auto& list) {
+      std::copy_n(next, list.size(), list.begin());
+      next += static_cast<std::ptrdiff_t>(list.size());
+    });
+  }
+  for (int d = 0; d < draws; ++d) piece.missed.push_back(count(piece.samples.size()));
+  piece.largest.assign(next, numbers.end());
+  piece.draws = draws;
+}
+
+/// Puts statistics of two sets of draws together (Chan, Golub and LeVeque 1979).
+void join(MonteCarloSample& all, const MonteCarloSample& more) {
+  if (more.assembled == 0) return;
+  const double a = all.assembled, b = more.assembled, n = a + b;
+  for (std::size_t i = 0; i < all.mean.size(); ++i) {
+    const double off = more.mean[i] - all.mean[i];
+    all.mean[i] += off * b / n;
+    all.deviation[i] += more.deviation[i] + off * off * a * b / n;
+    all.least[i] = std::min(all.least[i], more.least[i]);
+    all.most[i] = std::max(all.most[i], more.most[i]);
+  }
+  for (std::size_t q = 0; q < all.worst_error.size(); ++q)
+    all.worst_error[q] = std::max(all.worst_error[q], more.worst_error[q]);
+  all.assembled += more.assembled;
+}
+
+}  // namespace
+
 MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances& t,
                                        const ToleranceOutputs& o, std::span<const InputMotion> samples,
-                                       int draws, std::uint64_t seed, const RunContext& context,
+                                       int draws, std::uint64_t seed, RunContext& context,
                                        std::span<const double> times) {
   require_valid(l, t, o, samples.size(), times.size());
   LINKWRIGHT_REQUIRE(draws >= 1, "needs 1 draw at least, got {}", draws);
   const Solver solver(l, o, samples, times, &context);
   const std::size_t pins = t.pins.size(), values = value_count(l, o);
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
-  MonteCarloResult out;
-  out.samples.resize(samples.size() / l.driven.size());
-  for (MonteCarloSample& s : out.samples) {
-    s.mean.assign(values, 0);
-    s.deviation.assign(values, 0);
-    s.least.assign(values, infinity);
-    s.most.assign(values, -infinity);
-    s.worst_error.assign(sizes.size(), 0);
-  }
-  std::vector<double> by(2 * pins + t.lengths.size());
-  while (out.draws < draws) {
-    if (out.status = context.interruption(); out.status != Status::done) break;
-    if (out.draws % 64 == 0) context.report({.stage = "monte_carlo", .fraction = double(out.draws) / draws});
-    RandomStream random({.seed = seed, .individual = static_cast<std::uint32_t>(out.draws)});
+  const std::size_t rows = samples.size() / l.driven.size();
+  // As many pieces as threads and machines can use, if their statistics fit into memory.
+  constexpr double most_bytes = 1e8;
+  const double bytes = static_cast<double>(sizeof(double) * rows * (4 * values + sizes.size() + 1));
+  const int most_pieces = static_cast<int>(std::clamp(most_bytes / bytes, 8.0, 1024.0));
+  const int size = (draws + most_pieces - 1) / most_pieces;
+  const auto count = at((draws + size - 1) / size);
+  const auto draws_of = [&](std::size_t k) { return std::min(size, draws - static_cast<int>(k) * size); };
+  std::vector<std::optional<DrawnPiece>> pieces(count);
+  const auto name = [](std::size_t k) { return fmt::format("linkages {}", k + 1); };
+
+  const auto draw = [&](DrawnPiece& piece, int index) {
+    RandomStream random({.seed = seed, .individual = static_cast<std::uint32_t>(index)});
+    std::vector<double> by(2 * pins + t.lengths.size());
     for (std::size_t k = 0; k < pins; ++k) {
       const double angle = random.uniform(0, 2 * pi);
       by[2 * k] = t.pins[k].clearance * std::cos(angle);
@@ -379,20 +468,17 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     for (std::size_t k = 0; k < t.lengths.size(); ++k)
       by[2 * pins + k] = t.lengths[k].tolerance * random.uniform(-1, 1);
     const auto drawn = solver.of(changed(l, t, by), 0, solver.samples(), &context);
-    if (drawn.empty()) {
-      out.status = context.interruption();
-      break;
-    }
-    out.missed.push_back(0);
-    out.largest.resize(out.largest.size() + sizes.size(), 0);
-    double* largest = out.largest.data() + at(out.draws) * sizes.size();
-    ++out.draws;
+    if (drawn.empty()) return false;
+    piece.missed.push_back(0);
+    piece.largest.resize(piece.largest.size() + sizes.size(), 0);
+    double* largest = piece.largest.data() + at(piece.draws) * sizes.size();
+    ++piece.draws;
     for (std::size_t s = 0; s < drawn.size(); ++s) {
       if (drawn[s].empty()) {
-        if (solver.status(s) == Status::done) ++out.missed.back();
+        if (solver.status(s) == Status::done) ++piece.missed.back();
         continue;
       }
-      MonteCarloSample& now = out.samples[s];
+      MonteCarloSample& now = piece.samples[s];
       ++now.assembled;
       for (std::size_t i = 0; i < values; ++i) {  // Welford's sums
         const double value = drawn[s][i], off = value - now.mean[i];
@@ -409,7 +495,32 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
         largest[q] = std::max(largest[q], error);
       }
     }
+    return true;
+  };
+
+  const optimise::PieceLoop loop = optimise::for_each_piece(
+      count, context, "monte_carlo", name,
+      [&](std::size_t k) {
+        DrawnPiece& piece = pieces[k].emplace(rows, values, sizes.size());
+        for (int d = 0; d < draws_of(k) && !context.interrupted(); ++d)
+          if (!draw(piece, static_cast<int>(k) * size + d)) break;
+        return infinity;
+      },
+      [&](std::size_t k) { return pieces[k]->draws == draws_of(k) ? kept(*pieces[k]) : Value(); },
+      [&](std::size_t k, const Value& value) {
+        restore(pieces[k].emplace(rows, values, sizes.size()), value, name(k), draws_of(k), sizes.size());
+        return infinity;
+      });
+  MonteCarloResult out;
+  out.samples = DrawnPiece(rows, values, sizes.size()).samples;
+  for (const std::optional<DrawnPiece>& piece : pieces) {
+    if (!piece) continue;
+    out.draws += piece->draws;
+    out.missed.insert(out.missed.end(), piece->missed.begin(), piece->missed.end());
+    out.largest.insert(out.largest.end(), piece->largest.begin(), piece->largest.end());
+    for (std::size_t s = 0; s < rows; ++s) join(out.samples[s], piece->samples[s]);
   }
+  if (out.draws < draws) out.status = loop.status;
   for (MonteCarloSample& s : out.samples)
     for (double& d : s.deviation) d = s.assembled > 1 ? std::sqrt(d / (s.assembled - 1)) : 0;
   return out;

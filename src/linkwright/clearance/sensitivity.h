@@ -86,7 +86,8 @@ struct MonteCarloSample {
   std::vector<double> worst_error;                   ///< largest one of each quantity
 };
 /// Draws linkages: pins touching their bushes in even directions, lengths even within their tolerance; every
-/// draw keeps its numbers over all samples and is solved exactly. Deterministic for a seed.
+/// draw keeps its numbers over all samples and is solved exactly. In pieces, on the threads of the context
+/// and with its checkpoint; the same bits for a seed however they are shared.
 struct MonteCarloResult {
   Status status = Status::done;  ///< done, deadline or cancelled
   int draws = 0;                 ///< made
@@ -99,7 +100,7 @@ struct MonteCarloResult {
 MonteCarloResult clearance_monte_carlo(const planar::Linkage& linkage, const LinkageTolerances& tolerances,
                                        const ToleranceOutputs& outputs,
                                        std::span<const planar::InputMotion> samples, int draws,
-                                       std::uint64_t seed, const RunContext& context,
+                                       std::uint64_t seed, RunContext& context,
                                        std::span<const double> times = {});
 
 }  // namespace linkwright::clearance

@@ -9,6 +9,7 @@
 #include "linkwright/core/looks.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
+#include "support/memory_checkpoint.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -121,21 +122,39 @@ TEST(Tolerances, KeepToWhatIsThere) {
   EXPECT_TRUE(std::isfinite(none.bands[0][0].worst_case));
 }
 
-// What a round has drawn when it is cut short is not used; the rounds before it are, to the bit.
-TEST(Tolerances, InterruptedKeepTheRoundsSoFar) {
+// What a piece has drawn when it is cut short is not used; the pieces before it are kept, and the run that
+// goes on from them ends with the bits of one that was not interrupted.
+TEST(Tolerances, InterruptedKeepThePiecesSoFar) {
   const ToleranceTask task = task_of("5US", 1e-4);
+  const MonteCarlo options{.samples = 3000, .seed = 5};
+  RunContext free_run;
+  const ToleranceBands whole = tolerance_bands(task, options, free_run);
+  ASSERT_EQ(whole.samples, 3000);
+  test::MemoryCheckpoint kept;
   RunContext context;
   context.set_threads(1);
-  const ToleranceBands part = tolerance_bands(task, {.samples = 1024, .seed = 5}, context);
-  ASSERT_EQ(part.samples, 1024);
-  const LooksAllowed looks(1500);  // one before each design
-  const ToleranceBands found = tolerance_bands(task, {.samples = 100000, .seed = 5}, context);
-  EXPECT_EQ(found.status, Status::cancelled);
-  ASSERT_EQ(found.samples, 1024);
-  for (std::size_t i = 0; i < task.inputs.size(); ++i) {
-    EXPECT_EQ(found.bands[0][i].mean, part.bands[0][i].mean);
-    EXPECT_EQ(found.bands[0][i].greatest, part.bands[0][i].greatest);
+  context.set_checkpoint(&kept);
+  {
+    const LooksAllowed looks(1500);  // one before each design and each piece but the first
+    const ToleranceBands part = tolerance_bands(task, options, context);
+    EXPECT_EQ(part.status, Status::cancelled);
+    EXPECT_EQ(part.samples, 23 * 64) << "of pieces of 64";
+    EXPECT_EQ(kept.entries.size(), 23u);
+    EXPECT_NEAR(part.bands[0][0].mean, whole.bands[0][0].mean, 3 * whole.bands[0][0].standard_deviation / 38);
   }
+  const ToleranceBands found = tolerance_bands(task, options, context);
+  EXPECT_EQ(found.status, Status::done);
+  EXPECT_EQ(found.samples, 3000);
+  for (std::size_t c = 0; c < task.curves.size(); ++c)
+    for (std::size_t i = 0; i < task.inputs.size(); ++i) {
+      EXPECT_EQ(found.bands[c][i].mean, whole.bands[c][i].mean);
+      EXPECT_EQ(found.bands[c][i].standard_deviation, whole.bands[c][i].standard_deviation);
+      EXPECT_EQ(found.bands[c][i].least, whole.bands[c][i].least);
+      EXPECT_EQ(found.bands[c][i].greatest, whole.bands[c][i].greatest);
+      EXPECT_EQ(found.bands[c][i].solved, whole.bands[c][i].solved);
+    }
+  kept.entries["designs 2"] = Value(3);
+  EXPECT_THROW(tolerance_bands(task, options, context), CheckpointError);
 }
 
 TEST(Tolerances, ContractsAreChecked) {

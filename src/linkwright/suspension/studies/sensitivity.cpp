@@ -9,7 +9,6 @@
 
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
-#include "linkwright/study/memory.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/studies/values.h"
@@ -100,17 +99,6 @@ void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, co
     tables[i].error("coordinate", fmt::format("no point or coordinate is called '{}'", asked),
                     did_you_mean(asked, words, fmt::format("there are: {}", fmt::join(known, ", "))));
   }
-}
-
-bool fits_memory(study::ObjectReader& document, const TolerancesForm& form, std::size_t travels) {
-  const std::size_t places = std::min(travels, most_travels);
-  const double values =
-      static_cast<double>(form.monte_carlo.samples) * static_cast<double>(form.quantities.size() * places);
-  auto table = document.table("tolerances");
-  return study::require_memory(*table, "samples", sizeof(double) * values,
-                               fmt::format("{} designs with {} quantities at {} travels",
-                                           form.monte_carlo.samples, form.quantities.size(), places),
-                               "take fewer samples, quantities or travels");
 }
 
 void add_sensitivity(study::Result& result, const WheelGuide& guide, const SensitivityForm& form,

@@ -75,9 +75,6 @@ void fields(Visitor&& visit, TolerancesForm& t) {
 /// Check what was read against the suspension; problems go to the reader. Defaults are filled in.
 void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide);
 void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const WheelGuide& guide);
-/// Whether the values of all designs drawn, over so many travels, have room in memory; an error at the reader
-/// if not.
-bool fits_memory(study::ObjectReader& document, const TolerancesForm& form, std::size_t travels);
 
 /// The table `sensitivity` at the position next to the reference, and a table and a diagram over travel for
 /// each quantity; the rack next to the middle.

@@ -1,20 +1,25 @@
 #include "linkwright/suspension/wheel/tolerances.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/core/random.h"
-#include "linkwright/optimise/parallel.h"
+#include "linkwright/optimise/pieces.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {
 namespace {
 
-constexpr int most_of_block = 64;      ///< samples of a task of a thread
-constexpr int solved_by_block = 2048;  ///< about so many positions, if one sample has fewer
-constexpr int round_blocks = 16;       ///< tasks between reports of the progress
+// Designs are drawn in pieces of at most this many, unless there would be too many of them: each holds its
+// sums.
+constexpr int most_of_piece = 64;
+constexpr int solved_by_piece = 2048;  ///< about so many positions, if one design has fewer
+constexpr double most_pieces = 1024, most_bytes = 1e8;
 
 std::vector<GuidePosition> solved(const GuidePlan& plan, const ToleranceTask& task) {
   std::vector<GuidePosition> out;
@@ -48,26 +53,65 @@ void draw(const ToleranceTask& task, const MonteCarlo& options, int sample,
   }
 }
 
-void summarise(std::span<const double> values, std::size_t stride, std::size_t offset, int samples,
-               Band& band) {
-  // About the nominal value, which is near: no digits are lost in the squares.
-  double sum = 0, square = 0, least = HUGE_VAL, greatest = -HUGE_VAL;
-  for (int s = 0; s < samples; ++s) {
-    const double value = values[static_cast<std::size_t>(s) * stride + offset];
-    if (!std::isfinite(value)) continue;
-    ++band.solved;
-    sum += value - band.nominal;
-    square += (value - band.nominal) * (value - band.nominal);
+/// What designs make of one value. About the nominal value, which is near: no digits are lost in the squares.
+struct Sums {
+  double solved = 0, sum = 0, square = 0, least = HUGE_VAL, greatest = -HUGE_VAL;
+
+  void add(double value, double nominal) {
+    if (!std::isfinite(value)) return;
+    ++solved;
+    sum += value - nominal;
+    square += (value - nominal) * (value - nominal);
     least = std::min(least, value);
     greatest = std::max(greatest, value);
   }
+  void add(const Sums& other) {
+    solved += other.solved;
+    sum += other.sum;
+    square += other.square;
+    least = std::min(least, other.least);
+    greatest = std::max(greatest, other.greatest);
+  }
+};
+constexpr std::size_t numbers_of_sums = 5;
+
+void summarise(const Sums& of, Band& band) {
+  band.solved = static_cast<int>(of.solved);
   if (band.solved == 0) return;
-  const double n = band.solved;
-  band.mean = band.nominal + sum / n;
-  band.least = least;
-  band.greatest = greatest;
-  if (band.solved > 1) band.standard_deviation = std::sqrt(std::max(0.0, (square - sum * sum / n) / (n - 1)));
+  const double n = of.solved;
+  band.mean = band.nominal + of.sum / n;
+  band.least = of.least;
+  band.greatest = of.greatest;
+  if (band.solved > 1)
+    band.standard_deviation = std::sqrt(std::max(0.0, (of.square - of.sum * of.sum / n) / (n - 1)));
 }
+
+/// What the samples of one piece make, of [curve][position].
+struct Piece {
+  std::vector<Sums> sums;
+  int samples = 0;  ///< 0 if it was interrupted
+
+  Value kept() const {
+    if (samples == 0) return {};
+    std::vector<double> numbers;
+    for (const Sums& s : sums)
+      numbers.insert(numbers.end(), {s.solved, s.sum, s.square, s.least, s.greatest});
+    return pack_numbers(numbers);
+  }
+  void restore(const Value& value, std::string_view what, int size) {
+    const std::vector<double> numbers = unpack_numbers(value, what);
+    if (numbers.size() != numbers_of_sums * sums.size())
+      throw CheckpointError(fmt::format("{}: holds {} numbers, must be {}", what, numbers.size(),
+                                        numbers_of_sums * sums.size()));
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double* n = &numbers[numbers_of_sums * i];
+      if (!(n[0] >= 0 && n[0] <= size && std::isfinite(n[1]) && n[2] >= 0))
+        throw CheckpointError(fmt::format("{}: sums of designs that cannot be", what));
+      sums[i] = {n[0], n[1], n[2], n[3], n[4]};
+    }
+    samples = size;
+  }
+};
 
 }  // namespace
 
@@ -112,37 +156,51 @@ ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& opti
     }
   }
 
+  if (options.samples == 0) return out;
   const std::size_t stride = curves * positions;
-  // Filled as it is needed: to fill the memory of many samples takes seconds.
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(options.samples) * stride);
-  const int block = std::clamp(solved_by_block / static_cast<int>(positions), 1, most_of_block);
-  while (out.samples < options.samples) {
-    const int first = out.samples, end = std::min(options.samples, first + block * round_blocks);
-    values.resize(static_cast<std::size_t>(end) * stride);
-    std::atomic<Status> stop{Status::done};
-    optimise::parallel_for(static_cast<std::size_t>((end - first + block - 1) / block), context.threads(),
-                           [&](std::size_t b) {
-                             const int from = first + static_cast<int>(b) * block;
-                             for (int s = from; s < std::min(end, from + block); ++s) {
-                               if (const Status why = context.interruption(); why != Status::done) {
-                                 stop = why;
-                                 return;
-                               }
-                               draw(task, options, s, nominal,
-                                    std::span(values).subspan(static_cast<std::size_t>(s) * stride, stride));
-                             }
-                           });
-    if (stop != Status::done) {  // a round that was cut short does not count
-      out.status = stop;
-      break;
-    }
-    out.samples = end;
-    context.report({.stage = "tolerances", .fraction = static_cast<double>(end) / options.samples});
-  }
+  const int most =
+      static_cast<int>(std::clamp(most_bytes / static_cast<double>(sizeof(Sums) * stride), 8.0, most_pieces));
+  const int size = std::max(std::clamp(solved_by_piece / static_cast<int>(positions), 1, most_of_piece),
+                            (options.samples + most - 1) / most);
+  const auto count = static_cast<std::size_t>((options.samples + size - 1) / size);
+  const auto samples_of = [&](std::size_t k) {
+    return std::min(size, options.samples - static_cast<int>(k) * size);
+  };
+  std::vector<Piece> pieces(count);
+  const auto name = [](std::size_t k) { return fmt::format("designs {}", k + 1); };
+  const optimise::PieceLoop loop = optimise::for_each_piece(
+      count, context, "tolerances", name,
+      [&](std::size_t k) {
+        Piece& piece = pieces[k];
+        piece.sums.resize(stride);
+        std::vector<double> values(stride);
+        for (int s = 0; s < samples_of(k); ++s) {
+          if (context.interrupted()) return infinity;
+          draw(task, options, static_cast<int>(k) * size + s, nominal, values);
+          for (std::size_t c = 0; c < curves; ++c)
+            for (std::size_t i = 0; i < positions; ++i)
+              piece.sums[c * positions + i].add(values[c * positions + i], out.bands[c][i].nominal);
+        }
+        piece.samples = samples_of(k);
+        return infinity;
+      },
+      [&](std::size_t k) { return pieces[k].kept(); },
+      [&](std::size_t k, const Value& value) {
+        pieces[k].sums.resize(stride);
+        pieces[k].restore(value, name(k), samples_of(k));
+        return infinity;
+      });
+  // Pieces that were cut short do not count.
+  for (const Piece& piece : pieces) out.samples += piece.samples;
+  if (out.samples < options.samples) out.status = loop.status;
+  if (out.samples == 0) return out;
   for (std::size_t c = 0; c < curves; ++c)
-    for (std::size_t i = 0; i < positions; ++i)
-      if (out.samples > 0) summarise(values, stride, c * positions + i, out.samples, out.bands[c][i]);
+    for (std::size_t i = 0; i < positions; ++i) {
+      Sums all;
+      for (const Piece& piece : pieces)
+        if (piece.samples > 0) all.add(piece.sums[c * positions + i]);
+      summarise(all, out.bands[c][i]);
+    }
   return out;
 }
 

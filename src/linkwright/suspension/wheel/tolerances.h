@@ -60,9 +60,9 @@ struct ToleranceBands {
 };
 
 /// The bands by exact derivatives and, if asked for, by designs drawn at random and solved, on
-/// RunContext::threads() threads. Every sample has random numbers of its own, so that results are the same
-/// bits for any number of threads. Throws ContractError for tolerances below 0 or not finite, numbers that
-/// the suspension does not have, and no inputs or curves.
+/// RunContext::threads() threads and in the pieces of its checkpoint. Every sample has random numbers of its
+/// own, so that results are the same bits for any number of threads. Throws ContractError for tolerances
+/// below 0 or not finite, numbers that the suspension does not have, and no inputs or curves.
 ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& monte_carlo, RunContext& context);
 
 }  // namespace linkwright::suspension
