@@ -45,6 +45,8 @@ TEST(Examples, CarryTheFilesThatTheyRead) {
   EXPECT_EQ(beside("suspension-5us-synthesis"), std::vector<std::string_view>{"carrier-poses-5us.csv"});
   EXPECT_EQ(beside("clearance-four-bar-at-once"),
             std::vector<std::string_view>{"clearance-four-bar-path.csv"});
+  EXPECT_EQ(beside("strut-suspension-sensitivity"),
+            std::vector<std::string_view>{"strut-suspension-sweep.toml"});
   EXPECT_TRUE(beside("hoeken").empty());
 }
 

@@ -32,11 +32,19 @@ Example example_of(const EmbeddedFile& file) {
                                        mechanism ? text_at(mechanism->find("type")) : "")),
                   file.text,
                   {}};
-  // A study names what it reads as a text of its own.
-  for (const EmbeddedFile& other : example_files())
-    if (folder_of(other.path) == folder_of(file.path) && !other.path.ends_with(".toml") &&
-        file.text.find("\"" + std::string(file_of(other.path)) + "\"") != std::string_view::npos)
-      example.beside.push_back({file_of(other.path), other.text});
+  // A study names what it reads as a text of its own, and so do the studies that it names.
+  std::vector<std::string_view> texts{file.text};
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (const EmbeddedFile& other : example_files()) {
+      const std::string_view named = file_of(other.path);
+      const bool there = std::any_of(example.beside.begin(), example.beside.end(),
+                                     [&](const auto& b) { return b.path == named; });
+      if (there || other.path == file.path || folder_of(other.path) != folder_of(file.path) ||
+          texts[i].find("\"" + std::string(named) + "\"") == std::string_view::npos)
+        continue;
+      example.beside.push_back({named, other.text});
+      if (named.ends_with(".toml")) texts.push_back(other.text);
+    }
   return example;
 }
 
