@@ -31,6 +31,7 @@
 #include "linkwright/planar/four_bar/rates.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
+#include "linkwright/planar/function/dead_centres.h"
 #include "linkwright/planar/function/generator.h"
 #include "linkwright/planar/function/synthesis.h"
 #include "linkwright/planar/link_mass.h"

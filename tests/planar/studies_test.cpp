@@ -21,7 +21,8 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
       ::testing::ElementsAre(
           "synthesis/planar.four_bar/path_points", "synthesis/planar.slider_crank/path_points",
           "synthesis/planar.four_bar/poses", "synthesis/planar.four_bar/function",
-          "synthesis/planar.slider_crank/function", "analysis/planar.four_bar", "analysis/planar.linkage",
+          "synthesis/planar.slider_crank/function", "synthesis/planar.four_bar/swing",
+          "synthesis/planar.slider_crank/stroke", "analysis/planar.four_bar", "analysis/planar.linkage",
           "analysis/planar.slider_crank", "simulation/planar.linkage", "simulation/planar.four_bar",
           "simulation/planar.slider_crank", "speed_fluctuation/planar.linkage",
           "speed_fluctuation/planar.four_bar", "speed_fluctuation/planar.slider_crank",

@@ -9,6 +9,7 @@
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
+#include "linkwright/planar/studies/swing.h"
 
 namespace linkwright::planar {
 
@@ -18,6 +19,8 @@ std::vector<study::Kind> studies() {
                                     pose_kind(),
                                     rocker_function_kind(),
                                     slider_function_kind(),
+                                    swing_kind(),
+                                    stroke_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),
