@@ -134,6 +134,7 @@ TEST(DeadCentres, ARatioOfTwoLengthsSettlesTheLinkage) {
   // A rocker that swings by twice the imbalance is as long as the ground link, whatever the crank.
   const StrokeLinkage equal = stroke_linkage({50 * degree, -25 * degree}, 0.37);
   EXPECT_NEAR(equal.ground, equal.rocker, 1e-12);
+  EXPECT_FALSE(crank_of_ratio({50 * degree, -25 * degree}, ground, rocker, 1));
 }
 
 TEST(SweepStrokes, OfLinkagesThatHaveNone) {

@@ -141,8 +141,10 @@ std::optional<double> crank_of_ratio(const Strokes& strokes, StrokeLength one, S
                                      double ratio) {
   const HalfAngles h = halves(strokes);
   const SquaredLength a = squared(one, h), b = squared(other, h);
-  const double x = (ratio * ratio * b.at_zero - a.at_zero) / (a.by_x - ratio * ratio * b.by_x);
-  if (!(x > 0) || !std::isfinite(x)) return std::nullopt;
+  const double by_x = a.by_x - ratio * ratio * b.by_x, x = (ratio * ratio * b.at_zero - a.at_zero) / by_x;
+  // Lengths in one ratio whatever the crank leave rounding alone.
+  constexpr double rounding = 1e-12;
+  if (!(std::abs(by_x) > rounding * a.by_x) || !(x > 0) || !std::isfinite(x)) return std::nullopt;
   return std::sqrt(x);
 }
 

@@ -89,7 +89,7 @@ void time_ratio_fields(Visitor&& visit, std::optional<double>& time_ratio, std::
               .summary = "instead: the crank turns by 180 degrees and this during the slow stroke",
               .dimension = Dimension::angle,
               .minimum = 0,
-              .maximum = 3.1},
+              .maximum = 3.12413936106985},
         imbalance);
 }
 struct SwingTarget {
@@ -103,7 +103,7 @@ void fields(Visitor&& visit, SwingTarget& t) {
               .summary = "of the rocker between its dead centres",
               .dimension = Dimension::angle,
               .minimum = 1e-3,
-              .maximum = 3.1,
+              .maximum = 3.12413936106985,
               .required = true},
         t.swing);
   time_ratio_fields(visit, t.time_ratio, t.imbalance);
