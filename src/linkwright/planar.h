@@ -32,6 +32,7 @@
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/function/dead_centres.h"
+#include "linkwright/planar/function/dwell_synthesis.h"
 #include "linkwright/planar/function/generator.h"
 #include "linkwright/planar/function/synthesis.h"
 #include "linkwright/planar/link_mass.h"

@@ -140,6 +140,15 @@ void strokes(const Designed& d) {
   EXPECT_NEAR(*most - *least, stroke, 1e-3 * stroke) << "at steps of a degree";
 }
 
+void dwell(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &motion = table_of(d.found, d.numbered("motion"));
+  std::vector<double> again = column(sweep, "output_angle_rad");
+  const auto& found = column(motion, "output_angle_rad");
+  const double apart = found[0] - again[0];
+  for (double& v : again) v += apart;
+  expect_same(found, again, exact, "output");
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -237,6 +246,7 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.slider_crank/function", function},
     {"synthesis/planar.four_bar/swing", strokes},
     {"synthesis/planar.slider_crank/stroke", strokes},
+    {"synthesis/planar.six_bar/dwell", dwell},
     {"balancing/planar.four_bar", balanced},
     {"balancing/planar.linkage", balanced},
     {"balancing/planar.slider_crank", balanced},

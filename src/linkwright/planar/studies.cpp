@@ -1,6 +1,7 @@
 #include "linkwright/planar/studies.h"
 
 #include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/dwell.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
@@ -21,6 +22,7 @@ std::vector<study::Kind> studies() {
                                     slider_function_kind(),
                                     swing_kind(),
                                     stroke_kind(),
+                                    dwell_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),

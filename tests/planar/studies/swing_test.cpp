@@ -16,7 +16,7 @@ using test::problems_of;
 using test::run_text;
 using ::testing::HasSubstr;
 
-constexpr double degree = pi / 180;
+constexpr double degree_of_swing = pi / 180;
 
 std::string swing_study(const std::string& target, const std::string& mechanism = "ground_mm = 100\n") {
   return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.four_bar\"\n" +
@@ -75,14 +75,14 @@ TEST(SwingStudy, FindsBothSensesBestFirst) {
   EXPECT_EQ(result.status, Status::done);
   ASSERT_EQ(result.solutions.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(objective(result, i, "swing_angle_rad"), 45 * degree, 1e-9);
+    EXPECT_NEAR(objective(result, i, "swing_angle_rad"), 45 * degree_of_swing, 1e-9);
     EXPECT_NEAR(objective(result, i, "time_ratio"), 1.25, 1e-9);
     EXPECT_NEAR(parameter(result, i, "ground_m"), 0.1, 1e-15);
     EXPECT_FALSE(result.solutions[i].scene.empty());
     EXPECT_FALSE(result.solutions[i].study.is_null());
   }
-  EXPECT_NEAR(objective(result, 0, "least_transmission_angle_rad") / degree, 41.813, 1e-3);
-  EXPECT_NEAR(objective(result, 1, "least_transmission_angle_rad") / degree, 30.184, 1e-3);
+  EXPECT_NEAR(objective(result, 0, "least_transmission_angle_rad") / degree_of_swing, 41.813, 1e-3);
+  EXPECT_NEAR(objective(result, 1, "least_transmission_angle_rad") / degree_of_swing, 30.184, 1e-3);
   EXPECT_THAT(result.solutions[0].label, HasSubstr("slow stroke with the crank"));
   EXPECT_THAT(result.headline, HasSubstr("swings by 45° with a time ratio of 1.25"));
 }
@@ -102,7 +102,7 @@ TEST(SwingStudy, RotationAndSidesKeepTheSlowStroke) {
         // 200 degrees of 360: row 200 of 361.
         const double swing = rocker[200] - rocker[0], sense = crank[1] > crank[0] ? 1 : -1;
         EXPECT_EQ(sense > 0, std::string(rotation) == "counterclockwise");
-        EXPECT_NEAR(std::abs(swing), 45 * degree, 1e-9);
+        EXPECT_NEAR(std::abs(swing), 45 * degree_of_swing, 1e-9);
         EXPECT_EQ(swing * sense > 0, std::string(slow) == "with_crank") << slow << branch << rotation;
         EXPECT_EQ(rocker[0] > 0, std::string(branch) == "open");
       }
@@ -127,8 +127,8 @@ TEST(SwingStudy, TwoLengthsSettleTheLinkage) {
       run_text(swing_study("swing_angle_deg = 45\ntime_ratio = 1.25\n", "ground_mm = 100\nrocker_mm = 90\n"));
   ASSERT_FALSE(result.solutions.empty());
   EXPECT_NEAR(parameter(result, 0, "rocker_m"), 0.09, 1e-12);
-  EXPECT_NEAR(objective(result, 0, "swing_angle_rad"), 45 * degree, 1e-9);
-  EXPECT_LT(objective(result, 0, "least_transmission_angle_rad"), 41.8 * degree);
+  EXPECT_NEAR(objective(result, 0, "swing_angle_rad"), 45 * degree_of_swing, 1e-9);
+  EXPECT_LT(objective(result, 0, "least_transmission_angle_rad"), 41.8 * degree_of_swing);
   const study::Result rod = run_text(stroke_study("stroke_mm = 80\ntime_ratio = 1\n", "rod_mm = 120\n"));
   EXPECT_NEAR(parameter(rod, 0, "crank_m"), 0.04, 1e-12);
   EXPECT_NEAR(parameter(rod, 0, "offset_m"), 0, 1e-12);
