@@ -35,6 +35,7 @@
 #include "linkwright/planar/function/dwell_synthesis.h"
 #include "linkwright/planar/function/generator.h"
 #include "linkwright/planar/function/synthesis.h"
+#include "linkwright/planar/function/watt_synthesis.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"

@@ -22,6 +22,7 @@ std::vector<study::Kind> studies() {
                                     slider_function_kind(),
                                     swing_kind(),
                                     stroke_kind(),
+                                    six_bar_function_kind(),
                                     dwell_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),

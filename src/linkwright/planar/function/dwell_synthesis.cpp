@@ -34,6 +34,7 @@ constexpr int output_directions = 24, output_lengths = 6;
 constexpr double longest_crank = 0.95;
 // The share of the swing that a start must have.
 constexpr double short_swing = 0.7;
+constexpr int dwell_passes = 3;
 // By how much the transmission angle may be less between two places than at them (rad).
 constexpr double between_places = 3e-3;
 // Designs whose numbers agree to this share are one.
@@ -278,8 +279,10 @@ class DwellFinder {
     const double l = p_.longest, least = p_.shortest;
     lower = {least, least, least, -l, -l, -l, -l, least, least, -10, -10};
     upper = {longest_crank, l, l, l, l, l, l, l, l, 20, 10};
-    optimise::minimise_largest(2 * dwell_places, departures, {}, rows, conditions, x, lower, upper,
-                               {.max_evaluations = 400}, context_);
+    // A search that begins again forgets the curvature that led it astray.
+    for (int pass = 0; pass < dwell_passes; ++pass)
+      optimise::minimise_largest(2 * dwell_places, departures, {}, rows, conditions, x, lower, upper,
+                                 {.max_evaluations = 400}, context_);
     ++out_.refined;
     const std::optional<DwellDesign> design = assess_dwell(p_, linkage_with(x, side));
     if (design && design->swing >= p_.swing && design->four_bar_angle >= p_.transmission &&

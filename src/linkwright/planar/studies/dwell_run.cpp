@@ -155,7 +155,8 @@ class DwellReport {
     plot("output" + suffix, "Output angle, from the beginning of the dwell", {"output_angle_rad"});
     plot("transmission" + suffix, "Transmission angles",
          {"four_bar_transmission_angle_rad", "dyad_transmission_angle_rad"});
-    const study::AddPlot rest{result_, {.table = "dwell" + suffix, .x = "crank_angle_rad"}};
+    const study::AddPlot rest{result_,
+                              {.table = "dwell" + suffix, .x = "crank_angle_rad", .scene = out.scene}};
     rest("dwell" + suffix, "The output while it rests", {"departure_rad"});
     out.study = motion_study(linkage, true, crank, "coupler.C");
   }
