@@ -26,6 +26,10 @@ constexpr int random_watts = 120;
 // Four-bars to begin from, fits that the least greatest error is sought from, designs that are kept.
 constexpr std::size_t four_bar_starts = 3, watt_minimax_starts = 6, most_watts = 5;
 constexpr int minimax_passes = 3;
+// Places of the range at which the pair angles are conditions of the least greatest error, and by how much
+// they may be less between these places (rad).
+constexpr std::size_t pair_places = 41;
+constexpr double between_pairs = 2e-3;
 // Designs whose numbers agree to this share are one.
 constexpr double same_watt = 1e-4;
 // Directions of the cranks of parallelograms on either side of their ground link.
@@ -39,6 +43,25 @@ WattGenerator watt_with(WattGenerator g, std::span<const double> x) {
   g.first.a = {x[0], x[1]}, g.first.b = {x[2], x[3]}, g.first.c = x[4];
   g.second.a = {x[5], x[6]}, g.second.b = {x[7], x[8]}, g.second.c = x[9];
   return g;
+}
+
+// Cosine of the angle between coupler and rocker, with its derivatives by the numbers of the four-bar and by
+// the input.
+struct PairCosine {
+  double value = 0, by_input = 0;
+  std::array<double, 5> slopes{};
+};
+PairCosine pair_cosine(const FunctionGenerator& g, double input) {
+  const Complex turn = std::polar(1.0, input), pin = g.a * turn, i(0, 1);
+  const double rocker = std::abs(g.b), below = 2 * g.c * rocker;
+  const Complex pull = 2.0 * std::conj(1.0 - pin);  // how the square of the distance falls with the pin
+  PairCosine out;
+  out.value = (g.c * g.c + rocker * rocker - std::norm(1.0 - pin)) / below;
+  const Complex by_b = (2.0 - out.value * 2 * g.c / rocker) * g.b / below;
+  out.slopes = {std::real(pull * turn) / below, std::real(pull * i * turn) / below, by_b.real(), by_b.imag(),
+                (2 * g.c - out.value * 2 * rocker) / below};
+  out.by_input = std::real(pull * i * pin) / below;
+  return out;
 }
 
 class WattFinder {
@@ -114,10 +137,20 @@ class WattFinder {
     return true;
   }
 
-  void fit(const WattGenerator& start) {
+  void fit(const WattGenerator& start) { fit_power(start, 1, 1); }
+
+  // Least sum of squares of (error / unit)^power, power odd: the higher, the more the greatest error counts.
+  void fit_power(const WattGenerator& start, int power, double unit) {
     WattNumbers x = numbers_of(start);
     const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
-      return errors(watt_with(start, at), r, jacobian);
+      if (!errors(watt_with(start, at), r, jacobian)) return false;
+      for (std::size_t k = 0; k < watt_samples && power > 1; ++k) {
+        const double even = std::pow(r[k] / unit, power - 1);
+        for (std::size_t j = 0; j < 10 && !jacobian.empty(); ++j)
+          jacobian[j * watt_samples + k] *= power * even / unit;
+        r[k] *= even / unit;
+      }
+      return true;
     };
     math::LeastSquaresOptions options;
     options.max_iterations = 300;
@@ -137,9 +170,23 @@ class WattFinder {
   }
 
   void minimax() {
-    const std::vector<WattDesign> starts = out_.designs;
+    // Powers of the errors lead towards the greatest one, though not always with the pair angle that is
+    // wanted: both ends are starts. The design of one power begins the next.
+    std::vector<WattDesign> starts = out_.designs;
+    const std::size_t fitted = starts.size();
+    for (std::size_t s = 0; s < fitted; ++s) {
+      WattDesign led = starts[s];
+      for (const int power : {3, 5, 9}) {
+        if (stopped(0) || !(led.greatest_error > 0)) return;
+        const std::size_t before = out_.designs.size();
+        fit_power(led.generator, power, led.greatest_error);
+        if (out_.designs.size() > before && out_.designs.back().greatest_error < led.greatest_error)
+          led = out_.designs.back();
+      }
+      if (led.greatest_error < starts[s].greatest_error) starts.push_back(led);
+    }
     for (std::size_t s = 0; s < starts.size(); ++s) {
-      if (stopped(static_cast<double>(s) / watt_minimax_starts)) return;
+      if (stopped(static_cast<double>(s) / static_cast<double>(starts.size()))) return;
       const WattGenerator start = starts[s].generator;
       const double unit = starts[s].greatest_error;
       if (!(unit > 0)) continue;
@@ -158,11 +205,35 @@ class WattFinder {
               gradients[row * 10 + j] = there ? sign * jacobian[j * watt_samples + k] / unit : 0;
           }
       };
+      const double most_cosine = std::cos(pair_angle_ + between_pairs);
+      const auto conditions = [&](std::span<const double> x, std::span<double> values,
+                                  std::span<double> gradients) {
+        const WattGenerator g = watt_with(start, x);
+        for (std::size_t k = 0; k < pair_places; ++k) {
+          const double input = p_.input_range * static_cast<double>(k) / (pair_places - 1);
+          const std::optional<GeneratorOutput> middle = output_at(g.first, input);
+          const PairCosine first = pair_cosine(g.first, input),
+                           second = pair_cosine(g.second, middle ? middle->output : 0);
+          for (std::size_t row = 4 * k; row < 4 * k + 4; ++row) {
+            const PairCosine& pair = row % 4 < 2 ? first : second;
+            const double sign = row % 2 == 0 ? 1 : -1;
+            values[row] = sign * pair.value - most_cosine;
+            if (gradients.empty()) continue;
+            for (std::size_t j = 0; j < 5; ++j) {
+              gradients[10 * row + j] = row % 4 < 2 ? sign * pair.slopes[j]
+                                        : middle    ? sign * pair.by_input * middle->slopes[j]
+                                                    : 0;
+              gradients[10 * row + 5 + j] = row % 4 < 2 ? 0 : sign * pair.slopes[j];
+            }
+          }
+        }
+      };
       WattNumbers x = numbers_of(start);
       for (std::size_t j = 0; j < 10; ++j) x[j] = std::clamp(x[j], lower_[j], upper_[j]);
       // A search that begins again forgets the curvature that led it astray.
       for (int pass = 0; pass < minimax_passes; ++pass)
-        optimise::minimise_largest(2 * watt_samples, objectives, {}, x, lower_, upper_, {}, context_);
+        optimise::minimise_largest(2 * watt_samples, objectives, {}, 4 * pair_places, conditions, x, lower_,
+                                   upper_, {}, context_);
       ++out_.starts;
       add(watt_with(start, x));
     }
@@ -247,13 +318,6 @@ Linkage linkage_of(const WattGenerator& g, double ground) {
   set_mode(l, "coupler", "rocker", g.first.branch > 0 ? AssemblyMode::plus : AssemblyMode::minus);
   set_mode(l, "link", "output", g.second.branch > 0 ? AssemblyMode::plus : AssemblyMode::minus);
   return l;
-}
-
-std::optional<double> structural_error(const FunctionProblem& problem, const WattGenerator& generator,
-                                       double share) {
-  const std::optional<WattOutput> out = output_at(generator, problem.input_range * share);
-  if (!out) return std::nullopt;
-  return math::wrap_angle(out->output - problem.output(share));
 }
 
 WattDesign assess(const FunctionProblem& problem, const WattGenerator& generator, int samples) {

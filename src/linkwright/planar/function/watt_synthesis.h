@@ -35,8 +35,6 @@ struct WattDesign {
   double greatest_error = 0, rms_error = 0;  ///< rad, over the range where it assembles
   double pair_angle = 0;  ///< rad, least angle between coupler and rocker, and link and output
 };
-std::optional<double> structural_error(const FunctionProblem& problem, const WattGenerator& generator,
-                                       double share);
 WattDesign assess(const FunctionProblem& problem, const WattGenerator& generator, int samples = 1001);
 
 struct WattAnswer {
@@ -47,7 +45,7 @@ struct WattAnswer {
 };
 /// By least squares, or the least greatest error: from the best four-bars with a parallelogram before or
 /// behind them, which changes nothing at first, and from random pairs. Designs with at least `pair_angle`
-/// (rad) come first.
+/// (rad) come first; for the least greatest error it is a condition.
 ///
 /// Throws ContractError for a slider, or precision points.
 WattAnswer find_watt_generators(const FunctionProblem& problem, double pair_angle, RunContext& context);
