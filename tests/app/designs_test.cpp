@@ -127,6 +127,38 @@ void function(const Designed& d) {
   expect_same(found, again, exact, "output");
 }
 
+void strokes(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &motion = table_of(d.found, d.numbered("motion"));
+  const bool slider = motion.find("slider_m") != nullptr;
+  const auto &found = column(motion, slider ? "slider_m" : "rocker_angle_rad"),
+             &again = column(sweep, slider ? "guide_displacement_m" : "rocker_angle_rad");
+  std::vector<double> moved = again;
+  for (double& v : moved) v += found[0] - again[0];
+  expect_same(found, moved, exact, "output");
+  const auto [least, most] = std::minmax_element(again.begin(), again.end());
+  const double stroke = number(d.solution().objectives, slider ? "stroke_m" : "swing_angle_rad");
+  EXPECT_NEAR(*most - *least, stroke, 1e-3 * stroke) << "at steps of a degree";
+}
+
+void six_bar_function(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &error = table_of(d.found, d.numbered("structural_error"));
+  std::vector<double> again = column(sweep, "output_angle_rad");
+  const auto& found = column(error, "output_rad");
+  // Structural errors are small where the motion begins, too: outputs differ by a constant.
+  const double apart = found[0] - again[0];
+  for (double& v : again) v += apart;
+  expect_same(found, again, exact, "output");
+}
+
+void dwell(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &motion = table_of(d.found, d.numbered("motion"));
+  std::vector<double> again = column(sweep, "output_angle_rad");
+  const auto& found = column(motion, "output_angle_rad");
+  const double apart = found[0] - again[0];
+  for (double& v : again) v += apart;
+  expect_same(found, again, exact, "output");
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -222,6 +254,10 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.four_bar/poses", poses},
     {"synthesis/planar.four_bar/function", function},
     {"synthesis/planar.slider_crank/function", function},
+    {"synthesis/planar.four_bar/swing", strokes},
+    {"synthesis/planar.slider_crank/stroke", strokes},
+    {"synthesis/planar.six_bar/function", six_bar_function},
+    {"synthesis/planar.six_bar/dwell", dwell},
     {"balancing/planar.four_bar", balanced},
     {"balancing/planar.linkage", balanced},
     {"balancing/planar.slider_crank", balanced},

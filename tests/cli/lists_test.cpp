@@ -51,7 +51,7 @@ TEST_F(Lists, CatalogueInGroupsFilteredAndForMachines) {
 
 TEST_F(RealLists, TheCatalogueIsInUsersWords) {
   EXPECT_EQ(run({"catalogue"}), 0);
-  for (const char* group : {"Linkages for a path\n", "\nBalancing\n", "\nWheel suspensions\n",
+  for (const char* group : {"Synthesis of linkages\n", "\nBalancing\n", "\nWheel suspensions\n",
                             "\nParallel robots and Pi-joints\n", "\nFlexible links\n"})
     EXPECT_THAT(out_, HasSubstr(group));
 }

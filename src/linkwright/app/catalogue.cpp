@@ -35,7 +35,7 @@ struct Group {
   std::string_view title;
 };
 constexpr Group groups[] = {
-    {"synthesis", "planar.", "Linkages for a path"},
+    {"synthesis", "planar.", "Synthesis of linkages"},
     {"analysis", "planar.", "Linkages: motion and forces"},
     {"simulation", "planar.", "Linkages that move under forces"},
     {"speed_fluctuation", "planar.", "Linkages that move under forces"},

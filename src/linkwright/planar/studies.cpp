@@ -1,6 +1,7 @@
 #include "linkwright/planar/studies.h"
 
 #include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/dwell.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
@@ -9,6 +10,7 @@
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
+#include "linkwright/planar/studies/swing.h"
 
 namespace linkwright::planar {
 
@@ -18,6 +20,10 @@ std::vector<study::Kind> studies() {
                                     pose_kind(),
                                     rocker_function_kind(),
                                     slider_function_kind(),
+                                    swing_kind(),
+                                    stroke_kind(),
+                                    six_bar_function_kind(),
+                                    dwell_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),

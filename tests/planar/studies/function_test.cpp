@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "planar/studies.h"
@@ -75,6 +77,27 @@ TEST(FunctionStudy, ATableIsAFunctionToo) {
       run_text(function_study("table = [[0, 0], [1, 0.8], [2, 2.1], [3, 4]]\nfit = \"least_squares\"\n"));
   EXPECT_EQ(result.status, Status::done);
   EXPECT_THAT(result.facts[0].text, HasSubstr("a table of 4 points, x = 0 to 3"));
+}
+
+TEST(SixBarFunctionStudy, ComparesWithTheFourBar) {
+  const auto six_bar = [](const std::string& fit) {
+    return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.six_bar\"\n"
+           "[target]\ntype = \"function\"\ninput_range_deg = 90\noutput_range_deg = 90\n" +
+           exponential + fit;
+  };
+  EXPECT_THAT(problems_of(six_bar("fit = \"points\"\n")),
+              HasSubstr("a six-bar has more numbers than precision points settle"));
+  const study::Result result = run_text(six_bar(""));
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_FALSE(result.solutions.empty());
+  const double most = result.solutions[0].objectives.find("structural_error_rad")->as_number();
+  EXPECT_LT(most, 0.2 * result.statistics.find("four_bar_structural_error_rad")->as_number());
+  // The table is of the linkage itself.
+  double seen = 0;
+  for (const double e : result.table("structural_error")->find("error_rad")->values)
+    seen = std::max(seen, std::abs(e));
+  EXPECT_NEAR(seen, most, 1e-2 * most);
+  EXPECT_FALSE(result.solutions[0].study.is_null());
 }
 
 }  // namespace

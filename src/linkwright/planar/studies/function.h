@@ -49,7 +49,7 @@ struct FunctionTarget {
 };
 /// Of a four-bar the output range is an angle, of a slider-crank a length.
 template <class Visitor>
-void function_fields(Visitor&& visit, FunctionTarget& t, bool slider) {
+void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
   visit(Field{.key = "function", .summary = "what is to be generated; or a table"}, t.function);
   visit(Field{.key = "exponent", .summary = "of power"}, t.exponent);
   visit(Field{.key = "coefficients", .summary = "of polynomial, the constant first"}, t.coefficients);
@@ -78,6 +78,7 @@ void function_fields(Visitor&& visit, FunctionTarget& t, bool slider) {
                 .required = true},
           t.output_angle);
   visit(Field{.key = "fit", .summary = "how the function is met"}, t.fit);
+  if (!exact) return;
   visit(Field{.key = "points",
               .summary = "number of precision points, at Chebyshev's places (points)",
               .minimum = 3,
@@ -89,6 +90,14 @@ struct RockerTarget : FunctionTarget {};
 template <class Visitor>
 void fields(Visitor&& visit, RockerTarget& t) {
   function_fields(visit, t, false);
+}
+/// A six-bar has no precision points.
+struct SixBarTarget : FunctionTarget {
+  SixBarTarget() { fit = FunctionFit::minimax; }
+};
+template <class Visitor>
+void fields(Visitor&& visit, SixBarTarget& t) {
+  function_fields(visit, t, false, false);
 }
 struct SliderTarget : FunctionTarget {};
 template <class Visitor>
@@ -129,18 +138,48 @@ void fields(Visitor&& visit, SliderMechanism& m) {
       m.input_start);
 }
 
+/// Two four-bars in a row.
+struct SixBarMechanism {
+  double ground = 0.1, longest = 5, transmission = 0.5235987755982988;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SixBarMechanism& m) {
+  visit(Field{.key = "ground",
+              .summary = "length of the ground link of either four-bar",
+              .dimension = Dimension::length,
+              .minimum = 1e-6,
+              .maximum = 1e6},
+        m.ground);
+  visit(Field{.key = "longest_link_ratio",
+              .summary = "longest link, in ground links",
+              .minimum = 1,
+              .maximum = 20},
+        m.longest);
+  visit(Field{.key = "least_transmission_angle",
+              .summary = "of both four-bars over the range; six-bars that have it come first",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 1.2217304763960306},
+        m.transmission);
+}
+
 struct FunctionStudy {
   RockerMechanism mechanism;  ///< of a slider-crank the ground is 1 m
   FunctionTarget target;
   double x_from = 0, x_to = 1;
   FunctionProblem problem;  ///< what follows from the above
   std::string name;         ///< of the function, for people
+  double transmission = 0;  ///< rad, that six-bars are to have
 };
 
 /// "synthesis" of "planar.four_bar" and "planar.slider_crank" for "function".
 study::Kind rocker_function_kind();
 study::Kind slider_function_kind();
+/// That of "planar.six_bar".
+study::Kind six_bar_function_kind();
 
+study::Result run_six_bar_function_study(const FunctionStudy& study, const study::Common& common,
+                                         RunContext& context);
 study::Result run_function_study(const FunctionStudy& study, const study::Common& common,
                                  RunContext& context);
 

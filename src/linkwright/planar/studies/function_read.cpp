@@ -208,16 +208,27 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
   s.problem.slider = std::is_same_v<Mechanism, SliderMechanism>;
   if (auto table = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
     table->read(mechanism);
-  s.mechanism.input_start = mechanism.input_start;
-  if constexpr (std::is_same_v<Mechanism, RockerMechanism>)
+  if constexpr (std::is_same_v<Mechanism, RockerMechanism>) {
     s.mechanism = mechanism;
-  else
-    s.mechanism.ground = 1;
+  } else if constexpr (std::is_same_v<Mechanism, SliderMechanism>) {
+    s.mechanism = {.ground = 1, .input_start = mechanism.input_start};
+  } else {
+    s.mechanism.ground = mechanism.ground;
+    s.problem.most_link = mechanism.longest;
+    s.transmission = mechanism.transmission;
+  }
   if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     table->read(target);
     s.target = target;
     set_function(*table, s);
-    set_points(*table, s);
+    if constexpr (std::is_same_v<Mechanism, SixBarMechanism>) {
+      s.problem.fit = target.fit;
+      if (target.fit == FunctionFit::points)
+        table->error("fit", "a six-bar has more numbers than precision points settle",
+                     "write fit = \"minimax\" or \"least_squares\"");
+    } else {
+      set_points(*table, s);
+    }
   }
   return s;
 }
@@ -237,7 +248,12 @@ void complete_kind(study::Kind& kind, std::string what) {
     study::Prepared prepared;
     prepared.canonical["mechanism"] = study::write_fields(mechanism);
     prepared.canonical["target"] = study::write_fields(target);
-    prepared.run = [s, common](RunContext& context) { return run_function_study(s, common, context); };
+    prepared.run = [s, common](RunContext& context) {
+      if constexpr (std::is_same_v<Mechanism, SixBarMechanism>)
+        return run_six_bar_function_study(s, common, context);
+      else
+        return run_function_study(s, common, context);
+    };
     return prepared;
   };
 }
@@ -259,6 +275,16 @@ study::Kind slider_function_kind() {
   kind.summary = "slider-crank whose travel is a function of its crank angle";
   kind.example = templates::synthesis_slider_crank_function();
   complete_kind<SliderTarget, SliderMechanism>(kind, "the slider-crank");
+  return kind;
+}
+
+study::Kind six_bar_function_kind() {
+  study::Kind kind;
+  kind.mechanism = "planar.six_bar";
+  kind.summary =
+      "six-bar (Watt II, two four-bars in a row) whose output angle is a function of its crank angle";
+  kind.example = templates::synthesis_six_bar_function();
+  complete_kind<SixBarTarget, SixBarMechanism>(kind, "the six-bar");
   return kind;
 }
 

@@ -87,6 +87,11 @@ LinkageRows rows_of(const LinkageStudy& study);
 Value motion_study(std::string_view type, Value mechanism, std::span<const double> inputs,
                    std::span<const double> on_path);
 
+/// The same of any linkage with one input, at a rate that passes these inputs in a second, with the path of a
+/// point ("coupler.C").
+Value motion_study(const Linkage& linkage, bool rotary, std::span<const double> inputs,
+                   std::string_view point);
+
 /// The table of the study alone, with the columns of these keys only (all when empty), for those who evaluate
 /// many designs. A branch is not followed through change points.
 Table linkage_table(const LinkageStudy& study, std::span<const std::string> columns);

@@ -321,6 +321,34 @@ Value motion_study(std::string_view type, Value mechanism, std::span<const doubl
   return out;
 }
 
+Value motion_study(const Linkage& linkage, bool rotary, std::span<const double> inputs,
+                   std::string_view point) {
+  Value out;
+  out["mechanism"]["type"] = "planar.linkage";
+  Value form = study::write_fields(form_of(linkage));
+  for (Value::Member& member : form.as_object()) out["mechanism"][member.key] = std::move(member.value);
+  const std::string joint = linkage.joints[static_cast<std::size_t>(linkage.driven[0])].name;
+  LinkageDrive drive{.rate = rotary ? 2 * pi : std::abs(inputs.back() - inputs.front())};
+  Value rates;
+  rates["joint"] = joint;
+  study::ObjectWriter drives(rates);
+  joint_fields(drives, rotary, drive);
+  std::erase_if(rates.as_object(), [](const Value::Member& m) { return m.value == Value(0.0); });
+  out["drive"].push_back(std::move(rates));
+  out["sweep"]["type"] = "grid";
+  InputSamples range{.from = inputs.front(), .to = inputs.back(), .samples = static_cast<int>(inputs.size())};
+  Value axis;
+  axis["joint"] = joint;
+  study::ObjectWriter writer(axis);
+  joint_fields(writer, rotary, range);
+  out["sweep"]["input"].push_back(std::move(axis));
+  Value trace;
+  trace["point"] = point;
+  out["trace"].push_back(std::move(trace));
+  for (const char* quantity : {"position", "rates"}) out["output"]["quantities"].push_back(quantity);
+  return out;
+}
+
 void describe_linkage(study::SchemaWriter& document, LinkageType type) {
   if (type == LinkageType::slider_crank) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank", .required = true},

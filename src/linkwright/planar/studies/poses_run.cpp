@@ -97,34 +97,6 @@ std::vector<double> shown_inputs(const PoseDesign& d, int samples) {
   return out;
 }
 
-// The study of a design as any linkage: its drive at a steady rate over the inputs shown.
-Value linkage_study(const Linkage& linkage, bool is_rotary, const std::vector<double>& inputs) {
-  Value out;
-  out["mechanism"]["type"] = "planar.linkage";
-  Value form = study::write_fields(form_of(linkage));
-  for (Value::Member& member : form.as_object()) out["mechanism"][member.key] = std::move(member.value);
-  const std::string joint = linkage.joints[static_cast<std::size_t>(linkage.driven[0])].name;
-  LinkageDrive drive{.rate = is_rotary ? 2 * pi : std::abs(inputs.back() - inputs.front())};
-  Value rates;
-  rates["joint"] = joint;
-  study::ObjectWriter drives(rates);
-  joint_fields(drives, is_rotary, drive);
-  std::erase_if(rates.as_object(), [](const Value::Member& m) { return m.value == Value(0.0); });
-  out["drive"].push_back(std::move(rates));
-  out["sweep"]["type"] = "grid";
-  InputSamples range{.from = inputs.front(), .to = inputs.back(), .samples = static_cast<int>(inputs.size())};
-  Value axis;
-  axis["joint"] = joint;
-  study::ObjectWriter writer(axis);
-  joint_fields(writer, is_rotary, range);
-  out["sweep"]["input"].push_back(std::move(axis));
-  Value trace;
-  trace["point"] = "body.P";
-  out["trace"].push_back(std::move(trace));
-  for (const char* quantity : {"position", "rates"}) out["output"]["quantities"].push_back(quantity);
-  return out;
-}
-
 class PoseReport {
  public:
   PoseReport(const PoseStudy& s, const study::Common& common, PoseAnswer answer)
@@ -247,7 +219,7 @@ class PoseReport {
       out.study = motion_study("planar.four_bar", study::write_fields(FourBarMechanism{four_bar, {}}), crank,
                                on_path);
     } else {
-      out.study = linkage_study(linkage, rotary(d), inputs);
+      out.study = motion_study(linkage, rotary(d), inputs, "body.P");
     }
   }
 
