@@ -355,6 +355,7 @@ std::optional<DwellDesign> assess_dwell(const DwellProblem& problem, const Dwell
   LINKWRIGHT_REQUIRE(samples >= 8, "{} samples", samples);
   DwellDesign out;
   out.linkage = l;
+  out.linkage.middle = l.middle - 2 * pi * std::floor(l.middle / (2 * pi));
   const std::optional<DwellOutput> rest = output_of(l, l.middle);
   if (!rest) return std::nullopt;
   const auto from_rest = [&](const DwellOutput& o) { return math::wrap_angle(o.angle - rest->angle); };
