@@ -38,7 +38,7 @@ constexpr int dwell_passes = 3;
 // By how much the transmission angle may be less between two places than at them (rad).
 constexpr double between_places = 3e-3;
 // Designs whose numbers agree to this share are one.
-constexpr double same_dwell = 1e-3;
+constexpr double same_dwell = 2e-2;
 
 Numbers numbers_of(const DwellLinkage& l, double angle) {
   return {l.crank,   l.coupler, l.rocker, l.point_u, l.point_v, l.pivot_x,
@@ -355,6 +355,7 @@ std::optional<DwellDesign> assess_dwell(const DwellProblem& problem, const Dwell
   LINKWRIGHT_REQUIRE(samples >= 8, "{} samples", samples);
   DwellDesign out;
   out.linkage = l;
+  out.linkage.middle = l.middle - 2 * pi * std::floor(l.middle / (2 * pi));
   const std::optional<DwellOutput> rest = output_of(l, l.middle);
   if (!rest) return std::nullopt;
   const auto from_rest = [&](const DwellOutput& o) { return math::wrap_angle(o.angle - rest->angle); };

@@ -31,7 +31,7 @@ constexpr int minimax_passes = 3;
 constexpr std::size_t pair_places = 41;
 constexpr double between_pairs = 2e-3;
 // Designs whose numbers agree to this share are one.
-constexpr double same_watt = 1e-4;
+constexpr double same_watt = 2e-2;
 // Directions of the cranks of parallelograms on either side of their ground link.
 constexpr int parallelogram_directions = 3;
 

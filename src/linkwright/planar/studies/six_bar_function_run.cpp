@@ -111,11 +111,12 @@ class SixBarFunctionReport {
     table.add("four_bar_error_rad", "structural error of the best four-bar (rad)", std::move(of_four_bar));
     result_.tables.push_back(std::move(table));
     const study::AddPlot plot{result_, {.table = "structural_error" + suffix, .x = "x"}};
-    plot("error" + suffix, "Structural error", {"error_rad"});
+    const std::string of = number == 1 ? "" : fmt::format(" of solution {}", number);
+    plot("error" + suffix, "Structural error" + of, {"error_rad"});
     if (number == 1 && answer_.four_bar)
       plot("four-bar", "Structural error, and that of the best four-bar",
            {"error_rad", "four_bar_error_rad"});
-    plot("output" + suffix, "Output, and what is wanted", {"output_rad", "wanted_rad"});
+    plot("output" + suffix, "Output, and what is wanted" + of, {"output_rad", "wanted_rad"});
     study::Scene scene = linkage_scene(linkage, planned.plan, records, {point_named(linkage, "output.H")},
                                        "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);

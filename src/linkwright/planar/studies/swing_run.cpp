@@ -25,7 +25,7 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
-// Below this a linkage that turns fast passes force badly (rad): VDI 2130.
+// Below this a linkage passes force badly (rad): 40 degrees, as is usual.
 constexpr double good_transmission = 0.6981317007977318;
 // Rounding of the dead centres, which the sweep finds where a rate is zero, over the transmission angle.
 constexpr double same_strokes = 1e-9;
@@ -313,7 +313,7 @@ class SwingReport {
                                                                      : "the best"));
     fact(s_.slider ? "greatest time ratio" : "greatest time ratio with this swing",
          s_.slider ? "3"
-                   : fmt::format("{:.4g}, or {:.4g} against the crank",
+                   : fmt::format("below {:.4g}, or {:.4g} against the crank",
                                  time_ratio_of(most_imbalance(s_.swing, true)),
                                  time_ratio_of(most_imbalance(s_.swing, false))));
     const double expected = s_.slider ? s_.given[0].length : s_.swing;
