@@ -46,6 +46,7 @@ NO_TEST = {
     "study/result.h": "plain data; written by the tests of results and reports",
     "study/scene.h": "plain data; drawn by the tests of the report",
     "study/bind_schema.h": "part of bind, tested in bind_test.cpp",
+    "study/detail/bind_words.h": "part of bind, tested in bind_test.cpp",
     "study/bind_traits.h": "part of bind, tested in bind_test.cpp",
     "study/bind_write.h": "part of bind, tested in bind_test.cpp",
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
@@ -67,6 +68,12 @@ NO_TEST = {
     "planar/exact/detail/follow_kernel.h": "part of follow, compiled once per instruction set and compared by its test",
     "planar/exact/detail/monodromy.h": "finds the start sets; tested by nine_point_starts_test.cpp and five_points_test.cpp",
     "planar/path/detail/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
+    "planar/path/curve_overlay.h": "shared part of both kinds of starts, tested in starts_test.cpp and slider_crank_starts_test.cpp",
+    "planar/path/search_record.h": "shared part of both kinds of kept seeds, tested in checkpoint_test.cpp and slider_crank_checkpoint_test.cpp",
+    "planar/studies/linkage_rows.h": "part of linkage studies, tested in linkage_test.cpp",
+    "suspension/studies/seven_pose_tables.h": "part of indirect studies, tested in indirect_test.cpp",
+    "planar/studies/path_seeds.h": "shared part of path studies, run by the tests of both mechanisms",
+    "planar/simulation/detail/simulation_run.h": "part of simulation, tested in simulation_test.cpp",
     "planar/path/detail/slider_crank_objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
 

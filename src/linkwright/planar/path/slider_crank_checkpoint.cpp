@@ -7,14 +7,11 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/path/search_record.h"
 
 namespace linkwright::planar {
 namespace {
 
-// Far more than a search makes, and few enough that the sum over the seeds of a study is an integer.
-constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
-// Crank angles are unwrapped over a turn, from a start angle that the study may have put anywhere sensible.
-constexpr double largest_angle = 1e6;
 constexpr std::size_t mechanism_numbers = 10;  // before the crank angles
 
 std::vector<double> numbers_of(const SliderPathDesign& d) {
@@ -35,16 +32,11 @@ std::vector<double> numbers_of(const SliderPathDesign& d) {
 
 SliderPathDesign design_of(const std::vector<double>& v, const SliderPathProblem& problem,
                            std::string_view what) {
-  if (v.size() != mechanism_numbers + problem.x.size())
-    throw CheckpointError(fmt::format("{}: a design has {} numbers, must be {}", what, v.size(),
-                                      mechanism_numbers + problem.x.size()));
-  const auto is_sign = [](double x) { return x == 1 || x == -1; };
-  const auto is_length = [](double x) { return x >= shortest_link && x <= longest_link; };
-  const auto is_place = [](double x) { return std::abs(x) <= longest_link; };
-  const auto is_turn = [](double x) { return std::abs(x) <= largest_angle; };
-  if (!is_sign(v[0]) || !is_sign(v[1]) || !is_length(v[2]) || !is_length(v[3]) || !is_place(v[4]) ||
-      !is_turn(v[5]) || !std::all_of(v.begin() + 6, v.begin() + mechanism_numbers, is_place) ||
-      !std::all_of(v.begin() + mechanism_numbers, v.end(), is_turn))
+  require_numbers(v, mechanism_numbers + problem.x.size(), what);
+  if (!is_kept_sign(v[0]) || !is_kept_sign(v[1]) || !is_kept_length(v[2]) || !is_kept_length(v[3]) ||
+      !is_kept_place(v[4]) || !is_kept_angle(v[5]) ||
+      !std::all_of(v.begin() + 6, v.begin() + mechanism_numbers, is_kept_place) ||
+      !std::all_of(v.begin() + mechanism_numbers, v.end(), is_kept_angle))
     throw CheckpointError(fmt::format("{}: a design is not a slider-crank", what));
   SliderCrankMechanism m;
   m.branch = v[0] > 0 ? SliderSide::forward : SliderSide::backward;
@@ -62,41 +54,19 @@ SliderPathDesign design_of(const std::vector<double>& v, const SliderPathProblem
 }  // namespace
 
 Value kept(const SliderPathSynthesis& run) {
-  Value value;
-  value["feasible"] = run.status == Status::done;
-  value["evaluations"] = run.evaluations;
-  value["designs"] = Value::array();
-  for (const SliderPathDesign& d : run.designs) value["designs"].push_back(pack_numbers(numbers_of(d)));
-  std::vector<double> best;
-  Value::Array evaluations;
-  for (const SearchPoint& point : run.history) {
-    evaluations.emplace_back(point.evaluations);
-    best.push_back(point.best);
-  }
-  value["history_evaluations"] = Value(std::move(evaluations));
-  value["history_best"] = pack_numbers(best);
-  return value;
+  std::vector<std::vector<double>> designs;
+  for (const SliderPathDesign& design : run.designs) designs.push_back(numbers_of(design));
+  return kept({run.status, run.evaluations, run.history}, designs);
 }
 
 SliderPathSynthesis restored(const Value& value, const SliderPathProblem& problem, std::string_view what) {
   SliderPathSynthesis run;
-  const Value& feasible = kept_member(value, "feasible", what);
-  const Value& designs = kept_member(value, "designs", what);
-  const Value& evaluations = kept_member(value, "history_evaluations", what);
-  const std::vector<double> best = unpack_numbers(kept_member(value, "history_best", what), what);
-  if (!feasible.is_bool() || !designs.is_array() || !evaluations.is_array() ||
-      evaluations.as_array().size() != best.size())
-    throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
-  run.status = feasible.as_bool() ? Status::done : Status::infeasible;
-  run.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
-  for (const Value& design : designs.as_array())
-    run.designs.push_back(design_of(unpack_numbers(design, what), problem, what));
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    const Value& at = evaluations.as_array()[i];
-    if (!at.is_integer() || at.as_integer() < 0 || !std::isfinite(best[i]))
-      throw CheckpointError(fmt::format("{}: entry {} of its history is not a number", what, i));
-    run.history.push_back({at.as_integer(), best[i]});
-  }
+  SearchRecord record = restored(value, what, [&](const std::vector<double>& numbers) {
+    run.designs.push_back(design_of(numbers, problem, what));
+  });
+  run.status = record.status;
+  run.evaluations = record.evaluations;
+  run.history = std::move(record.history);
   return run;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
+#include "linkwright/planar/path/curve_overlay.h"
 #include "linkwright/planar/path/slider_crank_problem.h"
 
 namespace linkwright::planar {
@@ -28,18 +29,11 @@ class SliderPathMatcher {
 
  private:
   void sample_curve(double from, double to, double rho, double eta, std::complex<double> point);
-  double compare(double first, double length, std::complex<double>& a, std::complex<double>& p) const;
 
   const SliderPathProblem& problem_;
   SliderSide side_;
   double sense_;
-  std::vector<double> fraction_;       // of the path's length, one a target point
-  std::vector<std::size_t> compared_;  // points that take part in the comparison
-  std::vector<std::complex<double>> centred_;
-  std::complex<double> mean_;
-  double spread_ = 0;
-  std::vector<std::complex<double>> raw_, curve_;  // curve_: equally spaced along its length
-  std::vector<double> raw_angle_, raw_length_, angle_;
+  CurveOverlay overlay_;
 };
 
 }  // namespace linkwright::planar

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
+#include "linkwright/planar/path/curve_overlay.h"
 #include "linkwright/planar/path/problem.h"
 #include "linkwright/planar/path/projection.h"
 
@@ -33,20 +34,11 @@ class PathMatcher {
 
  private:
   void sample_curve(double from, double to, double l1, double l3, double l4, std::complex<double> point);
-  double compare(double first, double length, std::complex<double>& a, std::complex<double>& p) const;
 
   const PathProblem& problem_;
   Branch branch_;
   double sense_;
-  std::vector<double> fraction_;       // of the path's length, one a target point
-  std::vector<std::size_t> compared_;  // points that take part in the comparison
-  std::vector<std::complex<double>> centred_;
-  std::complex<double> mean_;
-  double spread_ = 0;
-  std::vector<std::complex<double>> curve_;  // equally spaced along its length
-  std::vector<double> angle_;
-  std::vector<std::complex<double>> raw_;
-  std::vector<double> raw_angle_, raw_length_;
+  CurveOverlay overlay_;
 };
 
 }  // namespace linkwright::planar

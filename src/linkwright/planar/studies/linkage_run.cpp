@@ -18,7 +18,7 @@
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
-#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
@@ -29,145 +29,6 @@ namespace {
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
 constexpr double work_rounding = 1e-12;  // of the absolute work
-
-bool over_time(const LinkageStudy& s) { return std::holds_alternative<study::TimeSamples>(s.sweep); }
-
-// Columns of the table: time or not, inputs, quantities.
-std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
-  std::vector<LinkageColumn> out;
-  if (over_time(s)) out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
-  for (std::size_t k = 0; k < s.plan.inputs(); ++k)
-    out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
-                   [k](const LinkageInstant& i) { return i.inputs[k].value; }});
-  for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::nothing;
-  for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
-    out.push_back(std::move(c));
-  return out;
-}
-
-double sample_at(double from, double to, int samples, int i) {
-  return from + (to - from) * i / (samples - 1);
-}
-
-}  // namespace
-
-LinkageRows rows_of(const LinkageStudy& s) {
-  LinkageRows rows;
-  if (const auto* times = std::get_if<study::TimeSamples>(&s.sweep)) {
-    std::vector<math::MotionCurve> curves;
-    for (const LinkageDrive& d : s.drives) curves.emplace_back(*d.law);
-    for (int i = 0; i < times->samples; ++i) {
-      rows.time.push_back(sample_at(times->from, times->to, times->samples, i));
-      rows.inputs.emplace_back();
-      for (const math::MotionCurve& c : curves) {
-        const math::Motion m = c(rows.time.back());
-        rows.inputs.back().push_back({m.value, m.rate, m.acceleration});
-      }
-    }
-    return rows;
-  }
-  const InputGrid& grid = std::get<InputGrid>(s.sweep);
-  std::vector<int> index(grid.inputs.size(), 0);
-  while (true) {
-    rows.time.push_back(0);
-    rows.inputs.emplace_back();
-    for (std::size_t k = 0; k < index.size(); ++k) {
-      const InputSamples& a = grid.inputs[k];
-      rows.inputs.back().push_back(
-          {sample_at(a.from, a.to, a.samples, index[k]), s.drives[k].rate, s.drives[k].acceleration});
-    }
-    std::size_t k = index.size();
-    while (k-- > 0)
-      if (++index[k] < grid.inputs[k].samples)
-        break;
-      else
-        index[k] = 0;
-    if (k == static_cast<std::size_t>(-1)) return rows;
-  }
-}
-
-namespace {
-
-// Solves the rows of a study one after the other. Rows of one input in closed form follow their branch
-// through change points; more than 64 combinations of modes are not listed.
-class RowSolver {
- public:
-  RowSolver(const LinkageStudy& s, const LinkageRows& rows)
-      : motion(s.plan),
-        now{.motion = &motion, .forces = &forces},
-        s_(s),
-        rows_(rows),
-        assembly_(s.plan, reach_of(rows.inputs), s.at_change_point, over_time(s)) {
-    limits = assembly_.limits();
-    const auto pairs = std::count_if(s.plan.groups.begin(), s.plan.groups.end(),
-                                     [](const Group& g) { return traits_of(g).has_modes; });
-    if (s.plan.inputs() != 1 || over_time(s) || !s.plan.closed_form() || pairs > 6) return;
-    const InputSamples& axis = std::get<InputGrid>(s.sweep).inputs[0];
-    const std::vector<double> inputs{axis.from};
-    const bool turn = s.plan.rotary[0] && periodic(s.plan, 0);
-    const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
-    limits = turn ? input_limits(s.plan, inputs, 0, -pi, pi) : input_limits(s.plan, inputs, 0, low, high);
-    const bool choice = std::any_of(limits->ranges.begin(), limits->ranges.end(), [](const InputRange& r) {
-      return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
-    });
-    if (choice) branch = branch_path(s.plan, inputs, 0, motion.modes, low, high, s.at_change_point);
-  }
-
-  /// Fills `now`; the status says what of it holds.
-  Status solve(std::size_t r) {
-    now.time = rows_.time[r];
-    now.inputs = rows_.inputs[r];
-    bool there = true;
-    if (branch && branch->status == Status::done)
-      there = modes_at(*branch, now.inputs[0].value, motion.modes) == Status::done;
-    if (!there) motion.status = Status::limit_reached;
-    if (there) {
-      assembly_.place(now.inputs, motion);
-      solve_velocity(s_.plan, now.inputs, motion);
-      solve_acceleration(s_.plan, now.inputs, motion);
-    }
-    const bool dynamic = s_.quantities.dynamic();
-    if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
-    // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
-    // none.
-    const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
-    passed = there && at_change() &&
-             limit_at_change(s_.plan, *branch, now.inputs[0].value, now.inputs[0], motion,
-                             dynamic && !kink ? &s_.linkage : nullptr, forces);
-    if (passed && kink) forget_rates();
-    return motion.status != Status::done ? motion.status
-           : passed && kink              ? Status::singular
-           : dynamic                     ? forces.status
-                                         : Status::done;
-  }
-
-  LinkageMotion motion;
-  LinkageForces forces;
-  LinkageInstant now;
-  bool passed = false;  ///< whether the row stands at a change point that the branch passes or ends at
-  std::optional<InputLimits> limits;  ///< ranges of the one input
-  std::optional<BranchPath> branch;
-
- private:
-  bool at_change() const {
-    if (!branch || branch->status != Status::done || motion.status != Status::singular) return false;
-    const auto here = [&](const RangeEnd& e) {
-      const double apart = now.inputs[0].value - e.value;
-      return e.kind == EndKind::change_point &&
-             std::abs(limits->closed ? std::remainder(apart, 2 * pi) : apart) < 1e-6;
-    };
-    return here(branch->low) || here(branch->high) ||
-           std::any_of(branch->change_points.begin(), branch->change_points.end(), here);
-  }
-  void forget_rates() {
-    for (PartState<double>& s : motion.parts)
-      s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
-  }
-
-  const LinkageStudy& s_;
-  const LinkageRows& rows_;
-  LinkageAssembly assembly_;
-};
 
 class Runner {
  public:
@@ -584,27 +445,6 @@ class Runner {
 };
 
 }  // namespace
-
-Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) {
-  std::vector<LinkageColumn> columns = columns_of(s);
-  if (!wanted.empty())
-    std::erase_if(columns, [&](const LinkageColumn& c) {
-      return std::find(wanted.begin(), wanted.end(), c.key) == wanted.end();
-    });
-  const LinkageRows rows = rows_of(s);
-  RowSolver solver(s, rows);
-  Table table{.name = "sweep"};
-  for (const LinkageColumn& c : columns)
-    table.add(c.key, c.label, std::vector<double>(rows.inputs.size(), nan));
-  for (std::size_t r = 0; r < rows.inputs.size(); ++r) {
-    table.status.emplace_back(to_string(solver.solve(r)));
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      table.columns[c].values[r] = value_of(columns[c], solver.now);
-  }
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    if (columns[c].angle) math::unwrap_angles(table.columns[c].values);
-  return table;
-}
 
 study::Result run_linkage_study(const LinkageStudy& study, RunContext& context) {
   return Runner(study, context).run();

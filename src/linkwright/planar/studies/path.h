@@ -251,6 +251,15 @@ void fields(Visitor&& visit, PathConstraint& c) {
   visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
 }
 
+/// Whether a constraint of a path holds; the order of the points is one that no study can give up.
+template <class Constraint>
+bool is_enabled(study::ObjectReader& document, const Constraint& c) {
+  if (!c.enabled && std::holds_alternative<InOrder>(c.limit))
+    document.error("constraint", "the order of the points cannot be given up",
+                   "remove the constraint, or enabled = false");
+  return c.enabled;
+}
+
 /// `[optimiser]`: the recommended method or a published one.
 struct Recommended {
   PathSynthesisOptions options;

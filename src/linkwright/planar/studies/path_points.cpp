@@ -178,6 +178,47 @@ bool repeats_first_point(const std::vector<double>& x, const std::vector<double>
   return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
 }
 
+bool check_timing_step(study::ObjectReader& target, const study::DisplayUnits& units,
+                       const std::optional<double>& step, bool asked, std::string_view mode) {
+  if (!asked) {
+    if (step)
+      target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", mode),
+                   "remove the step");
+    return false;
+  }
+  if (!step) {
+    target.error("timing", "equal_steps needs step_deg",
+                 "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
+    return false;
+  }
+  if (*step == 0 || std::abs(*step) > 2 * pi) {
+    target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                       units.text(*step, Dimension::angle, 6)));
+    return false;
+  }
+  return true;
+}
+
+bool check_timing_angles(study::ObjectReader& target, const std::optional<std::vector<double>>& angles,
+                         bool asked, std::string_view mode, std::size_t points) {
+  if (!asked) {
+    if (angles)
+      target.error("timing", fmt::format("angles go with mode given, the mode is {}", mode),
+                   "remove the angles");
+    return false;
+  }
+  if (!angles) {
+    target.error("timing", "given needs angles_deg, one for each point");
+    return false;
+  }
+  if (points >= 3 && angles->size() != points) {
+    target.error("timing", fmt::format("{} angles for {} points", angles->size(), points),
+                 "give one crank angle for each point");
+    return false;
+  }
+  return true;
+}
+
 bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }
 
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/study/kind.h"
@@ -52,6 +53,15 @@ void check_path_targets(study::ObjectReader& target, const char* key, const Path
 /// only if that is a turn. True when the last target was left out.
 bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
                               std::optional<double> turned, PathPoints& targets);
+
+/// Whether a step of the crank from point to point (rad) is what its timing needs; `asked`: the mode has one.
+/// Problems are reported at the timing of the target.
+bool check_timing_step(study::ObjectReader& target, const study::DisplayUnits& units,
+                       const std::optional<double>& step, bool asked, std::string_view mode);
+
+/// Likewise for the crank angles of so many points (rad).
+bool check_timing_angles(study::ObjectReader& target, const std::optional<std::vector<double>>& angles,
+                         bool asked, std::string_view mode, std::size_t points);
 
 /// Whether a crank rotation is one turn, in either sense, to rounding (rad).
 bool is_one_turn(double turned);

@@ -17,34 +17,10 @@ namespace {
 void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, PathStudy& s) {
   const PathTiming& t = s.target.timing;
   s.problem.timing = t.mode;
-  const std::size_t n = s.problem.x.size();
-  if (t.mode == Timing::equal_steps) {
-    if (!t.step) {
-      target.error("timing", "equal_steps needs step_deg",
-                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
-    } else if (*t.step == 0 || std::abs(*t.step) > 2 * pi) {
-      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
-                                         units.text(*t.step, Dimension::angle, 6)));
-    } else {
-      s.problem.step = *t.step;
-    }
-  } else if (t.step) {
-    target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", name_of(t.mode)),
-                 "remove the step");
-  }
-  if (t.mode == Timing::given) {
-    if (!t.angles) {
-      target.error("timing", "given needs angles_deg, one for each point");
-    } else if (n >= 3 && t.angles->size() != n) {
-      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), n),
-                   "give one crank angle for each point");
-    } else {
-      s.problem.angles = *t.angles;
-    }
-  } else if (t.angles) {
-    target.error("timing", fmt::format("angles go with mode given, the mode is {}", name_of(t.mode)),
-                 "remove the angles");
-  }
+  if (check_timing_step(target, units, t.step, t.mode == Timing::equal_steps, name_of(t.mode)))
+    s.problem.step = *t.step;
+  if (check_timing_angles(target, t.angles, t.mode == Timing::given, name_of(t.mode), s.problem.x.size()))
+    s.problem.angles = *t.angles;
 }
 
 // The key that the targets stand at.
@@ -203,12 +179,7 @@ void set_constraints(study::ObjectReader& document, PathStudy& s) {
   PathProblem& p = s.problem;
   p.crank_rotates_fully = false;
   for (const PathConstraint& constraint : s.constraints) {
-    if (!constraint.enabled) {
-      if (std::holds_alternative<InOrder>(constraint.limit))
-        document.error("constraint", "the order of the points cannot be given up",
-                       "remove the constraint, or enabled = false");
-      continue;
-    }
+    if (!is_enabled(document, constraint)) continue;
     if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
     if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
     if (const auto* limit = std::get_if<TransmissionLimit>(&constraint.limit))

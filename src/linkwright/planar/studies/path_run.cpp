@@ -22,6 +22,7 @@
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_scene.h"
+#include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/planar/studies/path_solution.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
@@ -30,23 +31,7 @@
 namespace linkwright::planar {
 namespace {
 
-// A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
-// within reach, a share of the squared size of the path.
-constexpr double success_share = 1e-4, success_of_size = 1e-12;
-
-struct Run {
-  Status status = Status::done;
-  std::string method;
-  std::vector<std::uint64_t> seeds;
-  std::vector<PathSeedRun> runs;
-};
-
-bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
-
-// Infinite when the seed found no feasible design.
-double best_error(const PathSeedRun& run) {
-  return run.designs.empty() || !run.designs[0].violations.empty() ? infinity : run.designs[0].error;
-}
+using Runs = PathRuns<PathSeedRun>;
 
 PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
                      RunContext& context) {
@@ -74,16 +59,11 @@ PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constra
         optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, minimise, context);
-    if (interrupted(report.status)) out.status = report.status;
+    if (study::is_interrupted(report.status)) out.status = report.status;
     PathDesign design = path_design(s.problem, branch, sense, report.x);
     if (out.designs.empty() || optimise::better(design.error, total_violation(design), out.designs[0].error,
-                                                total_violation(out.designs[0]))) {
-      out.history.clear();
-      for (const auto& generation : report.log)
-        if (generation.best_violation == 0 &&
-            (out.history.empty() || generation.best_cost < out.history.back().best))
-          out.history.push_back({generation.evaluations, generation.best_cost});
-    }
+                                                total_violation(out.designs[0])))
+      out.history = improvements(report.log);
     out.designs.push_back(std::move(design));
     out.evaluations += report.evaluations;
   }
@@ -92,40 +72,11 @@ PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constra
   return out;
 }
 
-Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& context) {
-  Run out;
-  out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
-  const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<PathSeedRun> all(count);
-  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::PieceLoop loop = optimise::for_each_seed(
-      seeds, context, out.method,
-      [&](std::size_t i, std::uint64_t seed) {
-        all[i] =
-            std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
-                       s.optimiser.method);
-        return best_error(all[i]);
-      },
-      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
-      [&](std::size_t i, const Value& value) {
-        all[i] = restored(value, s.problem, optimise::seed_name(seeds.first + i));
-        return best_error(all[i]);
-      });
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!loop.ran[i]) continue;
-    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
-    out.seeds.push_back(seeds.first + i);
-    out.runs.push_back(std::move(all[i]));
-  }
-  // An interruption after the last seed was done took nothing away.
-  if (out.runs.size() < count) out.status = loop.status;
-  return out;
-}
-
 // Distinct designs of all seeds, best first.
-std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
+std::vector<PathDesign> distinct_designs(const PathStudy& s, const Runs& runs) {
   std::vector<PathDesign> all;
-  for (const PathSeedRun& seed : run.runs) all.insert(all.end(), seed.designs.begin(), seed.designs.end());
+  for (const PathSeedRun& seed : runs.answers)
+    all.insert(all.end(), seed.designs.begin(), seed.designs.end());
   if (s.no_defects)
     for (PathDesign& d : all)
       for (const Defect& defect : defects(s.problem, d))
@@ -146,32 +97,15 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   return out;
 }
 
-void add_seed_table(study::Result& result, const Run& run) {
-  Table seeds{.name = "seeds"};
-  std::vector<double> number, error, evaluations;
-  for (std::size_t i = 0; i < run.runs.size(); ++i) {
-    const PathSeedRun& seed = run.runs[i];
-    number.push_back(static_cast<double>(run.seeds[i]));
-    error.push_back(seed.designs.empty() || !seed.designs[0].violations.empty() ? nan
-                                                                                : seed.designs[0].error);
-    evaluations.push_back(static_cast<double>(seed.evaluations));
-    seeds.status.emplace_back(to_string(seed.status));
-  }
-  seeds.add("seed", "seed", number);
-  seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
-  seeds.add("evaluations", "evaluations", evaluations);
-  result.tables.push_back(std::move(seeds));
-}
-
-void add_statistics(study::Result& result, const Run& run, double best, double size) {
+void add_statistics(study::Result& result, const Runs& runs, double best, double size) {
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
-  for (std::size_t i = 0; i < run.runs.size(); ++i) {
-    const PathSeedRun& seed = run.runs[i];
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const PathSeedRun& seed = runs.answers[i];
     const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
     const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
     outcomes.push_back({error, violation, seed.evaluations});
-    Value entry = study::seed_entry(run.seeds[i], seed.status, violation > 0 ? nan : error,
+    Value entry = study::seed_entry(runs.seeds[i], seed.status, violation > 0 ? nan : error,
                                     seed.evaluations);  // sum of squared distances (m2)
     entry["violation"] = violation;
     if (!seed.designs.empty()) {
@@ -181,10 +115,9 @@ void add_statistics(study::Result& result, const Run& run, double best, double s
     study::write_history(entry, seed.history, seed.evaluations);
     result.log.push_back(std::move(entry));
   }
-  const double threshold = best + std::max(success_share * best, success_of_size * size * size);
-  const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, success_threshold(best, size));
   Value& out = result.statistics;
-  out["method"] = run.method;
+  out["method"] = runs.method;
   study::write_statistics(out, st);
 }
 
@@ -305,16 +238,19 @@ void add_cognates(study::Result& result, const PathDesign& best) {
 
 study::Result run_path_study(const PathStudy& s, const study::Common& common, RunContext& context) {
   study::Result result;
-  const Run run = run_seeds(s, common, context);
-  const std::vector<PathDesign> designs = distinct_designs(s, run);
+  const Runs runs =
+      run_path_seeds(s, common, context, [&](const auto& method, std::uint64_t seed, bool only_seed) {
+        return run_seed(method, s, seed, only_seed, context);
+      });
+  const std::vector<PathDesign> designs = distinct_designs(s, runs);
   if (designs.empty()) {
-    result.status = run.status == Status::done ? Status::infeasible : run.status;
+    result.status = runs.status == Status::done ? Status::infeasible : runs.status;
     result.headline = "No four-bar found: no start of the search assembles at every point.";
     return result;
   }
   const PathDesign& best = designs[0];
   const bool feasible = best.violations.empty();
-  result.status = run.status != Status::done ? run.status : feasible ? Status::done : Status::infeasible;
+  result.status = runs.status != Status::done ? runs.status : feasible ? Status::done : Status::infeasible;
 
   for (std::size_t i = 0; i < designs.size(); ++i) {
     result.solutions.push_back(path_solution(s.problem, designs[i], i + 1, common.output.samples));
@@ -322,9 +258,9 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
                                        fmt::format("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));
   }
-  add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
+  add_statistics(result, runs, feasible ? best.error : infinity, path_size(s.problem));
   add_design_tables(result, s.problem, designs, common.output.samples);
-  add_seed_table(result, run);
+  result.tables.push_back(path_seed_table(runs, {}));
   add_cognates(result, best);
   add_published(result, s.problem, feasible ? best.error : infinity);
 
@@ -349,10 +285,10 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
       worst_fact(s.problem, errors),
       {"type", result.solutions[0].label},
       transmission_fact(s.problem, best),
-      {"method", run.method},
+      {"method", runs.method},
   };
-  study::add_seed_facts(result, "runs that reached the best solution", run.runs.size());
-  study::warn_of_missing_seeds(result, run.runs.size(), common.seeds);
+  study::add_seed_facts(result, "runs that reached the best solution", runs.answers.size());
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   if (!but.empty()) {
     std::string names;
     for (const Drawback& drawback : drawbacks(s.problem, best)) {

@@ -10,6 +10,7 @@
 #include "linkwright/optimise/pagmo_bridge.h"
 #include "linkwright/planar/path/slider_crank_synthesis.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/study/kind.h"
 
 // Path synthesis of the slider-crank: what its file holds (field lists), how it is read, run and reported.
@@ -243,12 +244,7 @@ study::Kind slider_path_kind();
 SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common);
 
 /// What the seeds of a study came to.
-struct SliderPathRuns {
-  Status status = Status::done;
-  std::string method;
-  std::vector<std::uint64_t> seeds;
-  std::vector<SliderPathSynthesis> runs;
-};
+using SliderPathRuns = PathRuns<SliderPathSynthesis>;
 SliderPathRuns run_slider_path_seeds(const SliderPathStudy& study, const study::Common& common,
                                      RunContext& context);
 

@@ -22,20 +22,8 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
   const std::size_t n = s.problem.x.size();
   s.problem.free_timing = t.mode == SliderTiming::free;
   std::vector<double>& offsets = s.problem.offsets;
-  if (t.mode == SliderTiming::equal_steps) {
-    if (!t.step) {
-      target.error("timing", "equal_steps needs step_deg",
-                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
-    } else if (*t.step == 0 || std::abs(*t.step) > 2 * pi) {
-      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
-                                         units.text(*t.step, Dimension::angle, 6)));
-    } else {
-      for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
-    }
-  } else if (t.step) {
-    target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", name_of(t.mode)),
-                 "remove the step");
-  }
+  if (check_timing_step(target, units, t.step, t.mode == SliderTiming::equal_steps, name_of(t.mode)))
+    for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
   if (t.mode == SliderTiming::increments) {
     if (!t.increments) {
       target.error("timing", "increments needs increments_deg, one from each point to the next");
@@ -50,19 +38,8 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
     target.error("timing", fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
                  "remove the increments");
   }
-  if (t.mode == SliderTiming::given) {
-    if (!t.angles) {
-      target.error("timing", "given needs angles_deg, one for each point");
-    } else if (n >= 3 && t.angles->size() != n) {
-      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), n),
-                   "give one crank angle for each point");
-    } else {
-      offsets = *t.angles;
-    }
-  } else if (t.angles) {
-    target.error("timing", fmt::format("angles go with mode given, the mode is {}", name_of(t.mode)),
-                 "remove the angles");
-  }
+  if (check_timing_angles(target, t.angles, t.mode == SliderTiming::given, name_of(t.mode), n))
+    offsets = *t.angles;
 }
 
 bool starts_anywhere(const SliderPathStudy& s) {
@@ -136,12 +113,7 @@ void set_constraints(study::ObjectReader& document, const study::DisplayUnits& u
   p.crank_rotates_fully = false;
   bool limited = false;
   for (const SliderPathConstraint& constraint : s.constraints) {
-    if (!constraint.enabled) {
-      if (std::holds_alternative<InOrder>(constraint.limit))
-        document.error("constraint", "the order of the points cannot be given up",
-                       "remove the constraint, or enabled = false");
-      continue;
-    }
+    if (!is_enabled(document, constraint)) continue;
     if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
     if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
     if (const auto* limit = std::get_if<PressureLimit>(&constraint.limit))

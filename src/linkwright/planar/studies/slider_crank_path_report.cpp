@@ -23,10 +23,8 @@
 namespace linkwright::planar {
 namespace {
 
-// A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
-// within reach, a share of the squared size of the path; of a front, when so little of what the front of all
-// seeds dominates is missing.
-constexpr double success_share = 1e-4, success_of_size = 1e-12, success_of_front = 1e-3;
+// A seed of a front succeeds when so little of what the front of all seeds dominates is missing.
+constexpr double success_of_front = 1e-3;
 // Solutions with a drawing and tables of their own.
 constexpr std::size_t most_drawn = 15;
 // A pressure angle beyond this moves the slider badly.
@@ -128,7 +126,7 @@ class Report {
   // Of a front: the share of what the front of all seeds dominates that a seed misses. The worst of both
   // objectives on that front, a tenth further, is the point from which it is counted.
   std::vector<double> shortfalls() const {
-    std::vector<double> out(runs_.runs.size(), 1);
+    std::vector<double> out(runs_.answers.size(), 1);
     if (!feasible_) return out;
     const double most_error = 1.1 * designs_.back().error, most_stroke = 1.1 * designs_.front().stroke;
     const auto area = [&](const std::vector<SliderPathDesign>& front) {
@@ -143,7 +141,7 @@ class Report {
     };
     const double whole = area(designs_);
     for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = std::max(0.0, 1 - area(runs_.runs[i].designs) / whole);
+      out[i] = std::max(0.0, 1 - area(runs_.answers[i].designs) / whole);
     return out;
   }
 
@@ -151,8 +149,8 @@ class Report {
     std::vector<optimise::SeedOutcome> outcomes;
     if (s_.front) missing_ = shortfalls();
     result_.log = Value::array();
-    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
-      const SliderPathSynthesis& run = runs_.runs[i];
+    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
+      const SliderPathSynthesis& run = runs_.answers[i];
       const double violation = run.designs.empty() ? infinity : total_violation(run.designs[0]);
       const double error = run.designs.empty() ? infinity : run.designs[0].error;
       outcomes.push_back({s_.front ? missing_[i] : error, violation, run.evaluations});
@@ -163,8 +161,7 @@ class Report {
       result_.log.push_back(std::move(entry));
     }
     const double size = path_size(p_), best = feasible_ ? designs_[0].error : infinity;
-    const double threshold =
-        s_.front ? success_of_front : best + std::max(success_share * best, success_of_size * size * size);
+    const double threshold = s_.front ? success_of_front : success_threshold(best, size);
     const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
     result_.statistics["method"] = runs_.method;
     result_.statistics["measure"] = s_.front ? "share of the common front that is missing" : "path error, m2";
@@ -186,20 +183,7 @@ class Report {
       of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
     }
     if (s_.front && feasible_) front_table();
-    Table seeds{.name = "seeds", .columns{}, .status{}};
-    std::vector<double> number, error, evaluations;
-    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
-      const SliderPathSynthesis& run = runs_.runs[i];
-      number.push_back(static_cast<double>(runs_.seeds[i]));
-      error.push_back(run.designs.empty() || !run.designs[0].violations.empty() ? nan : run.designs[0].error);
-      evaluations.push_back(static_cast<double>(run.evaluations));
-      seeds.status.emplace_back(to_string(run.status));
-    }
-    seeds.add("seed", "seed", number);
-    seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
-    if (s_.front) seeds.add("missing", "share of the common front that is missing", missing_);
-    seeds.add("evaluations", "evaluations", evaluations);
-    result_.tables.push_back(std::move(seeds));
+    result_.tables.push_back(path_seed_table(runs_, missing_));
     cognates();
   }
 
@@ -323,9 +307,9 @@ class Report {
     fact("method", runs_.method);
     study::add_seed_facts(
         result_, s_.front ? "runs that reached the common front" : "runs that reached the best solution",
-        runs_.runs.size());
+        runs_.answers.size());
     const study::AddWarning warn{result_.diagnostics};
-    study::warn_of_missing_seeds(result_, runs_.runs.size(), common_.seeds);
+    study::warn_of_missing_seeds(result_, runs_.answers.size(), common_.seeds);
     if (pressure > steep)
       warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
                        pressure),

@@ -20,13 +20,6 @@ namespace {
 // A front goes down to this share of the stroke of the design with the least error, unless limits say more.
 constexpr double shortest_stroke = 0.4;
 
-bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
-
-// Infinite when the seed found no feasible design.
-double best_error(const SliderPathSynthesis& run) {
-  return run.designs.empty() || !run.designs[0].violations.empty() ? infinity : run.designs[0].error;
-}
-
 bool better_design(const SliderPathDesign& a, const SliderPathDesign& b) {
   return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
 }
@@ -119,16 +112,11 @@ SliderPathSynthesis run_seed(
     }
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, minimise, context);
-    if (interrupted(report.status)) out.status = report.status;
+    if (study::is_interrupted(report.status)) out.status = report.status;
     out.evaluations += report.evaluations;
     SliderPathDesign design = slider_path_design(s.problem, way.side, way.sense, report.x);
-    if (!s.front && (out.designs.empty() || better_design(design, out.designs[0]))) {
-      out.history.clear();
-      for (const auto& generation : report.log)
-        if (generation.best_violation == 0 &&
-            (out.history.empty() || generation.best_cost < out.history.back().best))
-          out.history.push_back({generation.evaluations, generation.best_cost});
-    }
+    if (!s.front && (out.designs.empty() || better_design(design, out.designs[0])))
+      out.history = improvements(report.log);
     out.designs.push_back(std::move(design));
     for (const optimise::ParetoPoint& point : report.front)
       out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
@@ -157,7 +145,7 @@ SliderPathSynthesis run_seed(const FrontMethod<Options>& method, const SliderPat
     const optimise::FrontReport report =
         optimise::minimise_with_pagmo(slider_path_front_problem(s.problem, way.side, way.sense, scales_of(s)),
                                       pagmo(method.options), options, {.seed = seed, .run = part++}, context);
-    if (interrupted(report.status)) out.status = report.status;
+    if (study::is_interrupted(report.status)) out.status = report.status;
     out.evaluations += report.evaluations;
     for (const optimise::ParetoPoint& point : report.front)
       out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
@@ -170,38 +158,14 @@ SliderPathSynthesis run_seed(const FrontMethod<Options>& method, const SliderPat
 
 SliderPathRuns run_slider_path_seeds(const SliderPathStudy& s, const study::Common& common,
                                      RunContext& context) {
-  SliderPathRuns out;
-  out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
-  const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<SliderPathSynthesis> all(count);
-  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::PieceLoop loop = optimise::for_each_seed(
-      seeds, context, out.method,
-      [&](std::size_t i, std::uint64_t seed) {
-        all[i] =
-            std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
-                       s.optimiser.method);
-        return best_error(all[i]);
-      },
-      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
-      [&](std::size_t i, const Value& value) {
-        all[i] = restored(value, s.problem, optimise::seed_name(seeds.first + i));
-        return best_error(all[i]);
-      });
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!loop.ran[i]) continue;
-    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
-    out.seeds.push_back(seeds.first + i);
-    out.runs.push_back(std::move(all[i]));
-  }
-  // An interruption after the last seed was done took nothing away.
-  if (out.runs.size() < count) out.status = loop.status;
-  return out;
+  return run_path_seeds(s, common, context, [&](const auto& method, std::uint64_t seed, bool only_seed) {
+    return run_seed(method, s, seed, only_seed, context);
+  });
 }
 
 std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& s, const SliderPathRuns& runs) {
   std::vector<SliderPathDesign> all;
-  for (const SliderPathSynthesis& seed : runs.runs)
+  for (const SliderPathSynthesis& seed : runs.answers)
     all.insert(all.end(), seed.designs.begin(), seed.designs.end());
   if (s.no_defects)
     for (SliderPathDesign& d : all)

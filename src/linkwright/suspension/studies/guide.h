@@ -22,6 +22,9 @@ struct PointForm {
   Vec3 at;       ///< m
   PointBox box;  ///< m; a given coordinate has equal limits
 };
+/// A point all of whose coordinates are given (m).
+PointForm given(const Vec3& at);
+
 /// The points of one end of a link: [x, y, z] with numbers or { min, max, initial }; or a table { near, box,
 /// offset, given }, near a place or the name of a hard point; or an array of two of these.
 struct PointsForm {

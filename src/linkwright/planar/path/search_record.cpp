@@ -1,0 +1,71 @@
+#include "linkwright/planar/path/search_record.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+
+#include "linkwright/core/checkpoint.h"
+#include "linkwright/core/tolerance.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+
+namespace linkwright::planar {
+namespace {
+
+// Far more than a search makes, and few enough that the sum over the seeds of a study is an integer.
+constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
+// Crank angles are unwrapped over a turn, from a start angle that the study may have put anywhere sensible.
+constexpr double largest_angle = 1e6;
+
+}  // namespace
+
+Value kept(const SearchRecord& record, const std::vector<std::vector<double>>& designs) {
+  Value value;
+  value["feasible"] = record.status == Status::done;
+  value["evaluations"] = record.evaluations;
+  value["designs"] = Value::array();
+  for (const std::vector<double>& design : designs) value["designs"].push_back(pack_numbers(design));
+  std::vector<double> best;
+  Value::Array evaluations;
+  for (const SearchPoint& point : record.history) {
+    evaluations.emplace_back(point.evaluations);
+    best.push_back(point.best);
+  }
+  value["history_evaluations"] = Value(std::move(evaluations));
+  value["history_best"] = pack_numbers(best);
+  return value;
+}
+
+SearchRecord restored(const Value& value, std::string_view what,
+                      const std::function<void(const std::vector<double>&)>& design) {
+  SearchRecord record;
+  const Value& feasible = kept_member(value, "feasible", what);
+  const Value& designs = kept_member(value, "designs", what);
+  const Value& evaluations = kept_member(value, "history_evaluations", what);
+  const std::vector<double> best = unpack_numbers(kept_member(value, "history_best", what), what);
+  if (!feasible.is_bool() || !designs.is_array() || !evaluations.is_array() ||
+      evaluations.as_array().size() != best.size())
+    throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
+  record.status = feasible.as_bool() ? Status::done : Status::infeasible;
+  record.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
+  for (const Value& numbers : designs.as_array()) design(unpack_numbers(numbers, what));
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const Value& at = evaluations.as_array()[i];
+    if (!at.is_integer() || at.as_integer() < 0 || !std::isfinite(best[i]))
+      throw CheckpointError(fmt::format("{}: entry {} of its history is not a number", what, i));
+    record.history.push_back({at.as_integer(), best[i]});
+  }
+  return record;
+}
+
+void require_numbers(const std::vector<double>& design, std::size_t count, std::string_view what) {
+  if (design.size() != count)
+    throw CheckpointError(fmt::format("{}: a design has {} numbers, must be {}", what, design.size(), count));
+}
+
+bool is_kept_sign(double x) { return x == 1 || x == -1; }
+bool is_kept_length(double x) { return x >= shortest_link && x <= longest_link; }
+bool is_kept_place(double x) { return std::abs(x) <= longest_link; }
+bool is_kept_angle(double x) { return std::abs(x) <= largest_angle; }
+
+}  // namespace linkwright::planar

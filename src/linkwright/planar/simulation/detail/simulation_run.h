@@ -1,0 +1,169 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/smooth_branch.h"
+#include "linkwright/planar/simulation/simulation.h"
+
+namespace linkwright::planar {
+
+/// One simulation from its start to its end. How it moves is in simulation.cpp; change points, friction and
+/// what is said of its end have sources of their own.
+class Simulation {
+ public:
+  Simulation(const Linkage& l, const LinkagePlan& plan, std::span<const InputDrive> drives,
+             const SimulationOptions& options, const SimulationOutput& output, const SimulationWatch& watch);
+
+  SimulationReport run(std::span<const double> times, const RunContext* context);
+
+ private:
+  static std::vector<bool> free_of(std::span<const InputDrive> drives) {
+    std::vector<bool> free;
+    for (const InputDrive& c : drives) free.push_back(!c.law);
+    return free;
+  }
+  static std::size_t count_free(std::span<const InputDrive> drives) {
+    return static_cast<std::size_t>(
+        std::count_if(drives.begin(), drives.end(), [](const InputDrive& c) { return !c.law; }));
+  }
+  // Of an only input; many have no use for it.
+  double first_inertia() const { return dynamics_.inertia().empty() ? 0 : dynamics_.inertia()[0]; }
+  bool stops_at_changes() const {
+    return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
+  }
+  bool watches_rest() const { return friction_ && dynamics_.free().size() == 1; }
+
+  // ---- state: values and rates of the free inputs, work -------------------------------------------------
+
+  std::vector<double> state() const;
+  void put(double t, std::span<const double> y);
+  // Work is held to the relative tolerance of what energies there are; without a measure it is left to the
+  // steps that the motion needs.
+  double work_tolerance() const;
+
+  // ---- equations of motion ------------------------------------------------------------------------------
+
+  struct Answer {
+    Status status = Status::done;
+    double power = 0, inertia = 0;
+  };
+  // Accelerations of the free inputs, in inputs_.
+  Answer solve(double t);
+  Answer interpolated(double t, double centre, double x);
+  bool slope(double t, std::span<const double> y, std::span<double> rate);
+
+  // ---- general groups: stay on the branch ---------------------------------------------------------------
+
+  bool changed_side() const;
+  void remember();
+  // A search that went astray starts from the last good place again.
+  void restore();
+
+  // ---- start, steps, output -----------------------------------------------------------------------------
+
+  bool start(double t);
+  std::string start_message(Status status) const;
+  // The motion where inputs_ say, accelerations included.
+  const LinkageMotion& placed();
+  double kinetic(double inertia) const;
+
+  bool show(double t, std::span<const double> y);
+  // An instant for those who watch.
+  const SimulationInstant& watched(double t, std::span<const double> y);
+  // Exactly at a change point the parts behind it have no place of their own.
+  double interpolated_potential();
+
+  bool after_step(double t, std::span<const double> y);
+  // Watches groups that come to their dead points: their sine falls to zero evenly in time. Steps are kept
+  // from reaching beyond; near enough the motion ends.
+  bool clear_of_limits(double t, double step);
+  // Whether the end of the branch that the input is nearer to is a limit of this group.
+  bool ends_here(int group) const;
+  const RangeEnd& nearer_end() const;
+
+  // ---- change points ------------------------------------------------------------------------------------
+
+  void neighbours(double value);
+  // Change points between the ends of the last step, at the times of the cubic through them.
+  void note_passages(double from, const InputMotion& before);
+
+  math::OdeAction act(double t, std::span<const std::size_t> which, std::span<double> y);
+
+  // Velocities of the parts for a unit rate at a change point, with places and directions.
+  std::vector<PartState<double>> unit_motion(double value);
+  // Turns onto the other branch through a change point: the impact acts only against motion that the new
+  // branch does not have, so the momentum along it stays. Returns the energy it costs; nothing when the
+  // modes that keep their signs do not start where the linkage stands.
+  std::optional<double> kink(double value, double sense, double& rate);
+
+  // ---- friction -----------------------------------------------------------------------------------------
+
+  // Where friction turns round again and again while time hardly passes, a joint sticks while others move:
+  // the equations of joints that slide have no motion there. Before the place where friction locks forces
+  // grow without bound, and time hardly passes either.
+  bool chatters(double t);
+
+  // Whether friction locks a millionth of a radian, or of the linkage's size, further on.
+  bool locks_ahead(double t);
+  double fastest() const;
+  // Rates of the joints with friction; beyond what can be placed they stay what they were.
+  void rubbing_rates(double t, std::span<const double> y);
+  // A joint that has come to rest sticks when friction stops it either way. inputs_ are those of the moment.
+  bool sticks(double t, int joint);
+
+  // Friction holds a linkage at rest when it stops motion either way.
+  bool holds(double t);
+
+  // ---- end ----------------------------------------------------------------------------------------------
+
+  void finish(const math::OdeReport& ode, std::span<const double> y);
+  void limit(const std::string& where);
+  std::string stands() const;
+
+  const Linkage& l_;
+  const LinkagePlan& plan_;
+  std::span<const InputDrive> drives_;
+  const SimulationOptions& options_;
+  const SimulationOutput& output_;
+  const SimulationWatch& watch_;
+  LinkageDynamics dynamics_;
+  std::vector<InputMotion> inputs_;
+  struct Law {
+    std::size_t input;
+    math::MotionCurve curve;
+  };
+  std::vector<Law> laws_;
+  std::optional<SmoothBranch> branch_;
+  bool friction_ = false;
+  std::vector<double> last_sines_;
+  std::vector<PartState<double>> good_parts_;
+  std::size_t first_watched_ = 0;  // among the events
+  std::vector<double> watched_;    // last values
+  SimulationInstant instant_;
+  double start_kinetic_ = 0, start_potential_ = 0, kinks_ = 0;
+  double last_time_ = 0;
+  InputMotion last_;
+  double horizon_ = infinity, limit_time_ = 0;
+  double below_ = -infinity, above_ = infinity;
+  bool at_limit_ = false, at_change_ = false, stuck_ = false;
+  std::vector<int> rubbing_;             // joints with friction, when several inputs are free
+  std::vector<double> rates_;            // of these joints
+  std::vector<double> breaks_, senses_;  // senses of joints with friction, one a joint
+  std::vector<long> turns_;              // of the senses, within the window
+  double span_ = 1, window_ = 0, largest_rate_ = 0;
+  long steps_ = 0;
+  int chattering_ = -1;  // joint
+  bool rests_ = false;
+  bool jammed_ = false;  // friction locks
+  Status last_status_ = Status::done;
+  int failed_group_ = -1;
+  SimulationReport report_;
+};
+
+}  // namespace linkwright::planar

@@ -1,0 +1,242 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "linkwright/study/bind.h"
+#include "linkwright/study/detail/bind_words.h"
+#include "linkwright/study/trade_words.h"
+
+// A study as one document: which of its keys nobody asked for, which are missing, and what follows from that.
+namespace linkwright::study {
+namespace {
+
+// A file with more unknown keys than this is no study; the rest of them would only hide the first.
+constexpr std::size_t most_unknown_keys = 50;
+
+/// A JSON Schema and what it is composed of: every schema that may describe the same value.
+std::vector<const Value*> alternatives_of(const Value& schema) {
+  std::vector<const Value*> all{&schema};
+  for (const char* word : {"oneOf", "anyOf", "allOf"})
+    if (const Value* parts = schema.find(word); parts && parts->is_array())
+      for (const Value& part : parts->as_array())
+        for (const Value* one : alternatives_of(part)) all.push_back(one);
+  return all;
+}
+
+std::vector<const Value*> elements_of(const std::vector<const Value*>& schemas) {
+  std::vector<const Value*> all;
+  for (const Value* schema : schemas)
+    if (const Value* items = schema->find("items"))
+      for (const Value* one : alternatives_of(*items)) all.push_back(one);
+  return all;
+}
+
+/// Whether a key fits "^base_(mm|cm)$", the only form of patternProperties that SchemaWriter writes.
+bool fits(std::string_view pattern, std::string_view key) {
+  const std::size_t open = pattern.rfind('(');
+  if (open == std::string_view::npos || !pattern.starts_with('^') || !pattern.ends_with(")$")) return false;
+  const std::string_view stem = pattern.substr(1, open - 1);
+  if (!key.starts_with(stem)) return false;
+  const std::string_view unit = key.substr(stem.size());
+  std::string_view units = pattern.substr(open + 1, pattern.size() - open - 3);
+  while (!units.empty()) {
+    const std::size_t end = std::min(units.find('|'), units.size());
+    if (units.substr(0, end) == unit) return true;
+    units.remove_prefix(std::min(end + 1, units.size()));
+  }
+  return false;
+}
+
+/// What the schemas say of a member; empty if none knows its key.
+std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, std::string_view key) {
+  std::vector<const Value*> all;
+  const auto add = [&](const Value& schema) {
+    for (const Value* one : alternatives_of(schema)) all.push_back(one);
+  };
+  for (const Value* schema : schemas) {
+    if (const Value* properties = schema->find("properties"))
+      if (const Value* found = properties->find(key)) add(*found);
+    if (const Value* patterns = schema->find("patternProperties"); patterns && patterns->is_object())
+      for (const Value::Member& pattern : patterns->as_object())
+        if (fits(pattern.key, key)) add(pattern.value);
+    if (const Value* free = schema->find("additionalProperties"); free && free->is_object()) add(*free);
+  }
+  return all;
+}
+
+}  // namespace
+
+DocumentReader::DocumentReader(const Value& document, std::string file, Diagnostics& diagnostics)
+    : document_(document), file_(std::move(file)), diagnostics_(diagnostics), first_(diagnostics.size()) {}
+
+ObjectReader DocumentReader::root() { return {*this, document_, open(document_, {}, nullptr)}; }
+
+DocumentReader::Record& DocumentReader::open(const Value& object, std::string path, const Unit* unit) {
+  const auto [entry, fresh] = records_.try_emplace(&object);
+  if (fresh) {
+    entry->second.path = std::move(path);
+    entry->second.unit = unit;
+  }
+  return entry->second;
+}
+
+void DocumentReader::report(Diagnostic::Severity severity, Position position, std::string key,
+                            std::string message, std::string hint) {
+  diagnostics_.push_back({severity, file_, position, std::move(key), std::move(message), std::move(hint)});
+}
+
+void DocumentReader::error(Diagnostic problem) {
+  meaning_.push_back({diagnostics_.size()});
+  diagnostics_.push_back(std::move(problem));
+}
+
+bool DocumentReader::has_errors() const {
+  return std::any_of(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
+                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+}
+
+void DocumentReader::poison(std::string_view path) {
+  unreadable_.emplace_back(path.substr(0, path.find_first_of(".[")));
+}
+
+void DocumentReader::finish_object(const Value& value, const std::vector<const Value*>& schemas) {
+  if (value.is_array()) {
+    for (const Value& element : value.as_array()) finish_object(element, elements_of(schemas));
+    return;
+  }
+  const auto entry = records_.find(&value);
+  if (!value.is_object() || entry == records_.end()) return;
+  Record& record = entry->second;
+  finish_unknown(value, record, schemas);
+  finish_missing(value, record);
+  for (const Value::Member& member : value.as_object())
+    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end())
+      finish_object(member.value, members_of(schemas, member.key));
+}
+
+void DocumentReader::finish_unknown(const Value& table, Record& record,
+                                    const std::vector<const Value*>& schemas) {
+  struct Unknown {
+    const Value::Member* member;
+    const Known* meant;
+  };
+  std::vector<Unknown> all;
+  std::vector<std::string_view> bases, missing_bases;
+  std::string allowed;
+  for (const Known& known : record.known) {
+    bases.push_back(known.base);
+    allowed += (allowed.empty() ? "" : ", ") + si_key(known.base, known.dimension);
+  }
+  for (const Known& missing : record.missing) missing_bases.push_back(missing.base);
+  const auto given = [&](const Known& known) {
+    return std::any_of(record.used.begin(), record.used.end(), [&](const Value::Member* member) {
+      return names_field(member->key, known.base, known.dimension);
+    });
+  };
+  const Known* misspelt_choice = nullptr;
+  for (const Value::Member& member : table.as_object()) {
+    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) continue;
+    // Known, but the reader gave up before it came to it.
+    if (!members_of(schemas, member.key).empty()) continue;
+    if (++unknown_ > most_unknown_keys) continue;
+    // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
+    // is more likely than one that may be left out.
+    const auto parts = split_unit(member.key);
+    std::string base;
+    for (const auto* among : {&missing_bases, &bases}) {
+      if (parts && base.empty()) base = meant_word(parts->base, *among);
+      if (base.empty()) base = meant_word(member.key, *among);
+    }
+    const auto known = std::find_if(record.known.begin(), record.known.end(),
+                                    [&](const Known& k) { return k.base == base; });
+    const Known* const meant = base.empty() || known == record.known.end() ? nullptr : &*known;
+    all.push_back({&member, meant});
+    if (!meant || given(*meant)) continue;
+    // The misspelt key is the missing one; one message is enough. Others may depend on one that is not.
+    if (std::erase_if(record.missing, [&](const Known& m) { return m.base == base; }) == 0)
+      record.misspelt = true;
+    if (std::find(record.choices.begin(), record.choices.end(), base) != record.choices.end())
+      misspelt_choice = meant;
+  }
+  record.misspelt = record.misspelt || misspelt_choice;
+  for (const auto& [member, meant] : all) {
+    // What there is beside a choice is not known without it.
+    if (misspelt_choice && meant != misspelt_choice) continue;
+    std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
+    if (meant) {
+      const auto parts = split_unit(member->key);
+      const std::string key = parts && parts->dimension == meant->dimension
+                                  ? meant->base + "_" + std::string(parts->unit->suffix)
+                                  : si_key(meant->base, meant->dimension);
+      hint = fmt::format("did you mean '{}'?", key);
+      misspelt_.push_back(join_path(record.path, key));
+      misspelt_.push_back(join_path(record.path, meant->base));
+    }
+    poison(join_path(record.path, meant ? meant->base : member->key));
+    report(Diagnostic::Severity::error, member->key_position,
+           member->key.empty() ? record.path + (record.path.empty() ? "''" : ".''")
+                               : join_path(record.path, member->key),
+           "unknown key", hint);
+  }
+}
+
+void DocumentReader::finish_missing(const Value& table, Record& record) {
+  // A part of the table may stand under a misspelt name.
+  const bool elsewhere = std::find(misspelt_.begin(), misspelt_.end(), record.path) != misspelt_.end();
+  if (record.misspelt || elsewhere) return;
+  for (const Known& missing : record.missing) {
+    const bool bare = missing.dimension == Dimension::none;
+    poison(join_path(record.path, missing.base));
+    report(Diagnostic::Severity::error, table.position,
+           join_path(record.path, si_key(missing.base, missing.dimension)), "this key is missing",
+           bare ? missing.hint : "write " + keys_with_units(missing.base, missing.dimension));
+  }
+}
+
+void DocumentReader::drop_follow_ups() {
+  const auto builds = [](std::string_view table) { return table != "output" && table != "check"; };
+  // What is computed decides what is needed: without the list it is everything.
+  const bool inputs = std::any_of(unreadable_.begin(), unreadable_.end(), builds) ||
+                      std::find(misspelt_.begin(), misspelt_.end(), "output.quantities") != misspelt_.end();
+  const auto follows = [&](const Meaning& meaning) {
+    if (meaning.lacking) return meaning.lacking->misspelt;
+    const std::string& path = diagnostics_[meaning.diagnostic].key;
+    const std::string_view table = std::string_view(path).substr(0, path.find_first_of(".["));
+    return (inputs && builds(table)) ||
+           std::find(unreadable_.begin(), unreadable_.end(), table) != unreadable_.end() ||
+           std::find(misspelt_.begin(), misspelt_.end(), path) != misspelt_.end();
+  };
+  for (auto one = meaning_.rbegin(); one != meaning_.rend(); ++one)
+    if (follows(*one))
+      diagnostics_.erase(diagnostics_.begin() + static_cast<std::ptrdiff_t>(one->diagnostic));
+}
+
+void DocumentReader::finish(const std::function<Value()>& schema) {
+  const Value described = schema && has_errors() ? schema() : Value();
+  finish_object(document_, described.is_object() ? alternatives_of(described) : std::vector<const Value*>());
+  drop_follow_ups();
+  if (unknown_ > most_unknown_keys)
+    report(Diagnostic::Severity::error, {}, {},
+           fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
+  // A table that two readers open (the study module and the domain) reports its problems twice.
+  std::set<std::string> told;
+  const auto first = diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_);
+  diagnostics_.erase(std::remove_if(first, diagnostics_.end(),
+                                    [&](const Diagnostic& d) { return !told.insert(to_string(d)).second; }),
+                     diagnostics_.end());
+  const auto place = [](const Diagnostic& d) {
+    return std::pair(d.position.line > 0 ? d.position.line : std::numeric_limits<int>::max(),
+                     d.position.column);
+  };
+  std::stable_sort(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
+}
+
+}  // namespace linkwright::study
