@@ -109,7 +109,7 @@ std::vector<Row> keys_and_values() {
        {{"\"analysis\"", "\"analyse\""}},
        {},
        "s.toml:3:10: error: kind: is 'analyse', must be one of: synthesis, analysis, simulation, "
-       "speed_fluctuation, balancing; did you mean 'analysis'?\n"},
+       "speed_fluctuation, balancing, sweep; did you mean 'analysis'?\n"},
       {"type fourbar",
        four_bar,
        {{"\"planar.four_bar\"", "\"fourbar\""}},

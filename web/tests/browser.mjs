@@ -622,10 +622,12 @@ test("curves with a legend can be told apart, others tell their names", async ()
   await card.getByLabel("wave 8").check();
   await matches(() => card.locator(".legend").innerText(), /^wave 8/);
   await card.locator(".chooser button", { hasText: "all" }).click();
+  await equal(() => card.locator(".legend path").count(), 9);
   const all = await card.locator(".legend path").evaluateAll((paths) => paths.map((e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`));
   assert.equal(new Set(all).size, 9, all.join("; "));
   const over = card.locator(".u-over");
-  await over.scrollIntoViewIfNeeded();
+  // The diagram is made again with its new curves: what is scrolled to may be the old one.
+  await until(() => over.scrollIntoViewIfNeeded({ timeout: 1000 }).then(() => true, () => false));
   const box = await over.boundingBox();
   const names = new Set();
   for (let k = 1; k < 12; ++k) {

@@ -252,12 +252,18 @@ class Reporter {
         fact(title_of(k), "no trial has it", study::Fact::Verdict::bad);
         continue;
       }
-      fact(title_of(k) + ", smallest", fmt::format("{} {}", measured_text(k, values[least]), place(least)));
-      fact(title_of(k) + ", largest",
-           fmt::format("{} {}", measured_text(k, values[greatest]), place(greatest)));
+      if (values[least] == values[greatest]) {
+        fact(title_of(k), fmt::format("{} in all trials", measured_text(k, values[least])));
+      } else {
+        fact(title_of(k) + ", smallest", fmt::format("{} {}", measured_text(k, values[least]), place(least)));
+        fact(title_of(k) + ", largest",
+             fmt::format("{} {}", measured_text(k, values[greatest]), place(greatest)));
+      }
       if (headline.empty())
-        headline = fmt::format("Over {} trials, {} is {} to {}.", done, title_of(k),
-                               measured_text(k, values[least]), measured_text(k, values[greatest]));
+        headline = fmt::format(
+            "Over {} trial{}, {} is {}{}.", done, done == 1 ? "" : "s", title_of(k),
+            measured_text(k, values[least]),
+            values[least] == values[greatest] ? std::string() : " to " + measured_text(k, values[greatest]));
     }
     result_.headline = headline.empty() ? "No trial has a measure." : headline;
     if (headline.empty() && result_.status == Status::done) result_.status = Status::infeasible;
@@ -290,7 +296,7 @@ class Reporter {
   void add_strongest(std::size_t k, const std::vector<double>& strength, bool share) {
     const auto strongest = std::max_element(strength.begin(), strength.end(),
                                             [](double a, double b) { return std::isnan(a) || a < b; });
-    if (strongest == strength.end() || std::isnan(*strongest)) return;
+    if (strongest == strength.end() || !(*strongest > 0)) return;
     const std::string& parameter = titles_[static_cast<std::size_t>(strongest - strength.begin())];
     study::AddFact{result_.facts}(
         "moves " + title_of(k) + " most",
