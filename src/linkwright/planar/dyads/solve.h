@@ -39,7 +39,8 @@ struct GuidingDyads {
   int count = 0;
   int solutions = 0;  ///< of (1), complex ones included, without those that fit whatever is prescribed
 
-  std::span<const GuidingDyad> real() const { return {found.data(), static_cast<std::size_t>(count)}; }
+  std::span<const GuidingDyad> real() const& { return {found.data(), static_cast<std::size_t>(count)}; }
+  std::span<const GuidingDyad> real() const&& = delete;  ///< it would outlive what it shows
 };
 
 /// All dyads through poses with a prescription: as many poses as make five with `poses_replaced`. Five poses

@@ -77,7 +77,8 @@ std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pa
   if (given.input) prescription.fixed_line = PivotLine{0, std::polar(1.0, *given.input)};
   if (given.output) prescription.moving_line = PivotLine{0, std::polar(1.0, *given.output)};
   std::vector<FunctionGenerator> out;
-  for (const GuidingDyad& dyad : solve_dyads(poses, prescription).real()) {
+  const GuidingDyads dyads = solve_dyads(poses, prescription);
+  for (const GuidingDyad& dyad : dyads.real()) {
     if (dyad.type != GuidingDyadType::rr || std::abs(dyad.fixed) > endless * size ||
         std::abs(dyad.moving) > endless * size)
       continue;
