@@ -270,13 +270,15 @@ TEST(SolveDyads, GiveTheTwelveLinkagesThroughFiveTimedPoints) {
     GuidingDyad other;
   };
   std::vector<Timed> found;
-  for (const GuidingDyad& crank : solve_dyads(cranks).real()) {
+  const GuidingDyads crank_dyads = solve_dyads(cranks);
+  for (const GuidingDyad& crank : crank_dyads.real()) {
     const Complex vector = -crank.moving;
     std::vector<BodyPose> coupler;
     for (const BodyPose& pose : cranks)
       coupler.push_back(
           {pose.origin, std::arg(pose.origin - crank.fixed - vector * std::polar(1.0, pose.angle))});
-    for (const GuidingDyad& other : solve_dyads(coupler).real())
+    const GuidingDyads coupler_dyads = solve_dyads(coupler);
+    for (const GuidingDyad& other : coupler_dyads.real())
       if (std::abs(other.fixed - crank.fixed) > 1e-6) found.push_back({crank.fixed, vector, other});
   }
   const auto& listed = at(stored, "computed.designs").as_array();
