@@ -17,7 +17,7 @@ endif()
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
 
-# Components: program (what who runs it needs) and development (headers, libraries, packages of CMake and pkg-config).
+# Components: program (what who runs it needs), mpi (its plug-in for ranks of mpirun) and development (headers, libraries, packages of CMake and pkg-config).
 if(TARGET linkwright)
   install(TARGETS linkwright RUNTIME COMPONENT program)
   # What the program says of itself (src/linkwright/cli/CMakeLists.txt), where man, bash, zsh and fish look for it.
@@ -28,6 +28,9 @@ if(TARGET linkwright)
     install(FILES ${described}/_linkwright DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
     install(FILES ${described}/linkwright.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
   endif()
+endif()
+if(TARGET linkwright_mpi)
+  install(TARGETS linkwright_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/linkwright COMPONENT mpi)
 endif()
 install(TARGETS ${modules} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE COMPONENT development)
 install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)

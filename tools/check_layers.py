@@ -20,7 +20,7 @@ LAYERS = [
     ["clearance", "parameter_study"],
     ["app"],
     ["serve"],
-    ["cli", "wasm", "python"],
+    ["cli", "mpi", "wasm", "python"],
 ]
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance", "parameter_study"}

@@ -4,6 +4,7 @@
     tools/package.py BUILD OUT
 
     linkwright_VERSION_ARCH.deb          program, completions, page of the manual
+    linkwright-mpi_VERSION_ARCH.deb      its plug-in by which the ranks of mpirun share a study, if the build has it
     linkwright-dev_VERSION_ARCH.deb      headers, libraries, packages of CMake and pkg-config
     python3-linkwright_VERSION_ARCH.deb  Python module
     linkwright-VERSION-linux-ARCH.tar.xz the program with all libraries that it needs, to be unpacked anywhere; no root
@@ -112,6 +113,17 @@ def program_deb(build, out, work):
     return deb(out, "linkwright", stage, shared_library_packages(build / "bin/linkwright"), "science")
 
 
+def mpi_deb(build, out, work):
+    plug_in = build / "lib/linkwright/mpi.so"
+    if not plug_in.is_file():
+        return None
+    stage = work / "mpi"
+    install(build, "mpi", stage / "usr")
+    run("strip", "--strip-unneeded", stage / "usr/lib/linkwright/mpi.so")
+    depends = [f"linkwright (= {VERSION})", "openmpi-bin", *shared_library_packages(plug_in)]
+    return deb(out, "linkwright-mpi", stage, depends, "science", SUMMARY + " (on many machines)")
+
+
 def development_deb(build, out, work):
     stage = work / "development"
     install(build, "development", stage / "usr")
@@ -218,9 +230,10 @@ def main():
     bill = bill_of_materials(bundled)
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        made = [program_deb(given.build, given.out, work), development_deb(given.build, given.out, work), python_deb(given.build, given.out, work),
-                tarball(given.build, given.out, work, bundled, bill)]
-    if made[2]:
+        python = python_deb(given.build, given.out, work)
+        made = [program_deb(given.build, given.out, work), mpi_deb(given.build, given.out, work), development_deb(given.build, given.out, work),
+                python, tarball(given.build, given.out, work, bundled, bill)]
+    if python:
         os.environ["LINKWRIGHT_BUILD"] = str(given.build)
         made.append(given.out / wheel_backend.build_wheel(given.out))
     (given.out / "sbom.cdx.json").write_text(bill["text"], encoding="utf-8")

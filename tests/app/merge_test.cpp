@@ -69,7 +69,7 @@ TEST_F(Merge, ShardsOfOneFolderAndOfMany) {
   ASSERT_TRUE(merged) << said_;
   for (int i = 1; i <= 3; ++i) EXPECT_EQ(merged->kept->find("seed " + std::to_string(i)).as_number(), i);
   EXPECT_EQ(checkpoint_owner(merged->study).study_sha256, checkpoint_owner(*study_).study_sha256);
-  EXPECT_FALSE(merged->kept->is_left_to_others(1));
+  EXPECT_EQ(merged->kept->own_piece("seed 1", 1, 9), 1u);
 }
 
 TEST_F(Merge, WhatIsMissingIsNamed) {

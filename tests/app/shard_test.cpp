@@ -41,12 +41,13 @@ TEST(Shard, PiecesGoRoundTheRunsThatShareThem) {
   ShardCheckpoint second({.index = 1, .count = 3}, owner);
   second.set_leaves([&] { ++asked_for_help; });
   std::vector<std::size_t> own;
-  for (std::size_t i = 0; i < 7; ++i)
-    if (!second.is_left_to_others(i)) own.push_back(i);
+  for (std::size_t i = 0; (i = second.own_piece("seed 1", i, 7)) < 7; ++i) own.push_back(i);
   EXPECT_THAT(own, ::testing::ElementsAre(1, 4));
   EXPECT_EQ(asked_for_help, 1);
-  const ShardCheckpoint alone({}, owner);
-  EXPECT_FALSE(alone.is_left_to_others(5));
+  EXPECT_THROW(second.rejoin("seed 1"), LeftToOthers);
+  ShardCheckpoint alone({}, owner);
+  EXPECT_EQ(alone.own_piece("seed 1", 5, 7), 5u);
+  EXPECT_NO_THROW(alone.rejoin("seed 1"));
 }
 
 TEST(Shard, WhatOneKeepsAnotherTakes) {

@@ -25,4 +25,11 @@ if command -v parallel >/dev/null; then
 else
   sh -n "$recipes/parallel.sh"
 fi
+if command -v mpirun >/dev/null && [ -e "$(dirname "$1")/../lib/linkwright/mpi.so" ]; then
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  SLURM_NTASKS=2 bash "$recipes/slurm-mpi.sh" "$study" mpi 2>mpi.txt
+  numbers mpi | cmp - whole.txt
+else
+  bash -n "$recipes/slurm-mpi.sh"
+fi
 echo "the recipes give the numbers of one run"

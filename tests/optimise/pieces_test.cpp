@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,9 +23,18 @@ class Shared final : public Checkpoint {
   Value find(std::string_view name) const override { return kept.find(name); }
   void keep(std::string_view name, const Value& value) override { kept.keep(name, value); }
   std::chrono::duration<double> interval() const override { return kept.interval(); }
-  bool is_left_to_others(std::size_t index) const override { return index % 3 != remainder_; }
+  std::size_t own_piece(std::string_view loop, std::size_t from, std::size_t count) override {
+    loops.emplace(loop);
+    return std::min(from + (remainder_ + 3 - from % 3) % 3, count);
+  }
+  void rejoin(std::string_view) override {
+    if (!others) throw LeftToOthers();
+    for (const auto& [name, value] : others->entries) kept.keep(name, value);
+  }
 
   test::MemoryCheckpoint kept;
+  const test::MemoryCheckpoint* others = nullptr;  // what they have kept when this one waits for them
+  std::set<std::string> loops;
 
  private:
   std::size_t remainder_;
@@ -107,6 +119,53 @@ TEST(Pieces, RunsThatShareThemHaveAllTogether) {
   squares.run(context);
   EXPECT_EQ(squares.done, 0);
   EXPECT_EQ(squares.values[9], 81);
+}
+
+TEST(Pieces, OneRunWaitsForTheOthersAndDoesWhatTheyDidNotEnd) {
+  test::MemoryCheckpoint others;
+  others.keep("piece 1", Value(-1.0));
+  others.keep("piece 5", Value(-5.0));
+  for (const int threads : {1, 4}) {
+    Shared own(0);
+    own.others = &others;
+    RunContext context;
+    context.set_threads(threads);
+    context.set_checkpoint(&own);
+    Squares squares(7);
+    const PieceLoop loop = squares.run(context);
+    EXPECT_EQ(squares.values, (std::vector<double>{0, -1, 4, 9, 16, -5, 36}));
+    EXPECT_EQ(loop.ran, std::vector<bool>(7, true));
+    EXPECT_EQ(squares.done, 5);
+    EXPECT_EQ(own.loops, std::set<std::string>{"piece 0"});
+  }
+}
+
+TEST(Pieces, FractionsEndAtOneForEachRun) {
+  for (const std::size_t part : {0u, 2u}) {
+    Shared own(part);
+    RunContext context;
+    context.set_threads(1);
+    context.set_checkpoint(&own);
+    std::vector<double> fractions;
+    context.set_progress([&](const Progress& p) { fractions.push_back(p.fraction); });
+    Squares squares(9);
+    EXPECT_THROW(squares.run(context), LeftToOthers);
+    ASSERT_EQ(fractions.size(), 3u);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions.back(), part == 0 ? 7 / 9.0 : 1.0);
+  }
+}
+
+TEST(Pieces, AnErrorOfOneIsTheErrorOfAll) {
+  RunContext context;
+  context.set_threads(2);
+  const auto run = [&] {
+    for_each_piece(100, context, "test", [](std::size_t i) -> double {
+      if (i == 7) throw std::runtime_error("seven");
+      return 0;
+    });
+  };
+  EXPECT_THROW(run(), std::runtime_error);
 }
 
 }  // namespace

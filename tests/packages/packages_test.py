@@ -101,7 +101,7 @@ def main():
 
         # 2: Debian's packages.
         root.call("apt-get", "-q", "update")
-        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith("linkwright-dev")]
+        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(("linkwright-dev", "linkwright-mpi"))]
         root.call("apt-get", "-q", "-y", "install", "--no-install-recommends", *debs)
         same(root.result(*command), expected, "linkwright.deb")
         for file in ("man1/linkwright.1.gz", "../bash-completion/completions/linkwright"):

@@ -61,10 +61,14 @@ std::string checkpoint_line(std::string_view name, const Value& value) {
   return study::to_json(entry);
 }
 
-Value checkpoint_value(std::string_view line) {
+std::pair<std::string, Value> checkpoint_entry(std::string_view line) {
   Value table = table_of(line);
-  return table.is_object() ? std::move(table["value"]) : Value();
+  const std::string* name = printable_member(table, "name");
+  if (!name || !table.find("value")) return {};
+  return {*name, std::move(table["value"])};
 }
+
+Value checkpoint_value(std::string_view line) { return checkpoint_entry(line).second; }
 
 std::string checkpoint_text(const CheckpointOwner& owner, const CheckpointLines& lines) {
   std::string body;
@@ -224,6 +228,14 @@ void CheckpointFile::keep(std::string_view name, const Value& value) {
 std::chrono::duration<double> CheckpointFile::interval() const {
   const std::lock_guard lock(mutex_);
   return interval_;
+}
+
+std::size_t CheckpointFile::own_piece(std::string_view, std::size_t from, std::size_t count) {
+  return shard_.own_piece(from, count);
+}
+
+void CheckpointFile::rejoin(std::string_view) {
+  if (shard_.count > 1) throw LeftToOthers();
 }
 
 void CheckpointFile::write_until_stopped() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/checkpoint.h"
@@ -35,13 +37,17 @@ struct Shard {
   std::size_t index = 0;  ///< from 0
   std::size_t count = 1;  ///< 1 = nothing is shared
 
-  bool leaves(std::size_t piece) const { return piece % count != index; }
+  /// The first of its pieces at or after `from`; `pieces` if there is none.
+  std::size_t own_piece(std::size_t from, std::size_t pieces) const {
+    return std::min(from + (index + count - from % count) % count, pieces);
+  }
 };
 
 /// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
 using CheckpointLines = std::map<std::string, std::string, std::less<>>;
-/// Such a line, and its value again; null for no line.
+/// Such a line, and its name and value, or its value, again; no name and null for no line.
 std::string checkpoint_line(std::string_view name, const Value& value);
+std::pair<std::string, Value> checkpoint_entry(std::string_view line);
 Value checkpoint_value(std::string_view line);
 
 /// Text of a file: a line that names the owner, the number of bytes after it and their SHA-256; then the
@@ -76,7 +82,8 @@ class CheckpointFile final : public Checkpoint {
   Value find(std::string_view name) const override;
   void keep(std::string_view name, const Value& value) override;
   std::chrono::duration<double> interval() const override;
-  bool is_left_to_others(std::size_t index) const override { return shard_.leaves(index); }
+  std::size_t own_piece(std::string_view loop, std::size_t from, std::size_t count) override;
+  void rejoin(std::string_view loop) override;
 
   /// Writes what is not on the disk yet; call when the run has ended. A failure is a warning.
   void finish(Diagnostics& diagnostics);

@@ -27,11 +27,16 @@ void ShardCheckpoint::keep(std::string_view name, const Value& value) {
   lines_.insert_or_assign(std::string(name), std::move(line));
 }
 
-bool ShardCheckpoint::is_left_to_others(std::size_t index) const {
-  if (!shard_.leaves(index)) return false;
-  const std::lock_guard lock(mutex_);
-  if (!std::exchange(leaves_some_, true) && leaves_) leaves_();
-  return true;
+std::size_t ShardCheckpoint::own_piece(std::string_view, std::size_t from, std::size_t count) {
+  if (shard_.count > 1 && count > 1) {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(leaves_some_, true) && leaves_) leaves_();
+  }
+  return shard_.own_piece(from, count);
+}
+
+void ShardCheckpoint::rejoin(std::string_view) {
+  if (shard_.count > 1) throw LeftToOthers();
 }
 
 }  // namespace linkwright::app

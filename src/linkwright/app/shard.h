@@ -27,7 +27,8 @@ class ShardCheckpoint final : public Checkpoint {
   Value find(std::string_view name) const override;
   void keep(std::string_view name, const Value& value) override;
   std::chrono::duration<double> interval() const override { return std::chrono::seconds(1); }
-  bool is_left_to_others(std::size_t index) const override;
+  std::size_t own_piece(std::string_view loop, std::size_t from, std::size_t count) override;
+  void rejoin(std::string_view loop) override;
 
  private:
   const Shard shard_;
@@ -35,7 +36,7 @@ class ShardCheckpoint final : public Checkpoint {
   std::function<void(const std::string&)> hand_on_;
   std::function<void()> leaves_;
   mutable std::mutex mutex_;
-  mutable bool leaves_some_ = false;
+  bool leaves_some_ = false;
   CheckpointLines lines_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +16,13 @@
 #include "linkwright/app/merge.h"
 #include "linkwright/app/result_json.h"
 #include "linkwright/app/run.h"
+#include "linkwright/app/shared_run.h"
 #include "linkwright/cli/arguments.h"
 #include "linkwright/cli/completion.h"
 #include "linkwright/cli/lists.h"
 #include "linkwright/cli/manual.h"
 #include "linkwright/cli/progress.h"
+#include "linkwright/cli/ranks.h"
 #include "linkwright/cli/summary.h"
 #include "linkwright/cli/terminal.h"
 #include "linkwright/cli/workbench.h"
@@ -116,9 +119,55 @@ int run_shard(const Arguments& arguments, const study::Study& study, const fs::p
   return 0;
 }
 
+/// Lets the other ranks end however this one does.
+struct EndOfRanks {
+  app::Ranks* ranks;
+  ~EndOfRanks() {
+    if (ranks && ranks->rank() == 0) app::end_others(*ranks);
+  }
+};
+
+/// A rank other than 0: does pieces of the study, and leaves the result to rank 0. What it cannot do is no
+/// error of the run: rank 0 goes on without it.
+void follow(const Arguments& arguments, std::span<const study::Kind> kinds, app::Ranks& ranks,
+            RunContext& context) {
+  app::FollowingRank kept(ranks, context);
+  Diagnostics diagnostics;
+  const auto study =
+      app::load_study(arguments.study, {{}, arguments.seed, arguments.set}, kinds, diagnostics);
+  if (!kept.begin()) return;
+  if (!study || !kept.take_up(app::checkpoint_owner(*study), diagnostics)) {
+    fmt::print(stderr, "rank {} takes no part:\n", ranks.rank());
+    print_diagnostics(diagnostics);
+    return;
+  }
+  context.set_checkpoint(&kept);
+  try {
+    app::run_and_record(*study, context);
+  } catch (const LeftToOthers&) {
+    // which is what it is for
+  }
+}
+
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);
+  const JoinedRanks joined = join_ranks();
+  app::Ranks* ranks = joined.ranks.get();
+  const EndOfRanks end{ranks};
+  if (!joined.problem.empty() || (ranks && arguments.shards > 0)) {
+    if (!ranks || ranks->rank() == 0)
+      fmt::print(stderr, "linkwright: {}\n",
+                 ranks
+                     ? "--shard is one of several runs; ranks that mpirun starts divide the study themselves"
+                     : joined.problem);
+    return bad_input;
+  }
+  context.set_threads(ranks && arguments.threads == 0 ? threads_of_rank() : arguments.threads);
+  if (ranks && ranks->rank() > 0) {
+    follow(arguments, kinds, *ranks, context);
+    return 0;
+  }
   Diagnostics diagnostics;
   const app::RunOptions options{arguments.out, arguments.seed, arguments.set};
   Value as_written;
@@ -140,12 +189,16 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     return bad_input;
   }
   context.set_checkpoint(&checkpoint);
-  context.set_threads(arguments.threads);
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;
   try {
     if (!whole) return run_shard(arguments, *study, kept, checkpoint, context);
     const ProgressBar bar(context, arguments.quiet);
+    std::optional<app::LeadingRank> leading;
+    if (ranks) {
+      leading.emplace(*ranks, checkpoint, app::checkpoint_owner(*study), context);
+      context.set_checkpoint(&*leading);
+    }
     outcome = app::run_and_record(*study, context);
   } catch (const CheckpointError& error) {
     print_diagnostics({app::unusable_checkpoint(kept, error)});

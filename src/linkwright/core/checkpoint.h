@@ -41,10 +41,16 @@ class Checkpoint {
   /// How long a loop may work before it keeps its state again: short loops would else do nothing but keep.
   virtual std::chrono::duration<double> interval() const = 0;
 
-  /// Whether another run of the same study does piece `index` (0, 1, ...) of a loop whose pieces know nothing
-  /// of each other, for example of its seeds, and keeps it in a checkpoint of its own. A loop that leaves
-  /// pieces to others throws LeftToOthers when it has done the rest.
-  virtual bool is_left_to_others(std::size_t /*index*/) const { return false; }
+  /// Several runs of the same study may share the pieces 0, 1, ... count - 1 of a loop that know nothing of
+  /// each other, for example its seeds. Returns the first one at or after `from` that is for this run to do,
+  /// `count` if there is none; each is given once. `loop` is a name that only this loop has.
+  virtual std::size_t own_piece(std::string_view /*loop*/, std::size_t from, std::size_t /*count*/) {
+    return from;
+  }
+
+  /// Called when this run has done its pieces of a loop, but knows nothing of some others: returns when
+  /// find() has what the other runs have come to. Throws LeftToOthers where another run puts it together.
+  virtual void rejoin(std::string_view /*loop*/) {}
 };
 
 /// The run is one of several that share a study, and has done and kept what is its own: there is a result

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -16,37 +17,63 @@ PieceLoop do_pieces(std::size_t count, RunContext& context, std::string_view sta
                     math::FunctionRef<double(std::size_t)> body, math::FunctionRef<Value(std::size_t)> save,
                     math::FunctionRef<double(std::size_t, const Value&)> restore) {
   LINKWRIGHT_REQUIRE(count >= 1, "needs at least one piece, got {}", count);
-  std::vector<char> ran(count, 0), left(count, 0);  // not bits: written by several threads
-  std::atomic<std::size_t> finished{0};
+  std::vector<char> ran(count, 0);  // not bits: written by several threads
   std::atomic<double> best{infinity};
-  std::size_t own = count;
-  if (checkpoint)
-    for (std::size_t i = 0; i < count; ++i) {
-      const Value value = checkpoint->find(name(i));
-      if (!value.is_null()) {
-        best = std::min(best.load(), restore(i, value));
-        ran[i] = 1;
-        ++finished;
-      } else if (checkpoint->is_left_to_others(i)) {
-        left[i] = 1;
-        --own;
-      }
+  const auto restore_kept = [&] {
+    for (std::size_t i = 0; i < count; ++i)
+      if (ran[i] == 0)
+        if (const Value value = checkpoint->find(name(i)); !value.is_null()) {
+          best = std::min(best.load(), restore(i, value));
+          ran[i] = 1;
+        }
+  };
+  if (checkpoint) restore_kept();
+
+  std::mutex handing;        // guards these
+  std::size_t next = 0;      // pieces before it are done, or somebody is at them
+  std::size_t begun = 0;     // by this run and not yet done
+  bool shared = checkpoint;  // the checkpoint says which pieces are this run's
+  const std::string loop = checkpoint ? name(0) : std::string();
+  const auto take = [&] {
+    const std::lock_guard lock(handing);
+    while (next < count) {
+      const std::size_t piece = shared ? checkpoint->own_piece(loop, next, count) : next;
+      next = std::min(piece, count - 1) + 1;
+      if (piece >= count) break;
+      if (ran[piece] != 0) continue;
+      ++begun;
+      return piece;
     }
-  parallel_for(count, context.threads(), [&](std::size_t i) {
-    if (ran[i] != 0 || left[i] != 0 || (i > 0 && context.interrupted())) return;
+    return count;
+  };
+  const auto finish = [&](std::size_t piece) {
+    const std::lock_guard lock(handing);
+    ran[piece] = 1;
+    --begun;
+    return static_cast<double>(next - begun) / static_cast<double>(count);
+  };
+  const auto do_one = [&](std::size_t) {
+    const std::size_t i = take();
+    if (i == count || (i > 0 && context.interrupted())) return;
     const double cost = body(i);
-    ran[i] = 1;
     if (checkpoint)
       if (const Value value = save(i); !value.is_null()) checkpoint->keep(name(i), value);
     double least = best.load();
     while (cost < least && !best.compare_exchange_weak(least, cost)) {
     }
     const double now = best.load();
-    context.report({.stage = stage,
-                    .fraction = static_cast<double>(++finished) / static_cast<double>(own),
-                    .best = std::isfinite(now) ? now : nan});
-  });
-  if (own < count) throw LeftToOthers();
+    context.report({.stage = stage, .fraction = finish(i), .best = std::isfinite(now) ? now : nan});
+  };
+  const auto incomplete = [&] { return std::find(ran.begin(), ran.end(), 0) != ran.end(); };
+  parallel_for(count, context.threads(), do_one);
+  if (checkpoint && incomplete()) {
+    checkpoint->rejoin(loop);
+    restore_kept();
+    // What another run took and did not end is done here.
+    shared = false;
+    next = begun = 0;
+    if (incomplete() && !context.interrupted()) parallel_for(count, context.threads(), do_one);
+  }
   return {context.interruption(), std::vector<bool>(ran.begin(), ran.end())};
 }
 

@@ -1,0 +1,183 @@
+#include "linkwright/app/shared_run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <utility>
+
+namespace linkwright::app {
+namespace {
+
+// The first letter of a message says what it is.
+constexpr char begin_message = 'b';   // from rank 0: the text of its checkpoint
+constexpr char ask_message = 'a';     // to rank 0: "<count> <loop>"
+constexpr char pieces_message = 'p';  // from rank 0: "<first> <last>", the last one excluded
+constexpr char keep_message = 'k';    // to rank 0: a line of the checkpoint
+constexpr char end_message = 'e';     // either way: no more is done
+
+/// Ranks are given a part of what is left at a time: few messages first, and no long wait for one at the end.
+constexpr std::size_t shares = 4;
+
+/// How long a rank that was told to end is waited for: one that hangs must not hold up the result.
+constexpr std::chrono::seconds longest_wait(20);
+
+std::string message_of(char what, std::string_view text = {}) { return std::string(1, what).append(text); }
+
+/// Two numbers, or one and a text, with a blank between.
+std::size_t number_before_blank(std::string_view& text) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(end - text.data()) + 1));
+  return error == std::errc() ? number : 0;
+}
+
+}  // namespace
+
+void end_others(Ranks& ranks) {
+  for (int other = 1; other < ranks.count(); ++other) ranks.send(other, message_of(end_message));
+}
+
+LeadingRank::LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwner& owner,
+                         RunContext& context)
+    : ranks_(ranks), kept_(kept), context_(context), at_work_(static_cast<std::size_t>(ranks.count()), true) {
+  at_work_[0] = false;
+  CheckpointLines lines;
+  for (const std::string& name : kept_.names()) lines.emplace(name, checkpoint_line(name, kept_.find(name)));
+  const std::string text = checkpoint_text(owner, lines);
+  ranks_.set_receiver([this](int from, std::string_view message) { receive(from, message); });
+  for (int other = 1; other < ranks_.count(); ++other) ranks_.send(other, message_of(begin_message, text));
+  watch_ = std::jthread([this](const std::stop_token& stop) {
+    std::mutex alone;
+    std::unique_lock lock(alone);
+    std::condition_variable_any pause;
+    while (!stop.stop_requested() && !context_.interrupted())
+      pause.wait_for(lock, stop, std::chrono::milliseconds(20), [] { return false; });
+    stop_others();
+  });
+}
+
+LeadingRank::~LeadingRank() {
+  watch_ = {};  // which tells the others
+  wait_for_others();
+  ranks_.set_receiver({});
+}
+
+void LeadingRank::stop_others() {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(stopping_, true)) end_others(ranks_);
+}
+
+void LeadingRank::receive(int from, std::string_view message) {
+  const auto sender = static_cast<std::size_t>(from);
+  if (message.empty() || sender >= at_work_.size()) return;
+  std::string_view text = message.substr(1);
+  switch (message.front()) {
+    case ask_message: {
+      const std::size_t count = number_before_blank(text);
+      const std::lock_guard lock(mutex_);
+      std::size_t& next = next_.try_emplace(std::string(text), 0).first->second;
+      const std::size_t first = std::min(next, count);
+      next = std::min(first + std::max<std::size_t>(1, (count - first) / (shares * at_work_.size())), count);
+      ranks_.send(from, message_of(pieces_message, fmt::format("{} {}", first, next)));
+      return;
+    }
+    case keep_message:
+      if (const auto [name, value] = checkpoint_entry(text); !name.empty()) kept_.keep(name, value);
+      return;
+    case end_message: {
+      const std::lock_guard lock(mutex_);
+      at_work_[sender] = false;
+      changes_.notify_all();
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+std::size_t LeadingRank::own_piece(std::string_view loop, std::size_t from, std::size_t count) {
+  const std::lock_guard lock(mutex_);
+  std::size_t& next = next_.try_emplace(std::string(loop), 0).first->second;
+  next = std::max(next, from);
+  return next < count ? next++ : count;
+}
+
+void LeadingRank::wait_for_others() {
+  std::unique_lock lock(mutex_);
+  const auto ended = [&] { return std::none_of(at_work_.begin(), at_work_.end(), [](bool b) { return b; }); };
+  while (!stopping_ && !ended()) changes_.wait_for(lock, std::chrono::milliseconds(20));
+  changes_.wait_for(lock, longest_wait, ended);
+}
+
+void LeadingRank::rejoin(std::string_view) { wait_for_others(); }
+
+FollowingRank::FollowingRank(Ranks& ranks, RunContext& context) : ranks_(ranks), context_(context) {
+  ranks_.set_receiver([this](int, std::string_view message) { receive(message); });
+}
+
+FollowingRank::~FollowingRank() {
+  ranks_.send(0, message_of(end_message));
+  ranks_.set_receiver({});
+}
+
+void FollowingRank::receive(std::string_view message) {
+  if (message.empty()) return;
+  std::string_view text = message.substr(1);
+  const std::lock_guard lock(mutex_);
+  switch (message.front()) {
+    case begin_message:
+      found_ = text;
+      begun_ = true;
+      break;
+    case pieces_message:
+      first_ = number_before_blank(text);
+      last_ = number_before_blank(text);
+      answered_ = true;
+      break;
+    case end_message:
+      ended_ = true;
+      context_.cancel();
+      break;
+    default:
+      break;
+  }
+  changes_.notify_all();
+}
+
+bool FollowingRank::begin() {
+  std::unique_lock lock(mutex_);
+  changes_.wait(lock, [&] { return begun_ || ended_; });
+  return begun_;
+}
+
+bool FollowingRank::take_up(const CheckpointOwner& owner, Diagnostics& diagnostics) {
+  auto lines = read_checkpoint(found_, owner, "what rank 0 has sent", diagnostics);
+  if (!lines) return false;
+  lines_ = std::move(*lines);
+  found_ = {};
+  return true;
+}
+
+Value FollowingRank::find(std::string_view name) const {
+  const auto found = lines_.find(name);  // which nothing changes after the beginning
+  return found == lines_.end() ? Value() : checkpoint_value(found->second);
+}
+
+void FollowingRank::keep(std::string_view name, const Value& value) {
+  ranks_.send(0, message_of(keep_message, checkpoint_line(name, value)));
+}
+
+std::size_t FollowingRank::own_piece(std::string_view loop, std::size_t from, std::size_t count) {
+  std::unique_lock lock(mutex_);
+  first_ = std::max(first_, from);
+  if (first_ >= last_ && !ended_) {
+    answered_ = false;
+    ranks_.send(0, message_of(ask_message, fmt::format("{} {}", count, loop)));
+    changes_.wait(lock, [&] { return answered_ || ended_; });
+  }
+  return !ended_ && first_ < last_ ? first_++ : count;
+}
+
+}  // namespace linkwright::app

@@ -1,0 +1,83 @@
+#include "linkwright/cli/ranks.h"
+
+#include <dlfcn.h>
+#include <fmt/core.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+namespace linkwright::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// The first of these environment variables as a number, 0 if there is none.
+template <std::size_t n>
+int number_in(const std::array<const char*, n>& names) {
+  for (const char* name : names)
+    if (const char* text = std::getenv(name)) {
+      int number = 0;
+      const std::string_view all(text);
+      std::from_chars(all.data(), all.data() + all.size(), number);
+      return number;
+    }
+  return 0;
+}
+
+/// Open MPI's mpirun; MPICH's, and Slurm with PMI-1 or PMI-2.
+constexpr std::array<const char*, 2> number_of_ranks = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+constexpr std::array<const char*, 3> ranks_on_this_machine = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS",
+                                                              "SLURM_NTASKS_PER_NODE"};
+
+constexpr const char* plug_in = "linkwright/mpi.so";
+
+/// Beside the program as it is built and installed, or where the loader looks.
+void* load_plug_in(std::string& problem) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  void* library = nullptr;
+  for (const char* folder : {"../lib", "../lib/" LINKWRIGHT_MULTIARCH}) {
+    const fs::path file = program.parent_path() / folder / plug_in;
+    if (fs::exists(file, error)) {
+      library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+      if (!library) problem = ::dlerror();
+      return library;
+    }
+  }
+  problem = "its part for MPI is not installed";
+  return library;
+}
+
+}  // namespace
+
+JoinedRanks join_ranks() {
+  const int count = number_in(number_of_ranks);
+  if (count <= 1) return {};
+  std::string problem;
+  void* library = load_plug_in(problem);
+  auto* join =
+      library ? reinterpret_cast<app::JoinRanks*>(::dlsym(library, "linkwright_join_ranks")) : nullptr;
+  std::unique_ptr<app::Ranks> ranks(join ? join(problem) : nullptr);
+  if (!ranks)
+    return {nullptr,
+            fmt::format("was started as {} ranks, but cannot share a study between them: {}; without "
+                        "them, use --shard",
+                        count, problem)};
+  return {std::move(ranks), {}};
+}
+
+int threads_of_rank() {
+  const int all = std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)));
+  cpu_set_t own;
+  CPU_ZERO(&own);
+  const int given = ::sched_getaffinity(0, sizeof own, &own) == 0 ? CPU_COUNT(&own) : all;
+  const int ranks = std::max(1, number_in(ranks_on_this_machine));
+  return given * ranks <= all ? given : std::max(1, all / ranks);
+}
+
+}  // namespace linkwright::cli

@@ -1,0 +1,174 @@
+#include <mpi.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "linkwright/app/ranks.h"
+
+// A plug-in, so that the program starts without MPI where it is not asked for. All calls of MPI come from one
+// thread, which is all that any MPI allows; it sleeps between its looks, because waiting inside MPI takes a
+// whole processor from the work.
+namespace linkwright::mpi {
+namespace {
+
+constexpr std::chrono::microseconds shortest_sleep(50), longest_sleep(1000);
+
+class MpiRanks final : public app::Ranks {
+ public:
+  explicit MpiRanks(std::string& problem) : thread_([this] { serve(); }) {
+    std::unique_lock lock(mutex_);
+    changes_.wait(lock, [&] { return joined_; });
+    problem = problem_;
+  }
+
+  ~MpiRanks() override {
+    {
+      const std::lock_guard lock(mutex_);
+      leaving_ = true;
+    }
+    thread_.join();
+  }
+
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+
+  void send(int to, std::string message) override {
+    const std::lock_guard lock(mutex_);
+    outgoing_.push_back({to, std::move(message), MPI_REQUEST_NULL});
+  }
+
+  void set_receiver(std::function<void(int, std::string_view)> receive) override {
+    const std::lock_guard lock(receiving_);
+    receive_ = std::move(receive);
+    drop_ = !receive_;
+  }
+
+ private:
+  struct Message {
+    int rank;
+    std::string text;
+    MPI_Request request;
+  };
+
+  void serve() {
+    join();
+    if (!problem_.empty()) return;
+    MPI_Request all_here = MPI_REQUEST_NULL;
+    bool arrived = false;
+    auto pause = shortest_sleep;
+    while (true) {
+      const bool received = take_in(), handed = hand_over(), sent = send_on();
+      if (!arrived && is_leaving() && being_sent_.empty()) {
+        arrived = true;
+        MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
+      }
+      if (arrived) {
+        int done = 0;
+        MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+        if (done != 0) break;
+      }
+      pause = received || handed || sent ? shortest_sleep : std::min(2 * pause, longest_sleep);
+      std::this_thread::sleep_for(pause);
+    }
+    MPI_Finalize();
+  }
+
+  void join() {
+    int given = 0;
+    // An error of MPI ends all ranks, which is its own way; what is kept on the disk is taken up again.
+    const bool good = MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) == MPI_SUCCESS;
+    if (good) {
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+      MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    }
+    const std::lock_guard lock(mutex_);
+    if (!good) problem_ = "MPI could not be started";
+    joined_ = true;
+    changes_.notify_all();
+  }
+
+  bool is_leaving() {
+    const std::lock_guard lock(mutex_);
+    return leaving_ && outgoing_.empty();
+  }
+
+  /// Receives what has come.
+  bool take_in() {
+    bool some = false;
+    for (int there = 1; there != 0;) {
+      MPI_Status status;
+      MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+      if (there == 0) break;
+      int size = 0;
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      std::string text(static_cast<std::size_t>(size), '\0');
+      MPI_Recv(text.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
+               MPI_STATUS_IGNORE);
+      incoming_.push_back({status.MPI_SOURCE, std::move(text), MPI_REQUEST_NULL});
+      some = true;
+    }
+    return some;
+  }
+
+  /// Gives what was received to the receiver, if there is one.
+  bool hand_over() {
+    const std::lock_guard lock(receiving_);
+    const bool some = !incoming_.empty() && (receive_ || drop_);
+    for (; some && !incoming_.empty(); incoming_.pop_front())
+      if (receive_) receive_(incoming_.front().rank, incoming_.front().text);
+    return some;
+  }
+
+  /// Begins to send what was given for it, and forgets what has been sent.
+  bool send_on() {
+    std::deque<Message> begun;
+    {
+      const std::lock_guard lock(mutex_);
+      begun.swap(outgoing_);
+    }
+    for (Message& message : begun) {
+      Message& m = being_sent_.emplace_back(std::move(message));
+      MPI_Isend(m.text.data(), static_cast<int>(m.text.size()), MPI_BYTE, m.rank, 0, MPI_COMM_WORLD,
+                &m.request);
+    }
+    being_sent_.remove_if([](Message& m) {
+      int done = 0;
+      MPI_Test(&m.request, &done, MPI_STATUS_IGNORE);
+      return done != 0;
+    });
+    return !begun.empty();
+  }
+
+  int rank_ = 0, count_ = 1;
+  std::mutex mutex_;  // guards these
+  std::condition_variable changes_;
+  bool joined_ = false, leaving_ = false;
+  std::string problem_;
+  std::deque<Message> outgoing_;
+  std::mutex receiving_;  // is held while a message is received, and guards these
+  std::function<void(int, std::string_view)> receive_;
+  bool drop_ = false;
+  // Of the thread alone.
+  std::deque<Message> incoming_;
+  std::list<Message> being_sent_;  // their texts must not move
+  std::thread thread_;             // last, as it uses all of them
+};
+
+}  // namespace
+}  // namespace linkwright::mpi
+
+extern "C" __attribute__((visibility("default"))) linkwright::app::Ranks* linkwright_join_ranks(
+    std::string& problem) {
+  auto* ranks = new linkwright::mpi::MpiRanks(problem);
+  if (problem.empty()) return ranks;
+  delete ranks;
+  return nullptr;
+}

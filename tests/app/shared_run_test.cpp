@@ -1,0 +1,299 @@
+#include "linkwright/app/shared_run.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <numeric>
+#include <set>
+
+#include "linkwright/optimise/pieces.h"
+#include "support/message.h"
+
+namespace linkwright::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Ranks in one process.
+class Post {
+ public:
+  explicit Post(int count) : boxes_(static_cast<std::size_t>(count)) {}
+  std::unique_ptr<Ranks> join(int rank) { return std::make_unique<Member>(*this, rank); }
+
+ private:
+  struct Box {
+    std::mutex mutex;
+    std::condition_variable_any changes;
+    std::deque<std::pair<int, std::string>> messages;
+  };
+  class Member final : public Ranks {
+   public:
+    Member(Post& post, int rank) : post_(post), rank_(rank) {
+      thread_ = std::jthread([this](const std::stop_token& stop) { deliver(stop); });
+    }
+    int rank() const override { return rank_; }
+    int count() const override { return static_cast<int>(post_.boxes_.size()); }
+    void send(int to, std::string message) override {
+      Box& box = post_.boxes_[static_cast<std::size_t>(to)];
+      const std::lock_guard lock(box.mutex);
+      box.messages.emplace_back(rank_, std::move(message));
+      box.changes.notify_all();
+    }
+    void set_receiver(std::function<void(int, std::string_view)> receive) override {
+      Box& box = own();
+      {
+        const std::lock_guard one(receiving_);
+        const std::lock_guard lock(box.mutex);
+        known_ = true;
+        receive_ = std::move(receive);
+      }
+      box.changes.notify_all();
+    }
+
+   private:
+    Box& own() { return post_.boxes_[static_cast<std::size_t>(rank_)]; }
+    void deliver(const std::stop_token& stop) {
+      Box& box = own();
+      while (true) {
+        std::pair<int, std::string> message;
+        {
+          std::unique_lock lock(box.mutex);
+          if (!box.changes.wait(lock, stop, [&] { return known_ && !box.messages.empty(); })) return;
+          message = std::move(box.messages.front());
+          box.messages.pop_front();
+        }
+        const std::lock_guard lock(receiving_);
+        if (receive_) receive_(message.first, message.second);
+      }
+    }
+    Post& post_;
+    const int rank_;
+    std::mutex receiving_;
+    bool known_ = false;
+    std::function<void(int, std::string_view)> receive_;
+    std::jthread thread_;
+  };
+  std::deque<Box> boxes_;
+};
+
+constexpr std::size_t most = 200;
+const CheckpointOwner one_study = {"linkwright 9.8.7", std::string(64, 'a')};
+
+/// A loop over squares, and which rank has done each of them.
+struct Squares {
+  explicit Squares(std::size_t count = most) : values(count, -1.0) {}
+  void run(RunContext& context, int rank, std::chrono::microseconds work = {}) {
+    optimise::for_each_piece(
+        values.size(), context, "squares", [](std::size_t i) { return "piece " + std::to_string(i); },
+        [&](std::size_t i) {
+          std::this_thread::sleep_for(work);
+          std::unique_lock lock(mutex);
+          ranks.insert(rank);
+          ++done;
+          arrived.notify_all();
+          arrived.wait(lock, [&] { return ranks.size() >= awaited; });
+          lock.unlock();
+          return values[i] = static_cast<double>(i * i);
+        },
+        [&](std::size_t i) { return context.interrupted() ? Value() : Value(values[i]); },
+        [&](std::size_t i, const Value& value) { return values[i] = value.as_number(); });
+  }
+  bool complete() const {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] != static_cast<double>(i * i)) return false;
+    return true;
+  }
+  std::vector<double> values;
+  static inline std::mutex mutex;
+  static inline std::condition_variable arrived;
+  static inline std::set<int> ranks;
+  static inline std::size_t awaited = 0;  // ranks that each piece waits for
+  static inline int done = 0;
+};
+
+class SharedLoop : public ::testing::Test {
+ protected:
+  SharedLoop() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    Squares::ranks.clear();
+    Squares::done = 0;
+    Squares::awaited = 0;
+  }
+  ~SharedLoop() override { std::filesystem::remove_all(folder_); }
+
+  /// The other ranks, each a thread that does what follow() of the program does.
+  std::vector<std::jthread> others(Post& post, int count, std::size_t pieces = most,
+                                   std::chrono::microseconds work = {}, CheckpointOwner of = one_study) {
+    std::vector<std::jthread> all;
+    for (int rank = 1; rank < count; ++rank)
+      all.emplace_back([&post, this, rank, pieces, work, of] {
+        const auto ranks = post.join(rank);
+        RunContext context;
+        context.set_threads(1);
+        FollowingRank kept(*ranks, context);
+        if (!kept.begin()) return;
+        Diagnostics diagnostics;
+        if (!kept.take_up(of, diagnostics)) {
+          const std::lock_guard lock(Squares::mutex);
+          refused_ += test::lines_of(diagnostics);
+          return;
+        }
+        context.set_checkpoint(&kept);
+        Squares squares(pieces);
+        try {
+          squares.run(context, rank, work);
+        } catch (const LeftToOthers&) {
+          ++left_;
+        }
+      });
+    return all;
+  }
+
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
+                                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::atomic<int> left_ = 0;
+  std::string refused_;
+};
+
+TEST_F(SharedLoop, RankZeroHasWhatAllHaveDone) {
+  for (const int count : {1, 2, 5}) {
+    Squares::ranks.clear();
+    Squares::done = 0;
+    Squares::awaited = static_cast<std::size_t>(count);
+    left_ = 0;
+    Post post(count);
+    auto threads = others(post, count);
+    const auto ranks = post.join(0);
+    RunContext context;
+    context.set_threads(2);
+    CheckpointFile file(folder_ / ("kept-" + std::to_string(count)), one_study);
+    Squares squares;
+    {
+      LeadingRank leading(*ranks, file, one_study, context);
+      context.set_checkpoint(&leading);
+      squares.run(context, 0);
+    }
+    threads.clear();
+    EXPECT_TRUE(squares.complete()) << count;
+    EXPECT_EQ(Squares::done, static_cast<int>(most));  // each once
+    EXPECT_EQ(Squares::ranks.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(left_, count - 1);
+    EXPECT_EQ(file.size(), most);
+  }
+}
+
+TEST_F(SharedLoop, TakesUpWhatWasKept) {
+  Post post(3);
+  CheckpointFile file(folder_ / "kept", one_study);
+  for (std::size_t i = 0; i < most; i += 2)
+    file.keep("piece " + std::to_string(i), Value(static_cast<double>(i * i)));
+  auto threads = others(post, 3);
+  const auto ranks = post.join(0);
+  RunContext context;
+  Squares squares;
+  {
+    LeadingRank leading(*ranks, file, one_study, context);
+    context.set_checkpoint(&leading);
+    squares.run(context, 0);
+  }
+  threads.clear();
+  EXPECT_TRUE(squares.complete());
+  EXPECT_EQ(Squares::done, static_cast<int>(most / 2));
+}
+
+TEST_F(SharedLoop, EndsTheOthersWhenItIsInterrupted) {
+  Post post(3);
+  CheckpointFile file(folder_ / "kept", one_study);
+  auto threads = others(post, 3, 1'000'000, std::chrono::milliseconds(1));
+  const auto ranks = post.join(0);
+  RunContext context;
+  context.set_time_limit(std::chrono::milliseconds(100));
+  Squares squares(1'000'000);
+  {
+    LeadingRank leading(*ranks, file, one_study, context);
+    context.set_checkpoint(&leading);
+    squares.run(context, 0, std::chrono::milliseconds(1));
+  }
+  threads.clear();
+  EXPECT_EQ(context.interruption(), Status::deadline);
+  EXPECT_LT(Squares::done, 1'000'000);
+  EXPECT_GE(Squares::done, 1);
+}
+
+TEST_F(SharedLoop, DoesWithoutARankThatHasAnotherStudy) {
+  Post post(2);
+  CheckpointFile file(folder_ / "kept", one_study);
+  auto threads = others(post, 2, most, {}, {one_study.tool, std::string(64, 'b')});
+  const auto ranks = post.join(0);
+  RunContext context;
+  Squares squares;
+  {
+    LeadingRank leading(*ranks, file, one_study, context);
+    context.set_checkpoint(&leading);
+    squares.run(context, 0);
+  }
+  threads.clear();
+  EXPECT_TRUE(squares.complete());
+  EXPECT_EQ(Squares::ranks, std::set<int>{0});
+  EXPECT_THAT(refused_, HasSubstr("what rank 0 has sent: error: belongs to another study"));
+}
+
+TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
+  Post post(2);
+  CheckpointFile file(folder_ / "kept", one_study);
+  std::jthread other([&] {
+    const auto ranks = post.join(1);
+    RunContext context;
+    FollowingRank kept(*ranks, context);
+    ASSERT_TRUE(kept.begin());
+    EXPECT_LT(kept.own_piece("piece 0", 0, most), most);
+    EXPECT_LT(kept.own_piece("piece 0", 0, most), most);
+  });
+  const auto ranks = post.join(0);
+  RunContext context;
+  Squares squares;
+  {
+    LeadingRank leading(*ranks, file, one_study, context);
+    other.join();
+    context.set_checkpoint(&leading);
+    squares.run(context, 0);
+  }
+  EXPECT_TRUE(squares.complete());
+  EXPECT_EQ(Squares::done, static_cast<int>(most));
+}
+
+TEST_F(SharedLoop, ThatNeverBeginsEndsTheOthers) {
+  Post post(3);
+  auto threads = others(post, 3);
+  const auto ranks = post.join(0);
+  end_others(*ranks);
+  threads.clear();
+  EXPECT_EQ(Squares::done, 0);
+}
+
+TEST_F(SharedLoop, IgnoresMessagesThatAreNone) {
+  Post post(2);
+  const auto other = post.join(1);
+  for (const char* text :
+       {"", "x", "a", "a 5", "ax piece", "k", "k{}", "k{\"name\":7,\"value\":1}", "k{\"name\":\"x\"}"})
+    other->send(0, text);
+  other->send(0, "e");
+  const auto ranks = post.join(0);
+  CheckpointFile file(folder_ / "kept", one_study);
+  RunContext context;
+  Squares squares;
+  {
+    LeadingRank leading(*ranks, file, one_study, context);
+    context.set_checkpoint(&leading);
+    squares.run(context, 0);
+  }
+  EXPECT_TRUE(squares.complete());
+  EXPECT_EQ(file.size(), most);
+}
+
+}  // namespace
+}  // namespace linkwright::app
