@@ -42,7 +42,6 @@ REASONS = {
     "parallel/dexterity_benchmark_with_pi_joints": SAMPLE,
     "parallel/direct_dynamics": ROUTE,
     "parallel/directions_over_sphere": LIBRARY,
-    "parallel/nodes_of": LIBRARY,
     "parallel/pose_check_kernel_name": KERNEL,
     "parallel/split_error": ROUTE,
     "parallel/straight_between": LIBRARY,

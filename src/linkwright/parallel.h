@@ -46,4 +46,5 @@
 #include "linkwright/parallel/workspace/prescribed_region.h"
 #include "linkwright/parallel/workspace/proven_body.h"
 #include "linkwright/parallel/workspace/rays.h"
+#include "linkwright/parallel/workspace/survey.h"
 #include "linkwright/parallel/workspace/workspace.h"

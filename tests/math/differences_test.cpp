@@ -79,6 +79,30 @@ TEST(Differences, JacobianOfBadlyScaledVariables) {
   EXPECT_TRUE(std::isnan(numeric[0]));
 }
 
+TEST(Differences, StayBetweenBounds) {
+  const std::array<double, 4> lower = {1, -2, 0, 5}, upper = {2, 3, 1e-7, 5};
+  const auto f = [&](std::span<const double> x, std::span<double> r, std::span<double>) {
+    for (std::size_t j = 0; j < 4; ++j)
+      if (x[j] < lower[j] || x[j] > upper[j]) ADD_FAILURE() << "variable " << j << " is " << x[j];
+    r[0] = std::exp(x[0]) * std::sin(x[1]) + 1e6 * x[2];
+    r[1] = x[0] * x[1] * x[1] + x[3];
+    return true;
+  };
+  for (const double a : {1.0, 1 + 1e-7, 1.5, 2 - 1e-7, 2.0})
+    for (const double b : {-2.0, 0.3, 3.0})
+      for (const double c : {0.0, 5e-8, 1e-7}) {
+        const std::array<double, 4> x = {a, b, c, 5};
+        std::array<double, 8> jacobian{};
+        ASSERT_EQ(bounded_jacobian(f, 2, x, lower, upper, jacobian), Status::done);
+        const std::array<double, 8> exact = {
+            std::exp(a) * std::sin(b), b * b, std::exp(a) * std::cos(b), 2 * a * b, 1e6, 0, 0, 0};
+        for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(jacobian[k], exact[k], k == 4 ? 0.05 : 5e-9) << k;
+      }
+  const std::array<double, 4> outside = {0.5, 0, 0, 5};
+  std::array<double, 8> jacobian{};
+  EXPECT_THROW(bounded_jacobian(f, 2, outside, lower, upper, jacobian), ContractError);
+}
+
 TEST(Differences, ColumnsThatCannotBeEvaluatedAreNan) {
   // x[1] must not exceed 1, where it stands; x[2] gives NaN below 2, where it stands.
   const auto f = [](std::span<const double> x, std::span<double> r, std::span<double>) {

@@ -141,7 +141,8 @@ math::LeastSquaresReport minimise_shares(Misfit&& misfit, std::size_t m, std::sp
   };
   const auto residuals = [&](std::span<const double> share, std::span<double> r, std::span<double> jacobian) {
     return at_shares(share, r, {}) &&
-           (jacobian.empty() || math::central_jacobian(at_shares, m, share, jacobian, scale) == Status::done);
+           (jacobian.empty() ||
+            math::bounded_jacobian(at_shares, m, share, zeros, ones, jacobian, scale) == Status::done);
   };
   options.damping = math::Damping::identity;
   options.lambda0 = 1;
@@ -263,7 +264,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
     const auto inner = [&](std::span<const double> at, std::span<double> out, std::span<double>) {
       return force_residuals(p, at, out);
     };
-    return math::central_jacobian(inner, m, x, jacobian, scale) == Status::done;
+    return math::bounded_jacobian(inner, m, x, lower, upper, jacobian, scale) == Status::done;
   };
   const optimise::MultistartReport seeds = optimise::multistart_least_squares(
       by_force, m, lower.size(), lower, upper,
@@ -394,7 +395,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
       const auto inner = [&](std::span<const double> there, std::span<double> rows, std::span<double>) {
         return misfit(there, rows);
       };
-      return math::central_jacobian(inner, m, at, jacobian, scale) == Status::done;
+      return math::bounded_jacobian(inner, m, at, lower, upper, jacobian, scale) == Status::done;
     };
     math::LeastSquaresOptions options = local_options();
     options.max_iterations = iterations;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -35,25 +36,37 @@ bool all_finite(std::span<const double> values) {
 class Differences {
  public:
   Differences(ResidualFunction function, std::size_t m, std::span<const double> x)
-      : function_(function), moved_(x.begin(), x.end()), low_(m), high_(m) {}
+      : function_(function), moved_(x.begin(), x.end()), here_(m), low_(m), high_(m) {}
 
   /// False, and NaN in the column, where a neighbour cannot be evaluated.
   bool column(std::size_t j, double step, std::span<double> out) {
-    const double centre = moved_[j];
-    const double low = centre - step, high = centre + step;
-    moved_[j] = low;
-    bool ok = function_(moved_, low_, {}) && all_finite(low_);
-    moved_[j] = high;
-    ok = ok && function_(moved_, high_, {}) && all_finite(high_);
-    moved_[j] = centre;
+    const double low = moved_[j] - step, high = moved_[j] + step;
+    const bool ok = at(j, low, low_) && at(j, high, high_);
     // Divided by the distance that the rounded neighbours really have.
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = ok ? (high_[i] - low_[i]) / (high - low) : nan;
     return ok;
   }
 
+  /// The same with both neighbours on one side, which the sign of the step says.
+  bool one_sided_column(std::size_t j, double step, std::span<double> out) {
+    const double near = moved_[j] + step, far = moved_[j] + 2 * step;
+    const double a = near - moved_[j], b = far - moved_[j];
+    const bool ok = at(j, moved_[j], here_) && at(j, near, low_) && at(j, far, high_);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = ok ? ((low_[i] - here_[i]) * (b / a) - (high_[i] - here_[i]) * (a / b)) / (b - a) : nan;
+    return ok;
+  }
+
  private:
+  bool at(std::size_t j, double value, std::vector<double>& out) {
+    const double centre = std::exchange(moved_[j], value);
+    const bool ok = function_(moved_, out, {}) && all_finite(out);
+    moved_[j] = centre;
+    return ok;
+  }
+
   ResidualFunction function_;
-  std::vector<double> moved_, low_, high_;
+  std::vector<double> moved_, here_, low_, high_;
 };
 
 }  // namespace
@@ -70,6 +83,35 @@ Status central_jacobian(ResidualFunction function, std::size_t m, std::span<cons
   for (std::size_t j = 0; j < x.size(); ++j)
     if (!differences.column(j, difference_step(scale_of(x, scale, j)), jacobian.subspan(j * m, m)))
       status = Status::infeasible;
+  return status;
+}
+
+Status bounded_jacobian(ResidualFunction function, std::size_t m, std::span<const double> x,
+                        std::span<const double> lower, std::span<const double> upper,
+                        std::span<double> jacobian, std::span<const double> scale) {
+  const std::size_t n = x.size();
+  LINKWRIGHT_REQUIRE(scale.empty() || scale.size() == n, "{} scales for {} variables", scale.size(), n);
+  LINKWRIGHT_REQUIRE(lower.size() == n && upper.size() == n && jacobian.size() == m * n,
+                     "{} and {} bounds, {} entries for {} residuals of {} variables", lower.size(),
+                     upper.size(), jacobian.size(), m, n);
+  Differences differences(function, m, x);
+  Status status = Status::done;
+  for (std::size_t j = 0; j < n; ++j) {
+    LINKWRIGHT_REQUIRE(lower[j] <= x[j] && x[j] <= upper[j], "variable {} is {}, not between {} and {}", j,
+                       x[j], lower[j], upper[j]);
+    const std::span<double> column = jacobian.subspan(j * m, m);
+    const double step = std::min(difference_step(scale_of(x, scale, j)), (upper[j] - lower[j]) / 4);
+    bool ok = true;
+    if (x[j] + step == x[j])
+      std::fill(column.begin(), column.end(), 0.0);
+    else if (x[j] - step < lower[j])
+      ok = differences.one_sided_column(j, step, column);
+    else if (x[j] + step > upper[j])
+      ok = differences.one_sided_column(j, -step, column);
+    else
+      ok = differences.column(j, step, column);
+    if (!ok) status = Status::infeasible;
+  }
   return status;
 }
 

@@ -39,6 +39,13 @@ Status central_gradient(ScalarFunction function, std::span<const double> x, std:
 Status central_jacobian(ResidualFunction function, std::size_t m, std::span<const double> x,
                         std::span<double> jacobian, std::span<const double> scale = {});
 
+/// The same where the function is only asked for between bounds: nearer to one than a step, a column is the
+/// derivative of the parabola through x and two places inside, of the same order. The step is at most a
+/// quarter of the range; a variable without a range has a column of zeros. x must lie between the bounds.
+Status bounded_jacobian(ResidualFunction function, std::size_t m, std::span<const double> x,
+                        std::span<const double> lower, std::span<const double> upper,
+                        std::span<double> jacobian, std::span<const double> scale = {});
+
 /// What check_jacobian found: the entry that exceeds its tolerance most, or comes nearest to it.
 struct JacobianCheck {
   /// done: every column was compared; infeasible: residuals or Jacobian cannot be evaluated at x, or

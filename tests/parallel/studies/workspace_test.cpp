@@ -53,6 +53,26 @@ TEST(WorkspaceStudy, DrawsSlices) {
   for (const Table& t : result.tables) EXPECT_NE(t.name, "workspace");
 }
 
+TEST(WorkspaceStudy, OfMoreNodesThanMemoryHoldsTotalsAndCoarseSlices) {
+  const std::string fine =
+      "[workspace]\nlower_mm = [-600, -600, -1150]\nupper_mm = [600, 600, -400]\nstep_mm = 8\n"
+      "slices = 3\nboundary = 24\n";
+  const auto result = run_text(delta + fine);
+  EXPECT_EQ(result.status, Status::done);
+  // 2.17 million nodes of 8 mm beside the 44273 nodes of 20 mm of all of it.
+  EXPECT_NEAR(column(result, "workspace_totals", "volume_left_m3").back(), 0.3542, 0.002);
+  EXPECT_THAT(test::fact(result, "workspace"), HasSubstr(" of 2143294 nodes"));
+  EXPECT_THAT(test::fact(result, "joined to home without a singularity"), HasSubstr("not looked at"));
+  EXPECT_THAT(test::fact(result, "table of nodes"), HasSubstr("left out"));
+  std::set<double> levels;
+  for (const double z : column(result, "workspace_slices", "z_m")) levels.insert(z);
+  EXPECT_EQ(levels.size(), 3u);
+  EXPECT_GT(test::table(result, "workspace_slices").rows(), 30000u);
+  EXPECT_LE(test::table(result, "workspace_slices").rows(), 100000u);
+  EXPECT_GE(test::table(result, "workspace_boundary").rows(), 72u);
+  EXPECT_EQ(result.plots.size(), 2u);
+}
+
 TEST(WorkspaceStudy, TellsWhatCanBePromised) {
   const auto result =
       run_text(delta + box + "boundary = 36\n[workspace.inscribed]\naxis_mm = [0, 0]\nheight_mm = 200\n");
@@ -80,7 +100,10 @@ TEST(WorkspaceStudy, TellsWhatCanBePromised) {
 
 TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {
   EXPECT_THAT(problems_of(delta + replaced(box, "step_mm = 40", "step_mm = 1")),
-              HasSubstr("at most 2e+06 are allowed"));
+              HasSubstr("makes 4.81e+09 nodes, at most 1e+09 are allowed"));
+  EXPECT_THAT(
+      problems_of(delta + replaced(box, "step_mm = 40", "step_mm = 10") + "[workspace.inscribed]\n"),
+      HasSubstr("error: workspace.inscribed: needs all nodes in memory: at most 2e+06, these are 4.89e+06"));
   EXPECT_THAT(problems_of(delta + replaced(box, "upper_mm = [1000", "upper_mm = [-2000")),
               HasSubstr("is below lower along x"));
   EXPECT_THAT(problems_of(delta + box + "rotation_deg = [0, 0, 5]\n"),

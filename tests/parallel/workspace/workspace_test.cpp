@@ -187,7 +187,7 @@ TEST(Workspace, RefusesGridsWithoutSense) {
   task.grid.step = 0;
   EXPECT_NE(refused(task).find("grid step 0 m must be positive"), std::string::npos);
   task.grid.step = 1e-5;
-  EXPECT_NE(refused(task).find("workspace: grid of 4800088000520001 nodes"), std::string::npos);
+  EXPECT_NE(refused(task).find("nodes_of: grid of 4800088000520001 nodes"), std::string::npos);
   task.grid = {{0, 0, 0}, {0, 0, -1}, 0.1};
   EXPECT_NE(refused(task).find("grid from 0 to -1 m"), std::string::npos);
   task = delta_task();

@@ -14,15 +14,20 @@
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/workspace/aspects.h"
 #include "linkwright/parallel/workspace/rays.h"
+#include "linkwright/parallel/workspace/survey.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double most_nodes = 2e6;
+/// More nodes are looked at layer by layer, and only totals are kept of them.
+constexpr double most_in_memory = 2e6;
+constexpr double most_nodes = 1e9;
 /// More rows are no table to look at.
 constexpr std::size_t most_rows = 500000;
+/// Rows of all slices of a grid that is not in memory.
+constexpr std::size_t most_slice_rows = 100000;
 
 std::string words_of(PoseIndex index) {
   for (const auto& entry : names(PoseIndex{}))
@@ -38,50 +43,71 @@ std::string label_of(PoseIndex index) {
   return words_of(index) + (length ? " (m)" : "");
 }
 
-/// Nodes of a map as rows.
-Table node_table(const WorkspaceMap& map, const WorkspaceStudy& s, bool planar,
-                 const std::vector<std::size_t>& nodes, std::string name) {
+/// Nodes of a map that are shown.
+struct ShownNodes {
+  const WorkspaceMap* map;
+  std::vector<std::size_t> nodes;
+};
+
+/// Nodes of maps as rows.
+Table node_table(const std::vector<ShownNodes>& shown, const WorkspaceStudy& s, bool planar,
+                 std::string name) {
   Table table{.name = std::move(name)};
   std::vector<double> x, y, z;
-  for (const std::size_t node : nodes) {
-    const Vec3 at = map.position(node);
-    x.push_back(at.x);
-    y.push_back(at.y);
-    z.push_back(at.z);
-    table.status.emplace_back(map.criterion[node] == Criterion::none ? "done" : name_of(map.criterion[node]));
-  }
+  for (const auto& [map, nodes] : shown)
+    for (const std::size_t node : nodes) {
+      const Vec3 at = map->position(node);
+      x.push_back(at.x);
+      y.push_back(at.y);
+      z.push_back(at.z);
+      table.status.emplace_back(map->criterion[node] == Criterion::none ? "done"
+                                                                        : name_of(map->criterion[node]));
+    }
   table.add("x_m", "x (m)", std::move(x));
   table.add("y_m", "y (m)", std::move(y));
   if (!planar) table.add("z_m", "z (m)", std::move(z));
   for (const PoseIndex index : s.form.indices) {
-    const auto& values = map.index[slot(index)];
     std::vector<double> column;
     // What does not pass is not coloured.
-    for (const std::size_t node : nodes)
-      column.push_back(map.criterion[node] == Criterion::none ? values[node] : std::nan(""));
+    for (const auto& [map, nodes] : shown)
+      for (const std::size_t node : nodes)
+        column.push_back(map->criterion[node] == Criterion::none ? map->index[slot(index)][node]
+                                                                 : std::nan(""));
     table.add(key_of(index), label_of(index), std::move(column));
   }
   return table;
 }
 
+/// Nodes of each level of z that pass.
+std::vector<std::size_t> passing_by_level(const WorkspaceMap& map) {
+  std::vector<std::size_t> out(map.nodes[2]);
+  const std::size_t level = map.nodes[0] * map.nodes[1];
+  for (std::size_t n = 0; n < map.count(); ++n) out[n / level] += map.criterion[n] == Criterion::none;
+  return out;
+}
+
 /// Evenly chosen levels out of those that have a node that passes.
-std::vector<std::size_t> levels_of(const WorkspaceMap& map, int wanted) {
+std::vector<std::size_t> levels_of(const std::vector<std::size_t>& passing, int wanted) {
   std::vector<std::size_t> used, out;
-  const std::size_t layer = map.nodes[0] * map.nodes[1];
-  for (std::size_t k = 0; k < map.nodes[2]; ++k)
-    if (std::any_of(map.criterion.begin() + static_cast<std::ptrdiff_t>(k * layer),
-                    map.criterion.begin() + static_cast<std::ptrdiff_t>((k + 1) * layer),
-                    [](Criterion h) { return h == Criterion::none; }))
-      used.push_back(k);
+  for (std::size_t k = 0; k < passing.size(); ++k)
+    if (passing[k] > 0) used.push_back(k);
   const std::size_t count = std::min(used.size(), static_cast<std::size_t>(wanted));
   for (std::size_t i = 0; i < count; ++i) out.push_back(used[(2 * i + 1) * used.size() / (2 * count)]);
   return out;
 }
 
-Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int axes) {
+/// One level of a grid that is not in memory, with as many nodes as a drawing can show.
+WorkspaceMap coarse_level(WorkspaceTask task, double height, std::size_t most, const RunContext& context) {
+  task.grid.low.z = task.grid.high.z = height;
+  const auto [nx, ny, nz] = nodes_of(task.grid);
+  task.grid.step *= std::ceil(std::sqrt(static_cast<double>(nx * ny) / static_cast<double>(most)));
+  return workspace(task, context);
+}
+
+Table totals_table(const WorkspaceTotals& totals, std::size_t all, double cell, int axes) {
   Table table{.name = "workspace_totals"};
   std::vector<double> nodes, left, measure;
-  std::size_t passing = map.count();
+  std::size_t passing = all;
   for (const auto& entry : names(Criterion{})) {
     if (entry.value == Criterion::open || entry.value == Criterion::none) continue;
     const std::size_t stopped = totals.count[static_cast<std::size_t>(entry.value)];
@@ -89,7 +115,7 @@ Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int a
     table.names.emplace_back(entry.summary);
     nodes.push_back(static_cast<double>(stopped));
     left.push_back(static_cast<double>(passing));
-    measure.push_back(static_cast<double>(passing) * map.cell);
+    measure.push_back(static_cast<double>(passing) * cell);
   }
   table.add("nodes", "nodes that fail by it", nodes);
   table.add("left", "nodes left", left);
@@ -99,16 +125,14 @@ Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int a
 }
 
 /// Ends of what passes on rays around home, at each level.
-Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
-                     const std::vector<std::size_t>& levels, const WorkspaceForm& f, const Pose& home,
-                     bool planar, const RunContext& context) {
+Table boundary_table(const WorkspaceTask& task, const std::vector<double>& heights, const WorkspaceForm& f,
+                     const Pose& home, bool planar, const RunContext& context) {
   Table table{.name = "workspace_boundary"};
   std::vector<double> z, angle, from, to;
   const RaySearch search{.longest = std::hypot(f.upper[0] - f.lower[0], f.upper[1] - f.lower[1]),
                          .step = f.step,
                          .tolerance = 1e-7};
-  for (const std::size_t level : levels) {
-    const double height = map.position(level * map.nodes[0] * map.nodes[1]).z;
+  for (const double height : heights) {
     const Pose origin{{home.position.x, home.position.y, height}, task.rotation};
     const Rays rays = position_rays(task.conditions, origin, directions_around(f.boundary), search, context);
     for (std::size_t i = 0; i < rays.ray.size(); ++i)
@@ -188,6 +212,14 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
     table->error("rotation", "the platform of this robot does not turn", "leave it out");
     return std::nullopt;
   }
+  out.large = nodes > most_in_memory;
+  if (out.large && form.inscribed) {
+    table->error(
+        "inscribed",
+        fmt::format("needs all nodes in memory: at most {:.3g}, these are {:.3g}", most_in_memory, nodes),
+        "take a larger step or a smaller box");
+    return std::nullopt;
+  }
   if (form.indices.empty()) {
     table->error("indices", "name at least one");
     return std::nullopt;
@@ -238,22 +270,34 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
                      .rotation = math::turn_about(vec(f.rotation))};
   task.wanted[slot(PoseIndex::conditioning)] = true;
   for (const PoseIndex index : f.indices) task.wanted[slot(index)] = true;
-  const WorkspaceMap map = workspace(task, context);
-  if (map.status != Status::done) result.status = map.status;
-  const WorkspaceTotals sums = totals(map);
+  WorkspaceMap map;
+  WorkspaceSurvey all;
+  if (s.large) {
+    all = survey_workspace(task, context);
+  } else {
+    map = workspace(task, context);
+    all = {.status = map.status, .nodes = map.nodes, .cell = map.cell, .count = map.count()};
+    all.totals = totals(map);
+    all.passing = passing_by_level(map);
+  }
+  if (all.status != Status::done) result.status = all.status;
+  const WorkspaceTotals& sums = all.totals;
   const bool planar = d.robot.freedom == Freedom::plane_translation;
   const int axes = planar ? 2 : 3;
-
-  result.tables.push_back(totals_table(map, sums, axes));
+  result.tables.push_back(totals_table(sums, all.count, all.cell, axes));
   const study::AddFact fact{result.facts};
   fact("workspace", fmt::format("{:.4g} {} ({} of {} nodes)", sums.measure, planar ? "m2" : "m3",
-                                sums.passing, map.count()));
+                                sums.passing, all.count));
   const IndexSummary lci = sums.index[slot(PoseIndex::conditioning)];
   if (lci.count > 0)
     fact("global conditioning index", fmt::format("{:.4f} (least {:.4f})", lci.mean, lci.least));
 
   if (planar) fact("area within reach of the legs", fmt::format("{:.6g} m2", reachable_area(d.robot)));
-  if (f.aspects && sums.passing > 0) {
+  if (f.aspects && s.large)
+    fact("joined to home without a singularity",
+         fmt::format("not looked at: {:.3g} nodes are more than {:.3g}", static_cast<double>(all.count),
+                     most_in_memory));
+  if (f.aspects && !s.large && sums.passing > 0) {
     const WorkspaceAspects aspects = workspace_aspects(
         map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
         context);
@@ -289,17 +333,27 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < map.count(); ++i)
     if (map.criterion[i] != Criterion::leg && map.criterion[i] != Criterion::open) reached.push_back(i);
-  if (f.nodes && reached.size() <= most_rows)
-    result.tables.push_back(node_table(map, s, planar, reached, "workspace"));
-  if (f.nodes && reached.size() > most_rows)
-    fact("table of nodes", fmt::format("left out: {} nodes are more than {}", reached.size(), most_rows));
-  std::vector<std::size_t> sliced;
-  const std::size_t layer = map.nodes[0] * map.nodes[1];
-  const auto levels = levels_of(map, f.slices);
-  if (f.boundary > 0) result.tables.push_back(boundary_table(task, map, levels, f, home, planar, context));
-  for (const std::size_t level : levels)
-    for (std::size_t i = 0; i < layer; ++i) sliced.push_back(level * layer + i);
-  result.tables.push_back(node_table(map, s, planar, sliced, "workspace_slices"));
+  const std::size_t rows =
+      s.large ? all.count - sums.count[static_cast<std::size_t>(Criterion::leg)] : reached.size();
+  if (f.nodes && rows <= most_rows && !s.large)
+    result.tables.push_back(node_table({{&map, reached}}, s, planar, "workspace"));
+  if (f.nodes && rows > most_rows)
+    fact("table of nodes", fmt::format("left out: {} nodes are more than {}", rows, most_rows));
+  const auto levels = all.nodes[2] > 1 ? levels_of(all.passing, f.slices)
+                                       : std::vector<std::size_t>(sums.passing > 0 ? 1 : 0);
+  std::vector<double> heights;
+  for (const std::size_t level : levels) heights.push_back(f.lower[2] + f.step * static_cast<double>(level));
+  if (f.boundary > 0) result.tables.push_back(boundary_table(task, heights, f, home, planar, context));
+  std::vector<WorkspaceMap> coarse;
+  std::vector<ShownNodes> slices;
+  coarse.reserve(levels.size());  // which the slices point to
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (s.large) coarse.push_back(coarse_level(task, heights[i], most_slice_rows / levels.size(), context));
+    const std::size_t count = s.large ? coarse.back().count() : map.nodes[0] * map.nodes[1];
+    ShownNodes& slice = slices.emplace_back(ShownNodes{s.large ? &coarse.back() : &map, {}});
+    for (std::size_t n = 0; n < count; ++n) slice.nodes.push_back(s.large ? n : levels[i] * count + n);
+  }
+  result.tables.push_back(node_table(slices, s, planar, "workspace_slices"));
   for (const PoseIndex index : f.indices)
     result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),
                             .title = fmt::format("Workspace: {}", words_of(index)),

@@ -84,8 +84,9 @@ void fields(Visitor&& visit, WorkspaceForm& w) {
   visit(step, w.step);
   visit(robot_fields::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
   visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
-  visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach"}, w.nodes);
-  visit(Field{.key = "aspects", .summary = "count its aspects, the components without a singularity inside"},
+  visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach, up to 500000"}, w.nodes);
+  visit(Field{.key = "aspects",
+              .summary = "count its aspects, the components without a singularity inside; up to 2e6 nodes"},
         w.aspects);
   visit(Field{.key = "slices", .summary = "levels of z that are drawn", .minimum = 1, .maximum = 50},
         w.slices);
@@ -99,6 +100,7 @@ void fields(Visitor&& visit, WorkspaceForm& w) {
 
 struct WorkspaceStudy {
   WorkspaceForm form;
+  bool large = false;  ///< more nodes than are held in memory: totals, and coarse slices
 };
 
 /// Reads `[workspace]`; nothing when it is absent or has problems, which go to the reader.

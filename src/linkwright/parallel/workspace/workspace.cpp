@@ -25,6 +25,24 @@ std::size_t nodes_along(double low, double high, double step) {
 
 }  // namespace
 
+std::array<std::size_t, 3> nodes_of(const WorkspaceGrid& grid) {
+  LINKWRIGHT_REQUIRE(grid.step > 0 && std::isfinite(grid.step), "grid step {} m must be positive", grid.step);
+  const std::array<std::size_t, 3> out = {nodes_along(grid.low.x, grid.high.x, grid.step),
+                                          nodes_along(grid.low.y, grid.high.y, grid.step),
+                                          nodes_along(grid.low.z, grid.high.z, grid.step)};
+  double all = 1;
+  for (const std::size_t n : out) all *= static_cast<double>(n);
+  LINKWRIGHT_REQUIRE(all <= 1e9, "grid of {} nodes", all);
+  return out;
+}
+
+double cell_of(const WorkspaceGrid& grid, const std::array<std::size_t, 3>& nodes) {
+  double cell = 1;
+  for (const std::size_t n : nodes)
+    if (n > 1) cell *= grid.step;
+  return cell;
+}
+
 Vec3 WorkspaceMap::position(std::size_t node) const {
   const std::size_t i = node % nodes[0], j = node / nodes[0] % nodes[1], k = node / nodes[0] / nodes[1];
   return {grid.low.x + grid.step * static_cast<double>(i), grid.low.y + grid.step * static_cast<double>(j),
@@ -35,26 +53,16 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context) {
   const auto trouble = problem(task.conditions);
   LINKWRIGHT_REQUIRE(!trouble, "{}", trouble.value_or(""));
   const WorkspaceGrid& grid = task.grid;
-  LINKWRIGHT_REQUIRE(grid.step > 0 && std::isfinite(grid.step), "grid step {} m must be positive", grid.step);
   LINKWRIGHT_REQUIRE(task.conditions.robot.freedom == Freedom::space || task.rotation == Mat3{},
                      "the platform of this robot does not turn");
   WorkspaceMap out{.grid = grid};
-  out.nodes = {nodes_along(grid.low.x, grid.high.x, grid.step),
-               nodes_along(grid.low.y, grid.high.y, grid.step),
-               nodes_along(grid.low.z, grid.high.z, grid.step)};
-  double all = 1;
-  out.cell = 1;
-  for (const std::size_t n : out.nodes) {
-    all *= static_cast<double>(n);
-    if (n == 1) continue;
-    ++out.axes;
-    out.cell *= grid.step;
-  }
-  LINKWRIGHT_REQUIRE(all <= 1e9, "grid of {} nodes", all);
+  out.nodes = nodes_of(grid);
+  out.cell = cell_of(grid, out.nodes);
+  for (const std::size_t n : out.nodes) out.axes += n > 1;
   LINKWRIGHT_REQUIRE(
       task.conditions.robot.freedom != Freedom::plane_translation || (out.nodes[2] == 1 && grid.low.z == 0),
       "a planar robot lies in the plane z = 0, got nodes from {} to {} m", grid.low.z, grid.high.z);
-  const auto count = static_cast<std::size_t>(all);
+  const std::size_t count = out.nodes[0] * out.nodes[1] * out.nodes[2];
   out.criterion.assign(count, Criterion::open);
   for (std::size_t k = 0; k < pose_index_count; ++k)
     if (task.wanted[k]) out.index[k].assign(count, nan);

@@ -19,6 +19,11 @@ struct WorkspaceGrid {
   double step = 0;  ///< > 0 (m)
 };
 
+/// Nodes along x, y, z. Throws ContractError for a grid without sense or of more than 1e9 nodes.
+std::array<std::size_t, 3> nodes_of(const WorkspaceGrid& grid);
+/// Share of a node in the measure of a set: step^axes (m3, m2 for two axes, m for one).
+double cell_of(const WorkspaceGrid& grid, const std::array<std::size_t, 3>& nodes);
+
 /// What a map holds beside the criteria.
 struct WorkspaceTask {
   PoseConditions conditions;
@@ -30,9 +35,9 @@ struct WorkspaceTask {
 struct WorkspaceMap {
   Status status = Status::done;  ///< cancelled or deadline: some nodes are Criterion::open
   WorkspaceGrid grid;
-  std::array<std::size_t, 3> nodes{};  ///< along x, y, z
-  int axes = 0;                        ///< with more than one node
-  double cell = 0;  ///< share of a node in the measure of a set: step^axes (m3, m2 for two axes, m for one)
+  std::array<std::size_t, 3> nodes{};                       ///< along x, y, z
+  int axes = 0;                                             ///< with more than one node
+  double cell = 0;                                          ///< cell_of
   std::vector<Criterion> criterion;                         ///< x changes fastest, then y
   std::array<std::vector<double>, pose_index_count> index;  ///< empty where not wanted
 

@@ -1,5 +1,6 @@
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -29,7 +30,11 @@ std::vector<double> shown_angles(const SliderPathDesign& design, int samples) {
 
 study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPathDesign& design,
                                std::string name, std::string title, int samples) {
-  const Linkage linkage = slider_crank(design.mechanism);
+  // A crank that a search has shrunk to nothing leaves its pins apart by what nobody sees.
+  constexpr double visible = 1e-6;
+  auto mechanism = design.mechanism;
+  mechanism.parameters.crank = std::max(mechanism.parameters.crank, visible * mechanism.parameters.rod);
+  const Linkage linkage = slider_crank(mechanism);
   const PlanResult planned = plan_linkage(linkage);
   LINKWRIGHT_REQUIRE(planned.problems.empty(), "a slider-crank of crank {} and rod {} has no plan",
                      design.mechanism.parameters.crank, design.mechanism.parameters.rod);
