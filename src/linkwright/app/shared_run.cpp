@@ -48,25 +48,23 @@ LeadingRank::LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwn
   const std::string text = checkpoint_text(owner, lines);
   ranks_.set_receiver([this](int from, std::string_view message) { receive(from, message); });
   for (int other = 1; other < ranks_.count(); ++other) ranks_.send(other, message_of(begin_message, text));
-  watch_ = std::jthread([this](const std::stop_token& stop) {
-    std::mutex alone;
-    std::unique_lock lock(alone);
-    std::condition_variable_any pause;
-    while (!stop.stop_requested() && !context_.interrupted())
-      pause.wait_for(lock, stop, std::chrono::milliseconds(20), [] { return false; });
-    stop_others();
+  watch_ = std::thread([this] {
+    std::unique_lock lock(mutex_);
+    while (!leaving_ && !context_.interrupted()) changes_.wait_for(lock, std::chrono::milliseconds(20));
+    stopping_ = true;
+    end_others(ranks_);
   });
 }
 
 LeadingRank::~LeadingRank() {
-  watch_ = {};  // which tells the others
+  {
+    const std::lock_guard lock(mutex_);
+    leaving_ = true;
+  }
+  changes_.notify_all();
+  watch_.join();
   wait_for_others();
   ranks_.set_receiver({});
-}
-
-void LeadingRank::stop_others() {
-  const std::lock_guard lock(mutex_);
-  if (!std::exchange(stopping_, true)) end_others(ranks_);
 }
 
 void LeadingRank::receive(int from, std::string_view message) {

@@ -37,7 +37,6 @@ class LeadingRank final : public Checkpoint {
 
  private:
   void receive(int from, std::string_view message);
-  void stop_others();
   void wait_for_others();
 
   Ranks& ranks_;
@@ -47,8 +46,9 @@ class LeadingRank final : public Checkpoint {
   std::condition_variable changes_;
   std::map<std::string, std::size_t, std::less<>> next_;  ///< piece of each loop that nobody has been given
   std::vector<bool> at_work_;                             ///< the ranks that have not ended
-  bool stopping_ = false;
-  std::jthread watch_;  ///< ends the other ranks when the run is interrupted
+  bool leaving_ = false;                                  ///< this rank has ended
+  bool stopping_ = false;                                 ///< the others were told to end
+  std::thread watch_;  ///< ends the other ranks when the run is interrupted, or has ended
 };
 
 /// The checkpoint of any other rank: asks rank 0 for pieces and sends it what it has done.
