@@ -19,17 +19,24 @@ class Ranks : public test::ProgramFixture, public ::testing::WithParamInterface<
   Ranks() : ProgramFixture("/usr/bin/env") {
     if (!fs::exists(LINKWRIGHT_MPI_PLUG_IN) || !fs::exists(LINKWRIGHT_MPIRUN))
       skipped_ = "built without Open MPI, or without its mpirun";
+    else if (static const int started = run(ranks_of(2, {"/bin/true"})); started != 0)
+      skipped_ = "mpirun starts nothing on this machine: " + err_;
   }
   void SetUp() override {
     if (!skipped_.empty()) GTEST_SKIP() << skipped_;
   }
 
-  /// More ranks than processors, and as root: what a test may do and mpirun asks about.
-  static std::vector<std::string> on_ranks(int count, std::vector<std::string> words) {
-    words.insert(words.begin(),
-                 {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", LINKWRIGHT_MPIRUN,
-                  "--oversubscribe", "-n", std::to_string(count), LINKWRIGHT_PROGRAM});
+  /// More ranks than processors, as root, and in containers that forbid to read another process: what a test
+  /// may do and mpirun asks about.
+  static std::vector<std::string> ranks_of(int count, std::vector<std::string> words) {
+    words.insert(words.begin(), {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                 "OMPI_MCA_btl_vader_single_copy_mechanism=none", LINKWRIGHT_MPIRUN,
+                                 "--oversubscribe", "-n", std::to_string(count)});
     return words;
+  }
+  static std::vector<std::string> on_ranks(int count, std::vector<std::string> words) {
+    words.insert(words.begin(), LINKWRIGHT_PROGRAM);
+    return ranks_of(count, std::move(words));
   }
   static std::vector<std::string> alone(std::vector<std::string> words) {
     words.insert(words.begin(), LINKWRIGHT_PROGRAM);
