@@ -19,6 +19,7 @@ class OneRank final : public Ranks {
   void set_receiver(std::function<void(int, std::string_view)> receive) override {
     receive_ = std::move(receive);
   }
+  void leave() override {}
   void give(std::string_view message) { receive_(1, message); }
 
  private:
@@ -30,7 +31,7 @@ struct RankZero {
   RunContext context;
   CheckpointOwner study = {"linkwright 9.8.7", std::string(64, 'a')};
   CheckpointFile file{std::filesystem::temp_directory_path() / "linkwright-bench.jsonl", study};
-  LeadingRank leading{ranks, file, study, context};
+  LeadingRank leading{ranks, file, study, RanksBegin::with_what_was_kept, context};
   ~RankZero() {
     ranks.give("e");
     file.discard();

@@ -1,5 +1,6 @@
 #include "linkwright/app/shared_run.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -52,6 +53,7 @@ class Post {
       }
       box.changes.notify_all();
     }
+    void leave() override {}
 
    private:
     Box& own() { return post_.boxes_[static_cast<std::size_t>(rank_)]; }
@@ -80,6 +82,8 @@ class Post {
 };
 
 constexpr std::size_t most = 200;
+constexpr auto at_once = RanksBegin::at_once;
+constexpr auto with_what_was_kept = RanksBegin::with_what_was_kept;
 const CheckpointOwner one_study = {"linkwright 9.8.7", std::string(64, 'a')};
 
 /// A loop over squares, and which rank has done each of them.
@@ -126,29 +130,27 @@ class SharedLoop : public ::testing::Test {
   ~SharedLoop() override { std::filesystem::remove_all(folder_); }
 
   /// The other ranks, each a thread that does what follow() of the program does.
-  std::vector<std::jthread> others(Post& post, int count, std::size_t pieces = most,
+  std::vector<std::jthread> others(Post& post, int count, RanksBegin begin, std::size_t pieces = most,
                                    std::chrono::microseconds work = {}, CheckpointOwner of = one_study) {
     std::vector<std::jthread> all;
     for (int rank = 1; rank < count; ++rank)
-      all.emplace_back([&post, this, rank, pieces, work, of] {
+      all.emplace_back([&post, this, rank, begin, pieces, work, of] {
         const auto ranks = post.join(rank);
         RunContext context;
         context.set_threads(1);
-        FollowingRank kept(*ranks, context);
-        if (!kept.begin()) return;
-        Diagnostics diagnostics;
-        if (!kept.take_up(of, diagnostics)) {
-          const std::lock_guard lock(Squares::mutex);
-          refused_ += test::lines_of(diagnostics);
-          return;
+        FollowingRank kept(*ranks, of, begin, context);
+        if (kept.begin()) {
+          context.set_checkpoint(&kept);
+          Squares squares(pieces);
+          try {
+            squares.run(context, rank, work);
+          } catch (const LeftToOthers&) {
+            ++left_;
+          }
         }
-        context.set_checkpoint(&kept);
-        Squares squares(pieces);
-        try {
-          squares.run(context, rank, work);
-        } catch (const LeftToOthers&) {
-          ++left_;
-        }
+        const Diagnostics problems = kept.finish();
+        const std::lock_guard lock(Squares::mutex);
+        refused_ += test::lines_of(problems);
       });
     return all;
   }
@@ -160,25 +162,31 @@ class SharedLoop : public ::testing::Test {
 };
 
 TEST_F(SharedLoop, RankZeroHasWhatAllHaveDone) {
-  for (const int count : {1, 2, 5}) {
+  for (const auto& [count, begin] : std::vector<std::pair<int, RanksBegin>>{{1, at_once},
+                                                                            {2, at_once},
+                                                                            {5, at_once},
+                                                                            {1, with_what_was_kept},
+                                                                            {2, with_what_was_kept},
+                                                                            {5, with_what_was_kept}}) {
+    SCOPED_TRACE(fmt::format("{} ranks, {}", count, begin == at_once ? "at once" : "with what was kept"));
     Squares::ranks.clear();
     Squares::done = 0;
     Squares::awaited = static_cast<std::size_t>(count);
     left_ = 0;
     Post post(count);
-    auto threads = others(post, count);
+    auto threads = others(post, count, begin);
     const auto ranks = post.join(0);
     RunContext context;
     context.set_threads(2);
-    CheckpointFile file(folder_ / ("kept-" + std::to_string(count)), one_study);
+    CheckpointFile file(folder_ / (fmt::format("kept-{}-{}", count, static_cast<int>(begin))), one_study);
     Squares squares;
     {
-      LeadingRank leading(*ranks, file, one_study, context);
+      LeadingRank leading(*ranks, file, one_study, begin, context);
       context.set_checkpoint(&leading);
       squares.run(context, 0);
     }
     threads.clear();
-    EXPECT_TRUE(squares.complete()) << count;
+    EXPECT_TRUE(squares.complete());
     EXPECT_EQ(Squares::done, static_cast<int>(most));  // each once
     EXPECT_EQ(Squares::ranks.size(), static_cast<std::size_t>(count));
     EXPECT_EQ(left_, count - 1);
@@ -191,12 +199,12 @@ TEST_F(SharedLoop, TakesUpWhatWasKept) {
   CheckpointFile file(folder_ / "kept", one_study);
   for (std::size_t i = 0; i < most; i += 2)
     file.keep("piece " + std::to_string(i), Value(static_cast<double>(i * i)));
-  auto threads = others(post, 3);
+  auto threads = others(post, 3, with_what_was_kept);
   const auto ranks = post.join(0);
   RunContext context;
   Squares squares;
   {
-    LeadingRank leading(*ranks, file, one_study, context);
+    LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
     context.set_checkpoint(&leading);
     squares.run(context, 0);
   }
@@ -208,13 +216,13 @@ TEST_F(SharedLoop, TakesUpWhatWasKept) {
 TEST_F(SharedLoop, EndsTheOthersWhenItIsInterrupted) {
   Post post(3);
   CheckpointFile file(folder_ / "kept", one_study);
-  auto threads = others(post, 3, 1'000'000, std::chrono::milliseconds(1));
+  auto threads = others(post, 3, with_what_was_kept, 1'000'000, std::chrono::milliseconds(1));
   const auto ranks = post.join(0);
   RunContext context;
   context.set_time_limit(std::chrono::milliseconds(100));
   Squares squares(1'000'000);
   {
-    LeadingRank leading(*ranks, file, one_study, context);
+    LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
     context.set_checkpoint(&leading);
     squares.run(context, 0, std::chrono::milliseconds(1));
   }
@@ -225,21 +233,56 @@ TEST_F(SharedLoop, EndsTheOthersWhenItIsInterrupted) {
 }
 
 TEST_F(SharedLoop, DoesWithoutARankThatHasAnotherStudy) {
-  Post post(2);
-  CheckpointFile file(folder_ / "kept", one_study);
-  auto threads = others(post, 2, most, {}, {one_study.tool, std::string(64, 'b')});
+  for (const RanksBegin begin : {at_once, with_what_was_kept}) {
+    Squares::ranks.clear();
+    Post post(2);
+    CheckpointFile file(folder_ / fmt::format("kept-{}", static_cast<int>(begin)), one_study);
+    auto threads = others(post, 2, begin, most, {}, {one_study.tool, std::string(64, 'b')});
+    const auto ranks = post.join(0);
+    RunContext context;
+    Squares squares;
+    {
+      LeadingRank leading(*ranks, file, one_study, begin, context);
+      context.set_checkpoint(&leading);
+      squares.run(context, 0);
+    }
+    threads.clear();
+    EXPECT_TRUE(squares.complete());
+    EXPECT_EQ(file.size(), most);
+    if (begin == with_what_was_kept) {
+      EXPECT_EQ(Squares::ranks, std::set<int>{0});
+    }
+    EXPECT_THAT(refused_, HasSubstr("what rank 0 has sent: error: belongs to another study"));
+    refused_.clear();
+  }
+}
+
+TEST_F(SharedLoop, BeginsBeforeRankZeroIsHeardOf) {
+  // 200 pieces, three ranks: a share is a quarter of 66.
+  Post post(3);
+  const auto second = post.join(2);
+  RunContext other;
+  FollowingRank kept(*second, one_study, at_once, other);
+  ASSERT_TRUE(kept.begin());
+  for (std::size_t i = 16; i < 32; ++i) {
+    ASSERT_EQ(kept.own_piece("piece 0", 0, most), i);
+    kept.keep(fmt::format("piece {}", i), Value(static_cast<double>(i * i)));
+  }
+  auto first = others(post, 2, at_once);
+  std::jthread end([&] { EXPECT_TRUE(kept.finish().empty()); });
   const auto ranks = post.join(0);
+  CheckpointFile file(folder_ / "kept", one_study);
   RunContext context;
   Squares squares;
   {
-    LeadingRank leading(*ranks, file, one_study, context);
+    LeadingRank leading(*ranks, file, one_study, at_once, context);
+    end.join();
     context.set_checkpoint(&leading);
     squares.run(context, 0);
   }
-  threads.clear();
+  first.clear();
   EXPECT_TRUE(squares.complete());
-  EXPECT_EQ(Squares::ranks, std::set<int>{0});
-  EXPECT_THAT(refused_, HasSubstr("what rank 0 has sent: error: belongs to another study"));
+  EXPECT_EQ(Squares::done, static_cast<int>(most - 16));
 }
 
 TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
@@ -248,7 +291,7 @@ TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
   std::jthread other([&] {
     const auto ranks = post.join(1);
     RunContext context;
-    FollowingRank kept(*ranks, context);
+    FollowingRank kept(*ranks, one_study, with_what_was_kept, context);
     ASSERT_TRUE(kept.begin());
     EXPECT_LT(kept.own_piece("piece 0", 0, most), most);
     EXPECT_LT(kept.own_piece("piece 0", 0, most), most);
@@ -257,7 +300,7 @@ TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
   RunContext context;
   Squares squares;
   {
-    LeadingRank leading(*ranks, file, one_study, context);
+    LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
     other.join();
     context.set_checkpoint(&leading);
     squares.run(context, 0);
@@ -268,7 +311,7 @@ TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
 
 TEST_F(SharedLoop, ThatNeverBeginsEndsTheOthers) {
   Post post(3);
-  auto threads = others(post, 3);
+  auto threads = others(post, 3, with_what_was_kept);
   const auto ranks = post.join(0);
   end_others(*ranks);
   threads.clear();
@@ -287,7 +330,7 @@ TEST_F(SharedLoop, IgnoresMessagesThatAreNone) {
   RunContext context;
   Squares squares;
   {
-    LeadingRank leading(*ranks, file, one_study, context);
+    LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
     context.set_checkpoint(&leading);
     squares.run(context, 0);
   }

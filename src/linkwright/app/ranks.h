@@ -26,10 +26,15 @@ class Ranks {
   /// Receives all messages from here on, one after the other, on a thread of its own; what came before waits
   /// for it. An empty function receives no more: messages are dropped, and none is being received.
   virtual void set_receiver(std::function<void(int from, std::string_view message)> receive) = 0;
+
+  /// This rank needs the others no more: parting, which takes a while, begins while it does other work. What
+  /// is sent after it is lost.
+  virtual void leave() = 0;
 };
 
 /// What the plug-in exports as `linkwright_join_ranks`: joins the ranks that were started together, once in a
-/// process. nullptr if that fails, with the reason in `problem`.
-using JoinRanks = Ranks*(std::string& problem);
+/// process. Where the launcher has told rank and count, it returns at once and joins them meanwhile; where it
+/// has not (count 0), it returns when they are known. Ranks that cannot be joined end the process.
+using JoinRanks = Ranks*(int rank, int count);
 
 }  // namespace linkwright::app

@@ -20,6 +20,13 @@ constexpr char end_message = 'e';     // either way: no more is done
 /// Ranks are given a part of what is left at a time: few messages first, and no long wait for one at the end.
 constexpr std::size_t shares = 4;
 
+/// A share of the first loop of a run that begins at once: rank 1 has the first pieces, rank 2 the next ones
+/// and so on, and the rest is handed out.
+std::size_t share_beforehand(std::size_t count, int ranks) {
+  const auto all = static_cast<std::size_t>(ranks);
+  return count < all ? 0 : std::max<std::size_t>(1, count / (shares * all));
+}
+
 /// How long a rank that was told to end is waited for: one that hangs must not hold up the result.
 constexpr std::chrono::seconds longest_wait(20);
 
@@ -39,9 +46,13 @@ void end_others(Ranks& ranks) {
   for (int other = 1; other < ranks.count(); ++other) ranks.send(other, message_of(end_message));
 }
 
-LeadingRank::LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwner& owner,
+LeadingRank::LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwner& owner, RanksBegin begin,
                          RunContext& context)
-    : ranks_(ranks), kept_(kept), context_(context), at_work_(static_cast<std::size_t>(ranks.count()), true) {
+    : ranks_(ranks),
+      kept_(kept),
+      context_(context),
+      begin_(begin),
+      at_work_(static_cast<std::size_t>(ranks.count()), true) {
   at_work_[0] = false;
   CheckpointLines lines;
   for (const std::string& name : kept_.names()) lines.emplace(name, checkpoint_line(name, kept_.find(name)));
@@ -67,6 +78,14 @@ LeadingRank::~LeadingRank() {
   ranks_.set_receiver({});
 }
 
+std::size_t& LeadingRank::next_of(std::string_view loop, std::size_t count) {
+  const bool first = next_.empty();
+  const auto [entry, added] = next_.try_emplace(std::string(loop), 0);
+  if (first && begin_ == RanksBegin::at_once)
+    entry->second = share_beforehand(count, ranks_.count()) * (at_work_.size() - 1);
+  return entry->second;
+}
+
 void LeadingRank::receive(int from, std::string_view message) {
   const auto sender = static_cast<std::size_t>(from);
   if (message.empty() || sender >= at_work_.size()) return;
@@ -75,7 +94,7 @@ void LeadingRank::receive(int from, std::string_view message) {
     case ask_message: {
       const std::size_t count = number_before_blank(text);
       const std::lock_guard lock(mutex_);
-      std::size_t& next = next_.try_emplace(std::string(text), 0).first->second;
+      std::size_t& next = next_of(text, count);
       const std::size_t first = std::min(next, count);
       next = std::min(first + std::max<std::size_t>(1, (count - first) / (shares * at_work_.size())), count);
       ranks_.send(from, message_of(pieces_message, fmt::format("{} {}", first, next)));
@@ -97,7 +116,7 @@ void LeadingRank::receive(int from, std::string_view message) {
 
 std::size_t LeadingRank::own_piece(std::string_view loop, std::size_t from, std::size_t count) {
   const std::lock_guard lock(mutex_);
-  std::size_t& next = next_.try_emplace(std::string(loop), 0).first->second;
+  std::size_t& next = next_of(loop, count);
   next = std::max(next, from);
   return next < count ? next++ : count;
 }
@@ -111,13 +130,20 @@ void LeadingRank::wait_for_others() {
 
 void LeadingRank::rejoin(std::string_view) { wait_for_others(); }
 
-FollowingRank::FollowingRank(Ranks& ranks, RunContext& context) : ranks_(ranks), context_(context) {
+FollowingRank::FollowingRank(Ranks& ranks, const CheckpointOwner& owner, RanksBegin begin,
+                             RunContext& context)
+    : ranks_(ranks), owner_(owner), begin_(begin), context_(context) {
   ranks_.set_receiver([this](int, std::string_view message) { receive(message); });
 }
 
-FollowingRank::~FollowingRank() {
+Diagnostics FollowingRank::finish() {
+  std::unique_lock lock(mutex_);
+  changes_.wait(lock, [&] { return begun_ || ended_; });
+  if (std::exchange(finished_, true)) return problems_;
+  lock.unlock();
   ranks_.send(0, message_of(end_message));
-  ranks_.set_receiver({});
+  ranks_.set_receiver({});  // waits for what is being received
+  return problems_;
 }
 
 void FollowingRank::receive(std::string_view message) {
@@ -126,8 +152,7 @@ void FollowingRank::receive(std::string_view message) {
   const std::lock_guard lock(mutex_);
   switch (message.front()) {
     case begin_message:
-      found_ = text;
-      begun_ = true;
+      take_up(text);
       break;
     case pieces_message:
       first_ = number_before_blank(text);
@@ -146,29 +171,44 @@ void FollowingRank::receive(std::string_view message) {
 
 bool FollowingRank::begin() {
   std::unique_lock lock(mutex_);
-  changes_.wait(lock, [&] { return begun_ || ended_; });
-  return begun_;
+  if (begin_ == RanksBegin::with_what_was_kept) changes_.wait(lock, [&] { return begun_ || ended_; });
+  return !ended_;
 }
 
-bool FollowingRank::take_up(const CheckpointOwner& owner, Diagnostics& diagnostics) {
-  auto lines = read_checkpoint(found_, owner, "what rank 0 has sent", diagnostics);
-  if (!lines) return false;
-  lines_ = std::move(*lines);
-  found_ = {};
-  return true;
+void FollowingRank::take_up(std::string_view kept) {
+  auto lines = read_checkpoint(kept, owner_, "what rank 0 has sent", problems_);
+  begun_ = lines.has_value();
+  if (begun_) {
+    if (begin_ == RanksBegin::with_what_was_kept) lines_ = std::move(*lines);
+    for (std::string& line : unsent_) ranks_.send(0, std::move(line));
+  } else {
+    ended_ = true;
+    context_.cancel();
+  }
+  unsent_.clear();
 }
 
 Value FollowingRank::find(std::string_view name) const {
-  const auto found = lines_.find(name);  // which nothing changes after the beginning
+  const auto found = lines_.find(name);
   return found == lines_.end() ? Value() : checkpoint_value(found->second);
 }
 
 void FollowingRank::keep(std::string_view name, const Value& value) {
-  ranks_.send(0, message_of(keep_message, checkpoint_line(name, value)));
+  std::string line = message_of(keep_message, checkpoint_line(name, value));
+  const std::lock_guard lock(mutex_);
+  if (begun_)
+    ranks_.send(0, std::move(line));
+  else if (!ended_)
+    unsent_.push_back(std::move(line));
 }
 
 std::size_t FollowingRank::own_piece(std::string_view loop, std::size_t from, std::size_t count) {
   std::unique_lock lock(mutex_);
+  if (!std::exchange(at_work_, true) && begin_ == RanksBegin::at_once) {
+    const std::size_t share = share_beforehand(count, ranks_.count());
+    last_ = share * static_cast<std::size_t>(ranks_.rank());
+    first_ = last_ - share;
+  }
   first_ = std::max(first_, from);
   if (first_ >= last_ && !ended_) {
     answered_ = false;

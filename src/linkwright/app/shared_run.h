@@ -17,6 +17,10 @@
 
 namespace linkwright::app {
 
+/// How the ranks of a run begin. Starting MPI takes a while, so that those of a run of which nothing was kept
+/// before do a first share of the pieces meanwhile, which is divided beforehand.
+enum class RanksBegin { at_once, with_what_was_kept };
+
 /// Tells all other ranks that there is nothing, or nothing more, to do.
 void end_others(Ranks& ranks);
 
@@ -25,7 +29,8 @@ void end_others(Ranks& ranks);
 class LeadingRank final : public Checkpoint {
  public:
   /// Lets the other ranks begin, with what the file holds. Both must outlive this.
-  LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwner& owner, RunContext& context);
+  LeadingRank(Ranks& ranks, CheckpointFile& kept, const CheckpointOwner& owner, RanksBegin begin,
+              RunContext& context);
   /// Lets them end, and waits for that.
   ~LeadingRank() override;
 
@@ -37,11 +42,13 @@ class LeadingRank final : public Checkpoint {
 
  private:
   void receive(int from, std::string_view message);
+  std::size_t& next_of(std::string_view loop, std::size_t count);
   void wait_for_others();
 
   Ranks& ranks_;
   CheckpointFile& kept_;
   RunContext& context_;
+  const RanksBegin begin_;
   std::mutex mutex_;  ///< guards the following
   std::condition_variable changes_;
   std::map<std::string, std::size_t, std::less<>> next_;  ///< piece of each loop that nobody has been given
@@ -54,14 +61,14 @@ class LeadingRank final : public Checkpoint {
 /// The checkpoint of any other rank: asks rank 0 for pieces and sends it what it has done.
 class FollowingRank final : public Checkpoint {
  public:
-  FollowingRank(Ranks& ranks, RunContext& context);
-  /// Tells rank 0 that no more comes from here.
-  ~FollowingRank() override;
+  FollowingRank(Ranks& ranks, const CheckpointOwner& owner, RanksBegin begin, RunContext& context);
+  ~FollowingRank() override { finish(); }
 
-  /// Waits for rank 0; false if it has nothing to do.
+  /// Waits for what rank 0 begins with, unless it need not; false if there is nothing to do.
   bool begin();
-  /// Takes up what rank 0 has begun with; false, with a diagnostic, if that is of another study.
-  bool take_up(const CheckpointOwner& owner, Diagnostics& diagnostics);
+  /// Waits until rank 0 has begun, and tells it that no more comes from here. Returns why it has taken
+  /// nothing of this rank, if its study is another one.
+  Diagnostics finish();
 
   Value find(std::string_view name) const override;
   void keep(std::string_view name, const Value& value) override;
@@ -71,17 +78,23 @@ class FollowingRank final : public Checkpoint {
 
  private:
   void receive(std::string_view message);
+  void take_up(std::string_view kept);
 
   Ranks& ranks_;
+  const CheckpointOwner owner_;
+  const RanksBegin begin_;
   RunContext& context_;
   std::mutex mutex_;  ///< guards the following
   std::condition_variable changes_;
-  bool begun_ = false;
+  bool begun_ = false;  ///< rank 0 has, with the same study
   bool ended_ = false;
-  std::string found_;  ///< what rank 0 began with
+  bool finished_ = false;
+  Diagnostics problems_;
+  std::vector<std::string> unsent_;  ///< done before rank 0 was heard of
+  bool at_work_ = false;             ///< has asked for a piece
   bool answered_ = false;
   std::size_t first_ = 0, last_ = 0;  ///< pieces that were given to this rank and not yet begun
-  CheckpointLines lines_;
+  CheckpointLines lines_;             ///< what rank 0 began with, which nothing changes after that
 };
 
 }  // namespace linkwright::app

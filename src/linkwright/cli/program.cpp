@@ -127,25 +127,30 @@ struct EndOfRanks {
   }
 };
 
+app::RanksBegin beginning_of(const Arguments& arguments) {
+  return arguments.resume ? app::RanksBegin::with_what_was_kept : app::RanksBegin::at_once;
+}
+
 /// A rank other than 0: does pieces of the study, and leaves the result to rank 0. What it cannot do is no
 /// error of the run: rank 0 goes on without it.
 void follow(const Arguments& arguments, std::span<const study::Kind> kinds, app::Ranks& ranks,
             RunContext& context) {
-  app::FollowingRank kept(ranks, context);
   Diagnostics diagnostics;
   const auto study =
       app::load_study(arguments.study, {{}, arguments.seed, arguments.set}, kinds, diagnostics);
-  if (!kept.begin()) return;
-  if (!study || !kept.take_up(app::checkpoint_owner(*study), diagnostics)) {
-    fmt::print(stderr, "rank {} takes no part:\n", ranks.rank());
-    print_diagnostics(diagnostics);
-    return;
+  app::FollowingRank kept(ranks, study ? app::checkpoint_owner(*study) : app::CheckpointOwner(),
+                          study ? beginning_of(arguments) : app::RanksBegin::with_what_was_kept, context);
+  if (kept.begin()) {
+    context.set_checkpoint(&kept);
+    try {
+      app::run_and_record(*study, context);
+    } catch (const LeftToOthers&) {
+      // which is what it is for
+    }
   }
-  context.set_checkpoint(&kept);
-  try {
-    app::run_and_record(*study, context);
-  } catch (const LeftToOthers&) {
-    // which is what it is for
+  if (const Diagnostics other_study = kept.finish(); !other_study.empty()) {
+    fmt::print(stderr, "rank {} takes no part:\n", ranks.rank());
+    print_diagnostics(study ? other_study : diagnostics);
   }
 }
 
@@ -196,7 +201,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     const ProgressBar bar(context, arguments.quiet);
     std::optional<app::LeadingRank> leading;
     if (ranks) {
-      leading.emplace(*ranks, checkpoint, app::checkpoint_owner(*study), context);
+      leading.emplace(*ranks, checkpoint, app::checkpoint_owner(*study), beginning_of(arguments), context);
       context.set_checkpoint(&*leading);
     }
     outcome = app::run_and_record(*study, context);
@@ -204,6 +209,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print_diagnostics({app::unusable_checkpoint(kept, error)});
     return bad_input;
   }
+  if (ranks) ranks->leave();
   Diagnostics problems;
   checkpoint.finish(problems);
   outcome.command = command_of(arguments);

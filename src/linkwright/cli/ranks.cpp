@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 #include <string_view>
 
 namespace linkwright::cli {
@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The first of these environment variables as a number, 0 if there is none.
-template <std::size_t n>
-int number_in(const std::array<const char*, n>& names) {
+int number_in(std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const char* text = std::getenv(name)) {
       int number = 0;
@@ -28,11 +27,6 @@ int number_in(const std::array<const char*, n>& names) {
     }
   return 0;
 }
-
-/// Open MPI's mpirun; MPICH's, and Slurm with PMI-1 or PMI-2.
-constexpr std::array<const char*, 2> number_of_ranks = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
-constexpr std::array<const char*, 3> ranks_on_this_machine = {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS",
-                                                              "SLURM_NTASKS_PER_NODE"};
 
 constexpr const char* plug_in = "linkwright/mpi.so";
 
@@ -56,13 +50,16 @@ void* load_plug_in(std::string& problem) {
 }  // namespace
 
 JoinedRanks join_ranks() {
-  const int count = number_in(number_of_ranks);
+  // Open MPI's mpirun; MPICH's, and Slurm with PMI-1 or PMI-2.
+  const int count = number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
   if (count <= 1) return {};
   std::string problem;
   void* library = load_plug_in(problem);
   auto* join =
       library ? reinterpret_cast<app::JoinRanks*>(::dlsym(library, "linkwright_join_ranks")) : nullptr;
-  std::unique_ptr<app::Ranks> ranks(join ? join(problem) : nullptr);
+  std::unique_ptr<app::Ranks> ranks(
+      // Open MPI's tells both to all; of the others it is not sure that they do.
+      join ? join(number_in({"OMPI_COMM_WORLD_RANK"}), number_in({"OMPI_COMM_WORLD_SIZE"})) : nullptr);
   if (!ranks)
     return {nullptr,
             fmt::format("was started as {} ranks, but cannot share a study between them: {}; without "
@@ -76,7 +73,8 @@ int threads_of_rank() {
   cpu_set_t own;
   CPU_ZERO(&own);
   const int given = ::sched_getaffinity(0, sizeof own, &own) == 0 ? CPU_COUNT(&own) : all;
-  const int ranks = std::max(1, number_in(ranks_on_this_machine));
+  const int ranks =
+      std::max(1, number_in({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}));
   return given * ranks <= all ? given : std::max(1, all / ranks);
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <deque>
 #include <functional>
 #include <list>
@@ -23,17 +24,14 @@ constexpr std::chrono::microseconds shortest_sleep(50), longest_sleep(1000);
 
 class MpiRanks final : public app::Ranks {
  public:
-  explicit MpiRanks(std::string& problem) : thread_([this] { serve(); }) {
+  MpiRanks(int rank, int count) : rank_(rank), count_(count), thread_([this] { serve(); }) {
+    if (count > 0) return;
     std::unique_lock lock(mutex_);
     changes_.wait(lock, [&] { return joined_; });
-    problem = problem_;
   }
 
   ~MpiRanks() override {
-    {
-      const std::lock_guard lock(mutex_);
-      leaving_ = true;
-    }
+    MpiRanks::leave();
     thread_.join();
   }
 
@@ -51,6 +49,11 @@ class MpiRanks final : public app::Ranks {
     drop_ = !receive_;
   }
 
+  void leave() override {
+    const std::lock_guard lock(mutex_);
+    leaving_ = true;
+  }
+
  private:
   struct Message {
     int rank;
@@ -60,7 +63,6 @@ class MpiRanks final : public app::Ranks {
 
   void serve() {
     join();
-    if (!problem_.empty()) return;
     MPI_Request all_here = MPI_REQUEST_NULL;
     bool arrived = false;
     auto pause = shortest_sleep;
@@ -82,15 +84,20 @@ class MpiRanks final : public app::Ranks {
   }
 
   void join() {
-    int given = 0;
+    int given = 0, rank = 0, count = 1;
     // An error of MPI ends all ranks, which is its own way; what is kept on the disk is taken up again.
-    const bool good = MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) == MPI_SUCCESS;
-    if (good) {
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-      MPI_Comm_size(MPI_COMM_WORLD, &count_);
-    }
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
     const std::lock_guard lock(mutex_);
-    if (!good) problem_ = "MPI could not be started";
+    if (count_ == 0) {
+      rank_ = rank;
+      count_ = count;
+    } else if (rank != rank_ || count != count_) {
+      std::fprintf(stderr, "linkwright: the launcher says rank %d of %d, but MPI rank %d of %d\n", rank_,
+                   count_, rank, count);
+      MPI_Abort(MPI_COMM_WORLD, 70);
+    }
     joined_ = true;
     changes_.notify_all();
   }
@@ -147,11 +154,10 @@ class MpiRanks final : public app::Ranks {
     return !begun.empty();
   }
 
-  int rank_ = 0, count_ = 1;
+  int rank_, count_;  // are known before anybody asks
   std::mutex mutex_;  // guards these
   std::condition_variable changes_;
   bool joined_ = false, leaving_ = false;
-  std::string problem_;
   std::deque<Message> outgoing_;
   std::mutex receiving_;  // is held while a message is received, and guards these
   std::function<void(int, std::string_view)> receive_;
@@ -165,10 +171,7 @@ class MpiRanks final : public app::Ranks {
 }  // namespace
 }  // namespace linkwright::mpi
 
-extern "C" __attribute__((visibility("default"))) linkwright::app::Ranks* linkwright_join_ranks(
-    std::string& problem) {
-  auto* ranks = new linkwright::mpi::MpiRanks(problem);
-  if (problem.empty()) return ranks;
-  delete ranks;
-  return nullptr;
+extern "C" __attribute__((visibility("default"))) linkwright::app::Ranks* linkwright_join_ranks(int rank,
+                                                                                                int count) {
+  return new linkwright::mpi::MpiRanks(rank, count);
 }
