@@ -108,6 +108,14 @@ TEST_F(Lists, ReproduceListsAndRefuses) {
   EXPECT_THAT(err_, HasSubstr("there is no published table 'table-1'"));
 }
 
+TEST_F(RealLists, TablesAtOnceAreShownInTheirOrder) {
+  ASSERT_EQ(run({"reproduce", "milutinovic-2014", "-j", "1"}), 0) << err_;
+  const std::string one_by_one = out_;
+  EXPECT_THAT(one_by_one, HasSubstr("milutinovic-2014-stiffness: "));
+  ASSERT_EQ(run({"reproduce", "milutinovic-2014", "-j", "4"}), 0) << err_;
+  EXPECT_EQ(out_, one_by_one);
+}
+
 TEST_F(RealLists, ExamplesByPartAndCopied) {
   EXPECT_EQ(run({"examples", "hoek"}), 0);
   EXPECT_EQ(out_,

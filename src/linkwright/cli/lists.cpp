@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,8 @@
 #include "linkwright/app/samples.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/cli/terminal.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/optimise/pieces.h"
 #include "linkwright/study/renamed.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
@@ -303,18 +307,29 @@ int reproduce(const Arguments& arguments, std::span<const study::Reproduction> a
   const Interruptible guard(context);
   context.set_threads(arguments.threads);
   Value json = Value::array();
-  for (const study::Reproduction* r : chosen) {
-    const std::vector<study::Comparison> rows = r->run(context);
+  const auto show = [&](const study::Reproduction& r, const std::vector<study::Comparison>& rows) {
     if (arguments.json) {
-      json.push_back(app::reproduction_json(*r, rows));
-    } else {
-      fmt::print("{}: {}\n  {}\n\n{}", r->id, r->title, r->source, aligned(rows));
-      for (const std::string& note : r->notes) fmt::print("\n  {}\n", note);
-      fmt::print("\n");
-      std::fflush(stdout);
+      json.push_back(app::reproduction_json(r, rows));
+      return;
     }
-    if (context.interrupted()) return cancelled;
-  }
+    fmt::print("{}: {}\n  {}\n\n{}", r.id, r.title, r.source, aligned(rows));
+    for (const std::string& note : r.notes) fmt::print("\n  {}\n", note);
+    fmt::print("\n");
+    std::fflush(stdout);
+  };
+  // Several at once, but shown in their order, each as soon as those before it are.
+  std::mutex showing;
+  std::vector<std::optional<std::vector<study::Comparison>>> tables(chosen.size());
+  std::size_t shown = 0;
+  const optimise::PieceLoop loop =
+      optimise::for_each_piece(chosen.size(), context, "tables", [&](std::size_t i) {
+        std::vector<study::Comparison> rows = chosen[i]->run(context);
+        const std::lock_guard lock(showing);
+        tables[i] = std::move(rows);
+        for (; shown < tables.size() && tables[shown]; ++shown) show(*chosen[shown], *tables[shown]);
+        return 0.0;
+      });
+  if (loop.status != Status::done) return cancelled;
   if (arguments.json) fmt::print("{}", study::to_json_readable(json));
   return 0;
 }
