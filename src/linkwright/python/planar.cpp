@@ -174,7 +174,8 @@ planar::LinkageStudy linkage_of(const StudySource& source) {
   const planar::LinkageType type = type_of(study->kind->mechanism);
   study::DocumentReader reader(source.document, source.file, diagnostics);
   study::ObjectReader root = reader.root();
-  auto out = planar::read_linkage_study(root, study->common, type, nullptr);
+  auto out =
+      planar::read_linkage_study(root, study->common, type, nullptr, planar::WithoutMasses::motion_alone);
   if (!out) raise_study_error(diagnostics);
   return std::move(*out);
 }

@@ -82,7 +82,7 @@ TEST(FourBarStudyRead, NamesWhatIsWrongWithTheMasses) {
               ::testing::AllOf(HasSubstr("mechanism.mass.crank.mass_kg: is -0.36 kg, must be at least 0 kg"),
                                HasSubstr("mechanism.mass.coupler.centre_distance_m: this key is missing"),
                                HasSubstr("mechanism.mass.rocker: this key is missing")));
-  EXPECT_THAT(problems({{"4 mass", ""}}),
+  EXPECT_THAT(problems({{"4 mass", ""}, {"7 output", "[output]\nquantities = [\"drive\"]\n"}}),
               HasSubstr("mechanism.mass: forces and torques need the mass of every "
                         "body: 'crank', 'coupler', 'rocker' have none; give the "
                         "masses of its links there, or list quantities"));
@@ -90,6 +90,37 @@ TEST(FourBarStudyRead, NamesWhatIsWrongWithTheMasses) {
   EXPECT_TRUE(
       prepare(study_text({{"4 mass", ""}, {"7 output", "[output]\nquantities = [\"rates\"]\n"}}), messages))
       << messages;
+}
+
+TEST(FourBarStudyRead, OfLengthsAloneShowsHowItMoves) {
+  const std::map<std::string, std::string> nothing_but_lengths = {
+      {"4 mass", ""}, {"5 drive", ""}, {"6 sweep", ""}};
+  std::string messages;
+  const auto study = prepare(study_text(nothing_but_lengths), messages);
+  ASSERT_TRUE(study);
+  EXPECT_EQ(messages,
+            "study.toml:3:1: warning: mechanism: masses are not given, so forces and torques, velocities and "
+            "accelerations are left out; for them add [mechanism.mass] and the speed, [drive]\n");
+  const study::Result r = run(nothing_but_lengths);
+  EXPECT_EQ(r.status, Status::done);
+  const Table& sweep = r.tables.at(0);
+  EXPECT_EQ(sweep.rows(), 361u);  // a turn
+  const std::vector<std::string> columns = keys(sweep);
+  EXPECT_THAT(columns, ::testing::Contains("rocker_angle_rad"));
+  EXPECT_THAT(columns, ::testing::Contains("coupler_rocker_transmission_angle_rad"));
+  for (const std::string& key : columns) EXPECT_EQ(key.find("_per_s"), std::string::npos) << key;
+  // What was left out stays so when the study is run as it is kept.
+  const auto again = prepare(study::to_toml(study->canonical), messages);
+  ASSERT_TRUE(again) << messages;
+  RunContext context;
+  EXPECT_EQ(keys(study::run_study(*again, context).tables.at(0)), columns);
+
+  // With a speed, rates; with masses, all. Half of the masses are a mistake, and so are springs without any.
+  messages.clear();
+  EXPECT_TRUE(prepare(study_text({{"4 mass", ""}}), messages));
+  EXPECT_THAT(messages, HasSubstr("so forces and torques are left out; for them add [mechanism.mass]\n"));
+  EXPECT_THAT(keys(run({{"4 mass", ""}}).tables.at(0)), ::testing::Contains("rocker_speed_rad_per_s"));
+  EXPECT_THAT(problems({{"5 drive", ""}}), HasSubstr("drive: this key is missing"));
 }
 
 TEST(FourBarStudyRead, NamesWhatIsWrongWithDriveSweepAndOutput) {

@@ -31,7 +31,7 @@ struct LinkageDrive {
 struct InputSamples {
   std::string joint;
   double from = 0, to = 0;
-  int samples = 0;
+  int samples = 361;
 };
 /// The rows of a table: all combinations of inputs, the first input slowest; or times.
 struct InputGrid {
@@ -68,10 +68,14 @@ study::Kind four_bar_kind();
 study::Kind slider_crank_kind();
 
 enum class LinkageType { linkage, four_bar, slider_crank };
+/// What becomes of a study that lists no quantities, of a linkage of which no mass is known: forces may be
+/// what it is for, or one of many things that could be shown.
+enum class WithoutMasses { refused, motion_alone };
 /// Reads the tables of the study and writes them into the canonical one unless that is null; nothing when
 /// there are problems, which go to the reader.
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
-                                               LinkageType type, Value* canonical);
+                                               LinkageType type, Value* canonical,
+                                               WithoutMasses without_masses = WithoutMasses::refused);
 
 /// What the rows are placed at: combinations of a grid with time 0, or times.
 struct LinkageRows {
@@ -154,8 +158,7 @@ void joint_fields(Visitor&& visit, bool rotary, InputSamples& a) {
   visit(Field{.key = "samples",
               .summary = "number of values, both ends included",
               .minimum = 2,
-              .maximum = 100000,
-              .required = true},
+              .maximum = 100000},
         a.samples);
 }
 /// Describes them for both kinds of joints; which of them is required only the reader knows.

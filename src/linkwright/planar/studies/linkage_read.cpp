@@ -61,7 +61,8 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
     canonical[i]["joint"] = s.drives[i].joint;
   }
   // Without a speed the table of a four-bar is that of a machine at rest, which nobody asks for by silence.
-  if (type == LinkageType::four_bar && !document.has("drive"))
+  const bool speeds = s.quantities.rates || s.quantities.dynamic();
+  if (type == LinkageType::four_bar && !document.has("drive") && speeds)
     document.table(Field{.key = "drive", .summary = {}, .required = true});
   for (study::ObjectReader& drive : drive_tables(document)) {
     const auto input = input_of(drive, l);
@@ -88,6 +89,28 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
   }
 }
 
+// What a linkage is asked for of which nothing but lengths is known, by a study that lists no quantities: how
+// it moves. Half of the masses are a mistake, and so are loads or springs without any.
+bool leave_out_forces(study::ObjectReader& document, LinkageType type, const LinkageDescription& described,
+                      LinkageQuantities& quantities) {
+  const Linkage& l = described.linkage;
+  const auto massive = [](const LinkageBody& body) { return body.mass.has_value(); };
+  if (described.plan.has_masses || std::any_of(l.bodies.begin(), l.bodies.end(), massive) ||
+      !l.springs.empty() || !l.torsion_springs.empty() || !l.forces.empty() || !l.torques.empty())
+    return require_masses(document, type, described.plan);
+  std::string left_out = "forces and torques";
+  std::string give = type == LinkageType::linkage ? "mass_kg of every body" : "[mechanism.mass]";
+  quantities.reactions = quantities.drive = quantities.shaking = quantities.power = false;
+  if (type == LinkageType::four_bar && !document.has("drive")) {
+    quantities.rates = false;
+    left_out += ", velocities and accelerations";
+    give += " and the speed, [drive]";
+  }
+  document.warning("mechanism", fmt::format("masses are not given, so {} are left out", left_out),
+                   fmt::format("for them add {}", give));
+  return true;
+}
+
 // The axes of a grid; of a four-bar its only one by the name that it has there.
 std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType type) {
   if (type != LinkageType::four_bar || sweep.has("input"))
@@ -108,6 +131,18 @@ Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point) {
   out["input"] = Value(std::move(axes));
   study::ObjectWriter(out).operator()(change_point_field, at_change_point);
   return out;
+}
+
+// A turn of the only input, for a study that says nothing of it.
+bool turn(study::ObjectReader& document, const Linkage& l, LinkageStudy& s, Value& canonical) {
+  if (l.driven.size() != 1 || input_joint(l, 0).type != JointType::revolute) {
+    document.table(Field{.key = "sweep", .summary = {}, .required = true});
+    return false;
+  }
+  InputGrid grid{{{input_joint(l, 0).name, 0, 2 * pi}}};
+  canonical = written(l, grid, s.at_change_point);
+  s.sweep = std::move(grid);
+  return true;
 }
 
 void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
@@ -131,7 +166,7 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
   }
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
     InputSamples& a = grid.inputs[i];
-    if (a.samples == 0 && !sweep.document().has_errors())
+    if (a.joint.empty() && !sweep.document().has_errors())
       sweep.error(
           "input",
           fmt::format("joint '{}' is driven, but the sweep has no input for it", input_joint(l, i).name),
@@ -163,11 +198,15 @@ void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQualit
 }  // namespace
 
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
-                                               LinkageType type, Value* canonical) {
+                                               LinkageType type, Value* canonical,
+                                               WithoutMasses without_masses) {
   LinkageStudy s;
   s.quantities = chosen_quantities(common.output.quantities);
   s.units = common.units;
-  auto description = read_linkage(document, type, s.quantities.dynamic(), common.units);
+  const bool optional = without_masses == WithoutMasses::motion_alone && common.output.quantities.empty();
+  auto description = read_linkage(document, type, s.quantities.dynamic() && !optional, common.units);
+  if (description && optional && !leave_out_forces(document, type, *description, s.quantities))
+    description = {};
   auto sweep = document.table("sweep");
   // Known keys, so that a bad mechanism does not make all others look unknown.
   SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
@@ -182,7 +221,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   Value::Array drives;
   Value canonical_sweep;
   if (!sweep && description->sample.empty()) {
-    document.table(Field{.key = "sweep", .summary = {}, .required = true});
+    if (turn(document, l, s, canonical_sweep)) read_drives(document, l, type, false, s, drives);
   } else if (!sweep) {  // a sample knows what motion to look at
     const LinkageSample& sample = linkage_sample(description->sample);
     InputGrid grid;
@@ -219,7 +258,8 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   if (canonical) {
     write_linkage(*description, *canonical);
     if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
-    (*canonical)["drive"] = Value(std::move(drives));
+    if (s.quantities.rates || s.quantities.dynamic() || document.has("drive"))
+      (*canonical)["drive"] = Value(std::move(drives));
     (*canonical)["sweep"] = std::move(canonical_sweep);
   }
   s.four_bar = std::move(description->four_bar);
@@ -233,7 +273,7 @@ namespace {
 
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
   study::Prepared prepared;
-  if (auto s = read_linkage_study(document, common, type, &prepared.canonical))
+  if (auto s = read_linkage_study(document, common, type, &prepared.canonical, WithoutMasses::motion_alone))
     prepared.run = [s = std::move(*s)](RunContext& context) { return run_linkage_study(s, context); };
   return prepared;
 }
