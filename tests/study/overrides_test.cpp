@@ -27,6 +27,19 @@ TEST(Overrides, SetReplaceAndMake) {
   EXPECT_EQ(with("t.crank_m = 0.2"), R"({"a":1,"t":{"crank_m":0.2},"list":[{"name":"x"}]})");
 }
 
+TEST(Overrides, EntriesOfAListKeepItsUnit) {
+  Diagnostics diagnostics;
+  Value document = read_text("[t]\npoints_mm = [[1.0, 2.0], [3.0, 4.0]]\nangles_deg = [10.0]\n", Syntax::toml,
+                             "s", diagnostics);
+  for (const char* text : {"t.points_m[1] = [0.5, 6]", "t.points_mm[0][1] = 7", "t.angles_deg[0] = 20"}) {
+    Override change;
+    ASSERT_TRUE(parse_override(text, change, diagnostics));
+    EXPECT_TRUE(apply_override(document, change, diagnostics)) << text;
+  }
+  EXPECT_THAT(diagnostics, ::testing::IsEmpty());
+  EXPECT_EQ(to_json(document), R"({"t":{"points_mm":[[1.0,7],[500.0,6000.0]],"angles_deg":[20]}})");
+}
+
 TEST(Overrides, WhatIsWrong) {
   EXPECT_EQ(with("a"), "--set a: error: has no value; write --set key=value");
   EXPECT_THAT(with("=3"), HasSubstr("--set =3: error: '' is not the path of a key"));

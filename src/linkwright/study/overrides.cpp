@@ -17,6 +17,14 @@ void problem(Diagnostics& diagnostics, const Override& change, std::string messa
       {Diagnostic::Severity::error, change.origin, {}, {}, std::move(message), std::move(hint)});
 }
 
+// Numbers, and lists of them, in another unit.
+Value converted(Value value, const Unit& from, const Unit& to) {
+  if (value.is_number()) return Value(to.from_si(from.to_si(value.as_number())));
+  if (value.is_array())
+    for (Value& entry : value.as_array()) entry = converted(std::move(entry), from, to);
+  return value;
+}
+
 }  // namespace
 
 std::optional<std::vector<KeyStep>> parse_path(std::string_view text) {
@@ -69,6 +77,7 @@ bool parse_override(std::string_view text, Override& result, Diagnostics& diagno
 
 bool apply_override(Value& document, const Override& change, Diagnostics& diagnostics) {
   const auto steps = parse_path(change.key);
+  Value value = change.value;
   Value* at = &document;
   for (const KeyStep& step : *steps) {
     if (!at->is_null() && !at->is_object()) {
@@ -82,15 +91,25 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
       }
       return false;
     }
+    std::string key = step.key;
     if (&step == &steps->back() && at->is_object()) {
-      const auto wanted = split_unit(step.key);
-      std::erase_if(at->as_object(), [&](const Value::Member& member) {
+      const auto wanted = split_unit(key);
+      const auto in_other_unit = [&](const Value::Member& member) {
         const auto other = split_unit(member.key);
         return member.key != step.key && wanted && other && other->base == wanted->base &&
                other->dimension == wanted->dimension;
-      });
+      };
+      Value::Object& members = at->as_object();
+      const auto there = std::find_if(members.begin(), members.end(), in_other_unit);
+      if (step.indices.empty()) {
+        std::erase_if(members, in_other_unit);
+      } else if (there != members.end()) {
+        // One entry of a list, which keeps its unit.
+        key = there->key;
+        value = converted(std::move(value), *wanted->unit, *split_unit(key)->unit);
+      }
     }
-    at = &(*at)[step.key];
+    at = &(*at)[key];
     for (std::size_t index : step.indices) {
       if (!at->is_array() || index >= at->as_array().size()) {
         problem(diagnostics, change,
@@ -102,7 +121,7 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
       at = &at->as_array()[index];
     }
   }
-  *at = change.value;
+  *at = std::move(value);
   return true;
 }
 
