@@ -322,7 +322,12 @@ class Artist {
   void trace(const BodyPoint& t) {
     const LinkageBody& body = l_.bodies[at(t.body)];
     const std::string name = body.points[at(t.point)].name;
-    scene_.joints.push_back({name, point(t), study::Scene::JointStyle::tracer});
+    // The pin that is there already has the name.
+    const auto here = [&](const BodyPoint& p) { return p.body == t.body && p.point == t.point; };
+    const bool pinned = std::any_of(l_.joints.begin(), l_.joints.end(), [&](const LinkageJoint& j) {
+      return j.type == JointType::revolute && j.name == name && (here(j.first) || here(j.second));
+    });
+    if (!pinned) scene_.joints.push_back({name, point(t), study::Scene::JointStyle::tracer});
     const study::Scene::Point& p = scene_.points[at(point(t))];
     const bool closed =
         p.x.size() > 2 && std::hypot(p.x.front() - p.x.back(), p.y.front() - p.y.back()) < 1e-9 * plan_.size;
