@@ -124,6 +124,8 @@ TEST(ReadCsv, ReadsUtf16) {
   EXPECT_EQ(contents(little), "x_mm,y_mm|0.50,1.50|-2.0,3.00");
   EXPECT_EQ(contents(big), "x_mm,y_mm|0.50,1.50|-2.0,3.00");
   EXPECT_EQ(contents(little.substr(2)), "x_mm,y_mm|0.50,1.50|-2.0,3.00") << "without a mark";
+  EXPECT_EQ(contents("\xFE\xFF" + big), "x_mm,y_mm|0.50,1.50|-2.0,3.00") << "with two marks";
+  EXPECT_EQ(contents("\xEF\xBB\xBF\xEF\xBB\xBFx_mm\n1\n"), "x_mm|1.00");
   EXPECT_THAT(problems(little.substr(0, little.size() - 1)),
               ::testing::HasSubstr("UTF-16 text that breaks off or is damaged"));
 }

@@ -328,6 +328,8 @@ std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem)
   } else {
     text = is_utf8(bytes) ? std::string(bytes) : from_windows_1252(bytes);
   }
+  // A file that was marked twice is of no other text.
+  while (text && text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
   if (text && text->find('\0') != std::string::npos) {
     problem = "this is not a text file: it holds zero bytes";
     return std::nullopt;
