@@ -258,7 +258,10 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   if (canonical) {
     write_linkage(*description, *canonical);
     if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
-    if (s.quantities.rates || s.quantities.dynamic() || document.has("drive"))
+    // A four-bar names no drive where nothing depends on its speed; joints of other linkages say which are
+    // driven.
+    if (type != LinkageType::four_bar || s.quantities.rates || s.quantities.dynamic() ||
+        document.has("drive"))
       (*canonical)["drive"] = Value(std::move(drives));
     (*canonical)["sweep"] = std::move(canonical_sweep);
   }
