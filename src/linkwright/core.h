@@ -13,6 +13,7 @@
 #include "linkwright/core/memory.h"
 #include "linkwright/core/number_lists.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/quantity_columns.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linkwright/clearance/open_linkage.h"
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
@@ -18,24 +19,19 @@ namespace {
 
 using planar::Linkage, planar::LinkageJoint, planar::LinkageMotion, planar::LinkagePlan, planar::InputMotion;
 
-void require_free_pins(const Linkage& l, std::span<const JointClearance> clearances) {
+void require_clearances(const Linkage& l, std::span<const JointClearance> clearances) {
+  std::vector<int> joints;
+  for (const JointClearance& c : clearances) joints.push_back(c.joint);
+  require_free_pins(l, joints);
   const double size = planar::size_of(l);
-  for (std::size_t k = 0; k < clearances.size(); ++k) {
-    const JointClearance& c = clearances[k];
-    LINKWRIGHT_REQUIRE(c.joint >= 0 && at(c.joint) < l.joints.size(), "there is no joint {} among {}",
-                       c.joint, l.joints.size());
+  for (const JointClearance& c : clearances) {
     const LinkageJoint& j = l.joints[at(c.joint)];
-    LINKWRIGHT_REQUIRE(j.type == planar::JointType::revolute && j.friction == 0 &&
-                           std::find(l.driven.begin(), l.driven.end(), c.joint) == l.driven.end(),
-                       "joint '{}' must be a revolute joint without drive and friction", j.name);
     LINKWRIGHT_REQUIRE(c.clearance > 0 && c.clearance < size / 2,
                        "joint '{}': clearance {} m must be positive and less than {} m", j.name, c.clearance,
                        size / 2);
     LINKWRIGHT_REQUIRE(
         c.damping >= 0 && std::isfinite(c.damping) && std::isfinite(c.angle) && std::isfinite(c.rate),
         "joint '{}': angle {} rad, rate {} rad/s, damping {} N m s", j.name, c.angle, c.rate, c.damping);
-    for (std::size_t i = 0; i < k; ++i)
-      LINKWRIGHT_REQUIRE(clearances[i].joint != c.joint, "joint '{}' is given twice", j.name);
   }
 }
 
@@ -209,7 +205,7 @@ class Watcher {
 
 ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClearance> clearances,
                               std::span<const double> inputs) {
-  require_free_pins(linkage, clearances);
+  require_clearances(linkage, clearances);
   ClearedLinkage out;
   const planar::PlanResult ideal = planar::plan_linkage(linkage);
   if (!ideal.problems.empty()) {

@@ -18,19 +18,6 @@ namespace {
 using planar::InputMotion, planar::JointType, planar::Linkage, planar::LinkageJoint, planar::LinkageMotion,
     planar::LinkagePlan, planar::PartState;
 
-void require_free_pins(const Linkage& l, std::span<const int> joints) {
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    LINKWRIGHT_REQUIRE(joints[k] >= 0 && at(joints[k]) < l.joints.size(), "there is no joint {} among {}",
-                       joints[k], l.joints.size());
-    const LinkageJoint& j = l.joints[at(joints[k])];
-    LINKWRIGHT_REQUIRE(j.type == JointType::revolute && j.friction == 0 &&
-                           std::find(l.driven.begin(), l.driven.end(), joints[k]) == l.driven.end(),
-                       "joint '{}' must be a revolute joint without drive and friction", j.name);
-    LINKWRIGHT_REQUIRE(std::count(joints.begin(), joints.end(), joints[k]) == 1, "joint '{}' is given twice",
-                       j.name);
-  }
-}
-
 // Takes the joints out and keeps the numbers of the drives right.
 void take_out(Linkage& l, std::span<const int> joints) {
   std::vector<int> number(l.joints.size());
@@ -147,6 +134,19 @@ double coordinate(const Linkage& l, const LinkageJoint& j) {
 }
 
 }  // namespace
+
+void require_free_pins(const Linkage& l, std::span<const int> joints) {
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    LINKWRIGHT_REQUIRE(joints[k] >= 0 && at(joints[k]) < l.joints.size(), "there is no joint {} among {}",
+                       joints[k], l.joints.size());
+    const LinkageJoint& j = l.joints[at(joints[k])];
+    LINKWRIGHT_REQUIRE(j.type == JointType::revolute && j.friction == 0 &&
+                           std::find(l.driven.begin(), l.driven.end(), joints[k]) == l.driven.end(),
+                       "joint '{}' must be a revolute joint without drive and friction", j.name);
+    LINKWRIGHT_REQUIRE(std::count(joints.begin(), joints.end(), joints[k]) == 1, "joint '{}' is given twice",
+                       j.name);
+  }
+}
 
 OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
                          std::span<const double> inputs) {

@@ -31,6 +31,9 @@ struct OpenLinkage {
   std::vector<double> start;
 };
 
+/// Throws ContractError unless all are revolute joints without drive and friction, each named once.
+void require_free_pins(const planar::Linkage& linkage, std::span<const int> joints);
+
 /// Takes the joints out. `inputs` are the values of the drives at the start, and the modes of the plan say
 /// how the whole linkage is assembled there. Inputs are added at joints that are left, those that make the
 /// most drivers and closed forms first, and at blocks that guide loose bodies over the ground. Throws

@@ -153,7 +153,8 @@ class Grammar {
     CLI::App& make = add("new", "write a study of a kind, to start from", Command::make);
     value(make, "KIND", arguments_.kind, "a kind of `linkwright catalogue`, or a part of its name")
         ->required();
-    value(make, "FILE", arguments_.file, "file to make (default: named after the kind; - = standard output)");
+    value(make, "-o,--out,FILE", arguments_.file,
+          "file to make (default: named after the kind; - = standard output)", "FILE");
   }
 
   void list_commands() {

@@ -1,6 +1,6 @@
 #include "linkwright/study/bind.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +136,12 @@ void ObjectReader::report_at(std::string_view key, std::string message, std::str
   }
   document_->report(Diagnostic::Severity::error, position, std::move(path), std::move(message),
                     std::move(hint));
+}
+
+void ObjectReader::no_such(std::string_view key, std::string_view thing, std::string_view name,
+                           const std::vector<std::string_view>& known) {
+  error(key, fmt::format("there is no {} '{}'", thing, name),
+        did_you_mean(name, known, fmt::format("there are: {}", fmt::join(known, ", "))));
 }
 
 void ObjectReader::unreadable(std::string_view key, std::string message, std::string hint) {

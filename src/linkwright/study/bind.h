@@ -142,6 +142,10 @@ class ObjectReader {
   /// An error of meaning at a key ("crank" finds crank_m or crank_mm): position and path are filled in. An
   /// absent key puts it at the table, an empty one names the table itself.
   void error(std::string_view key, std::string message, std::string hint = {});
+  /// An error at a key that names something which is not there: "there is no joint 'crnk'", with the nearest
+  /// of those that are, or all of them.
+  void no_such(std::string_view key, std::string_view thing, std::string_view name,
+               const std::vector<std::string_view>& known);
   /// An error that leaves others in its wake, such as two bodies of one name: those are dropped. At an absent
   /// key it is dropped itself where a misspelt one of the table may be the cause.
   void unreadable(std::string_view key, std::string message, std::string hint = {});

@@ -32,6 +32,10 @@ TEST(FunctionStudyRead, SaysWhatIsWrongWithTheFunction) {
   EXPECT_THAT(problems_of(function_study("function = \"power\"\nx = { from = 1, to = 2 }\n")),
               HasSubstr("power needs its exponent"));
   std::string said;
+  EXPECT_TRUE(test::prepare(function_study("function = \"sin\"\nx = { from = 0, to = 1.5 }\n"), said));
+  EXPECT_THAT(said,
+              HasSubstr("sin takes x in degrees: 0 to 1.5 is a small part of a turn; if radians are meant, "
+                        "write from = 0, to = 85.9437"));
   EXPECT_TRUE(test::prepare(function_study("function = \"sin\"\nx = { from = 0, to = 170 }\n"), said));
   EXPECT_THAT(said, HasSubstr("sin both rises and falls over the range"));
   EXPECT_THAT(problems_of(function_study("table = [[0, 0], [2, 1], [1, 3]]\n")), HasSubstr("x must rise"));

@@ -74,7 +74,7 @@ TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
 TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   const std::string good = compliance_study(rods());
   EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),
-              HasSubstr("compliance.joint[2].link: no link is called 'tie rot'; did you mean 'tie rod'?"));
+              HasSubstr("compliance.joint[2].link: there is no link 'tie rot'; did you mean 'tie rod'?"));
   EXPECT_THAT(
       problems_of(compliance_study("support = \"spring\"\n" + rods())),
       HasSubstr("compliance.support: the stiffness of the spring is not known; write stiffness_N_per_mm in"));
@@ -87,7 +87,7 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-US\"\n"
       "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
   EXPECT_THAT(problems_of(wishbone + rods()),
-              HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));
+              HasSubstr("there is no link 'lower front rod'; there are: lower wishbone"));
   EXPECT_THAT(problems_of(wishbone + rod("lower wishbone", 1)),
               HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is not a rod"));
 }

@@ -168,7 +168,7 @@ std::optional<int> joint_named(study::ObjectReader& table, std::string_view key,
   if (j >= 0) return j;
   std::vector<std::string_view> known;
   for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
-  table.error(key, fmt::format("there is no joint '{}'", name), did_you_mean(name, known));
+  table.no_such(key, "joint", name, known);
   return std::nullopt;
 }
 

@@ -127,7 +127,7 @@ std::optional<LengthTolerance> length_of(study::ObjectReader& table, const Lengt
   if (b < 0) {
     std::vector<std::string_view> known;
     for (const planar::LinkageBody& body : l.bodies) known.push_back(body.name);
-    table.error("body", fmt::format("there is no body '{}'", form.body), did_you_mean(form.body, known));
+    table.no_such("body", "body", form.body, known);
     return std::nullopt;
   }
   const planar::LinkageBody& body = l.bodies[at(b)];

@@ -6,20 +6,16 @@
 #include <vector>
 
 #include "linkwright/core/csv.h"
-#include "linkwright/core/units.h"
+#include "linkwright/core/quantity_columns.h"
 
 namespace linkwright::parallel {
 namespace {
 
-struct Wanted {
-  std::string_view base;
-  Dimension dimension;
-};
-constexpr Wanted columns[] = {{"time", Dimension::time},        {"x", Dimension::length},
-                              {"y", Dimension::length},         {"z", Dimension::length},
-                              {"rotation_x", Dimension::angle}, {"rotation_y", Dimension::angle},
-                              {"rotation_z", Dimension::angle}, {"roll", Dimension::angle},
-                              {"pitch", Dimension::angle},      {"yaw", Dimension::angle}};
+constexpr QuantityColumn columns[] = {{"time", Dimension::time},        {"x", Dimension::length},
+                                      {"y", Dimension::length},         {"z", Dimension::length},
+                                      {"rotation_x", Dimension::angle}, {"rotation_y", Dimension::angle},
+                                      {"rotation_z", Dimension::angle}, {"roll", Dimension::angle},
+                                      {"pitch", Dimension::angle},      {"yaw", Dimension::angle}};
 enum Place { time, x, y, z, rotation_x, rotation_y, rotation_z, roll, pitch, yaw, places };
 
 // Beyond it the digits of a double no longer separate neighbouring positions.
@@ -36,52 +32,27 @@ std::optional<ToolTable> read_tool_table(std::string_view text, const std::strin
     diagnostics.push_back(
         {.file = file, .key = std::move(key), .message = std::move(message), .hint = std::move(hint)});
   };
-  std::vector<double> values[places];
-  bool given[places] = {};
-  for (const Column& column : table->columns) {
-    const auto key = split_unit(column.key);
-    const Wanted* wanted = nullptr;
-    for (const Wanted& w : columns)
-      if (column.key == w.base || (key && key->base == w.base)) wanted = &w;
-    if (!wanted) {
-      complain(column.key, "unknown column",
-               "columns are time, x, y, z and rotation_x, rotation_y, rotation_z or roll, pitch, yaw, each "
-               "with its unit");
-      continue;
+  const Quantities found = read_quantities(
+      *table, columns, "time, x, y, z and rotation_x, rotation_y, rotation_z or roll, pitch, yaw", file,
+      diagnostics);
+  const std::vector<std::vector<double>>& values = found.values;
+  for (int k = 0; k < places; ++k)
+    for (std::size_t i = 0; i < values[k].size(); ++i) {
+      const double v = values[k][i];
+      if (std::abs(v) <= most) continue;
+      complain(found.keys[k], std::isnan(v)
+                                  ? fmt::format("row {} holds no number", i + 1)
+                                  : fmt::format("row {} holds {:g}, more than {:g} in SI units", i + 1,
+                                                table->find(found.keys[k])->values[i], most));
+      break;
     }
-    const Unit* unit = key ? find_unit(wanted->dimension, key->unit->suffix) : nullptr;
-    if (!unit) {
-      complain(column.key, fmt::format("needs the unit of {}", describe(wanted->dimension)),
-               fmt::format("write {}", si_key(wanted->base, wanted->dimension)));
-      continue;
-    }
-    const auto place = wanted - columns;
-    if (given[place]) {
-      complain(column.key, fmt::format("{} is given twice", wanted->base));
-      continue;
-    }
-    given[place] = true;
-    for (std::size_t i = 0; i < column.values.size(); ++i) {
-      const double v = values[place].emplace_back(unit->to_si(column.values[i]));
-      if (std::isnan(v)) {
-        complain(column.key, fmt::format("row {} holds no number", i + 1));
-        break;
-      }
-      if (std::abs(v) > most) {
-        complain(column.key,
-                 fmt::format("row {} holds {:g}, more than {:g} in SI units", i + 1, column.values[i], most));
-        break;
-      }
-    }
-  }
+  const auto given = [&](int k) { return !found.keys[k].empty(); };
   if (!table->names.empty()) complain("name", "unknown column", "rows of points have no names");
-  const bool turns = given[rotation_x] || given[rotation_y] || given[rotation_z];
-  const bool rolls = given[roll] || given[pitch] || given[yaw];
+  const bool turns = given(rotation_x) || given(rotation_y) || given(rotation_z);
+  const bool rolls = given(roll) || given(pitch) || given(yaw);
   for (int k = 0; k < places; ++k) {
     const bool needed = k <= z || (k <= rotation_z ? turns : rolls);
-    if (needed && !given[k])
-      complain(std::string(columns[k].base), "column is missing",
-               fmt::format("add {}", si_key(columns[k].base, columns[k].dimension)));
+    if (needed && !given(k)) report_missing(columns[k], file, diagnostics);
   }
   if (turns && rolls)
     complain("roll", "the rotation is given twice",

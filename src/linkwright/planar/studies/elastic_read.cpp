@@ -59,7 +59,7 @@ std::vector<ElasticBody> read_elastic(study::ObjectReader& document, const Linka
     if (form.beam.body < 0) {
       std::vector<std::string_view> known;
       for (std::size_t b = 1; b < l.bodies.size(); ++b) known.push_back(l.bodies[b].name);
-      entry.error("body", fmt::format("there is no body '{}'", form.body), did_you_mean(form.body, known));
+      entry.no_such("body", "body", form.body, known);
       continue;
     }
     form.beam.from = point_of(entry, l.bodies[at(form.beam.body)], "from", form.from);

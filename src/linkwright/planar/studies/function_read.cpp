@@ -156,6 +156,8 @@ void set_points(study::ObjectReader& target, FunctionStudy& s) {
   }
 }
 
+bool takes_degrees(Formula f) { return f == Formula::sin || f == Formula::cos || f == Formula::tan; }
+
 void set_function(study::ObjectReader& target, FunctionStudy& s) {
   FunctionProblem& p = s.problem;
   const double output_range = p.slider ? s.target.output_length : s.target.output_angle;
@@ -166,6 +168,13 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
     target.error("x", "the range of x is not more than a point", "write from and to that differ");
     return;
   }
+  if (s.target.function && takes_degrees(*s.target.function) &&
+      std::max(std::abs(s.x_from), std::abs(s.x_to)) <= 2 * pi)
+    target.warning("x",
+                   fmt::format("{} takes x in degrees: {:.4g} to {:.4g} is a small part of a turn", s.name,
+                               s.x_from, s.x_to),
+                   fmt::format("if radians are meant, write from = {:.6g}, to = {:.6g}",
+                               math::degrees(s.x_from), math::degrees(s.x_to)));
   if (s.target.input_range == 0 && target.has(Field{.key = "input_range", .dimension = Dimension::angle}))
     target.error("input_range", "the crank does not turn", "write a rotation other than 0");
   if (output_range == 0 &&

@@ -208,8 +208,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     if (j < 0) {
       std::vector<std::string_view> known;
       for (const LinkageJoint& k : l.joints) known.push_back(k.name);
-      drive.error("joint", fmt::format("there is no joint '{}'", joint),
-                  did_you_mean(joint, known, fmt::format("there are: {}", fmt::join(known, ", "))));
+      drive.no_such("joint", "joint", joint, known);
       good = false;
     } else if (!own_drives) {
       l.driven.push_back(j);

@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>
@@ -88,9 +88,7 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
     const auto at = std::find(known.begin(), known.end(), drive.link);
     if (at == known.end()) {
       if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
-      tables[i].error(
-          "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
-          did_you_mean(drive.link, known));
+      tables[i].no_such("link", "link", drive.link, known);
       all_known = false;
       continue;
     }

@@ -7,22 +7,18 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/core/units.h"
+#include "linkwright/core/quantity_columns.h"
 
 namespace linkwright::suspension {
 namespace {
 
-struct Wanted {
-  std::string_view base;
-  Dimension dimension;
-  bool needed;
-};
-constexpr Wanted columns[] = {
-    {"travel", Dimension::length, false},  {"rack", Dimension::length, false},
-    {"centre_x", Dimension::length, true}, {"centre_y", Dimension::length, true},
-    {"centre_z", Dimension::length, true}, {"toe", Dimension::angle, true},
-    {"camber", Dimension::angle, true},    {"carrier_pitch", Dimension::angle, false}};
+constexpr QuantityColumn columns[] = {
+    {"travel", Dimension::length},   {"rack", Dimension::length},
+    {"centre_x", Dimension::length}, {"centre_y", Dimension::length},
+    {"centre_z", Dimension::length}, {"toe", Dimension::angle},
+    {"camber", Dimension::angle},    {"carrier_pitch", Dimension::angle, "spin"}};
 enum Place { travel, rack, x, y, z, toe, camber, carrier_pitch, places };
+constexpr bool is_needed(int place) { return place >= x && place <= camber; }
 
 // Travel is written beside the centre for people; a file in which they disagree by more than what rounding to
 // a micrometre makes was put together wrongly.
@@ -48,40 +44,18 @@ std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Tabl
     diagnostics.push_back(
         {.file = file, .key = std::move(key), .message = std::move(message), .hint = std::move(hint)});
   };
-  std::vector<double> values[places];
-  for (const Column& column : table.columns) {
-    const auto key = split_unit(column.key);
-    const Wanted* wanted = nullptr;
-    std::string_view base = key ? key->base : std::string_view(column.key);
-    if (base == "spin") base = "carrier_pitch";  // as it was called before
-    for (const Wanted& w : columns)
-      if (base == w.base) wanted = &w;
-    if (!wanted) {
-      complain(column.key, "unknown column",
-               "columns are travel, rack, centre_x, centre_y, centre_z, toe, camber and carrier_pitch, each "
-               "with its unit");
-      continue;
-    }
-    const Unit* unit = key ? find_unit(wanted->dimension, key->unit->suffix) : nullptr;
-    if (!unit) {
-      complain(column.key, fmt::format("needs the unit of {}", describe(wanted->dimension)),
-               fmt::format("write {}", si_key(wanted->base, wanted->dimension)));
-      continue;
-    }
-    std::vector<double>& to = values[wanted - columns];
-    if (!to.empty()) {
-      complain(column.key, fmt::format("{} is given twice", wanted->base));
-      continue;
-    }
-    for (const double v : column.values) to.push_back(unit->to_si(v));
-    for (std::size_t i = 0; i < to.size(); ++i)
-      if (!std::isfinite(to[i]) && wanted->base != "carrier_pitch")
-        complain(column.key, fmt::format("row {} holds no number", i + 1));
+  const Quantities found = read_quantities(
+      table, columns, "travel, rack, centre_x, centre_y, centre_z, toe, camber and carrier_pitch", file,
+      diagnostics);
+  const std::vector<std::vector<double>>& values = found.values;
+  for (int k = 0; k < places; ++k) {
+    if (k != carrier_pitch)
+      for (std::size_t i = 0; i < values[k].size(); ++i)
+        if (!std::isfinite(values[k][i]))
+          complain(found.keys[k], fmt::format("row {} holds no number", i + 1));
+    if (found.keys[k].empty() && is_needed(k) && table.rows() > 0)
+      report_missing(columns[k], file, diagnostics);
   }
-  for (int k = 0; k < places; ++k)
-    if (values[k].empty() && columns[k].needed && table.rows() > 0)
-      complain(std::string(columns[k].base), "column is missing",
-               fmt::format("add {}", si_key(columns[k].base, columns[k].dimension)));
   if (table.rows() == 0) complain({}, "holds no positions");
   if (diagnostics.size() == before)
     for (std::size_t i = 0; i < values[travel].size(); ++i) {

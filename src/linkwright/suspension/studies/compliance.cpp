@@ -1,6 +1,6 @@
 #include "linkwright/suspension/studies/compliance.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -214,8 +214,8 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     };
     const int link = link_index(guide, j.link);
     if (link < 0) {
-      wrong("link", fmt::format("no link is called '{}'", j.link),
-            did_you_mean(j.link, known, fmt::format("there are: {}", fmt::join(known, ", "))));
+      joints[i].no_such("link", "link", j.link, known);
+      good = false;
       continue;
     }
     const LinkType type = guide.links[static_cast<std::size_t>(link)].type;

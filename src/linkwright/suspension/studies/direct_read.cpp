@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/quantity_columns.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
@@ -45,8 +46,7 @@ std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGu
         if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
       }
   const std::vector<std::string_view> words(known.begin(), known.end());
-  table.error("point", fmt::format("no point is called '{}'; there are: {}", label, fmt::join(known, ", ")),
-              did_you_mean(label, words));
+  table.no_such("point", "point", label, words);
   return std::nullopt;
 }
 
@@ -57,8 +57,7 @@ std::optional<int> find_link(study::ObjectReader& table, std::string_view key, c
     if (guide.links[i].name == name) return static_cast<int>(i);
     known.emplace_back(guide.links[i].name);
   }
-  table.error(key, fmt::format("no link is called '{}'; there are: {}", name, fmt::join(known, ", ")),
-              did_you_mean(name, known));
+  table.no_such(key, "link", name, known);
   return std::nullopt;
 }
 
@@ -100,16 +99,7 @@ class TargetReader {
   /// A column of the file in SI.
   std::optional<std::vector<double>> column(const std::string& base, Dimension dimension) const {
     if (!table_) return std::nullopt;
-    for (const Column& c : table_->columns) {
-      const auto key = split_unit(c.key);
-      if (dimension == Dimension::none ? c.key != base
-                                       : !key || key->base != base || key->dimension != dimension)
-        continue;
-      std::vector<double> out;
-      for (const double v : c.values) out.push_back(dimension == Dimension::none ? v : key->unit->to_si(v));
-      return out;
-    }
-    return std::nullopt;
+    return quantity(*table_, base, dimension);
   }
 
   /// One value for each position, from one for all of them.

@@ -236,7 +236,7 @@ class GuideReader {
     }
     for (const GuideLinkForm& form : form_.links)
       if (form.name == name) return -1;  // it is there, and what is wrong with it has been said
-    table.error(key, fmt::format("no link is called '{}'", name), did_you_mean(name, known));
+    table.no_such(key, "link", name, known);
     return -1;
   }
 
