@@ -163,6 +163,23 @@ TEST(Study, UnknownKeysOnEveryLevel) {
           "output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
 }
 
+TEST(Study, KeysOfOtherTablesAreSentHome) {
+  EXPECT_EQ(messages("to_deg = 90", "to_deg = 90\nmode = 'done'"),
+            "s.toml:12:1: error: target.mode: unknown key; it belongs in [mechanism]\n");
+  EXPECT_EQ(messages("to_deg = 90", "to_deg = 90\nsource = 'a book'"),
+            "s.toml:12:1: error: target.source: unknown key; it belongs at the top of the file, before the "
+            "first table\n");
+  EXPECT_EQ(messages("to_deg = 90", "to_deg = 90\n[target.output]\nsamples = 3"),
+            "s.toml:12:9: error: target.output: unknown key; it belongs in [output]\n");
+  // One mistake, one message: the table they belong in is missing because they are elsewhere.
+  EXPECT_EQ(messages("title = \"A lever\"\n\n[mechanism]\ntype = \"sample.lever\"\nlength_mm = 400\n",
+                     "length_mm = 400\nmode = 'done'\n"),
+            "s.toml:4:1: error: length_mm: unknown key; it belongs in [mechanism], with mode\n");
+  // Where several tables know a key, nobody can tell which is meant.
+  EXPECT_THAT(messages("[mechanism]", "type = 'x'\n[mechanism]"),
+              HasSubstr("type: unknown key; allowed here: "));
+}
+
 TEST(Study, OutputWords) {
   EXPECT_EQ(messages("[optimiser]", "[output]\nformats = ['jsn']\n[optimiser]"),
             "s.toml:15:12: error: output.formats[0]: is 'jsn', must be one of: json, csv, html, svg, dxf; "

@@ -55,7 +55,8 @@ class DocumentReader {
 
   /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
   /// everything has been read. Where a reader gave up because of an error, it has not asked for all keys:
-  /// then those that `schema` (JSON Schema of the document) allows are not unknown.
+  /// then those that `schema` (JSON Schema of the document) allows are not unknown. It also says to which
+  /// table an unknown key belongs.
   void finish(const std::function<Value()>& schema = nullptr);
 
   void report(Diagnostic::Severity severity, Position position, std::string key, std::string message,
@@ -90,6 +91,7 @@ class DocumentReader {
   void finish_object(const Value& value, const std::vector<const Value*>& schemas);
   void finish_unknown(const Value& table, Record& record, const std::vector<const Value*>& schemas);
   void finish_missing(const Value& table, Record& record);
+  bool has_unknown() const;
   void poison(std::string_view path);
   void drop_follow_ups();
 
@@ -102,6 +104,8 @@ class DocumentReader {
   std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
   std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
   std::size_t unknown_ = 0;
+  Value schema_;  // of the document, where it is needed to judge the unknown keys
+  bool gave_up_ = false;
 };
 
 /// One table of a document; cheap to copy, valid as long as its DocumentReader. It is also the visitor that

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -71,6 +72,33 @@ std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, s
   return all;
 }
 
+// The tables and lists of tables at and below `path` that know a key, as their headers are written; the
+// document itself is "".
+void find_homes(const std::vector<const Value*>& schemas, std::string_view key, const std::string& path,
+                bool list, std::set<std::string>& homes) {
+  if (!members_of(schemas, key).empty())
+    homes.insert(path.empty() ? std::string() : (list ? "[[" : "[") + path + (list ? "]]" : "]"));
+  for (const Value* schema : schemas) {
+    const Value* properties = schema->find("properties");
+    if (!properties) continue;
+    for (const Value::Member& member : properties->as_object()) {
+      const std::vector<const Value*> parts = alternatives_of(member.value), elements = elements_of(parts);
+      find_homes(elements.empty() ? parts : elements, key, join_path(path, member.key), !elements.empty(),
+                 homes);
+    }
+  }
+}
+
+// Where a member that its table does not know belongs, if there is only one place.
+std::string home_of(const Value::Member& member, const Value& schema) {
+  std::set<std::string> homes;
+  find_homes(alternatives_of(schema), member.key, {}, false, homes);
+  if (homes.size() != 1) return {};
+  if (!homes.begin()->empty()) return *homes.begin();
+  if (member.value.is_object()) return fmt::format("[{}]", member.key);
+  return member.value.is_array() ? std::string() : "the top of the file, before the first table";
+}
+
 }  // namespace
 
 DocumentReader::DocumentReader(const Value& document, std::string file, Diagnostics& diagnostics)
@@ -100,6 +128,15 @@ void DocumentReader::error(Diagnostic problem) {
 bool DocumentReader::has_errors() const {
   return std::any_of(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
                      [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+}
+
+bool DocumentReader::has_unknown() const {
+  for (const auto& [table, record] : records_) {
+    if (!table->is_object()) continue;
+    for (const Value::Member& member : table->as_object())
+      if (std::find(record.used.begin(), record.used.end(), &member) == record.used.end()) return true;
+  }
+  return false;
 }
 
 void DocumentReader::poison(std::string_view path) {
@@ -144,7 +181,7 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
   for (const Value::Member& member : table.as_object()) {
     if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) continue;
     // Known, but the reader gave up before it came to it.
-    if (!members_of(schemas, member.key).empty()) continue;
+    if (gave_up_ && !members_of(schemas, member.key).empty()) continue;
     if (++unknown_ > most_unknown_keys) continue;
     // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
     // is more likely than one that may be left out.
@@ -166,9 +203,26 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
       misspelt_choice = meant;
   }
   record.misspelt = record.misspelt || misspelt_choice;
+  std::map<std::string, std::size_t> homes;  // of keys of another table, and the diagnostic that names them
   for (const auto& [member, meant] : all) {
     // What there is beside a choice is not known without it.
     if (misspelt_choice && meant != misspelt_choice) continue;
+    if (const std::string home = meant ? std::string() : home_of(*member, schema_); !home.empty()) {
+      const auto [first, fresh] = homes.try_emplace(home, diagnostics_.size());
+      if (!fresh) {
+        diagnostics_[first->second].hint += ", with " + member->key;
+        continue;
+      }
+      // A table that is missing is named once.
+      std::erase_if(record.missing, [&](const Known& m) {
+        const std::string path = join_path(record.path, m.base);
+        return home == "[" + path + "]" || home == "[[" + path + "]]";
+      });
+      poison(join_path(record.path, member->key));
+      report(Diagnostic::Severity::error, member->key_position, join_path(record.path, member->key),
+             "unknown key", (home.starts_with("[") ? "it belongs in " : "it belongs at ") + home);
+      continue;
+    }
     std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
     if (meant) {
       const auto parts = split_unit(member->key);
@@ -219,8 +273,9 @@ void DocumentReader::drop_follow_ups() {
 }
 
 void DocumentReader::finish(const std::function<Value()>& schema) {
-  const Value described = schema && has_errors() ? schema() : Value();
-  finish_object(document_, described.is_object() ? alternatives_of(described) : std::vector<const Value*>());
+  gave_up_ = has_errors();
+  if (schema && (gave_up_ || has_unknown())) schema_ = schema();
+  finish_object(document_, schema_.is_object() ? alternatives_of(schema_) : std::vector<const Value*>());
   drop_follow_ups();
   if (unknown_ > most_unknown_keys)
     report(Diagnostic::Severity::error, {}, {},

@@ -74,6 +74,14 @@ TEST(FourBarStudyRead, NamesWhatIsWrongWithTheLinkage) {
               HasSubstr("is 'any', must be one of: open, crossed"));
 }
 
+TEST(FourBarStudyRead, SendsLengthsToTheirTable) {
+  EXPECT_EQ(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.four_bar\"\n"
+                        "ground_mm = 100\ncrank_mm = 40\ncoupler_mm = 120\nrocker_mm = 90\n"),
+            "s.toml:5:1: error: mechanism.ground_mm: unknown key; it belongs in [mechanism.parameters], with "
+            "crank_mm, "
+            "coupler_mm, rocker_mm\n");
+}
+
 TEST(FourBarStudyRead, NamesWhatIsWrongWithTheMasses) {
   EXPECT_THAT(problems({{"4 mass",
                          "[mechanism.mass]\n"
