@@ -72,8 +72,9 @@ TEST(ExactPathRead, PointsAreDifferentAndHaveNeitherAnglesNorTolerances) {
   EXPECT_THAT(problems_of(exact("", again)), HasSubstr("point 8 repeats point 3; give different points"));
   EXPECT_THAT(
       problems_of(exact("", std::string(nine) + "timing = { mode = \"equal_steps\", step_deg = 10 }\n")),
-      HasSubstr("target.timing: fit = \"exact\" takes points without crank angles; write timing = { mode = "
-                "\"free\" }"));
+      HasSubstr(
+          "target.points_m: 9 points with crank angles are more than a four-bar passes exactly, which are "
+          "5; leave some out, or use what searches"));
   EXPECT_THAT(problems_of(exact("", std::string(nine) + "tolerance_mm = 1\n")),
               HasSubstr("fit = \"exact\" passes its points without tolerance"));
   EXPECT_THAT(
@@ -165,6 +166,62 @@ TEST(ExactPathRun, AllFourBarsOnTwoPivotsThroughFivePoints) {
               HasSubstr("13 change branch on the way, 1 circuit, 1 meet them in another order"));
   EXPECT_EQ(result.solutions.size(), 6U);
   EXPECT_THAT(result.solutions[0].defects.as_array()[0].as_string(), HasSubstr("order: "));
+}
+
+// Points of a four-bar with the rotation of its crank at each.
+constexpr const char* timed =
+    "points_m = [[0.534076456244, 0.672591579218], [0.390551283247, 0.876273394174], [0.000445718794234, "
+    "0.709594706752], [-0.177196865593, 0.324818175336], [-0.015446106806, 0.122331046183]]\n"
+    "closed = false\n"
+    "timing = { mode = \"given\", angles_deg = [20, 75, 140, 205, 290] }\n";
+
+TEST(ExactPathRead, CountsTimedPointsAndPivots) {
+  EXPECT_THAT(
+      problems_of(exact(pivots, timed)),
+      HasSubstr("5 points with crank angles and a given pivot are more than a four-bar passes exactly, "
+                "which are 3; leave the pivots free, leave some out"));
+  EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0\n", timed)),
+              HasSubstr("fit = \"exact\" takes a fixed pivot as two numbers"));
+  std::string same = timed;
+  same.replace(same.find("[20, 75"), 7, "[75, 75");
+  EXPECT_THAT(problems_of(exact("", same)), HasSubstr("the crank angles of points 1 and 2 are the same"));
+}
+
+TEST(ExactPathRun, TwelveFourBarsThroughFiveTimedPoints) {
+  const study::Result result = run_text(exact("", timed));
+  EXPECT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_EQ(count(result, "cranks"), 4);
+  EXPECT_EQ(count(result, "real_cranks"), 4);
+  EXPECT_EQ(count(result, "real_classes"), 6);
+  EXPECT_EQ(count(result, "designs"), 12);
+  EXPECT_EQ(result.statistics.find("completeness")->as_string(), "complete_uncertified");
+  EXPECT_THAT(result.headline, HasSubstr("4 of 4 cranks that hold the 5 points at their angles are real; 12 "
+                                         "four-bars on 6 coupler curves have them."));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_TRUE(result.solutions[0].defects.as_array().empty());
+  EXPECT_LT(result.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), 1e-18);
+  // Rotations of the crank from point to point, by the solver of the four-bar.
+  const Column* angle = result.table("points")->find("crank_angle_rad");
+  EXPECT_NEAR(angle->values[4] - angle->values[0], 270 * pi / 180, 1e-12);
+}
+
+TEST(ExactPathRun, OppositeRotationsAreAnotherProblem) {
+  const study::Result result = run_text(exact("sense = \"any\"\n", timed));
+  EXPECT_EQ(count(result, "cranks"), 8);
+  EXPECT_GE(count(result, "designs"), 12);
+}
+
+TEST(ExactPathRun, FourTimedPointsAreSwept) {
+  const study::Result result = run_text(
+      exact("",
+            "points_m = [[0, 0], [0.4, 0.1], [0.7, 0.3], [0.9, 0.6]]\nclosed = false\ntiming = { mode = "
+            "\"equal_steps\", step_deg = 20 }\n"));
+  EXPECT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_THAT(result.headline,
+              HasSubstr("Infinitely many four-bars pass the 4 points at their crank angles"));
+  EXPECT_EQ(result.statistics.find("completeness")->as_string(), "sample");
+  EXPECT_GT(count(result, "defect_free"), 3);
+  EXPECT_LT(result.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), 1e-12);
 }
 
 TEST(ExactPathRun, SevenPointsOnALineHaveNoSolution) {

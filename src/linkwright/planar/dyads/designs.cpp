@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/dyads/family.h"
 #include "linkwright/planar/dyads/pose_fit.h"
 
 namespace linkwright::planar {
@@ -17,9 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // Directions of the lines by which one condition, and two, are swept.
-constexpr int directions_of_one = 120, directions_of_two = 18;
-// Swept dyads with pivots or links farther than this times the size of the motion are left out.
-constexpr double far = 5;
+constexpr DyadSweep pose_sweep{.one = 120, .two = 18};
 // Links and pivots nearer than this, times the size, are one.
 constexpr double no_link = 1e-6;
 // Swept designs whose four pivots are not this far apart in all, times the size, are one.
@@ -31,65 +30,17 @@ constexpr int random_starts = 120;
 // Starts farther than this from the poses, times the size, are not fitted.
 constexpr double near_start = 0.5;
 
-Complex middle_of(const std::vector<BodyPose>& poses) {
-  Complex sum = 0;
-  for (const BodyPose& pose : poses) sum += pose.origin;
-  return sum / static_cast<double>(poses.size());
-}
-
 bool wanted(const PoseProblem& p, const GuidingDyad& dyad) {
   return std::find(p.types.begin(), p.types.end(), dyad.type) != p.types.end();
 }
 
-// A link of some length within reach, or a slide.
-bool usable(const GuidingDyad& dyad, Complex middle, double size, double reach) {
-  if (dyad.type == GuidingDyadType::rr && !(dyad.length > no_link * size)) return false;
-  const double most = dyad.type == GuidingDyadType::pr
-                          ? std::abs(dyad.moving)
-                          : std::max(std::abs(dyad.fixed - middle), std::abs(dyad.moving));
-  return most <= reach * size;
-}
-
-// All dyads of one prescription, a condition that is missing replaced by lines in all directions.
+// All dyads of one prescription that are allowed.
 std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& solutions, bool& dependent) {
-  const Prescription& given = p.pivots[which];
-  const int missing = freedoms(p, which);
-  const Complex middle = middle_of(p.poses);
-  const double size = size_of_motion(p.poses);
-  std::vector<GuidingDyad> out;
-  const auto take = [&](const Prescription& prescription) {
-    const GuidingDyads dyads = solve_dyads(p.poses, prescription);
-    solutions += dyads.solutions;
-    dependent = dependent || dyads.status == Status::singular;
-    for (const GuidingDyad& dyad : dyads.real())
-      if (wanted(p, dyad) && usable(dyad, middle, size, missing > 0 ? far : infinity)) out.push_back(dyad);
-  };
-  const bool fixed_free = !given.fixed && !given.fixed_line;
-  const auto line = [](Complex point, int k, int count) {
-    return PivotLine{point, std::polar(1.0, pi * k / count)};
-  };
-  if (missing == 0) take(given);
-  if (missing == 1)
-    for (int k = 0; k < directions_of_one; ++k) {
-      Prescription swept = given;
-      // Lines through one point meet every other point of the plane once.
-      (fixed_free ? swept.fixed_line : swept.moving_line) =
-          line(fixed_free ? middle : Complex(0), k, directions_of_one);
-      take(swept);
-    }
-  if (missing == 2)
-    for (int k = 0; k < directions_of_two; ++k)
-      for (int l = 0; l < directions_of_two; ++l) {
-        Prescription swept = given;
-        swept.fixed_line = line(middle, k, directions_of_two);
-        swept.moving_line = line(0, l, directions_of_two);
-        take(swept);
-      }
-  if (p.poses.size() == 4 && missing == 1)
-    for (const GuidingDyadType type : {GuidingDyadType::pr, GuidingDyadType::rp})
-      if (const auto slide = slide_dyad(p.poses, type); slide && slide->type == type && wanted(p, *slide))
-        out.push_back(*slide);
-  return out;
+  DyadFamily found = dyad_family(p.poses, p.pivots[which], pose_sweep);
+  solutions += found.solutions;
+  dependent = dependent || found.dependent;
+  std::erase_if(found.dyads, [&](const GuidingDyad& dyad) { return !wanted(p, dyad); });
+  return std::move(found.dyads);
 }
 
 // Two dyads that hold the body: not one twice, nor two that turn it about one point or shift it along one
@@ -253,22 +204,14 @@ class Finder {
 
 }  // namespace
 
-double size_of_motion(const std::vector<BodyPose>& poses) {
-  const Complex middle = middle_of(poses);
-  double sum = 0;
-  for (const BodyPose& pose : poses) sum += std::norm(pose.origin - middle);
-  const double rms = std::sqrt(sum / static_cast<double>(poses.size()));
-  return rms > 0 ? rms : 1;
-}
-
 int freedoms(const PoseProblem& problem, std::size_t dyad) {
-  return 5 - static_cast<int>(problem.poses.size()) - poses_replaced(problem.pivots[dyad]);
+  return open_numbers(problem.poses.size(), problem.pivots[dyad]);
 }
 
 PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context) {
   for (const std::size_t dyad : {std::size_t{0}, std::size_t{1}})
     LINKWRIGHT_REQUIRE(
-        !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= most_freedoms),
+        !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= most_open_numbers),
         "dyad {} has {} freedoms", dyad + 1, freedoms(problem, dyad));
   LINKWRIGHT_REQUIRE(problem.exact || problem.poses.size() >= 5, "{} poses", problem.poses.size());
   return Finder(problem, context).find();

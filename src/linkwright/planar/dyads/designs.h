@@ -5,6 +5,7 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
+#include "linkwright/planar/dyads/family.h"
 #include "linkwright/planar/dyads/passage.h"
 #include "linkwright/planar/dyads/solve.h"
 
@@ -19,13 +20,8 @@ struct PoseProblem {
   double angle_length = 0;  ///< m: what a rotation of a radian counts as (not exact); 0 = size of the motion
   int most_designs = 12;
 };
-/// Root mean square distance of the places from their middle (m).
-double size_of_motion(const std::vector<BodyPose>& poses);
-
-/// How many conditions a dyad lacks for a finite number of solutions: 5 - poses - what is prescribed. One
-/// or two are swept.
+/// How many conditions a dyad lacks for a finite number of solutions; up to most_open_numbers are swept.
 int freedoms(const PoseProblem& problem, std::size_t dyad);
-inline constexpr int most_freedoms = 2;
 
 struct PoseDesign {
   GuidingDyad driver, other;

@@ -19,6 +19,15 @@ std::complex<double> target_point(const PathProblem& problem, std::size_t k) {
   return {problem.x[k], problem.y[k]};
 }
 
+// Designs of a sweep whose lengths and pivots are not this far apart in all, times the size of the points,
+// are one.
+constexpr double same_swept_design = 0.3;
+
+double distance_between(const FourBar& a, const FourBar& b) {
+  return std::abs(a.ground - b.ground) + std::abs(a.crank - b.crank) + std::abs(a.coupler - b.coupler) +
+         std::abs(a.rocker - b.rocker) + std::abs(a.pivot_x - b.pivot_x) + std::abs(a.pivot_y - b.pivot_y);
+}
+
 // e^(i gamma) of the coupler's turn from the first point to `point`, which it passes.
 std::complex<double> coupler_turn(const TracingFourBar& bars, const std::complex<double>& first,
                                   const std::complex<double>& point) {
@@ -74,7 +83,7 @@ bool one_rocking_interval(const PathDesign& design) {
 
 }  // namespace
 
-ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve) {
+ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve, double sense) {
   const std::complex<double> ground = bars.rocker_pivot - bars.crank_pivot,
                              coupler = bars.rocker_pin - bars.crank_pin, first = target_point(problem, 0);
   FourBar linkage;
@@ -102,9 +111,11 @@ ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars,
     if (k == 0) linkage.branch = branch;
     if (changed == 0 && branch != linkage.branch) changed = k;
   }
-  const double sense = turned_in_all(angles, -1) < turned_in_all(angles, 1) ? -1 : 1;
+  if (problem.timing == Timing::free) sense = turned_in_all(angles, -1) < turned_in_all(angles, 1) ? -1 : 1;
   for (std::size_t k = 1; k < angles.size(); ++k)
-    angles[k] = angles[k - 1] + sense * forward_step(sense, angles[k - 1], angles[k]);
+    angles[k] = problem.timing == Timing::free
+                    ? angles[k - 1] + sense * forward_step(sense, angles[k - 1], angles[k])
+                    : angles[0] + sense * (point_angle(problem, k) - point_angle(problem, 0));
 
   ExactDesign out;
   out.curve = curve;
@@ -186,6 +197,27 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePoi
     out.push_back(exact_design(problem, solutions.real[i], static_cast<int>(i)));
   sort_exact_designs(problem, out);
   return out;
+}
+
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPointSolutions& solutions,
+                                       double sense) {
+  std::vector<ExactDesign> out;
+  for (std::size_t i = 0; i < solutions.found.size(); ++i)
+    out.push_back(exact_design(problem, solutions.found[i],
+                               solutions.swept ? static_cast<int>(i) : solutions.curve[i], sense));
+  sort_exact_designs(problem, out);
+  if (!solutions.swept) return out;
+  const double apart = same_swept_design * path_size(problem);
+  std::vector<ExactDesign> kept;
+  for (ExactDesign& design : out) {
+    if (kept.size() == most_swept_designs) break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const ExactDesign& k) {
+          return distance_between(k.design.linkage, design.design.linkage) < apart;
+        }))
+      kept.push_back(std::move(design));
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i].curve = static_cast<int>(i);
+  return kept;
 }
 
 }  // namespace linkwright::planar

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/exact/timed_points.h"
 #include "linkwright/planar/path/defects.h"
 
 namespace linkwright::planar {
@@ -16,8 +17,9 @@ struct ExactDesign {
 };
 
 /// A four-bar that passes the points of a problem, with the crank on its first pivot: crank angles from the
-/// turn of the coupler, not from the branch, so that points on the other branch are found out.
-ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve);
+/// turn of the coupler, not from the branch, so that points on the other branch are found out. The sense is
+/// the one that turns less; where the problem has a timing, that of `sense`.
+ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve, double sense = 1);
 
 /// Every cognate of the real classes with either of its cranks as the driver, best first: without defects
 /// before order, circuit and branch, then a crank that rotates fully, then the larger transmission angle on
@@ -25,6 +27,11 @@ ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars,
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePointSolutions& solutions);
 /// The same of five points, where the pivots say which link drives.
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePointSolutions& solutions);
+/// The same where the problem has a timing, whose rotations times `sense` they were solved for. Of a sweep
+/// those that differ, `most_swept_designs` at most.
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPointSolutions& solutions,
+                                       double sense);
+inline constexpr std::size_t most_swept_designs = 60;
 
 /// How far a design is from tracing the points: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.
 int severity(const ExactDesign& design);

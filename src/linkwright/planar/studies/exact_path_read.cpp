@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/exact/timed_points.h"
 #include "linkwright/planar/studies/exact_path.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t free_points = 9, points_with_pivots = 5;
+constexpr std::size_t free_points = 9, points_with_pivots = 5, timed_with_pivots = 3;
 constexpr const char* search_instead = "fit = \"least_squares\" searches for the nearest four-bars";
 // Far from the origin the differences of the points lose their digits.
 constexpr double least_spread = 1e-9;
@@ -30,7 +32,15 @@ std::array<const std::optional<Range>*, 4> pivot_numbers(const PathParameters& p
           &p.rocker_pivot_x, &p.rocker_pivot_y};
 }
 
-// Whether both pivots are given; what else stands among the parameters is reported.
+// Whether a pivot is given by two numbers, by none, or by what no exact solution takes.
+enum class GivenPivot { none, place, other };
+GivenPivot given_pivot(const std::optional<Range>& x, const std::optional<Range>& y) {
+  if (!x && !y) return GivenPivot::none;
+  return x && y && x->fixed() && y->fixed() ? GivenPivot::place : GivenPivot::other;
+}
+
+// Whether both pivots are given, or with a timing one of them; what else stands among the parameters is
+// reported.
 bool read_pivots(study::ObjectReader& document, const PathStudy& s) {
   auto mechanism = document.table("mechanism");
   if (!mechanism) return false;
@@ -45,11 +55,17 @@ bool read_pivots(study::ObjectReader& document, const PathStudy& s) {
                        fmt::format("leave it out, or use what searches: {}", search_instead));
   }
   const auto numbers = pivot_numbers(parameters);
-  const auto given =
-      std::count_if(numbers.begin(), numbers.end(), [](const auto* n) { return n->has_value(); });
-  if (given == 0) return false;
-  if (given < 4 ||
-      !std::all_of(numbers.begin(), numbers.end(), [](const auto* n) { return (*n)->fixed(); })) {
+  const GivenPivot crank = given_pivot(*numbers[0], *numbers[1]),
+                   rocker = given_pivot(*numbers[2], *numbers[3]);
+  if (crank == GivenPivot::none && rocker == GivenPivot::none) return false;
+  if (s.problem.timing != Timing::free) {
+    if (crank == GivenPivot::other || rocker == GivenPivot::other) {
+      mechanism->error("parameters", "fit = \"exact\" takes a fixed pivot as two numbers",
+                       "give both coordinates, each one number, or leave both out");
+      return true;
+    }
+    if (crank == GivenPivot::none || rocker == GivenPivot::none) return true;
+  } else if (crank != GivenPivot::place || rocker != GivenPivot::place) {
     mechanism->error(
         "parameters", "fit = \"exact\" takes both fixed pivots as numbers, or none of them",
         "give pivot_x, pivot_y, rocker_pivot_x and rocker_pivot_y, each one number, or leave all out");
@@ -61,7 +77,21 @@ bool read_pivots(study::ObjectReader& document, const PathStudy& s) {
   return true;
 }
 
+// Points with crank angles: three to five, three beside a pivot.
+void check_timed_count(study::ObjectReader& target, const PathStudy& s, bool with_pivots) {
+  const std::size_t n = s.problem.x.size();
+  if (n < least_timed_points || n == timed_with_pivots || (n <= most_timed_points && !with_pivots)) return;
+  target.error(
+      points_key(s.target),
+      fmt::format("{} points with crank angles{} are more than a four-bar passes exactly, which are {}", n,
+                  with_pivots ? " and a given pivot" : "",
+                  with_pivots ? timed_with_pivots : most_timed_points),
+      fmt::format("{}leave some out, or use what searches: {}",
+                  with_pivots && n <= most_timed_points ? "leave the pivots free, " : "", search_instead));
+}
+
 void check_count(study::ObjectReader& target, const PathStudy& s, bool with_pivots) {
+  if (s.problem.timing != Timing::free) return check_timed_count(target, s, with_pivots);
   const std::size_t n = s.problem.x.size(), wanted = with_pivots ? points_with_pivots : free_points;
   if (n < 3 || n == wanted) return;  // what is wrong with less has been reported
   const char* how = with_pivots ? "with both pivots given" : "with free pivots";
@@ -111,6 +141,16 @@ void check_places(study::ObjectReader& target, const PathProblem& p, const char*
   }
 }
 
+// Crank angles that are the same let the coupler alone turn between two points.
+void check_rotations(study::ObjectReader& target, const PathProblem& p) {
+  for (std::size_t k = 1; k < p.angles.size(); ++k)
+    if (std::abs(math::wrap_angle(p.angles[k] - p.angles[k - 1])) < 1e-9) {
+      target.error("timing", fmt::format("the crank angles of points {} and {} are the same", k, k + 1),
+                   "a four-bar is at one place at each crank angle: give different ones");
+      return;
+    }
+}
+
 }  // namespace
 
 void read_exact_path(study::ObjectReader& document, study::ObjectReader& target, PathStudy& s) {
@@ -126,16 +166,15 @@ void read_exact_path(study::ObjectReader& document, study::ObjectReader& target,
                                        : "points_file",
                  "fit = \"exact\" passes its points without tolerance",
                  fmt::format("leave it out, or use what searches: {}", search_instead));
-  if (p.timing != Timing::free)
-    target.error(
-        "timing", "fit = \"exact\" takes points without crank angles",
-        fmt::format("write timing = {{ mode = \"free\" }}, or use what searches: {}", search_instead));
   if (!std::holds_alternative<Recommended>(s.optimiser.method))
     document.error("optimiser", "fit = \"exact\" finds all solutions, there is nothing to search",
                    "remove the method");
   const bool with_pivots = read_pivots(document, s);
   check_count(target, s, with_pivots);
-  if (p.x.size() == (with_pivots ? points_with_pivots : free_points) && p.x.size() == p.y.size())
+  if (p.timing != Timing::free && s.target.timing.mode == Timing::given && p.angles.size() == p.x.size())
+    check_rotations(target, p);
+  if (p.timing == Timing::free && p.x.size() == (with_pivots ? points_with_pivots : free_points) &&
+      p.x.size() == p.y.size())
     check_places(target, p, points_key(s.target));
 
   // All that solves the problem is an answer, whatever its size.

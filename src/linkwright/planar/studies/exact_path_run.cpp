@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +41,9 @@ class ExactReport {
   study::Result make(RunContext& context) {
     std::vector<std::complex<double>> points;
     for (std::size_t k = 0; k < p_.x.size(); ++k) points.emplace_back(p_.x[k], p_.y[k]);
-    if (parameters_.rocker_pivot_x) {
+    if (p_.timing != Timing::free) {
+      timed(points, context);
+    } else if (parameters_.rocker_pivot_x) {
       five(points, context);
     } else {
       nine(points, context);
@@ -104,6 +107,41 @@ class ExactReport {
                     : found.finite == whole_                   ? Completeness::complete_uncertified
                                                                : Completeness::special_target;
     designs_ = exact_designs(p_, found);
+  }
+
+  // Points with crank angles, for each sense of rotation that the study searches.
+  void timed(const std::vector<std::complex<double>>& points, RunContext& context) {
+    certificates_ = false;
+    timed_ = true;
+    const auto pivot = [](const std::optional<Range>& x, const std::optional<Range>& y) {
+      return x && y ? std::optional(std::complex<double>(x->lower, y->lower)) : std::nullopt;
+    };
+    TimedPoints target{.points = points,
+                       .turns = {},
+                       .pivots = {pivot(parameters_.ranges[index(FourBarParameter::pivot_x)],
+                                        parameters_.ranges[index(FourBarParameter::pivot_y)]),
+                                  pivot(parameters_.rocker_pivot_x, parameters_.rocker_pivot_y)}};
+    for (const double sense : {1.0, -1.0}) {
+      if (sense > 0 ? !p_.search_positive : !p_.search_negative) continue;
+      target.turns.clear();
+      for (std::size_t k = 0; k < points.size(); ++k) target.turns.push_back(sense * point_angle(p_, k));
+      const TimedPointSolutions found = solve_timed_points(target, context);
+      if (found.status != Status::done) stopped_ = found.status;
+      swept_ = found.swept;
+      dependent_ = dependent_ || found.dependent;
+      counts_.classes += found.cranks;
+      cranks_ += found.real_cranks;
+      slides_ += found.slides;
+      const int before = counts_.real_classes;
+      for (ExactDesign& d : exact_designs(p_, found, sense)) {
+        d.curve += before;
+        counts_.real_classes = std::max(counts_.real_classes, d.curve + 1);
+        designs_.push_back(std::move(d));
+      }
+    }
+    std::stable_sort(designs_.begin(), designs_.end(),
+                     [](const ExactDesign& a, const ExactDesign& b) { return severity(a) < severity(b); });
+    completeness_ = stopped_ == Status::done ? Completeness::complete_uncertified : Completeness::incomplete;
   }
 
   void class_table(const NinePointSolutions& found) {
@@ -172,7 +210,7 @@ class ExactReport {
       table.status.emplace_back(severities[at(severity(d))]);
     }
     table.add("design", "design", std::move(number));
-    table.add("class", certificates_ ? "class" : "solution", std::move(curve));
+    table.add("class", certificates_ ? "class" : timed_ ? "coupler curve" : "solution", std::move(curve));
     for (std::size_t j = 0; j < keys.size(); ++j) table.add(keys[j], keys[j], std::move(columns[j]));
     table.add("crank_rotates_fully", "the crank rotates fully (1 = yes)", std::move(rotates));
     table.add("min_transmission_angle_rad", "least transmission angle on the path (rad)",
@@ -189,7 +227,7 @@ class ExactReport {
       result_.status = Status::not_converged;
       outcome_ = name_of(completeness_);
     } else if (answers_ > 0) {
-      outcome_ = name_of(completeness_);
+      outcome_ = swept_ ? "done" : name_of(completeness_);
     } else {
       result_.status = Status::infeasible;
       outcome_ = counts_.classes == 0        ? "no_solution"
@@ -201,6 +239,16 @@ class ExactReport {
 
   // "All 1442 coupler curves through the nine points, each with a certificate; 64 are real."
   std::string found_text() const {
+    if (swept_)
+      return fmt::format(
+          "Infinitely many four-bars pass the {} points at their crank angles; {} that differ are listed.",
+          p_.x.size(), designs_.size());
+    if (timed_)
+      return fmt::format(
+          "{} of {} cranks that hold the {} points at their angles {} real; {} four-bars on {} coupler "
+          "curves have them.",
+          cranks_, counts_.classes, p_.x.size(), cranks_ == 1 ? "is" : "are", designs_.size(),
+          counts_.real_classes);
     const std::string real =
         fmt::format("{} of them {} real", counts_.real_classes, counts_.real_classes == 1 ? "is" : "are");
     switch (completeness_) {
@@ -226,7 +274,7 @@ class ExactReport {
     const char* pass = "in one motion and in their order";
     if (answers_ > 0) {
       const auto free = static_cast<std::size_t>(counts_.defect_free);
-      return fmt::format("{} of their {} four-bars {} the points {}{}; the best is a {}.", free,
+      return fmt::format("{} of {} {} four-bars {} the points {}{}; the best is a {}.", free, whose(),
                          designs_.size(), free == 1 ? "passes" : "pass", pass,
                          free == answers_
                              ? std::string()
@@ -237,10 +285,12 @@ class ExactReport {
       return fmt::format("None of the {} four-bars that pass the points {} keeps the limits of the study.",
                          counts_.defect_free, pass);
     return fmt::format(
-        "None of their {} four-bars passes the points {}: {} change branch on the way, {} circuit, {} "
+        "None of {} {} four-bars passes the points {}: {} change branch on the way, {} circuit, {} "
         "meet them in another order.",
-        designs_.size(), pass, counts_.branch, counts_.circuit, counts_.order);
+        whose(), designs_.size(), pass, counts_.branch, counts_.circuit, counts_.order);
   }
+
+  const char* whose() const { return timed_ ? "these" : "their"; }
 
   // The answers, and where they are few those that another order of the points would make one; without either
   // the nearest.
@@ -279,31 +329,48 @@ class ExactReport {
     const auto add = [&](const char* key, const char* label, int value) {
       table.add(key, label, {static_cast<double>(value)});
     };
-    add("classes", certificates_ ? "classes of coupler curves" : "finite solutions", counts_.classes);
+    if (timed_ && !swept_) {
+      add("cranks", "cranks at their angles, complex ones with them", counts_.classes);
+      add("real_cranks", "real cranks", cranks_);
+      add("slides", "couplers led by a slide, which are no four-bars", slides_);
+    } else if (!timed_) {
+      add("classes", certificates_ ? "classes of coupler curves" : "finite solutions", counts_.classes);
+    }
     if (certificates_) add("certified", "with a certificate", counts_.certified);
-    add("real_classes", certificates_ ? "real classes" : "real solutions", counts_.real_classes);
+    add("real_classes",
+        certificates_ ? "real classes"
+        : timed_      ? "coupler curves"
+                      : "real solutions",
+        counts_.real_classes);
     add("designs", "four-bars with their driver", counts_.designs);
     add("defect_free", "without defects", counts_.defect_free);
     add("order_defects", "that meet the points in another order", counts_.order);
     add("circuit_defects", "that change circuit", counts_.circuit);
     add("branch_defects", "that change branch", counts_.branch);
-    add("infinite", "paths that end at infinity", counts_.infinite);
-    add("singular", "paths that end where solutions meet", counts_.singular);
-    add("lost", "paths that were lost", counts_.lost);
+    if (!timed_) {
+      add("infinite", "paths that end at infinity", counts_.infinite);
+      add("singular", "paths that end where solutions meet", counts_.singular);
+      add("lost", "paths that were lost", counts_.lost);
+    }
     result_.tables.insert(result_.tables.begin(), std::move(table));
 
     result_.statistics["method"] = "exact";
     result_.statistics["outcome"] = outcome_;
-    result_.statistics["completeness"] =
-        outcome_ == "no_solution" ? std::string_view("no_solution") : name_of(completeness_);
+    result_.statistics["completeness"] = outcome_ == "no_solution" ? std::string_view("no_solution")
+                                         : swept_                  ? std::string_view("sample")
+                                                                   : name_of(completeness_);
     const study::AddFact fact{result_.facts};
     if (outcome_ == "no_solution") return;
-    fact("found",
-         certificates_ ? fmt::format("{} of {} classes of four-bars, {} certified", counts_.classes, whole_,
-                                     counts_.certified)
-                       : fmt::format("{} of {} solutions", counts_.classes, whole_),
-         completeness_ == Completeness::incomplete ? Verdict::bad : Verdict::plain);
-    fact("real", fmt::format("{}", counts_.real_classes));
+    if (timed_) {
+      fact("found", swept_ ? fmt::format("a sample of {} four-bars", designs_.size())
+                           : fmt::format("{} real cranks of {}", cranks_, counts_.classes));
+    } else
+      fact("found",
+           certificates_ ? fmt::format("{} of {} classes of four-bars, {} certified", counts_.classes, whole_,
+                                       counts_.certified)
+                         : fmt::format("{} of {} solutions", counts_.classes, whole_),
+           completeness_ == Completeness::incomplete ? Verdict::bad : Verdict::plain);
+    if (!swept_) fact(timed_ ? "coupler curves" : "real", fmt::format("{}", counts_.real_classes));
     fact("four-bars with their driver", fmt::format("{}", counts_.designs));
     fact("without defects", fmt::format("{}", counts_.defect_free),
          counts_.defect_free > 0 ? Verdict::good : Verdict::bad);
@@ -323,6 +390,9 @@ class ExactReport {
                        whole_ - counts_.classes, whole_),
            "mirror-symmetric points, points on a line or on a grid are such; move one of them a little to "
            "see the rest");
+    if (dependent_ && answers_ == 0)
+      warn("the points and crank angles depend on each other: infinitely many cranks hold them",
+           "move a point, or change a crank angle");
     if (stopped_ == Status::done && counts_.lost > 0)
       warn(fmt::format("{} paths were lost: four-bars may be missing", counts_.lost),
            "move a point a little and compare");
@@ -339,6 +409,8 @@ class ExactReport {
   std::size_t answers_ = 0;
   int whole_ = 0;
   bool certificates_ = true;
+  bool timed_ = false, swept_ = false, dependent_ = false;
+  int cranks_ = 0, slides_ = 0;
   const char* what_ = "";
   std::string outcome_;
 };

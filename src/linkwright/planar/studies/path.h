@@ -93,7 +93,8 @@ void fields(Visitor&& visit, PathTiming& t) {
               .dimension = Dimension::angle},
         t.step);
   visit(Field{.key = "angles",
-              .summary = "crank angle of each point, from O->B0 (given)",
+              .summary = "crank angle of each point, from O->B0 (given); fit = \"exact\" takes the rotations "
+                         "between them",
               .dimension = Dimension::angle},
         t.angles);
 }
@@ -101,10 +102,11 @@ void fields(Visitor&& visit, PathTiming& t) {
 /// How points are met.
 enum class PathFit { least_squares, exact };
 constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
-  return {
-      {{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
-       {PathFit::exact, "exact",
-        "exactly, by all four-bars that pass them: nine points, or five with both fixed pivots as numbers"}}};
+  return {{{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
+           {PathFit::exact, "exact",
+            "exactly, by all four-bars that pass them: nine points, five with both fixed pivots as numbers, "
+            "or three to "
+            "five with crank angles"}}};
 }
 
 /// The point that traces.

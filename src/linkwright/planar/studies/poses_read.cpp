@@ -181,7 +181,7 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
           fmt::format("{} poses and what is given of the pivots of dyad {} are {} conditions, a dyad meets 5",
                       n, dyad + 1, 5 - free),
           "a pivot that is given counts as two poses, one on a line as one: remove a pose or a pivot");
-    if (free > most_freedoms) {
+    if (free > most_open_numbers) {
       target.error("pose", fmt::format("{} poses leave {} numbers of dyad {} open", n, free, dyad + 1),
                    "add a pose, or [[mechanism.pivot]] with a pivot of it or a line for one");
     }
