@@ -52,6 +52,15 @@ HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/De
 SHOWN = {"optimise/pagmo_adapters.h": "pagmo/*", "python/arrays.h": "pybind11/*"}
 
 
+# The operating system is asked in one place. Its headers, and calls of the global namespace, which are its functions wherever another
+# header has let them in:
+PLATFORM = "core/platform/"
+OF_SYSTEM = ["sys/*", "arpa/*", "net/*", "netinet/*", "linux/*", "mach/*", "unistd.h", "fcntl.h", "poll.h", "signal.h", "csignal", "spawn.h",
+             "sched.h", "dlfcn.h", "dirent.h", "pthread.h", "pwd.h", "grp.h", "netdb.h", "termios.h", "semaphore.h", "stdlib.h", "windows.h",
+             "winsock2.h", "io.h", "process.h", "direct.h"]
+GLOBAL_CALL = re.compile(r"(?:^|[^\w>)\]])(::[a-z]\w*)\(")
+
+
 def fits(name, patterns):
     return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
 
@@ -125,9 +134,17 @@ def check_source(path, module, where, parts):
         elif bracket == '"' and (path.parent / name).exists():
             place = "/".join(parts[:-1])
             yield here + f'say "linkwright/{place}/{name}": every include names its module'
+        if bracket == "<" and fits(name, OF_SYSTEM) and not "/".join(parts).startswith(PLATFORM):
+            yield here + f"<{name}> belongs to the operating system: what it is asked for goes to {PLATFORM}"
         shown = SHOWN.get(f"{module}/{path.name}", "")
         if path.suffix == ".h" and fits(name, HEAVY) and not fits(name, [shown]):
             yield here + f"<{name}> is heavy: include it in sources, not in headers"
+
+
+def check_calls(path, where):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        for call in GLOBAL_CALL.findall(line.split("//")[0]):
+            yield f"{where}:{number}: {call}() is a function of the operating system: what it is asked for goes to {PLATFORM}"
 
 
 def check_top(path, where, name):
@@ -154,6 +171,8 @@ def check(root):
             findings.append(f"{where}: {arrow(module, module)}")
         elif path.suffix in (".h", ".cpp"):
             findings += check_source(path, module, where, path.relative_to(source).parts)
+            if not path.relative_to(source).as_posix().startswith(PLATFORM):
+                findings += check_calls(path, where)
         elif path.name == "CMakeLists.txt":
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 for used in re.findall(r"\blinkwright_(\w+)\b", line.split("#")[0]):

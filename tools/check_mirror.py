@@ -87,9 +87,10 @@ def listed(cmake_lists):
     return set(re.findall(r"[\w./-]+\.(?:cpp|h)\b", text))
 
 
-# Modules whose headers are for users, and headers that they include one by one: they show a heavy library.
+# Modules whose headers are for users, and headers that they include one by one: they show a heavy library, or the machine.
 FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance", "parameter_study"]
 ONE_BY_ONE = {"math/lanes.h", "math/path_tracker.h", "math/simd.h", "optimise/pagmo_adapters.h"}
+NOT_FOR_USERS = {"detail", "studies", "platform"}
 
 
 def public_headers(root, module):
@@ -97,7 +98,7 @@ def public_headers(root, module):
     folder = root / "src" / "linkwright" / module
     return sorted(where for path in folder.rglob("*.h")
                   if (where := path.relative_to(folder.parent).as_posix()) not in ONE_BY_ONE
-                  and not {"detail", "studies"} & set(path.relative_to(folder).parts)
+                  and not NOT_FOR_USERS & set(path.relative_to(folder).parts)
                   and path.name not in ("studies.h", "reproductions.h"))
 
 

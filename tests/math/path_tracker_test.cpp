@@ -71,7 +71,7 @@ std::vector<TrackedPath<typename Lanes<T>::Single, System::unknowns>> tracked(
   return ends;
 }
 
-using Batch = xsimd::batch<double, xsimd::sse2>;
+using Batch = BaselineBatch;
 using Path = TrackedPath<double, 2>;
 
 // For p = (0, 0): x = -y^2 and y^4 + y = 0. Without 0, which has no size that steps could be relative to.

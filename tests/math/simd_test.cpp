@@ -13,7 +13,7 @@ namespace linkwright::math {
 namespace {
 
 // The instruction set that every x86-64 machine has; wider ones are met in the kernels' own tests.
-using Batch = xsimd::batch<double, xsimd::sse2>;
+using Batch = BaselineBatch;
 using S = Scalar<double>;
 using V = Scalar<Batch>;
 

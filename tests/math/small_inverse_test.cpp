@@ -54,7 +54,7 @@ TEST(SmallInverse, OfASingularMatrixHasNoDeterminant) {
 }
 
 TEST(SmallInverse, LanesHaveTheirOwnPivots) {
-  using Batch = xsimd::batch<double, xsimd::sse2>;
+  using Batch = BaselineBatch;
   const Square<3> first{{{0, 2, 1}, {1, 0, 3}, {4, 1, 0}}}, second{{{5, 1, 0}, {2, 1, 1}, {0, 3, 1}}};
   std::array<std::array<Batch, 3>, 3> both;
   for (int i = 0; i < 3; ++i)

@@ -90,6 +90,14 @@ class CheckLayers(ScratchCase):
                          ["src/linkwright/optimise/methods.h:1: <linkwright/optimise/pagmo_adapters.h> shows a heavy header: "
                           "include it in sources, not in headers"])
 
+    def test_operating_system_in_one_place(self):
+        text = "#include <unistd.h>\n\nint id() { return ::getpid(); }  // not ::getppid()\n"
+        self.assertEqual(self.findings("core/platform/processes.cpp", text), [])
+        self.assertEqual(self.findings("app/run.cpp", text),
+                         ["src/linkwright/app/run.cpp:1: <unistd.h> belongs to the operating system: what it is asked for goes to core/platform/",
+                          "src/linkwright/app/run.cpp:3: ::getpid() is a function of the operating system: what it is asked for goes to "
+                          "core/platform/"])
+
     def test_include_without_module(self):
         self.write("src/linkwright/core/table.h")
         self.assertEqual(self.findings("core/table.cpp", '#include "table.h"\n'),

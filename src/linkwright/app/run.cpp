@@ -2,10 +2,8 @@
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -15,6 +13,8 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/view.h"
 #include "linkwright/app/write_whole.h"
+#include "linkwright/core/platform/machine.h"
+#include "linkwright/core/platform/processes.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
 #include "linkwright/report/drawing.h"
@@ -41,11 +41,6 @@ constexpr const char* designs_folder = "designs";
 bool wants(const study::Study& study, study::Format format) {
   const auto& formats = study.common.output.formats;
   return std::find(formats.begin(), formats.end(), format) != formats.end();
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 
 /// A study file as a document; of standard input, its messages have a name that people know.
@@ -102,7 +97,7 @@ bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
     refuse(diagnostics, folder, fmt::format("the folder cannot be made: {}", error.message()));
     return false;
   }
-  const fs::path probe = folder / fmt::format(".{}.part", ::getpid());
+  const fs::path probe = folder / fmt::format(".{}.part", platform::process_id());
   errno = 0;
   if (!std::ofstream(probe).put('\n')) {
     refuse(diagnostics, folder, fmt::format("the folder cannot be written: {}", std::strerror(errno)));
@@ -116,7 +111,7 @@ RunOutcome run_and_record(const study::Study& study, RunContext& context) {
   RunOutcome outcome;
   const auto start = RunContext::Clock::now();
   outcome.record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-  outcome.record.host = host_name();
+  outcome.record.host = platform::host_name();
   outcome.record.threads = context.threads();
   outcome.result = study::run_study(study, context);
   outcome.record.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();

@@ -1,9 +1,6 @@
 #include "linkwright/cli/ranks.h"
 
-#include <dlfcn.h>
 #include <fmt/core.h>
-#include <sched.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +8,9 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string_view>
+
+#include "linkwright/core/platform/machine.h"
+#include "linkwright/core/platform/processes.h"
 
 namespace linkwright::cli {
 namespace fs = std::filesystem;
@@ -33,18 +33,15 @@ constexpr const char* plug_in = "linkwright/mpi.so";
 /// Beside the program as it is built and installed, or where the loader looks.
 void* load_plug_in(std::string& problem) {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  void* library = nullptr;
+  const fs::path program = platform::program_file();
   for (const char* folder : {"../lib", "../lib/" LINKWRIGHT_MULTIARCH}) {
     const fs::path file = program.parent_path() / folder / plug_in;
     if (fs::exists(file, error)) {
-      library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
-      if (!library) problem = ::dlerror();
-      return library;
+      return platform::load_library(file, problem);
     }
   }
   problem = "its part for MPI is not installed";
-  return library;
+  return nullptr;
 }
 
 }  // namespace
@@ -56,7 +53,8 @@ JoinedRanks join_ranks() {
   std::string problem;
   void* library = load_plug_in(problem);
   auto* join =
-      library ? reinterpret_cast<app::JoinRanks*>(::dlsym(library, "linkwright_join_ranks")) : nullptr;
+      library ? reinterpret_cast<app::JoinRanks*>(platform::function_of(library, "linkwright_join_ranks"))
+              : nullptr;
   std::unique_ptr<app::Ranks> ranks(
       // Open MPI's tells both to all; of the others it is not sure that they do.
       join ? join(number_in({"OMPI_COMM_WORLD_RANK"}), number_in({"OMPI_COMM_WORLD_SIZE"})) : nullptr);
@@ -69,10 +67,7 @@ JoinedRanks join_ranks() {
 }
 
 int threads_of_rank() {
-  const int all = std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)));
-  cpu_set_t own;
-  CPU_ZERO(&own);
-  const int given = ::sched_getaffinity(0, sizeof own, &own) == 0 ? CPU_COUNT(&own) : all;
+  const int all = platform::processors(), given = platform::own_processors();
   const int ranks =
       std::max(1, number_in({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}));
   return given * ranks <= all ? given : std::max(1, all / ranks);

@@ -1,25 +1,14 @@
 #include "linkwright/cli/terminal.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <spawn.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-
-extern char**
-    environ;  // NOLINT(readability-redundant-declaration): no header of the system declares it everywhere
+#include <system_error>
 
 namespace linkwright::cli {
 namespace {
-
-int descriptor(Stream stream) { return stream == Stream::out ? STDOUT_FILENO : STDERR_FILENO; }
 
 std::string_view variable(const char* name) {
   const char* value = std::getenv(name);
@@ -42,22 +31,11 @@ const char* code(Colour colour) {
   return "0";
 }
 
-// The run that Ctrl-C asks to stop. The handler is reset by its first use, so a second Ctrl-C kills the
-// program.
-RunContext* interruptible = nullptr;
-struct sigaction old_interrupt, old_terminate;
-
-extern "C" void interrupt(int) {
-  if (interruptible) interruptible->cancel();
-}
-
 }  // namespace
 
-bool is_terminal(Stream stream) { return ::isatty(descriptor(stream)) == 1; }
-
 std::size_t terminal_width() {
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  const std::size_t columns = platform::terminal_columns();
+  return columns > 0 ? columns : 80;
 }
 
 bool wants_colours(Stream stream) {
@@ -91,38 +69,15 @@ void print_diagnostics(const Diagnostics& diagnostics) {
 }
 
 std::string open_on_desktop(const std::string& what) {
-#ifdef __APPLE__
-  const char* const program = "open";
-#else
-  const char* const program = "xdg-open";
-#endif
-  std::string name = what, command = program;
-  char* const arguments[] = {command.data(), name.data(), nullptr};
-  posix_spawn_file_actions_t silent;
-  posix_spawn_file_actions_init(&silent);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_RDWR, 0);
-  pid_t child = 0;
-  const int problem = ::posix_spawnp(&child, program, &silent, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&silent);
-  if (problem == 0) return {};
-  if (problem == ENOENT) return fmt::format("there is no '{}' on this machine", program);
-  return fmt::format("'{}' cannot be started: {}", program, std::strerror(problem));
+  const char* const program = platform::desktop_opener();
+  const std::error_code error = platform::start_program(program, what);
+  if (!error) return {};
+  if (error == std::errc::no_such_file_or_directory)
+    return fmt::format("there is no '{}' on this machine", program);
+  return fmt::format("'{}' cannot be started: {}", program, error.message());
 }
 
-Interruptible::Interruptible(RunContext& context) {
-  interruptible = &context;
-  struct sigaction action = {};
-  action.sa_handler = interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, &old_interrupt);
-  sigaction(SIGTERM, &action, &old_terminate);
-}
-
-Interruptible::~Interruptible() {
-  sigaction(SIGINT, &old_interrupt, nullptr);
-  sigaction(SIGTERM, &old_terminate, nullptr);
-  interruptible = nullptr;
-}
+Interruptible::Interruptible(RunContext& context)
+    : request_([](void* run) { static_cast<RunContext*>(run)->cancel(); }, &context) {}
 
 }  // namespace linkwright::cli

@@ -5,15 +5,14 @@
 #include <string_view>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/platform/processes.h"
 #include "linkwright/core/run_context.h"
 
 /// What the program has to do with the terminal and the desktop that it is called from.
 namespace linkwright::cli {
 
-enum class Stream { out, err };
-
-/// Whether a stream is a terminal.
-bool is_terminal(Stream stream);
+using platform::is_terminal;
+using platform::Stream;
 /// Columns of the terminal behind standard error; 80 if it is none or does not say.
 std::size_t terminal_width();
 
@@ -38,9 +37,9 @@ std::string open_on_desktop(const std::string& what);
 class Interruptible {
  public:
   explicit Interruptible(RunContext& context);
-  ~Interruptible();
-  Interruptible(const Interruptible&) = delete;
-  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  platform::StopRequest request_;
 };
 
 }  // namespace linkwright::cli

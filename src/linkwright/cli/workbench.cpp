@@ -14,6 +14,7 @@
 
 #include "linkwright/cli/terminal.h"
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/platform/files.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/serve/server.h"
 #include "linkwright/study/read.h"
@@ -31,9 +32,8 @@ class Door {
     std::error_code error;
     fs::path parent = runtime && *runtime ? fs::path(runtime) : fs::path();
     if (!fs::is_directory(parent, error)) parent = fs::temp_directory_path(error);
-    std::string name = (parent / "linkwright-XXXXXX").string();
-    if (!::mkdtemp(name.data())) return;  // readable for this user alone
-    folder_ = name;
+    folder_ = platform::make_private_folder(parent, error);
+    if (error) return;
     std::ofstream page(file());
     page << fmt::format(
         "<!doctype html><meta charset=\"utf-8\"><title>Linkwright</title>"

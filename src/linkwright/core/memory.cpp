@@ -1,13 +1,13 @@
 #include "linkwright/core/memory.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <array>
 #include <charconv>
 #include <cstdlib>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/platform/machine.h"
 
 namespace linkwright {
 namespace {
@@ -29,9 +29,8 @@ double from_environment() {
 }
 
 double of_machine() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
-  if (pages <= 0 || size <= 0) return where_unknown;
-  return share * static_cast<double>(pages) * static_cast<double>(size);
+  const double all = platform::memory();
+  return all > 0 ? share * all : where_unknown;
 }
 
 }  // namespace

@@ -9,6 +9,14 @@
 // linkwright/math.h leaves it out.
 namespace linkwright::math {
 
+/// Registers that every processor of a family has, which programs need no more than: those of kernels for the
+/// baseline. Two numbers each.
+#if XSIMD_WITH_NEON64
+using BaselineBatch = xsimd::batch<double, xsimd::neon64>;
+#else
+using BaselineBatch = xsimd::batch<double, xsimd::sse2>;
+#endif
+
 template <class Arch>
 struct Scalar<xsimd::batch<double, Arch>> {
   using T = xsimd::batch<double, Arch>;

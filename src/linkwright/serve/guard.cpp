@@ -1,21 +1,16 @@
 #include "linkwright/serve/guard.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
-#ifdef __APPLE__
-#include <sys/random.h>
-#endif
 
-#include <cerrno>
-#include <cstddef>
-#include <system_error>
+#include <array>
+
+#include "linkwright/core/platform/machine.h"
 
 namespace linkwright::serve {
 
 std::string random_token() {
-  unsigned char bytes[32];
-  if (::getentropy(bytes, sizeof bytes) != 0)
-    throw std::system_error(errno, std::generic_category(), "no random numbers from the system");
+  std::array<unsigned char, 32> bytes{};
+  platform::fill_random(bytes);
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;

@@ -1,8 +1,5 @@
 #include "linkwright/serve/jobs.h"
 
-#include <stdlib.h>
-
-#include <cerrno>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -11,6 +8,7 @@
 #include <utility>
 
 #include "linkwright/app/write_whole.h"
+#include "linkwright/core/platform/files.h"
 #include "linkwright/core/value.h"
 #include "linkwright/study/write.h"
 
@@ -22,9 +20,10 @@ namespace {
 class Scratch {
  public:
   explicit Scratch(const std::map<std::string, std::string>& files) {
-    std::string name = (fs::temp_directory_path() / "linkwright-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
-    folder_ = name;
+    const fs::path parent = fs::temp_directory_path();
+    std::error_code error;
+    folder_ = platform::make_private_folder(parent, error);
+    if (error) throw std::system_error(error, parent.string());
     for (const auto& [file, text] : files)
       if (const std::string problem = app::write_whole(folder_ / file, text); !problem.empty())
         throw std::runtime_error(file + ": " + problem);

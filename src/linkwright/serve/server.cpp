@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <httplib.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "linkwright/app/view.h"
+#include "linkwright/core/platform/sockets.h"
 #include "linkwright/serve/guard.h"
 #include "linkwright/serve/jobs.h"
 #include "linkwright/serve/page.h"
@@ -32,6 +32,7 @@
 namespace linkwright::serve {
 namespace {
 using Clock = std::chrono::steady_clock;
+using platform::Direction;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -51,14 +52,15 @@ class Connection final : public httplib::Stream {
  public:
   Connection(socket_t socket, const std::atomic<bool>& ending) : socket_(socket), ending_(ending) {}
   ~Connection() override {
-    ::shutdown(socket_, SHUT_WR);
+    platform::end_sending(socket_);
     // What was not read would reset the connection before the answer has arrived.
     const auto end = Clock::now() + (unread_ ? seconds(2) : seconds(0));
     char rest[16384];
     do {
-      while (::recv(socket_, rest, sizeof rest, MSG_DONTWAIT) > 0 && Clock::now() < end) continue;
-    } while (Clock::now() < end && wait(POLLIN, end) && ::recv(socket_, rest, 1, MSG_PEEK) > 0);
-    ::close(socket_);
+      while (platform::receive_at_once(socket_, rest, sizeof rest) > 0 && Clock::now() < end) continue;
+    } while (Clock::now() < end && wait(Direction::to_read, end) &&
+             platform::incoming(socket_) == platform::Incoming::data);
+    platform::close(socket_);
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -71,17 +73,14 @@ class Connection final : public httplib::Stream {
     within(body_patience);
   }
   void leave_body() { unread_ = true; }
-  bool gone() const {
-    char next;
-    return ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
-  }
+  bool gone() const { return platform::incoming(socket_) == platform::Incoming::end; }
 
-  bool is_readable() const override { return begin_ < size_ || wait(POLLIN, end_); }
-  bool is_writable() const override { return !gone() && wait(POLLOUT, end_); }
+  bool is_readable() const override { return begin_ < size_ || wait(Direction::to_read, end_); }
+  bool is_writable() const override { return !gone() && wait(Direction::to_write, end_); }
   ssize_t read(char* to, std::size_t size) override {
     if (begin_ == size_) {
-      if (allowance_ == 0 || !wait(POLLIN, end_)) return -1;
-      const ssize_t count = ::recv(socket_, buffer_, std::min(sizeof buffer_, allowance_), 0);
+      if (allowance_ == 0 || !wait(Direction::to_read, end_)) return -1;
+      const ssize_t count = platform::receive(socket_, buffer_, std::min(sizeof buffer_, allowance_));
       if (count <= 0) return count;
       begin_ = 0;
       size_ = static_cast<std::size_t>(count);
@@ -93,22 +92,21 @@ class Connection final : public httplib::Stream {
     return static_cast<ssize_t>(count);
   }
   ssize_t write(const char* from, std::size_t size) override {
-    if (!wait(POLLOUT, end_)) return -1;
-    return ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (!wait(Direction::to_write, end_)) return -1;
+    return platform::send_at_once(socket_, from, size);
   }
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }
 
  private:
-  bool wait(short what, Clock::time_point end) const {
+  bool wait(Direction direction, Clock::time_point end) const {
     while (!ending_) {
       const auto left =
           std::max(std::chrono::duration_cast<milliseconds>(end - Clock::now()), milliseconds(0));
-      pollfd asked{socket_, what, 0};
-      const int count = ::poll(&asked, 1, static_cast<int>(std::min(left, glance).count()));
-      if (count > 0) return true;
-      if ((count == 0 && left == milliseconds(0)) || (count < 0 && errno != EINTR)) return false;
+      const platform::Waited waited = platform::wait_for(socket_, direction, std::min(left, glance));
+      if (waited == platform::Waited::ready) return true;
+      if (waited == platform::Waited::failed || left == milliseconds(0)) return false;
     }
     return false;
   }
@@ -183,16 +181,13 @@ class Listener final : public httplib::Server {
   Listener() {
     new_task_queue = [] { return new Workers; };
     // Not SO_REUSEPORT, which lets a second program listen at the same port.
-    set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
+    set_socket_options([](socket_t socket) { platform::reuse_address(socket); });
     set_tcp_nodelay(true);
     set_payload_max_length(largest_body);
   }
 
   void run() {
-    ::listen(svr_sock_, backlog);
+    platform::listen(svr_sock_, backlog);
     thread_ = std::thread([this] { listen_after_bind(); });
     while (!is_running()) std::this_thread::sleep_for(milliseconds(1));
   }
@@ -209,7 +204,7 @@ class Listener final : public httplib::Server {
     if (refusing) {
       constexpr std::string_view answer =
           "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n";
-      ::send(socket, answer.data(), answer.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      platform::send_at_once(socket, answer.data(), answer.size());
       return false;
     }
     connection = &own;

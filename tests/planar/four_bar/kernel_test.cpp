@@ -96,7 +96,7 @@ RC_GTEST_PROP(FourBarKernel, DualNumbersAgreeWithDifferences, ()) {
 }
 
 TEST(FourBarKernel, BatchesGiveTheBitsOfTheScalar) {
-  using Batch = xsimd::batch<double, xsimd::sse2>;
+  using Batch = math::BaselineBatch;
   RandomStream random({.seed = 5});
   int assembled = 0, apart = 0;
   for (int i = 0; i < 10000; ++i) {

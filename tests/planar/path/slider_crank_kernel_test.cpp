@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-using Batch = xsimd::batch<double, xsimd::sse2>;
+using Batch = math::BaselineBatch;
 using math::Dual;
 
 TEST(SliderCrankPathKernel, TheRodIsOfItsLengthAndItsEndLiesOnTheGuide) {

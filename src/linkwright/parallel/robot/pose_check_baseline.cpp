@@ -2,8 +2,6 @@
 
 namespace linkwright::parallel {
 
-void pose_check_baseline(const PoseCheckTask& task) {
-  pose_check_with<xsimd::batch<double, xsimd::sse2>>(task);
-}
+void pose_check_baseline(const PoseCheckTask& task) { pose_check_with<math::BaselineBatch>(task); }
 
 }  // namespace linkwright::parallel

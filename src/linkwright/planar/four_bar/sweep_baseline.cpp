@@ -3,7 +3,7 @@
 namespace linkwright::planar {
 
 bool four_bar_sweep_baseline(const FourBarSweepTask& task) {
-  return four_bar_sweep_with<xsimd::batch<double, xsimd::sse2>>(task);
+  return four_bar_sweep_with<math::BaselineBatch>(task);
 }
 
 }  // namespace linkwright::planar

@@ -2,6 +2,6 @@
 
 namespace linkwright::planar {
 
-bool sweep_baseline(const SweepTask& task) { return sweep_with<xsimd::batch<double, xsimd::sse2>>(task); }
+bool sweep_baseline(const SweepTask& task) { return sweep_with<math::BaselineBatch>(task); }
 
 }  // namespace linkwright::planar

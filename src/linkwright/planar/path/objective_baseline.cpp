@@ -4,7 +4,7 @@ namespace linkwright::planar {
 
 void evaluate_path_baseline(const PathObjective& objective, const optimise::PopulationView& candidates,
                             double* cost, double* violation) {
-  using Batch = xsimd::batch<double, xsimd::sse2>;
+  using Batch = math::BaselineBatch;
   using Four = void;
   if (objective.free_timing)
     evaluate_path<Batch, Four, true>(objective, candidates, cost, violation);

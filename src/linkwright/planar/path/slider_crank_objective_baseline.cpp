@@ -5,7 +5,7 @@ namespace linkwright::planar {
 void evaluate_slider_path_baseline(const SliderPathObjective& objective,
                                    const optimise::PopulationView& candidates, double* cost,
                                    double* violation) {
-  using Batch = xsimd::batch<double, xsimd::sse2>;
+  using Batch = math::BaselineBatch;
   if (objective.free_timing)
     evaluate_slider_path<Batch, true>(objective, candidates, cost, violation);
   else
