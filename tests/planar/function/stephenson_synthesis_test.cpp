@@ -110,21 +110,18 @@ TEST(StephensonGenerators, MoveAsTheLinkageDoes) {
 TEST(FindStephensonGenerators, AreFarBetterThanFourBars) {
   FunctionProblem p = stored_function("log10 1..10");
   p.most_link = 20;
-  for (const FunctionFit fit : {FunctionFit::least_squares, FunctionFit::minimax}) {
-    p.fit = fit;
-    RunContext context;
-    const double wanted = 30 * pi / 180;
-    const StephensonAnswer answer = find_stephenson_generators(p, wanted, context);
-    EXPECT_EQ(answer.status, Status::done);
-    ASSERT_TRUE(answer.four_bar);
-    ASSERT_FALSE(answer.designs.empty());
-    const StephensonDesign& best = answer.designs[0];
-    EXPECT_TRUE(best.assembles);
-    if (fit == FunctionFit::minimax) {
-      EXPECT_GE(best.pair_angle, wanted);
-    }
-    EXPECT_LT(best.greatest_error, 0.15 * answer.four_bar->greatest_error);
-  }
+  RunContext context;
+  const double wanted = 30 * pi / 180;
+  const StephensonAnswer answer = find_stephenson_generators(p, wanted, context);
+  EXPECT_EQ(answer.status, Status::done);
+  ASSERT_TRUE(answer.four_bar);
+  ASSERT_FALSE(answer.designs.empty());
+  const StephensonDesign& best = answer.designs[0];
+  EXPECT_TRUE(best.assembles);
+  EXPECT_GE(best.pair_angle, wanted);
+  // Best known before: 0.00596 degrees; half as much again is allowed for another compiler.
+  EXPECT_LT(best.greatest_error * 180 / pi, 1.5 * 0.00596);
+  EXPECT_LT(best.greatest_error, 0.15 * answer.four_bar->greatest_error);
 }
 
 TEST(FindStephensonGenerators, RefuseWhatTheyCannotDo) {
