@@ -55,6 +55,8 @@ NO_TEST = {
     "optimise/detail/differential_evolution_base.h": "shared part of both forms, tested through them",
     "planar/four_bar/detail/sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
     "optimise/population_methods.h": "choices of studies; read and run by the tests of path and balancing studies",
+    "planar/function/detail/six_bar_synthesis.h": "the search of both six-bar generators, tested through them",
+    "planar/function/six_bar.h": "plain data and how it is assessed, tested with both six-bar generators",
     "planar/four_bar/published.h": "published numbers; compared in planar/reproductions_test.cpp",
     "optimise/detail/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
     "optimise/detail/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",

@@ -36,6 +36,8 @@
 #include "linkwright/planar/function/dead_centres.h"
 #include "linkwright/planar/function/dwell_synthesis.h"
 #include "linkwright/planar/function/generator.h"
+#include "linkwright/planar/function/six_bar.h"
+#include "linkwright/planar/function/stephenson_synthesis.h"
 #include "linkwright/planar/function/synthesis.h"
 #include "linkwright/planar/function/watt_synthesis.h"
 #include "linkwright/planar/link_mass.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -133,6 +134,34 @@ TEST(ExactGenerators, ThePublishedPowerFunction) {
     most = std::max(most, std::abs(std::remainder(out->output - psi(at_x), 2 * pi)));
   }
   EXPECT_NEAR(most, number_at(stored, "computed.max_structural_error_rad"), 1e-9);
+}
+
+// Freudenstein's equation over fifteen pairs, by the normal equations: a start next to which least squares of
+// the angles end, at no more than its error.
+TEST(ExactGenerators, FifteenPairsByFreudensteinsEquation) {
+  const Value& stored = linkwright::test::published_case("path-synthesis.json", "FG-15-least-squares");
+  const std::vector<double> phi = linkwright::test::numbers(at(stored, "inputs.phi_rad")),
+                            psi = linkwright::test::numbers(at(stored, "inputs.psi_rad"));
+  const std::vector<double> k = linkwright::test::numbers(at(stored, "computed.K"));
+  std::array<double, 3> gradient{};
+  for (std::size_t j = 0; j < phi.size(); ++j) {
+    const double off = k[0] * std::cos(psi[j]) - k[1] * std::cos(phi[j]) + k[2] - std::cos(phi[j] - psi[j]);
+    gradient[0] += off * std::cos(psi[j]), gradient[1] -= off * std::cos(phi[j]), gradient[2] += off;
+  }
+  for (const double slope : gradient) EXPECT_NEAR(slope, 0, 1e-10);
+  // K1 = ground / crank, K2 = ground / rocker, and K3 gives the coupler.
+  const double crank = 1 / k[0], rocker = 1 / k[1],
+               coupler = std::sqrt(crank * crank + rocker * rocker + 1 - 2 * crank * rocker * k[2]);
+  EXPECT_NEAR(crank, number_at(stored, "computed.crank_m"), 1e-10);
+  EXPECT_NEAR(rocker, number_at(stored, "computed.rocker_m"), 1e-10);
+  EXPECT_NEAR(coupler, number_at(stored, "computed.coupler_m"), 1e-10);
+  const FunctionGenerator g{false, crank, rocker, coupler, 1};
+  for (std::size_t j = 0; j < phi.size(); ++j) {
+    const auto out = output_at(g, phi[j]);
+    ASSERT_TRUE(out);
+    // The pairs are those of crank 0.45, coupler 1.1, rocker 0.8 with an error of some 1e-3 rad.
+    EXPECT_NEAR(out->output, psi[j], 5e-3);
+  }
 }
 
 TEST(ExactGenerators, FourPairsWithOneStartAngle) {

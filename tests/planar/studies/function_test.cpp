@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "planar/studies.h"
 
 namespace linkwright::planar {
@@ -102,6 +103,38 @@ TEST(SixBarFunctionStudy, ComparesWithTheFourBar) {
     seen = std::max(seen, std::abs(e));
   EXPECT_NEAR(seen, most, 1e-2 * most);
   EXPECT_FALSE(result.solutions[0].study.is_null());
+}
+
+TEST(SixBarFunctionStudy, OfStephensonIsTheLinkageItself) {
+  const study::Result result = run_text(
+      "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.six_bar\"\nstructure "
+      "= "
+      "\"stephenson_3\"\n[target]\ntype = \"function\"\ninput_range_deg = 90\noutput_range_deg = 90\nfit = "
+      "\"least_squares\"\n" +
+      exponential);
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_FALSE(result.solutions.empty());
+  const double most = result.solutions[0].objectives.find("structural_error_rad")->as_number();
+  EXPECT_LT(most, 0.3 * result.statistics.find("four_bar_structural_error_rad")->as_number());
+  double seen = 0;
+  for (const double e : result.table("structural_error")->find("error_rad")->values)
+    seen = std::max(seen, std::abs(e));
+  EXPECT_NEAR(seen, most, 1e-2 * most);
+  EXPECT_FALSE(result.solutions[0].study.is_null());
+}
+
+TEST(FunctionStudy, KeepsALeastTransmissionAngle) {
+  EXPECT_THAT(problems_of(function_study(exponential, "least_transmission_angle_deg = 30\n")),
+              HasSubstr("least_transmission_angle is for fit \"minimax\""));
+  const auto minimax = [](const std::string& function, const std::string& angle) {
+    return function_study(function + "fit = \"minimax\"\n", "least_transmission_angle_deg = " + angle + "\n");
+  };
+  const study::Result tangent = run_text(minimax("function = \"tan\"\nx = { from = 0, to = 45 }\n", "30"));
+  EXPECT_EQ(tangent.status, Status::done);
+  EXPECT_GE(tangent.solutions[0].objectives.find("least_pair_angle_rad")->as_number(), pi / 6);
+  const study::Result decade = run_text(minimax("function = \"log10\"\nx = { from = 1, to = 10 }\n", "69"));
+  ASSERT_FALSE(decade.diagnostics.empty());
+  EXPECT_THAT(decade.diagnostics[0].message, HasSubstr("no four-bar was found with a pair angle of 69°"));
 }
 
 }  // namespace

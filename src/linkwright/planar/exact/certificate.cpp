@@ -37,24 +37,13 @@ void invert(const std::array<math::Complex<T>, NinePoints::data>& p, const Compl
   lu.solve(columns);
 }
 
-}  // namespace
-
+// The operator in one scale of the unknowns.
 template <class T>
-std::optional<SolutionBall> certify(const ExactNinePoints& p, const ComplexFourBar<T>& z) {
+std::optional<SolutionBall> certify_scaled(const math::Ball<T> (&data)[NinePoints::data],
+                                           const ComplexFourBar<T>& z,
+                                           const math::Complex<T> (&inverse)[n][n],
+                                           const double (&scale)[n]) {
   using B = math::Ball<T>;
-  B data[NinePoints::data];
-  std::array<math::Complex<T>, NinePoints::data> middles;
-  for (std::size_t i = 0; i < NinePoints::data; ++i)
-    data[i] = data_ball<T>(p[i]), middles[i] = data[i].middle;
-  math::Complex<T> inverse[n][n];  // column by column
-  invert(middles, z, inverse);
-
-  // Unknowns count in their own sizes, so that large and small ones are told equally well.
-  const double least = 1e-3 * std::sqrt(squared_size(z));
-  double scale[n];
-  for (std::size_t i = 0; i < n; ++i)
-    scale[i] = std::max(std::sqrt(static_cast<double>(math::norm(z[i]))), least);
-
   B at[n], values[n], jacobian[n][n];
   for (std::size_t i = 0; i < n; ++i) at[i] = B(z[i]);
   NinePoints().evaluate(at, data, values, jacobian);
@@ -86,6 +75,28 @@ std::optional<SolutionBall> certify(const ExactNinePoints& p, const ComplexFourB
     SolutionBall out;
     for (std::size_t i = 0; i < n; ++i) out.radius[i] = radius * scale[i] * (1 + 1e-12);
     return out;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <class T>
+std::optional<SolutionBall> certify(const ExactNinePoints& p, const ComplexFourBar<T>& z) {
+  math::Ball<T> data[NinePoints::data];
+  std::array<math::Complex<T>, NinePoints::data> middles;
+  for (std::size_t i = 0; i < NinePoints::data; ++i)
+    data[i] = data_ball<T>(p[i]), middles[i] = data[i].middle;
+  math::Complex<T> inverse[n][n];  // column by column
+  invert(middles, z, inverse);
+  // Unknowns count in their own sizes, but not in less than a share of all: where one pivot is far away, a
+  // pin may be known a million times as well.
+  const double size = std::sqrt(squared_size(z));
+  for (const double share : {1e-3, 1e-7, 1e-11}) {
+    double scale[n];
+    for (std::size_t i = 0; i < n; ++i)
+      scale[i] = std::max(std::sqrt(static_cast<double>(math::norm(z[i]))), share * size);
+    if (const auto ball = certify_scaled(data, z, inverse, scale)) return ball;
   }
   return std::nullopt;
 }

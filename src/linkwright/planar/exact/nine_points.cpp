@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -22,6 +23,10 @@ using FineFourBar = ComplexFourBar<math::DoubleDouble>;
 constexpr std::string_view following = "paths", proving_classes = "certificates";
 constexpr double class_settled = 1e-13, fine_from = 1e-11, fine_settled = 1e-18;
 constexpr double nearly_real = 1e-7;
+// Identities that differ by less than the first, in their size, may be those of one class: with twice the
+// digits they differ by less than the second, or they are not. A proof of an identity to the third decides
+// between two.
+constexpr double perhaps_same = 1e-6, surely_same = 1e-10, sharp_identity = 1e-9;
 // A path that stops this near to its end has come to it; one that ends at infinity is then far outside.
 constexpr double nearly_there = 1e-6, far_out = 100;
 // Small steps in doubles for what got lost or ran into another path, before more digits are taken.
@@ -33,6 +38,7 @@ struct FoundClass {
   ComplexFourBar<> z;
   bool extended = false;
   ComplexNumber identity;
+  bool identified = false, settled = false;  // with twice the digits
 };
 
 // The target in units of a power of two near its size: the differences to the first point are exact.
@@ -72,7 +78,34 @@ std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<
   }
   out.z = z;
   out.identity = NinePoints::identity(z);
+  if (!std::isfinite(math::norm(out.identity))) return std::nullopt;
   return out;
+}
+// The same of a place that is known with twice the digits, where doubles would lead away.
+std::optional<FoundClass> finish_class(const NineTarget& target, FineFourBar fine) {
+  take_smaller_cognate(fine, 0.95);
+  if (!(polish(NinePoints(), target.fine, fine, 1e-26, 20) < fine_settled)) return std::nullopt;
+  FoundClass out{.fine = fine, .z = rounded(fine), .extended = true, .identity = {}};
+  out.identity = NinePoints::identity(out.z);
+  if (!std::isfinite(math::norm(out.identity))) return std::nullopt;
+  return out;
+}
+
+// Takes the identity with twice the digits, which it needs where links are long or classes near each other.
+// False where Newton's method does not settle: there classes meet.
+bool identify(const NineTarget& target, FoundClass& found) {
+  if (found.identified) return found.settled;
+  found.identified = true;
+  FineFourBar fine = found.fine;
+  if (!(polish(NinePoints(), target.fine, fine, 1e-26, 8) < fine_settled)) return false;
+  DoubleDoubleComplex above, below;
+  NinePoints::identity_parts(fine.data(), above, below);
+  const DoubleDoubleComplex ratio = above * math::inverse(below);
+  const ComplexNumber identity(static_cast<double>(ratio.re), static_cast<double>(ratio.im));
+  if (!std::isfinite(math::norm(identity))) return false;
+  found.fine = fine;
+  found.identity = identity;
+  return found.settled = true;
 }
 
 template <class T>
@@ -103,9 +136,16 @@ ComplexFourBar<T> symmetric_class(const ComplexFourBar<T>& z) {
 // The classes that are known, with the paths that led to them.
 class ClassCollection {
  public:
+  explicit ClassCollection(const NineTarget& target) : target_(target) {}
+
   // False: known already.
   bool add(FoundClass found, int path) {
-    const int known = identities_.find(found.identity);
+    int known = -1;
+    for (const int near : near_to(found.identity)) {
+      const bool alike = same_identity(found_[at(near)].identity, found.identity),
+                 settled = identify(target_, found) & identify(target_, found_[at(near)]);
+      if (settled ? apart(found_[at(near)].identity, found.identity) < surely_same : alike) known = near;
+    }
     if (known >= 0) {
       if (path >= 0) {
         collided_.push_back(path);
@@ -113,7 +153,7 @@ class ClassCollection {
       }
       return false;
     }
-    identities_.add(found.identity);
+    order_.emplace(found.identity.re, static_cast<int>(found_.size()));
     paths_.push_back(path);
     found_.push_back(std::move(found));
     return true;
@@ -121,8 +161,8 @@ class ClassCollection {
   // Points are real: the conjugate of a solution is one as well.
   void add_conjugates(const NineTarget& target) {
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (identities_.find(NinePoints::identity(conjugate_class(found_[i].z))) < 0)
-        if (auto partner = finish_class(target, conjugate_class(found_[i].z))) add(std::move(*partner), -1);
+      if (const ComplexFourBar<> other = conjugate_class(found_[i].z); !has(NinePoints::identity(other)))
+        if (auto partner = finish_class(target, other)) add(std::move(*partner), -1);
   }
   std::vector<int> take_collided() {
     std::sort(collided_.begin(), collided_.end());
@@ -133,7 +173,26 @@ class ClassCollection {
   std::vector<FoundClass>& found() { return found_; }
 
  private:
-  Identities identities_;
+  static double apart(const ComplexNumber& a, const ComplexNumber& b) {
+    return std::sqrt(math::norm(a - b)) / (1 + std::sqrt(math::norm(a)));
+  }
+  // Those that may be the same; the real part of an identity may since have changed by rounding.
+  std::vector<int> near_to(const ComplexNumber& identity) const {
+    const double reach = 3 * perhaps_same * (1 + std::sqrt(math::norm(identity)));
+    std::vector<int> out;
+    for (auto i = order_.lower_bound(identity.re - reach);
+         i != order_.end() && i->first <= identity.re + reach; ++i)
+      if (apart(found_[at(i->second)].identity, identity) < perhaps_same) out.push_back(i->second);
+    return out;
+  }
+  bool has(const ComplexNumber& identity) const {
+    const std::vector<int> near = near_to(identity);
+    return std::any_of(near.begin(), near.end(),
+                       [&](int k) { return same_identity(found_[at(k)].identity, identity); });
+  }
+
+  const NineTarget& target_;
+  std::multimap<double, int> order_;  // by the real part of the identity
   std::vector<FoundClass> found_;
   std::vector<int> paths_, collided_;
 };
@@ -142,7 +201,7 @@ class ClassCollection {
 class NineSearch {
  public:
   NineSearch(const StartSet<NinePoints>& starts, const NineTarget& target, RunContext& context)
-      : starts_(starts), target_(target), context_(context), scaled_(target.p) {
+      : classes(target), starts_(starts), target_(target), context_(context), scaled_(target.p) {
     scaling_ = scale_towards<NinePoints>(starts.base, scaled_);
     back_ = {math::inverse(scaling_.place), math::inverse(scaling_.partner)};
   }
@@ -164,8 +223,10 @@ class NineSearch {
   ClassCollection classes;
 
  private:
-  ComplexFourBar<> to_target(ComplexFourBar<> z) const {
-    for (std::size_t i = 0; i < 4; ++i) z[i] = back_.place * z[i], z[i + 4] = back_.partner * z[i + 4];
+  template <class T>
+  ComplexFourBar<T> to_target(ComplexFourBar<T> z) const {
+    const math::Complex<T> place(back_.place), partner(back_.partner);
+    for (std::size_t i = 0; i < 4; ++i) z[i] = place * z[i], z[i + 4] = partner * z[i + 4];
     return z;
   }
 
@@ -213,6 +274,7 @@ class NineSearch {
                       careful, alone)[0];
       const ComplexFourBar<> z = rounded(path.z);
       if (path.at >= 1 - nearly_there) found[i] = finish_class(target_, to_target(z));
+      if (path.at >= 1 - nearly_there && !found[i]) found[i] = finish_class(target_, to_target(path.z));
       ComplexFourBar<> smallest = z;
       take_smaller_cognate(smallest, 1);
       ends[i] = found[i]                                     ? End::found
@@ -247,15 +309,24 @@ std::optional<CertifiedIdentity> prove_class(const NineTarget& target, const Fou
     if (!ball) return std::nullopt;
     return certified_identity(z, *ball);
   };
-  if (!found.extended)
-    if (const auto identity = proved(real ? symmetric_class(found.z) : found.z)) return identity;
+  // Of a wide ball the identity says too little to tell it from the others.
+  const auto sharp = [](const std::optional<CertifiedIdentity>& proof) {
+    return proof && proof->radius < sharp_identity * (1 + std::sqrt(math::norm(proof->identity)));
+  };
+  std::optional<CertifiedIdentity> best;
+  if (!found.extended) {
+    best = proved(real ? symmetric_class(found.z) : found.z);
+    if (sharp(best)) return best;
+  }
   FineFourBar z = found.fine;
   for (int cognate = 0; cognate < 3; ++cognate, z = next_cognate(z)) {
     FineFourBar polished = z;
     polish(NinePoints(), target.fine, polished, 1e-26, 6);
-    if (const auto identity = proved(real ? symmetric_class(polished) : polished)) return identity;
+    const auto proof = proved(real ? symmetric_class(polished) : polished);
+    if (proof && !(best && best->radius <= proof->radius)) best = proof;
+    if (sharp(best)) return best;
   }
-  return std::nullopt;
+  return best;
 }
 
 std::vector<ClassProof> classify_classes(const NineTarget& target, const std::vector<FoundClass>& found,
@@ -322,9 +393,9 @@ NinePointSolutions solve_nine_points(std::span<const std::complex<double>> point
   NineSearch search(*starts, target, context);
   search.run(out);
   std::vector<ClassProof> proofs = classify_classes(target, search.classes.found(), options.certify, context);
-  // Where paths end without a class, what cannot be proved to be a simple solution is one of the places where
-  // they meet.
-  if (options.certify && proofs.size() < nine_point_classes && !context.interrupted())
+  // Where paths end without a class, or there are too many, what cannot be proved to be a simple solution is
+  // one of the places where they meet.
+  if (options.certify && proofs.size() != nine_point_classes && !context.interrupted())
     std::erase_if(proofs, [](const ClassProof& proof) { return !proof.curve.certified; });
   for (const ClassProof& proof : proofs) {
     out.classes.push_back(proof.curve);
@@ -333,7 +404,8 @@ NinePointSolutions solve_nine_points(std::span<const std::complex<double>> point
   }
   // Each class takes one path. Of the others, some end at infinity, some got lost unless a conjugate made up
   // for them; the rest ended where classes meet.
-  const int missing = static_cast<int>(nine_point_classes) - static_cast<int>(out.classes.size());
+  const int missing =
+      std::max(0, static_cast<int>(nine_point_classes) - static_cast<int>(out.classes.size()));
   out.infinite = std::min(out.infinite, missing);
   out.lost = std::min(out.lost, missing - out.infinite);
   out.singular = missing - out.infinite - out.lost;

@@ -60,6 +60,23 @@ std::optional<GeneratorOutput> output_at(const FunctionGenerator& g, double inpu
   return out;
 }
 
+PairCosine pair_cosine(const FunctionGenerator& g, double input) {
+  const Complex turn = std::polar(1.0, input), pin = g.a * turn, i(0, 1);
+  if (g.slider)
+    return {(g.b.imag() - pin.imag()) / g.c,
+            -pin.real() / g.c,
+            {-turn.imag() / g.c, -turn.real() / g.c, 0, 1 / g.c, (pin.imag() - g.b.imag()) / (g.c * g.c)}};
+  const double rocker = std::abs(g.b), below = 2 * g.c * rocker;
+  const Complex pull = 2.0 * std::conj(1.0 - pin);  // how the square of the distance falls with the pin
+  PairCosine out;
+  out.value = (g.c * g.c + rocker * rocker - std::norm(1.0 - pin)) / below;
+  const Complex by_b = (2.0 - out.value * 2 * g.c / rocker) * g.b / below;
+  out.slopes = {std::real(pull * turn) / below, std::real(pull * i * turn) / below, by_b.real(), by_b.imag(),
+                (2 * g.c - out.value * 2 * rocker) / below};
+  out.by_input = std::real(pull * i * pin) / below;
+  return out;
+}
+
 std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pairs, bool slider,
                                                 const StartAngles& given) {
   LINKWRIGHT_REQUIRE(pairs.size() + given.input.has_value() + given.output.has_value() == 5, "{} pairs",

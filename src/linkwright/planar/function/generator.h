@@ -32,6 +32,14 @@ struct GeneratorOutput {
 };
 std::optional<GeneratorOutput> output_at(const FunctionGenerator& generator, double input);
 
+/// Cosine of the angle between coupler and rocker (rod and normal of the guide), whether or not it assembles,
+/// with its derivatives by the numbers in the order of GeneratorOutput, and by the input.
+struct PairCosine {
+  double value = 0, by_input = 0;
+  std::array<double, 5> slopes{};
+};
+PairCosine pair_cosine(const FunctionGenerator& generator, double input);
+
 /// An input (rad) and the output that belongs to it (rad, or m of a slider).
 struct FunctionPair {
   double input = 0, output = 0;

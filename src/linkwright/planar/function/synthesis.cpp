@@ -6,6 +6,8 @@
 #include <complex>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -24,6 +26,11 @@ constexpr std::size_t fitted_samples = 81;
 constexpr int random_generators = 60;
 // Designs of a least squares fit that the least greatest error is sought from.
 constexpr std::size_t minimax_starts = 4;
+// With a least pair angle: more of them, the places of the range where it is a condition, by how much it may
+// be less between these (rad), and random generators that have it, of which the best begin a search.
+constexpr std::size_t steep_starts = 24, pair_conditions = 41, steep_generators = 24;
+constexpr double between_conditions = 2e-3;
+constexpr int screened_generators = 20000, generator_places = 13;
 // Local optima with errors beyond this times that of the best are not worth listing.
 constexpr double worth_listing = 10;
 // Generators whose numbers agree to this share are one.
@@ -57,9 +64,10 @@ bool errors(const FunctionProblem& p, const FunctionGenerator& g, std::span<cons
   return true;
 }
 
-bool better_generator(const FunctionDesign& a, const FunctionDesign& b, FunctionFit fit) {
+bool better_generator(const FunctionDesign& a, const FunctionDesign& b, FunctionFit fit, double pair_angle) {
   const auto whole = [](const FunctionDesign& d) { return d.assembles && d.other_branch == 0; };
   if (whole(a) != whole(b)) return whole(a);
+  if ((a.pair_angle >= pair_angle) != (b.pair_angle >= pair_angle)) return a.pair_angle >= pair_angle;
   if (fit == FunctionFit::least_squares) return a.rms_error < b.rms_error;
   return a.greatest_error < b.greatest_error;
 }
@@ -149,9 +157,12 @@ class GeneratorFinder {
 
   void minimax() {
     rank(FunctionFit::least_squares);
-    const std::vector<FunctionDesign> starts = out_.designs;
-    for (std::size_t s = 0; s < std::min(minimax_starts, starts.size()); ++s) {
-      if (stopped(static_cast<double>(s) / minimax_starts)) return;
+    const bool steep = p_.least_pair_angle > 0;
+    std::vector<FunctionDesign> starts = out_.designs;
+    starts.resize(std::min(steep ? steep_starts : minimax_starts, starts.size()));
+    if (steep) add_steep(starts);
+    for (std::size_t s = 0; s < starts.size(); ++s) {
+      if (stopped(static_cast<double>(s) / static_cast<double>(starts.size()))) return;
       const FunctionGenerator start = starts[s].generator;
       const double unit = starts[s].greatest_error;
       if (!starts[s].assembles || !(unit > 0)) continue;
@@ -176,18 +187,72 @@ class GeneratorFinder {
       upper.fill(p_.most_link);
       lower[4] = 1e-6 * p_.most_link;
       for (std::size_t j = 0; j < 5; ++j) x[j] = std::clamp(x[j], lower[j], upper[j]);
-      optimise::minimise_largest(2 * fitted_samples, objectives, {}, x, lower, upper, {}, context_);
+      const double most_cosine = std::cos(p_.least_pair_angle + between_conditions);
+      const auto conditions = [&](std::span<const double> at, std::span<double> values,
+                                  std::span<double> gradients) {
+        const FunctionGenerator g = with_numbers(start, at);
+        for (std::size_t k = 0; k < pair_conditions; ++k) {
+          const PairCosine pair = pair_cosine(g, p_.input_range * share_of(k, pair_conditions));
+          for (std::size_t row = 2 * k; row < 2 * k + 2; ++row) {
+            const double sign = row % 2 == 0 ? 1 : -1;
+            values[row] = sign * pair.value - most_cosine;
+            for (std::size_t j = 0; j < 5 && !gradients.empty(); ++j)
+              gradients[5 * row + j] = sign * pair.slopes[j];
+          }
+        }
+      };
+      if (steep)
+        optimise::minimise_largest(2 * fitted_samples, objectives, {}, 2 * pair_conditions, conditions, x,
+                                   lower, upper, {}, context_);
+      else
+        optimise::minimise_largest(2 * fitted_samples, objectives, {}, x, lower, upper, {}, context_);
       ++out_.starts;
       const FunctionDesign design = assess(p_, with_numbers(start, x));
       if (design.assembles) out_.designs.push_back(design);
     }
   }
 
+  // The best of many random generators with the least pair angle, each turned, or moved, so that the mean
+  // error is none.
+  void add_steep(std::vector<FunctionDesign>& starts) const {
+    std::vector<std::pair<double, FunctionGenerator>> screened;
+    const double scale = p_.slider ? std::abs(p_.output(1)) : 1, least = std::sin(p_.least_pair_angle);
+    for (int k = 0; k < screened_generators; ++k) {
+      RandomStream random({.seed = 1, .run = 1, .individual = static_cast<std::uint32_t>(k)});
+      const auto length = [&] { return scale * std::exp(random.uniform(-2, 2)); };
+      FunctionGenerator g{p_.slider, std::polar(length(), random.uniform(-pi, pi)), 0, length(),
+                          k % 2 == 0 ? 1.0 : -1.0};
+      g.b = p_.slider ? Complex(0, scale * random.normal()) : Complex(length());
+      double sum = 0, squares = 0, last = 0;
+      bool there = true;
+      for (std::size_t i = 0; i < generator_places && there; ++i) {
+        const double share = share_of(i, generator_places);
+        const auto at = output_at(g, p_.input_range * share);
+        there = at && at->sine > least;
+        if (!there) break;
+        double off = at->output - p_.output(share);
+        if (i > 0 && !p_.slider) off += 2 * pi * std::round((last - off) / (2 * pi));
+        last = off;
+        sum += off;
+        squares += off * off;
+      }
+      if (!there) continue;
+      const double mean = sum / generator_places;
+      g.b = p_.slider ? g.b + mean : g.b * std::polar(1.0, mean);
+      screened.emplace_back(squares / generator_places - mean * mean, g);
+    }
+    std::stable_sort(screened.begin(), screened.end(),
+                     [](const auto& one, const auto& other) { return one.first < other.first; });
+    for (std::size_t k = 0; k < std::min(steep_generators, screened.size()); ++k)
+      starts.push_back(assess(p_, screened[k].second));
+  }
+
   // Best first, each once.
   void rank(FunctionFit fit) {
-    std::stable_sort(
-        out_.designs.begin(), out_.designs.end(),
-        [&](const FunctionDesign& a, const FunctionDesign& b) { return better_generator(a, b, fit); });
+    std::stable_sort(out_.designs.begin(), out_.designs.end(),
+                     [&](const FunctionDesign& a, const FunctionDesign& b) {
+                       return better_generator(a, b, fit, p_.least_pair_angle);
+                     });
     std::vector<FunctionDesign> kept;
     for (const FunctionDesign& d : out_.designs) {
       const auto x = numbers_of(d.generator);

@@ -31,7 +31,9 @@ struct FunctionProblem {
   FunctionFit fit = FunctionFit::points;
   std::vector<double> at;  ///< shares at which it is met (points)
   StartAngles given;       ///< points only
-  double most_link = 20;   ///< greatest |a|, |b| and c, in grounds or m (least_squares, minimax)
+  double least_pair_angle =
+      0;                  ///< rad, kept over the range by designs that come first (minimax); 0 = no limit
+  double most_link = 20;  ///< greatest |a|, |b| and c, in grounds or m (least_squares, minimax)
 };
 
 /// Chebyshev's shares of a range: (1 - cos((2k - 1) pi / 2n)) / 2, k = 1 to n.
@@ -54,8 +56,9 @@ FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& g
 
 struct FunctionAnswer {
   Status status = Status::done;
-  std::vector<FunctionDesign> designs;  ///< best first: those that assemble and have no other branch, then by
-                                        ///< error; of a search those within ten times the error of the best
+  std::vector<FunctionDesign> designs;  ///< best first: those that assemble and have no other branch, then
+                                        ///< those with the least pair angle that is wanted, then by error; of
+                                        ///< a search those within ten times the error of the best
   int starts = 0;                       ///< of the search
 };
 FunctionAnswer find_generators(const FunctionProblem& problem, RunContext& context);

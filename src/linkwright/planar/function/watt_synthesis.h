@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "linkwright/planar/function/synthesis.h"
+#include "linkwright/planar/function/six_bar.h"
 #include "linkwright/planar/linkage/linkage.h"
 
 // Six-bar function generators: two four-bars in a row, the rocker of the first being the crank of the second
@@ -29,20 +29,10 @@ std::optional<WattOutput> output_at(const WattGenerator& generator, double input
 /// the x axis, `ground` (m) apart. The angle of the rocker, and of the output, is that of its first pin.
 Linkage linkage_of(const WattGenerator& generator, double ground);
 
-struct WattDesign {
-  WattGenerator generator;
-  bool assembles = true;                     ///< over the whole range
-  double greatest_error = 0, rms_error = 0;  ///< rad, over the range where it assembles
-  double pair_angle = 0;  ///< rad, least angle between coupler and rocker, and link and output
-};
+using WattDesign = SixBarDesign<WattGenerator>;
 WattDesign assess(const FunctionProblem& problem, const WattGenerator& generator, int samples = 1001);
 
-struct WattAnswer {
-  Status status = Status::done;
-  std::optional<FunctionDesign> four_bar;  ///< the best four-bar of the same problem
-  std::vector<WattDesign> designs;         ///< best first, each once; those that pass a pair angle first
-  int starts = 0;
-};
+using WattAnswer = SixBarAnswer<WattGenerator>;
 /// By least squares, or the least greatest error: from the best four-bars with a parallelogram before or
 /// behind them, which changes nothing at first, and from random pairs. Designs with at least `pair_angle`
 /// (rad) come first; for the least greatest error it is a condition.

@@ -107,7 +107,7 @@ void fields(Visitor&& visit, SliderTarget& t) {
 
 struct RockerMechanism {
   double ground = 0.1;
-  std::optional<double> input_start, output_start;
+  std::optional<double> input_start, output_start, transmission;
 };
 template <class Visitor>
 void fields(Visitor&& visit, RockerMechanism& m) {
@@ -125,6 +125,12 @@ void fields(Visitor&& visit, RockerMechanism& m) {
   visit(
       Field{.key = "output_start", .summary = "that of the rocker, likewise", .dimension = Dimension::angle},
       m.output_start);
+  visit(Field{.key = "least_transmission_angle",
+              .summary = "between coupler and rocker over the range (minimax); default: no limit",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 1.2217304763960306},
+        m.transmission);
 }
 struct SliderMechanism {
   std::optional<double> input_start;
@@ -138,14 +144,23 @@ void fields(Visitor&& visit, SliderMechanism& m) {
       m.input_start);
 }
 
-/// Two four-bars in a row.
+/// What a six-bar is made of.
+enum class SixBarStructure { watt_2, stephenson_3 };
+constexpr std::array<EnumName<SixBarStructure>, 2> names(SixBarStructure) {
+  return {{{SixBarStructure::watt_2, "watt_2", "two four-bars in a row"},
+           {SixBarStructure::stephenson_3, "stephenson_3",
+            "a four-bar whose coupler drives the output through a link"}}};
+}
+
 struct SixBarMechanism {
+  SixBarStructure structure = SixBarStructure::watt_2;
   double ground = 0.1, longest = 5, transmission = 0.5235987755982988;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SixBarMechanism& m) {
+  visit(Field{.key = "structure", .summary = "what the six-bar is made of"}, m.structure);
   visit(Field{.key = "ground",
-              .summary = "length of the ground link of either four-bar",
+              .summary = "length of the ground link, of either four-bar of watt_2",
               .dimension = Dimension::length,
               .minimum = 1e-6,
               .maximum = 1e6},
@@ -155,12 +170,15 @@ void fields(Visitor&& visit, SixBarMechanism& m) {
               .minimum = 1,
               .maximum = 20},
         m.longest);
-  visit(Field{.key = "least_transmission_angle",
-              .summary = "of both four-bars over the range; six-bars that have it come first",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.2217304763960306},
-        m.transmission);
+  visit(
+      Field{.key = "least_transmission_angle",
+            .summary =
+                "between coupler and rocker, and link and output; six-bars that have it over the range come "
+                "first",
+            .dimension = Dimension::angle,
+            .minimum = 0,
+            .maximum = 1.2217304763960306},
+      m.transmission);
 }
 
 struct FunctionStudy {
@@ -170,6 +188,7 @@ struct FunctionStudy {
   FunctionProblem problem;  ///< what follows from the above
   std::string name;         ///< of the function, for people
   double transmission = 0;  ///< rad, that six-bars are to have
+  SixBarStructure structure = SixBarStructure::watt_2;
 };
 
 /// "synthesis" of "planar.four_bar" and "planar.slider_crank" for "function".

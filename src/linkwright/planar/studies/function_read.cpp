@@ -220,11 +220,12 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
   if constexpr (std::is_same_v<Mechanism, RockerMechanism>) {
     s.mechanism = mechanism;
   } else if constexpr (std::is_same_v<Mechanism, SliderMechanism>) {
-    s.mechanism = {.ground = 1, .input_start = mechanism.input_start};
+    s.mechanism = {.ground = 1, .input_start = mechanism.input_start, .output_start = {}, .transmission = {}};
   } else {
     s.mechanism.ground = mechanism.ground;
     s.problem.most_link = mechanism.longest;
     s.transmission = mechanism.transmission;
+    s.structure = mechanism.structure;
   }
   if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     table->read(target);
@@ -237,6 +238,10 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
                      "write fit = \"minimax\" or \"least_squares\"");
     } else {
       set_points(*table, s);
+      s.problem.least_pair_angle = s.mechanism.transmission.value_or(0);
+      if (s.mechanism.transmission && s.target.fit != FunctionFit::minimax)
+        table->error("fit", "least_transmission_angle is for fit \"minimax\"",
+                     "write fit = \"minimax\", or remove the angle");
     }
   }
   return s;

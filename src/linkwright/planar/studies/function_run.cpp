@@ -193,6 +193,13 @@ class FunctionReport {
     fact("root mean square error", amount(best.rms_error));
     fact("least pair angle", fmt::format("{:.1f}°", pair),
          best.pair_angle < flat_generator ? Verdict::bad : Verdict::plain);
+    if (best.pair_angle < p_.least_pair_angle) {
+      warn("mechanism",
+           fmt::format("no {} was found with a pair angle of {:.3g}° over the range", what,
+                       math::degrees(p_.least_pair_angle)),
+           "take smaller ranges, or a six-bar: mechanism type = \"planar.six_bar\"");
+      return;
+    }
     if (best.pair_angle < flat_generator)
       warn(fmt::format("the pair angle falls to {:.1f}°: the linkage is near a dead point there", pair),
            "take smaller ranges, or another of the solutions");

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/function/stephenson_synthesis.h"
 #include "linkwright/planar/function/watt_synthesis.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/motion.h"
@@ -23,12 +26,44 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
-// The output in the linkage of a WattGenerator.
-constexpr int watt_output_body = 5;
+// The output in the linkage of either generator.
+constexpr int six_bar_output_body = 5;
 
+std::complex<double> input_pin(const WattGenerator& g) { return g.first.a; }
+std::complex<double> input_pin(const StephensonGenerator& g) { return g.a; }
+std::complex<double> output_pin(const WattGenerator& g) { return g.second.b; }
+std::complex<double> output_pin(const StephensonGenerator& g) { return g.b; }
+std::string_view output_point(const WattGenerator&) { return "output.H"; }
+std::string_view output_point(const StephensonGenerator&) { return "output.F"; }
+
+using AddLength = std::function<void(std::string key, std::string label, double value)>;
+void add_numbers(const WattGenerator& g, double scale, const AddLength& add) {
+  const auto& [first, second] = g;
+  add("ground_m", "ground link of either four-bar", scale);
+  add("crank_m", "crank", std::abs(first.a) * scale);
+  add("coupler_m", "coupler", first.c * scale);
+  add("rocker_m", "rocker, to the coupler", std::abs(first.b) * scale);
+  add("rocker_link_m", "rocker, to the link", std::abs(second.a) * scale);
+  add("rocker_angle_rad", "angle between both arms of the rocker",
+      math::wrap_angle(std::arg(second.a) - std::arg(first.b)));
+  add("link_m", "link from the rocker to the output", second.c * scale);
+}
+void add_numbers(const StephensonGenerator& g, double scale, const AddLength& add) {
+  add("ground_m", "ground link of the four-bar", scale);
+  add("crank_m", "crank", std::abs(g.a) * scale);
+  add("coupler_m", "coupler", g.coupler * scale);
+  add("rocker_m", "rocker", g.rocker * scale);
+  add("coupler_u_m", "pin of the link, along the coupler", g.point.real() * scale);
+  add("coupler_v_m", "pin of the link, to the left of the coupler", g.point.imag() * scale);
+  add("output_pivot_x_m", "pivot of the output, along the ground link", g.pivot.real() * scale);
+  add("output_pivot_y_m", "pivot of the output, to its left", g.pivot.imag() * scale);
+  add("link_m", "link from the coupler to the output", g.link * scale);
+}
+
+template <class Generator>
 class SixBarFunctionReport {
  public:
-  SixBarFunctionReport(const FunctionStudy& s, const study::Common& common, WattAnswer answer)
+  SixBarFunctionReport(const FunctionStudy& s, const study::Common& common, SixBarAnswer<Generator> answer)
       : s_(s), p_(s.problem), common_(common), answer_(std::move(answer)) {}
 
   study::Result make() {
@@ -46,26 +81,18 @@ class SixBarFunctionReport {
  private:
   static std::string degrees_text(double angle) { return fmt::format("{:.3g}°", math::degrees(angle)); }
 
-  void solution(const WattDesign& d, std::size_t number) {
+  void solution(const SixBarDesign<Generator>& d, std::size_t number) {
     study::Solution out;
-    const FunctionGenerator &first = d.generator.first, &second = d.generator.second;
     const double scale = s_.mechanism.ground;
     out.label = fmt::format("six-bar, greatest error {}, least pair angle {:.1f}°",
                             degrees_text(d.greatest_error), math::degrees(d.pair_angle));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
-    add("ground_m", "ground link of either four-bar", scale);
-    add("crank_m", "crank", std::abs(first.a) * scale);
-    add("coupler_m", "coupler", first.c * scale);
-    add("rocker_m", "rocker, to the coupler", std::abs(first.b) * scale);
-    add("rocker_link_m", "rocker, to the link", std::abs(second.a) * scale);
-    add("rocker_angle_rad", "angle between both arms of the rocker",
-        math::wrap_angle(std::arg(second.a) - std::arg(first.b)));
-    add("link_m", "link from the rocker to the output", second.c * scale);
-    add("output_m", "output", std::abs(second.b) * scale);
-    add("input_start_rad", "direction of the crank at the start", std::arg(first.a));
-    add("output_start_rad", "direction of the output at the start", std::arg(second.b));
+    add_numbers(d.generator, scale, add);
+    add("output_m", "output", std::abs(output_pin(d.generator)) * scale);
+    add("input_start_rad", "direction of the crank at the start", std::arg(input_pin(d.generator)));
+    add("output_start_rad", "direction of the output at the start", std::arg(output_pin(d.generator)));
     out.objectives["structural_error_rad"] = d.greatest_error;
     out.objectives["structural_error_rms_rad"] = d.rms_error;
     out.objectives["least_pair_angle_rad"] = d.pair_angle;
@@ -77,7 +104,7 @@ class SixBarFunctionReport {
   }
 
   // Error over the range by the solver of any linkage, beside that of the best four-bar; drawing and study.
-  void tables(const WattDesign& d, study::Solution& out, std::size_t number) {
+  void tables(const SixBarDesign<Generator>& d, study::Solution& out, std::size_t number) {
     const std::string suffix = number == 1 ? "" : fmt::format("-{}", number);
     const Linkage linkage = linkage_of(d.generator, s_.mechanism.ground);
     const PlanResult planned = plan_linkage(linkage);
@@ -91,14 +118,15 @@ class SixBarFunctionReport {
       const double share = static_cast<double>(k) / (samples - 1);
       x.push_back(s_.x_from + (s_.x_to - s_.x_from) * share);
       input.push_back(p_.input_range * share);
-      crank.push_back(input.back() + std::arg(d.generator.first.a));
+      crank.push_back(input.back() + std::arg(input_pin(d.generator)));
       const InputMotion turned{crank.back(), 0, 0};
       solve_motion(planned.plan, std::span(&turned, 1), moving);
       records.push_back(record_of(linkage, planned.plan, moving, nullptr, crank.back()));
-      const PartState<double> state = body_state(planned.plan, moving, watt_output_body);
+      const PartState<double> state = body_state(planned.plan, moving, six_bar_output_body);
       const std::complex<double> direction(state.direction.x, state.direction.y);
       wanted.push_back(p_.output(share));
-      error.push_back(math::wrap_angle(std::arg(direction) - std::arg(d.generator.second.b) - wanted.back()));
+      error.push_back(
+          math::wrap_angle(std::arg(direction) - std::arg(output_pin(d.generator)) - wanted.back()));
       output.push_back(wanted.back() + error.back());
       of_four_bar.push_back(
           answer_.four_bar ? structural_error(p_, answer_.four_bar->generator, share).value_or(nan) : nan);
@@ -117,13 +145,14 @@ class SixBarFunctionReport {
       plot("four-bar", "Structural error, and that of the best four-bar",
            {"error_rad", "four_bar_error_rad"});
     plot("output" + suffix, "Output, and what is wanted" + of, {"output_rad", "wanted_rad"});
-    study::Scene scene = linkage_scene(linkage, planned.plan, records, {point_named(linkage, "output.H")},
-                                       "crank_angle_rad", "crank angle");
+    study::Scene scene =
+        linkage_scene(linkage, planned.plan, records, {point_named(linkage, output_point(d.generator))},
+                      "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
     scene.title = fmt::format("{}: {}", number, out.label);
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
-    out.study = motion_study(linkage, true, crank, "output.H");
+    out.study = motion_study(linkage, true, crank, std::string(output_point(d.generator)));
   }
 
   void say() {
@@ -139,7 +168,7 @@ class SixBarFunctionReport {
              "take smaller ranges, or let the links be longer");
       return;
     }
-    const WattDesign& best = answer_.designs[0];
+    const SixBarDesign<Generator>& best = answer_.designs[0];
     const bool steep = best.pair_angle >= s_.transmission;
     result_.headline = fmt::format("A six-bar generates {} within {}, least pair angle {:.1f}°.", s_.name,
                                    degrees_text(best.greatest_error), math::degrees(best.pair_angle));
@@ -161,7 +190,7 @@ class SixBarFunctionReport {
   const FunctionStudy& s_;
   const FunctionProblem& p_;
   const study::Common& common_;
-  const WattAnswer answer_;
+  const SixBarAnswer<Generator> answer_;
   study::Result result_;
 };
 
@@ -169,6 +198,9 @@ class SixBarFunctionReport {
 
 study::Result run_six_bar_function_study(const FunctionStudy& s, const study::Common& common,
                                          RunContext& context) {
+  if (s.structure == SixBarStructure::stephenson_3)
+    return SixBarFunctionReport(s, common, find_stephenson_generators(s.problem, s.transmission, context))
+        .make();
   return SixBarFunctionReport(s, common, find_watt_generators(s.problem, s.transmission, context)).make();
 }
 
