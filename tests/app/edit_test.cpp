@@ -140,6 +140,71 @@ points_mm = [[0, 0], [10, 5], [20, 0]]
             replaced(search, "{ min = 10, max = 90 }", "{ min = 20.0, max = 80.0 }"));
 }
 
+constexpr const char* body_poses = R"([mechanism]
+type = "planar.four_bar"
+
+[target]
+type = "poses"
+
+# The first.
+[[target.pose]]
+x_mm      = 10.0
+y_mm      = 20.0
+angle_deg = 30.0   # of the plate
+
+# The second.
+[[target.pose]]
+x_mm      = 40.0
+y_mm      = 50.0
+angle_deg = 60.0
+
+[optimiser]
+max_solutions = 3
+)";
+
+Value body_pose(double x, double y, double angle) {
+  Value out = Value::object();
+  out["x_m"] = x;
+  out["y_m"] = y;
+  out["angle_rad"] = angle;
+  return out;
+}
+
+TEST(EditStudy, ATableIsPutBehindTheOthersOfItsListInTheirUnits) {
+  EXPECT_EQ(change(body_poses, {{"target.pose[2]", body_pose(0.07, -0.08, 0)}}),
+            replaced(body_poses, "60.0\n",
+                     "60.0\n\n[[target.pose]]\nx_mm      = 70.0\ny_mm      = -80.0\nangle_deg = 0.0\n"));
+  // What has no such list yet gets one, behind the table that it comes into; of an entry of a list into that
+  // one.
+  Value mass = Value::object();
+  mass["mass_kg"] = 2.0;
+  EXPECT_EQ(
+      change(linkage, {{"mechanism.body[0].attached[0]", mass}}),
+      replaced(linkage, "# the frame\n", "# the frame\n\n[[mechanism.body.attached]]\nmass_kg = 2.0\n"));
+  Value spring = Value::object();
+  spring["first"] = "ground.O";
+  EXPECT_EQ(change(linkage, {{"mechanism.spring[0]", spring}}),
+            std::string(linkage) + "\n[[mechanism.spring]]\nfirst = \"ground.O\"\n");
+  EXPECT_EQ(change("[target]\npose = [{ x_mm = 1.0 }]\n", {{"target.pose[1]", body_pose(0.001, 0.002, 0)}}),
+            "[target]\n\n[[target.pose]]\nx_mm = 1.0\n\n[[target.pose]]\nx_m = 0.001\ny_m = 0.002\nangle_rad "
+            "= 0.0\n");
+}
+
+TEST(EditStudy, ATableOfAListIsTakenOutAndSoIsAKey) {
+  EXPECT_EQ(
+      change(body_poses, {{"target.pose[0]", Value()}}),
+      replaced(body_poses,
+               "[[target.pose]]\nx_mm      = 10.0\ny_mm      = 20.0\nangle_deg = 30.0   # of the plate\n\n",
+               ""));
+  EXPECT_EQ(change(linkage, {{"mechanism.body[1]", Value()}}),
+            std::string(linkage).substr(
+                0, std::string_view(linkage).find("\n[[mechanism.body]]\nname      = \"crank\"") + 1));
+  EXPECT_EQ(change(linkage, {{"mechanism.body[1].mass_kg", Value()}}),
+            replaced(linkage, "mass_kg   = 0.36                    # of aluminium\n", ""));
+  EXPECT_EQ(change("{\"a\": [{\"b\": 1}, {\"b\": 2}]}", {{"a[0]", Value()}}),
+            "{\n  \"a\": [\n    {\n      \"b\": 2\n    }\n  ]\n}\n");
+}
+
 TEST(EditStudy, WhatCannotBeChangedLeavesTheTextAndSaysWhy) {
   Diagnostics diagnostics;
   const std::vector<Edit> nowhere{{"mechanism.body[7].mass_kg", 1.0}};

@@ -144,6 +144,20 @@ function Targets({ scene }: { scene: Scene }) {
   );
 }
 
+/** Where the poses of a target are turned by hand. */
+function Turns({ scene }: { scene: Scene }) {
+  const turns = scene.handles?.filter((h) => h.target >= 0 && h.point >= 0) ?? [];
+  if (!turns.length || !state.showTargets.value) return null;
+  return (
+    <g class="turns">
+      {turns.map(({ key, point }) => {
+        const p = screen(placeAt(scene, point, 0));
+        return p && <circle key={point} data-turns={key} cx={p.x} cy={p.y} r={5}><title>drag to turn the pose</title></circle>;
+      })}
+    </g>
+  );
+}
+
 function Circles({ scene, at }: { scene: Scene; at: number }) {
   return (
     <>
@@ -363,6 +377,7 @@ export function Drawing(): JSX.Element {
             <Traces scene={scene} />
             <Pose scene={scene} under={false} />
             <Targets scene={scene} />
+            <Turns scene={scene} />
             <Stroke />
             <Arrows scene={scene} />
             <Key scene={scene} />

@@ -378,6 +378,102 @@ test("target points are added, removed and drawn by hand", async () => {
   await close();
 });
 
+test("poses are moved, turned, added and removed by hand", async () => {
+  const { page, errors, close } = await open({ example: "loading-arm" });
+  const text = await studyText(page);
+  const posesOf = async () => (await resultOf(page)).study.target.pose;
+  const before = await posesOf();
+  const centre = async (part) => {
+    await page.evaluate(() => scrollTo(0, 0)); // looking at the result has moved the page
+    const { x, y, width, height } = await part.boundingBox();
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  const dragFrom = async (part, dx, dy) => {
+    const { x, y } = await centre(part);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + dx, y + dy, { steps: 4 });
+    await page.mouse.up();
+    await settled(page);
+  };
+  // The origin moves it and leaves its angle.
+  await dragFrom(page.locator('.target[data-index="3"] circle'), -6, 4);
+  await holds(page, async () => (await posesOf())[3].x_m < before[3].x_m);
+  const moved = await posesOf();
+  assert.equal(moved[3].angle_rad, before[3].angle_rad);
+  assert.ok(moved[3].y_m < before[3].y_m);
+  // A corner of the body turns it about the origin: the angle to the pointer is the angle of the body.
+  const corner = page.locator('[data-turns="target.pose[4].angle_rad"]').first();
+  const [origin, from] = [await centre(page.locator('.target[data-index="4"] circle')), await centre(corner)];
+  await dragFrom(corner, 8, 5);
+  const direction = (x, y) => Math.atan2(origin.y - y, x - origin.x);
+  const turn = direction(from.x + 8, from.y + 5) - direction(from.x, from.y);
+  await holds(page, async () => (await posesOf())[4].angle_rad !== before[4].angle_rad);
+  const turned = await posesOf();
+  assert.ok(Math.abs(turned[4].angle_rad - before[4].angle_rad - turn) < 2e-3, `${turned[4].angle_rad - before[4].angle_rad}, not ${turn}`);
+  assert.deepEqual([turned[4].x_m, turned[4].y_m, turned.slice(0, 3)], [before[4].x_m, before[4].y_m, before.slice(0, 3)]);
+  const result = await resultOf(page);
+  assertSameTables(result, asTheProgram(await studyText(page)));
+  // A pose less, one that is drawn, and back: a gesture is a step, and the comments stay.
+  await page.keyboard.down("Alt");
+  const last = await centre(page.locator('.target[data-index="4"] circle'));
+  await page.mouse.click(last.x, last.y);
+  await page.keyboard.up("Alt");
+  await holds(page, async () => (await posesOf()).length === 4);
+  await page.locator("button.switch", { hasText: "Add poses" }).click();
+  await page.evaluate(() => scrollTo(0, 0));
+  const sheet = await page.locator("#drawing").boundingBox();
+  await page.mouse.move(sheet.x + 0.13 * sheet.width, sheet.y + 0.75 * sheet.height);
+  await page.mouse.down();
+  await page.mouse.move(sheet.x + 0.13 * sheet.width + 40, sheet.y + 0.75 * sheet.height - 40, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  await holds(page, async () => (await posesOf()).length === 5);
+  assert.ok(Math.abs((await posesOf())[4].angle_rad - Math.PI / 4) < 1e-6);
+  for (let i = 0; i < 4; ++i) {
+    await page.locator("#undo").click();
+    await settled(page);
+  }
+  assert.equal(await studyText(page), text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a function becomes a table, whose rows are changed, added, pasted and removed", async () => {
+  const { page, errors, close } = await open({ example: "logarithm-scale" });
+  const text = await studyText(page);
+  const tableOf = async () => (await resultOf(page)).study.target.table;
+  await page.locator("#as-table").click();
+  await page.locator('[data-list="target.table"]').waitFor();
+  await settled(page);
+  const begun = await tableOf();
+  assert.equal(begun.length, 11);
+  assert.ok(begun.every(([x], i) => !i || x > begun[i - 1][0]));
+  assert.doesNotMatch(await studyText(page), /function *=/);
+  const cell = page.locator('input[data-key="target.table[3][1]"]');
+  await cell.fill(String(Number(await cell.inputValue()) * 1.01));
+  await cell.press("Enter");
+  await holds(page, async () => (await tableOf())[3][1] > begun[3][1]);
+  await page.locator('[data-grow="target.table"]').click();
+  await holds(page, async () => (await tableOf()).length === 12);
+  await page.locator('[data-list="target.table"] .out').last().click();
+  await holds(page, async () => (await tableOf()).length === 11);
+  await page.locator('input[data-key="target.table[0][0]"]').evaluate((input) => {
+    const data = new DataTransfer();
+    data.setData("text", "0\t0\n1\t0,8\n2\t2.1\n");
+    input.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }));
+  });
+  await holds(page, async () => JSON.stringify(await tableOf()) === "[[0,0],[1,0.8],[2,2.1]]");
+  assertSameTables(await resultOf(page), asTheProgram(await studyText(page)));
+  for (let i = 0; i < 5; ++i) {
+    await page.locator("#undo").click();
+    await settled(page);
+  }
+  assert.equal(await studyText(page), text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("points that the timing does not allow are not taken, and it says why", async () => {
   const { page, errors, close } = await open({ example: "arc-5-points-timed" });
   const text = await studyText(page);

@@ -6,7 +6,7 @@ import { withNumbers } from "../src/workbench/engine";
 import { sortOut } from "../src/workbench/files";
 import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
-import { along, listOf, tidy, withoutPoint, withPoint } from "../src/workbench/points";
+import { along, listOf, pastedRows, tidy, withoutPoint, withPoint, withPose } from "../src/workbench/points";
 import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
 import { absent, nodeAt, ruleOf } from "../src/workbench/schema";
 
@@ -321,4 +321,29 @@ test("the program in C++ is the example that the tests of the library build", ()
   // What a text holds ends no literal.
   expect(asCpp({ name: "a", text: 'title = ")"', files: {} })).toContain('R"_(title = ")")_"');
   expect(asCpp({ name: "a", text: "", files: { "t.csv": "1,2" } })).toContain('std::ofstream("t.csv") << R"(1,2)";');
+});
+
+test("poses are a list of tables: one more, one less, moved by their origin and turned by their body", () => {
+  const handle = { measure: "x", frame: -1, point: -1, target: 0, index: 1, from: -1, held: false };
+  const posed = {
+    input: [0],
+    points: [{ name: "A", x: [2], y: [1] }, { name: "P", x: [1], y: [1] }],
+    targets: [{ x: [0, 1], y: [0, 1] }],
+    handles: [{ ...handle, key: "target.pose[1].x_m" }, { ...handle, key: "target.pose[1].y_m", measure: "y" }, { ...handle, key: "target.pose[1].angle_rad", measure: "angle", point: 0, from: 1 }],
+  } as unknown as Scene;
+  const study = { target: { pose: [{ x_m: 0, y_m: 0, angle_rad: 0 }, { x_m: 1, y_m: 1, angle_rad: 6 }, { x_m: 2, y_m: 0, angle_rad: 0.5 }] } };
+  expect(listOf(posed)).toBe("target.pose");
+  expect(moveTo(posed, gripTarget(posed, 0, 1, 0)!, { x: 3, y: 4 }, false, study)).toEqual([{ key: "target.pose[1].x_m", value: 3 }, { key: "target.pose[1].y_m", value: 4 }]);
+  // The angle goes on from where it was, beyond a turn.
+  expect(moveTo(posed, gripPoint(posed, 0, 0, 4)!, { x: 1, y: 9 }, false, study)).toEqual([{ key: "target.pose[1].angle_rad", value: 6 + Math.PI / 2 }]);
+  expect(withPose(study, "target.pose", [{ x: 1, y: 2 }], 4)).toEqual({ key: "target.pose[3]", value: { x_m: 1, y_m: 2, angle_rad: 0.5 } });
+  expect(withPose(study, "target.pose", [{ x: 1, y: 2 }, { x: 1, y: 3 }], 4).value).toEqual({ x_m: 1, y_m: 2, angle_rad: Math.PI / 2 });
+  expect(withoutPoint(study, "target.pose", 1)).toEqual([{ key: "target.pose[1]", value: null }]);
+  expect(withoutPoint({ target: { pose: study.target.pose.slice(1) } }, "target.pose", 1)).toEqual([]);
+});
+
+test("rows are pasted as spreadsheets of any country write them", () => {
+  for (const text of ["1\t2.5\n3\t4\n", "1;2,5\r\n3;4\r\n", "1 2.5\n\n3 4", "1, 2.5\n3, 4", "1,2.5\n3,4"]) expect(pastedRows(text, 1), text).toEqual([[1, 2.5], [3, 4]]);
+  expect(pastedRows("\u22121\t2", 1000)).toEqual([[-0.001, 0.002]]);
+  for (const text of ["", "7", "x\ty", "1\t2\t3"]) expect(pastedRows(text, 1), text).toBeNull();
 });

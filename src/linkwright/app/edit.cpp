@@ -200,6 +200,164 @@ std::optional<std::string> inserted(std::string_view text, const Value& document
   return fmt::format("{}{}\n[{}]\n{}", text, text.ends_with('\n') ? "" : "\n", name, line);
 }
 
+/// Behind the last character of a value, of a table with all that is in it; npos = that cannot be seen.
+std::size_t end_of_value(std::string_view text, const Value& value) {
+  const std::size_t begin = offset_of(text, value.position);
+  if (begin >= text.size()) return std::string_view::npos;
+  if (!value.is_object() && !value.is_array()) return end_of(text, begin);
+  std::size_t end = begin + 1;
+  const auto holds = [&](const Value& v) {
+    end = std::max(end, end_of_value(text, v));
+  };  // npos is the largest
+  bool tables = value.is_object() && text[begin] == '[';
+  if (value.is_object()) {
+    for (const Value::Member& member : value.as_object()) holds(member.value);
+  } else {
+    for (const Value& item : value.as_array()) {
+      holds(item);
+      tables = tables || (item.is_object() && text.substr(offset_of(text, item.position), 2) == "[[");
+    }
+  }
+  if (tables || end == std::string_view::npos) return end;
+  end = text.find(value.is_object() ? '}' : ']', end);
+  return end == std::string_view::npos ? end : end + 1;
+}
+
+/// Behind the line on which a value ends; npos = that cannot be seen.
+std::size_t end_of_lines(std::string_view text, const Value& value) {
+  const std::size_t end = end_of_value(text, value);
+  if (end == std::string_view::npos) return end;
+  const std::size_t line = text.find('\n', end);
+  return line == std::string_view::npos ? text.size() : line + 1;
+}
+
+/// A document without a value; false if it has none at the path.
+bool erase(Value& document, const std::vector<study::KeyStep>& path) {
+  std::vector<study::KeyStep> above(path);
+  const bool item = !path.back().indices.empty();
+  if (item)
+    above.back().indices.pop_back();
+  else
+    above.pop_back();
+  // `find` has no business with constness: the document is ours.
+  Value* holder = const_cast<Value*>(find(document, above).value);
+  if (!holder) return false;
+  if (item) {
+    if (!holder->is_array() || path.back().indices.back() >= holder->as_array().size()) return false;
+    holder->as_array().erase(holder->as_array().begin() +
+                             static_cast<std::ptrdiff_t>(path.back().indices.back()));
+    return true;
+  }
+  const Value* value = find(document, path).value;
+  return value &&
+         std::erase_if(holder->as_object(), [&](const Value::Member& m) { return &m.value == value; });
+}
+
+/// A document with one more table at the end of a list of them; false if there is no place for it.
+bool append(Value& document, const std::vector<study::KeyStep>& path, const Value& table) {
+  std::vector<study::KeyStep> above(path);
+  if (path.back().indices.size() != 1) return false;
+  const std::size_t index = path.back().indices.back();
+  above.back().indices.clear();
+  if (Value* list = const_cast<Value*>(find(document, above).value)) {
+    if (!list->is_array() || list->as_array().size() != index) return false;
+    list->push_back(table);
+    return true;
+  }
+  above.pop_back();
+  Value* holder = const_cast<Value*>(find(document, above).value);
+  if (!holder || !holder->is_object() || index != 0) return false;
+  (*holder)[path.back().key].push_back(table);
+  return true;
+}
+
+/// The text without one of its keys, or one of its tables in a list of them; nothing if that is not seen to
+/// leave everything else.
+std::optional<std::string> removed(std::string_view text, const Value& document, const Edit& edit,
+                                   study::Syntax syntax) {
+  const auto path = study::parse_path(edit.key);
+  if (!edit.value.is_null() || !path || path->empty() || syntax != study::Syntax::toml) return std::nullopt;
+  const Found found = find(document, *path);
+  if (!found.value) return std::nullopt;
+  std::size_t begin = offset_of(text, found.value->position);
+  if (begin >= text.size()) return std::nullopt;
+  begin = text.rfind('\n', begin) + 1;
+  std::size_t end = end_of_lines(text, *found.value);
+  if (end == std::string_view::npos) return std::nullopt;
+  if (found.value->is_object() && text.substr(end, 1) == "\n") ++end;
+  std::string next = fmt::format("{}{}", text.substr(0, begin), text.substr(end));
+  Value expected = document;
+  Diagnostics ignored;
+  if (!erase(expected, *path) || !(study::read_text(next, syntax, page_text, ignored) == expected))
+    return std::nullopt;
+  return next;
+}
+
+/// The text with one more table behind the last one of a list of them, in its units; nothing if the text does
+/// not have them one by one.
+std::optional<std::string> appended(std::string_view text, const Value& document, const Edit& edit,
+                                    const study::DisplayUnits& units, study::Syntax syntax) {
+  const auto path = study::parse_path(edit.key);
+  if (!edit.value.is_object() || !path || path->empty() || syntax != study::Syntax::toml ||
+      path->back().indices.size() != 1)
+    return std::nullopt;
+  std::vector<study::KeyStep> list(*path);
+  list.back().indices.clear();
+  const Found found = find(document, list);
+  const Value* last = nullptr;
+  std::size_t place = text.size();
+  if (found.value) {
+    if (!found.value->is_array() || found.value->as_array().size() != path->back().indices[0] ||
+        found.value->as_array().empty())
+      return std::nullopt;
+    last = &found.value->as_array().back();
+    const std::size_t begin = offset_of(text, last->position);
+    if (begin >= text.size() || text.substr(begin, 2) != "[[") return std::nullopt;
+    place = end_of_lines(text, *last);
+    if (place == std::string_view::npos) return std::nullopt;
+  } else {
+    if (path->back().indices[0] != 0) return std::nullopt;
+    // Behind what there is of the table that it comes into, if that has a place of its own.
+    std::vector<study::KeyStep> above(list);
+    above.pop_back();
+    const Value* holder = find(document, above).value;
+    const std::size_t begin = holder ? offset_of(text, holder->position) : text.size();
+    if (begin < text.size() && text[begin] == '[') place = std::min(place, end_of_lines(text, *holder));
+  }
+  std::string name;
+  for (const study::KeyStep& step : list) name += (name.empty() ? "" : ".") + step.key;
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::size_t width = 0;
+  for (const Value::Member& member : edit.value.as_object()) {
+    const auto wanted = split_unit(member.key);
+    std::string key = units.key(member.key).key;
+    if (last)
+      for (const Value::Member& there : last->as_object()) {
+        const auto other = split_unit(there.key);
+        if (wanted && other && other->base == wanted->base && other->dimension == wanted->dimension)
+          key = there.key;
+      }
+    const auto shown = split_unit(key);
+    const auto value = text_of(
+        member.value, {nullptr, wanted ? wanted->unit : nullptr, shown ? shown->unit : nullptr}, syntax);
+    if (!value) return std::nullopt;
+    width = std::max(width, key.size());
+    lines.emplace_back(std::move(key), *value);
+  }
+  std::string table = fmt::format("{}\n[[{}]]\n", place > 0 && text[place - 1] != '\n' ? "\n" : "", name);
+  for (const auto& [key, value] : lines) table += fmt::format("{:{}} = {}\n", key, width, value);
+  std::string next = fmt::format("{}{}{}", text.substr(0, place), table, text.substr(place));
+  // A list in an entry of another list belongs to the last one of those.
+  Diagnostics ignored;
+  const Value read = study::read_text(next, syntax, page_text, ignored);
+  if (!ignored.empty() || !find(read, *path).value) return std::nullopt;
+  Value back = read;
+  Value expected = document;
+  if (!erase(back, *path)) return std::nullopt;
+  if (!found.value) erase(back, list);
+  return back == expected ? std::optional(std::move(next)) : std::nullopt;
+}
+
 std::string comment_at_top(std::string_view text) {
   std::size_t end = 0;
   while (end < text.size() && text[end] == '#') end = std::min(text.find('\n', end), text.size() - 1) + 1;
@@ -216,6 +374,15 @@ study::DisplayUnits units_of(const study::Study& study) {
   return units;
 }
 
+/// Whether a document has the value that is changed, or the list that one more table is put to.
+bool has_place(const Value& document, const Edit& edit) {
+  if (has_key(document, edit.key)) return true;
+  auto path = study::parse_path(edit.key);
+  if (!edit.value.is_object() || !path || path->empty() || path->back().indices.size() != 1) return false;
+  Value grown = document;
+  return append(grown, *path, edit.value);
+}
+
 }  // namespace
 
 bool has_key(const Value& document, std::string_view key) {
@@ -230,7 +397,13 @@ std::string edited(std::string_view text, std::span<const Edit> edits, Diagnosti
     const study::Syntax syntax = study::syntax_of({}, out);
     Value document = study::read_text(out, syntax, page_text, diagnostics);
     if (diagnostics.size() != before) return std::string(text);
-    if (auto next = replaced(out, document, edit, syntax)) {
+    const auto in_place = [&](std::string_view text, const Value& read) {
+      auto next = replaced(text, read, edit, syntax);
+      if (!next) next = removed(text, read, edit, syntax);
+      if (!next) next = appended(text, read, edit, study::units_of(read), syntax);
+      return next;
+    };
+    if (auto next = in_place(out, document)) {
       out = std::move(*next);
       continue;
     }
@@ -247,16 +420,18 @@ std::string edited(std::string_view text, std::span<const Edit> edits, Diagnosti
         }
       }
     // Samples are opened: what the study is read as is what it says from now on.
-    if (study && has_key(study->canonical, edit.key)) {
+    if (study && has_place(study->canonical, edit)) {
       const std::string opened =
           comment_at_top(out) + study::to_toml(study::as_people_write(study->canonical, units_of(*study)));
       document = study::read_text(opened, study::Syntax::toml, page_text, diagnostics);
-      if (auto next = replaced(opened, document, edit, study::Syntax::toml)) {
+      if (auto next = in_place(opened, document)) {
         out = std::move(*next);
         continue;
       }
     }
-    if (!path || !study::apply_override(document, {edit.key, edit.key, edit.value}, diagnostics)) {
+    const bool done = path && ((edit.value.is_null() && erase(document, *path)) ||
+                               (edit.value.is_object() && append(document, *path, edit.value)));
+    if (!done && (!path || !study::apply_override(document, {edit.key, edit.key, edit.value}, diagnostics))) {
       if (!path)
         diagnostics.push_back(
             {Diagnostic::Severity::error, page_text, {}, edit.key, "is not the path of a key", {}});

@@ -73,7 +73,7 @@ void keep_handles(study::Result& result, const study::Study& study) {
   const bool drawn_as_given = std::find(as_given.begin(), as_given.end(), study.kind->kind) != as_given.end();
   for (study::Scene& scene : result.scenes)
     std::erase_if(scene.handles, [&](const study::Scene::Handle& handle) {
-      return (handle.point >= 0 && !drawn_as_given) || !has_key(study.canonical, handle.key);
+      return (handle.target < 0 && !drawn_as_given) || !has_key(study.canonical, handle.key);
     });
 }
 

@@ -61,7 +61,7 @@ export function gripPoint(scene: Scene, point: number, sample: number, size: num
 }
 
 export function gripTarget(scene: Scene, target: number, index: number, sample: number): Grip | null {
-  const handles = (scene.handles ?? []).filter((h) => h.target === target && h.index === index);
+  const handles = (scene.handles ?? []).filter((h) => h.target === target && h.index === index && h.point < 0);
   const [x, y] = [scene.targets?.[target]?.x[index] ?? 0, scene.targets?.[target]?.y[index] ?? 0];
   return handles.length ? { handles, points: [], at: { x, y }, sample, fixed: false, bound: false } : null;
 }

@@ -9,10 +9,18 @@ export interface Entry {
   value: number | string | boolean | { min: number; max: number };
   rule: Rule | null; // what the schema says of it
 }
+/** Rows of two numbers that rows can be added to: points, or a table of a function. */
+export interface List {
+  key: string;
+  label: string;
+  columns: [string, string];
+  rows: number[][];
+}
 export interface Group {
   title: string;
   path: string; // of its table
   entries: Entry[];
+  lists: List[];
 }
 
 const axes = ["x", "y", "z"];
@@ -32,7 +40,7 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
   /** The numbers of a table and of the tables in it; a list of tables gives a group an entry. */
   function table(values: JsonObject, path: string, title: string): void {
     const own: Entry[] = [];
-    const group = { title, path, entries: own };
+    const group: Group = { title, path, entries: own, lists: [] };
     groups.push(group);
     const add = (key: string, label: string, value: Json) => {
       if (typeof value === "number" || isRange(value)) own.push({ key, label, value, rule: rule(key) });
@@ -49,6 +57,8 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
           const entry = v as JsonObject;
           table(entry, `${key}[${i}]`, `${name.replace(/_/g, " ")} ${typeof entry.name === "string" ? entry.name : i + 1}`);
         });
+      else if (Array.isArray(value) && value.length > 0 && value.every((v) => isNumbers(v) && v.length === 2))
+        group.lists.push({ key, label: nameOf(name), columns: ["x", "y"], rows: value as number[][] });
       else if (Array.isArray(value) && value.length > 0 && value.every(isNumbers))
         value.forEach((v, i) => add(`${key}[${i}]`, `${nameOf(name)} ${i + 1}`, v));
       else if (value !== null && typeof value === "object" && !Array.isArray(value) && !isRange(value))
@@ -64,7 +74,7 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
     if (Array.isArray(value)) table({ [name]: value }, "", name);
     else table(value, name, name.replace(/_/g, " "));
   }
-  return groups.filter((g) => g.entries.length > 0);
+  return groups.filter((g) => g.entries.length > 0 || g.lists.length > 0);
 }
 
 export interface PointRow {

@@ -5,6 +5,8 @@ import { useEffect, useRef } from "preact/hooks";
 import { spatial } from "../state";
 import { format, nameOf, unitOf } from "../units";
 import { change, document_ } from "./document";
+import { Lists } from "./lists";
+import { NumberInput, refused } from "./number_input";
 import { numbersOf, pointsOf, unitKey, type Entry } from "./numbers";
 import type { Edit } from "./engine";
 import { absent } from "./schema";
@@ -41,41 +43,6 @@ function Text() {
           </li>))}
       </ul>
     </>
-  );
-}
-
-const refused = signal(""); // the key of a number that cannot be what was typed, and why
-const round = (value: number) => Number(value.toPrecision(7));
-
-/** A number in the unit that the page shows. `part`: of a range. */
-function NumberInput({ entry, value, part, label }: { entry: Entry; value: number; part?: "min" | "max"; label: string }) {
-  const { key, rule } = entry;
-  const unit = unitOf(unitKey(key), Math.abs(value));
-  const shown = round(value * unit.factor);
-  const own = part ? `${key}.${part}` : key;
-  const give = (next: number) => {
-    const to = next / unit.factor;
-    const low = rule?.least !== undefined && (rule.open ? to <= rule.least : to < rule.least);
-    if (low || (rule?.most !== undefined && to > rule.most)) {
-      refused.value = `${key}: ${low ? `more than ${rule!.open ? "" : "or "}${format(rule!.least! * unit.factor)}` : `at most ${format(rule!.most! * unit.factor)}`}${unit.symbol && ` ${unit.symbol}`}`;
-      return false;
-    }
-    refused.value = "";
-    edit([{ key, value: part ? { ...(entry.value as { min: number; max: number }), [part]: to } : to }]);
-    return true;
-  };
-  return (
-    <input type="number" step="any" value={String(shown)} data-key={own} aria-label={label} onChange={(e) => {
-      const next = Number(e.currentTarget.value);
-      if (next === shown && e.currentTarget.value !== "") return;
-      if (e.currentTarget.value === "" || !Number.isFinite(next) || !give(next)) e.currentTarget.value = String(shown);
-    }} onKeyDown={(e) => {
-      // A tenth of the digit before the last; with shift ten times as much.
-      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
-      e.preventDefault();
-      const step = 10 ** (Math.floor(Math.log10(Math.abs(shown) || 1)) - 2) * (e.shiftKey ? 10 : 1);
-      give(shown + (e.key === "ArrowUp" ? step : -step));
-    }} />
   );
 }
 
@@ -154,8 +121,9 @@ function Numbers() {
     <div class="numbers" ref={box}>
       {groups.map((g) => (
         <details key={g.path || g.title} open={g.entries.length < 12 || g.entries.some(({ key }) => pickedKeys.value.has(key) || pickedKeys.value.has(key.replace(/\[\d+\]$/, "")))}>
-          <summary>{g.title}<small>{format(g.entries.length)}</small></summary>
+          <summary>{g.title}<small>{format(g.entries.length + g.lists.reduce((sum, l) => sum + 2 * l.rows.length, 0))}</small></summary>
           {g.entries.slice(0, most).map((entry) => <Field key={entry.key} entry={entry} />)}
+          <Lists group={g} />
           <Add path={g.path} />
         </details>))}
     </div>

@@ -8,7 +8,7 @@ import { begin, change, document_, keep, replace, type Document } from "./docume
 import { soFar, Stopped, type Answer, type Catalogue, type Diagnostic, type Edit, type Engine, type Progress, type Task } from "./engine";
 import { gripPoint, gripTarget, guided, isRobot, moveTo, reached, valueOf, within, type Grip } from "./handles";
 import { opened } from "./opened";
-import { along, listOf, withoutPoint, withPoint } from "./points";
+import { along, isPoses, listOf, withoutPoint, withPoint, withPose } from "./points";
 
 export const catalogue = signal<Catalogue | null>(null);
 export const diagnostics = signal<Diagnostic[]>([]);
@@ -244,30 +244,34 @@ function nearest(scene: Scene, at: Place, reach: number): Grip | null {
 
 const problemOf = (answer: Answer) => answer.diagnostics.find((d) => d.severity === "error")?.message ?? "";
 
-/** Target points that take the place of those of now. What makes a study with errors is not taken. */
-const setPoints = (edits: Edit[]) => edit(edits, Symbol(), (answer) => (answer.carried ? "" : `not taken: ${problemOf(answer)}`));
+/** Changes that are one step back and forth. What makes a study with errors is not taken. */
+export const tryEdit = (edits: Edit[]) => edit(edits, Symbol(), (answer) => (answer.carried ? "" : `not taken: ${problemOf(answer)}`));
 
 /** Target points from a table, read as the program reads it. */
 export async function takePoints(name: string, text: string): Promise<void> {
   const key = targetKey.peek();
   const { text: study, files } = document_.peek();
-  const edits = [{ key, value: null }, { key: `${key.slice(0, key.lastIndexOf("."))}.points_file`, value: name }];
+  const edits: Edit[] = [{ key, value: null }, { key: `${key.slice(0, key.lastIndexOf("."))}.${isPoses(key) ? "file" : "points_file"}`, value: name }];
   // What is asked for is the study with the points in it, not what a search finds.
   const answer = await engine.run({ text: study, files: { ...files, [name]: text }, edits, seconds: 0.05 });
   const points = valueOf(answer.canonical ?? null, key);
   if (!points) throw new Error(problemOf(answer));
-  setPoints([{ key, value: points as number[][] }]);
+  if (!isPoses(key)) return tryEdit([{ key, value: points as number[][] }]);
+  const [old, poses] = [valueOf(canonical.peek(), key) as JsonObject[], points as Record<string, number>[]];
+  // From the last on, those that there are go when the new ones stand behind them.
+  tryEdit([...poses.map((value, i): Edit => ({ key: `${key}[${old.length + i}]`, value })), ...old.map((_, i): Edit => ({ key: `${key}[${old.length - 1 - i}]`, value: null }))]);
 }
 
 /** A press made a point, a drag a path of as many points as there were, or of some twenty. */
 function drawPoints(stroke: Place[], scene: Scene): void {
   const key = targetKey.value;
+  if (isPoses(key)) return tryEdit([withPose(canonical.value, key, stroke, extent.value)]);
   const long = stroke.reduce((sum, p, i) => sum + (i ? Math.hypot(p.x - stroke[i - 1].x, p.y - stroke[i - 1].y) : 0), 0);
-  if (long < 0.05 * extent.value) return setPoints([withPoint(canonical.value, key, stroke[0], extent.value)]);
+  if (long < 0.05 * extent.value) return tryEdit([withPoint(canonical.value, key, stroke[0], extent.value)]);
   const { points, closed } = along(stroke, Math.max(20, scene.targets[0]?.x.length ?? 0), extent.value);
   const target = key.slice(0, key.lastIndexOf("."));
   const has = typeof valueOf(canonical.value, `${target}.closed`) === "boolean";
-  setPoints([{ key, value: points }, ...(has ? [{ key: `${target}.closed`, value: closed }] : [])]);
+  tryEdit([{ key, value: points }, ...(has ? [{ key: `${target}.closed`, value: closed }] : [])]);
 }
 
 const hand: state.Hand = {
@@ -276,7 +280,7 @@ const hand: state.Hand = {
     const grip = nearest(scene, at, reach);
     const target = grip?.handles.find((h) => h.target >= 0);
     if (target && alone) {
-      setPoints(withoutPoint(canonical.value, listOf(scene), target.index));
+      tryEdit(withoutPoint(canonical.value, listOf(scene), target.index));
       return true;
     }
     if (grip) take(scene, grip);

@@ -8,6 +8,7 @@ import * as state from "../state";
 import "../report.css";
 import "../viewer.css";
 import "./workbench.css";
+import "./lists.css";
 import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo, type Document } from "./document";
 import { Draw, showDraw } from "./draw";
 import { workerEngine, type Engine, type Example, type Progress } from "./engine";
@@ -15,6 +16,7 @@ import { sortOut } from "./files";
 import { Gallery, paintWith, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
+import { isPoses } from "./points";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
 import { adding, busy, catalogue, compareWithNow, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble } from "./session";
 
@@ -94,7 +96,7 @@ function Bar() {
         <option value="" hidden>Copy as</option>
         {Object.keys(copies).map((form) => <option key={form} value={form}>{form}</option>)}
       </select>
-      <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text="Add points" hint="Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it" />}</span>
+      <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text={isPoses(targetKey.value) ? "Add poses" : "Add points"} hint={isPoses(targetKey.value) ? "Press for one more pose, and drag to turn it; Alt and a press on the origin of a pose removes it" : "Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it"} />}</span>
       <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
       <span class="spring" />
       <State />

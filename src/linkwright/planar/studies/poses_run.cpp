@@ -244,6 +244,7 @@ class PoseReport {
         ghost.points.push_back(static_cast<int>(scene.points.size()));
         scene.points.push_back({fmt::format("{} at pose {}", point.name, k + 1), {at.real()}, {at.imag()}});
       }
+      pose_handles(scene, ghost, k);
       scene.bodies.push_back(std::move(ghost));
       target.x.push_back(p_.poses[k].origin.real());
       target.y.push_back(p_.poses[k].origin.imag());
@@ -254,6 +255,23 @@ class PoseReport {
     scene.targets = {std::move(target)};
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
+  }
+
+  // Its origin moves a pose, and what is drawn of the body elsewhere turns it.
+  static void pose_handles(study::Scene& scene, const study::Scene::Body& ghost, std::size_t k) {
+    using Measure = study::Scene::Handle::Measure;
+    const std::string pose = fmt::format("target.pose[{}].", k);
+    const int index = static_cast<int>(k), origin = ghost.points.back();
+    scene.handles.push_back({.key = pose + "x_m", .measure = Measure::x, .target = 0, .index = index});
+    scene.handles.push_back({.key = pose + "y_m", .measure = Measure::y, .target = 0, .index = index});
+    for (const int point : ghost.points)
+      if (point != origin)
+        scene.handles.push_back({.key = pose + "angle_rad",
+                                 .measure = Measure::angle,
+                                 .point = point,
+                                 .target = 0,
+                                 .index = index,
+                                 .from = origin});
   }
 
   void pose_table(const PoseDesign& d, std::string name) {
