@@ -332,7 +332,7 @@ class ExactReport {
     if (timed_ && !swept_) {
       add("cranks", "cranks at their angles, complex ones with them", counts_.classes);
       add("real_cranks", "real cranks", cranks_);
-      add("slides", "couplers led by a slide, which are no four-bars", slides_);
+      add("slides", "couplers led by a slide (slider-cranks)", slides_);
     } else if (!timed_) {
       add("classes", certificates_ ? "classes of coupler curves" : "finite solutions", counts_.classes);
     }
