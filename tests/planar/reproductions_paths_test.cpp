@@ -71,14 +71,17 @@ TEST(PathReproductions, TheSliderCranksOfTable43AreDominated) {
 
 TEST(PathReproductions, ExactSynthesis) {
   const auto nine = rows("wampler-morgan-sommese-1992-problem-3"),
-             five = rows("morgan-wampler-1990-problem-7");
+             five = rows("morgan-wampler-1990-problem-7"), certified = rows("hauenstein-sottile-2012"),
+             poses = rows("burmester-1888-five-poses");
   EXPECT_EQ(nine.at("classes of six four-bars with the same coupler curve").ours, 1442);
   EXPECT_EQ(nine.at("real classes").ours, 64);
   EXPECT_EQ(nine.at("real four-bars with their driver").ours, 384);
   EXPECT_THAT(nine.at("real four-bars with their driver").note, HasSubstr("2 of them"));
   EXPECT_EQ(five.at("finite solutions").ours, 33);
   EXPECT_EQ(five.at("real solutions").ours, 15);
-  for (const auto* table : {&nine, &five})
+  EXPECT_EQ(certified.at("certified distinct solutions").ours, 8652);
+  EXPECT_EQ(poses.at("links of the four-bar that the poses are taken from, among them").ours, 2);
+  for (const auto* table : {&nine, &five, &certified, &poses})
     for (const auto& [item, row] : *table) EXPECT_EQ(row.verdict, "reproduced") << item;
 }
 

@@ -13,7 +13,9 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/exact/designs.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/eighteen_points.h"
 #include "linkwright/planar/path/slider_crank_samples.h"
 #include "linkwright/planar/path/slider_crank_synthesis.h"
@@ -182,6 +184,37 @@ study::Comparisons five_points(const std::string& source, RunContext& context) {
           {"real solutions", source, 15, real, verdict_of(15, real), ""}};
 }
 
+// Counts of the same problem by other authors, and what certifies them.
+study::Comparisons certified_nine_points(const std::string& source, RunContext& context) {
+  const std::vector<std::complex<double>> points = {{0.25, 0.0}, {0.52, 0.1}, {0.8, 0.7},
+                                                    {1.2, 1.0},  {1.4, 1.3},  {1.1, 1.48},
+                                                    {0.7, 1.4},  {0.2, 1.0},  {0.02, 0.4}};
+  const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
+  // A class of six ordered four-bars; the real ones of a real class are all six.
+  const double all = 6.0 * found.certified, real = 6.0 * found.real;
+  return {{"certified distinct solutions", source, 8652, all, verdict_of(8652, all), "six to a class"},
+          {"certified real solutions", source, 384, real, verdict_of(384, real), ""}};
+}
+
+// Dyads of poses whose four-bar is known.
+study::Comparisons five_poses(const std::string& source, RunContext&) {
+  std::vector<BodyPose> poses;
+  for (const double crank_degrees : {20.0, 75.0, 140.0, 205.0, 290.0}) {
+    const FourBar linkage{.ground = 1.05394, .crank = 0.42388, .coupler = 0.91424, .rocker = 0.59892};
+    const FourBarPosition pose = position(linkage, crank_degrees * pi / 180);
+    poses.push_back({pose.crank_pin, pose.coupler_angle});
+  }
+  const GuidingDyads dyads = solve_dyads(poses);
+  int known = 0;
+  for (const GuidingDyad& d : dyads.real())
+    known += std::abs(d.length - 0.42388) < 1e-9 || std::abs(d.length - 0.59892) < 1e-9;
+  return {{"dyads through five poses, complex ones included", source, 4, static_cast<double>(dyads.solutions),
+           verdict_of(4, dyads.solutions), fmt::format("{} of them real", dyads.count)},
+          {"links of the four-bar that the poses are taken from, among them", source, 2,
+           static_cast<double>(known), verdict_of(2, known),
+           "poses of the coupler of L = 1.05394, 0.42388, 0.91424, 0.59892 m"}};
+}
+
 const std::vector<std::string> nine_point_notes = {
     "Certified counts of the same points: Hauenstein and Sottile 2012.",
     "A class has three cognates, each with either of its cranks as the driver: 64 x 6 = 384."};
@@ -231,6 +264,13 @@ std::vector<study::Reproduction> path_reproductions() {
           entry("morgan-wampler-1990-problem-7",
                 "four-bars through five points of a line, both fixed pivots given",
                 "Morgan and Wampler 1990, problem 7", five_point_notes, five_points),
+          entry("burmester-1888-five-poses", "links through five poses of a body", "Burmester 1888",
+                {"Two links of the four they can have are those of any four-bar that passes the poses."},
+                five_poses),
+          entry("hauenstein-sottile-2012", "certified solutions of the nine-point problem",
+                "Hauenstein and Sottile 2012, of Wampler, Morgan and Sommese's problem 3",
+                {"Certificates of their own: Krawczyk's operator in balls instead of Smale's alpha theory."},
+                certified_nine_points),
           entry("wampler-morgan-sommese-1992-problem-3", "all four-bars through nine points",
                 "Wampler, Morgan and Sommese 1992, problem 3", nine_point_notes, nine_points)};
 }

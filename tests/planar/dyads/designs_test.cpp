@@ -104,6 +104,31 @@ TEST(FindPoseDesigns, ManyPosesAreMetAsNearAsCanBe) {
   EXPECT_LT(noisy.designs[0].rotation, 6e-3);
 }
 
+// Three poses exactly, two more as near as can be, and five points, all of one four-bar.
+TEST(FindPoseDesigns, ExactPosesBesideOthersAndPoints) {
+  PoseProblem problem;
+  problem.exact = false;
+  for (int k = 0; k < 10; ++k) {
+    const Complex a = std::polar(0.42388, 0.3 + 0.25 * k), b0 = 1.05394;
+    const double l3 = 0.91424, l4 = 0.59892, r = std::abs(b0 - a);
+    const double c = (l3 * l3 + r * r - l4 * l4) / (2 * l3 * r);
+    const double angle = std::arg((b0 - a) * Complex(c, std::sqrt(1 - c * c)));
+    const Complex point = a + std::polar(1.0, angle) * Complex(0.4, 0.3);
+    PoseDemand demand;
+    demand.exact = k == 0 || k == 4 || k == 9;
+    demand.angle = demand.exact || k == 2 || k == 7;
+    // A point begins with a rotation that is somewhat wrong.
+    problem.poses.push_back({point, demand.angle ? angle : angle + 0.15});
+    problem.demands.push_back(demand);
+  }
+  const PoseAnswer answer = found(problem);
+  ASSERT_GT(answer.free, 0);
+  EXPECT_LT(answer.designs[0].distance, 1e-7);
+  EXPECT_LT(answer.designs[0].rotation, 1e-7);
+  problem.demands[2].exact = problem.demands[7].exact = true;
+  EXPECT_THROW((void)found(problem), ContractError);
+}
+
 TEST(FindPoseDesigns, EndWhenTheyAreAskedTo) {
   PoseProblem problem;
   problem.poses = random_poses(4, 3);

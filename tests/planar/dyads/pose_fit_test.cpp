@@ -111,5 +111,47 @@ TEST(FitPair, ReachesTheNearestPosesAtTheLeastCost) {
   EXPECT_THROW((void)fit_pair(poses, crank, rocker, 0), ContractError);
 }
 
+// Points at any rotation among poses: the linkage that drew them is found again, and where it holds the body
+// at the points is known.
+TEST(FitPair, PointsAreMetAtAnyRotation) {
+  std::vector<BodyPose> poses = noisy_poses(0);
+  const std::vector<BodyPose> drawn = poses;
+  std::vector<PoseDemand> demands(poses.size());
+  for (std::size_t k = 1; k < poses.size(); k += 2) {
+    demands[k].angle = false;
+    poses[k].angle += 0.2;  // where the search begins
+  }
+  GuidingDyad a = crank, b = rocker;
+  a.fixed += Complex(0.01, -0.02);
+  b.moving += Complex(-0.02, 0.01);
+  const PoseFit fit = fit_pair(poses, a, b, 0.4, demands);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_LT(fit.cost, 1e-18);
+  EXPECT_NEAR(fit.first.length, 0.42388, 1e-7);
+  EXPECT_NEAR(fit.second.length, 0.59892, 1e-7);
+  for (std::size_t k = 0; k < poses.size(); ++k) EXPECT_NEAR(fit.reached[k].angle, drawn[k].angle, 1e-7);
+}
+
+// Least squares with a weight of a hundred thousand come as near to the same linkage as that weight does.
+TEST(FitPair, MeetsSomePosesExactly) {
+  const std::vector<BodyPose> poses = noisy_poses(2e-3);
+  std::vector<PoseDemand> demands(poses.size()), heavy(poses.size());
+  for (const std::size_t k : {0u, 5u, 9u}) demands[k].exact = true, heavy[k].weight = 1e5;
+  const PoseFit plain = fit_pair(poses, crank, rocker, 0.4),
+                exact = fit_pair(poses, crank, rocker, 0.4, demands),
+                weighed = fit_pair(poses, crank, rocker, 0.4, heavy);
+  ASSERT_TRUE(exact.converged);
+  for (const std::size_t k : {0u, 5u, 9u}) {
+    EXPECT_NEAR(gap(exact.first, poses[k]), 0, 1e-12);
+    EXPECT_NEAR(gap(exact.second, poses[k]), 0, 1e-12);
+    EXPECT_GT(std::abs(gap(plain.first, poses[k])) + std::abs(gap(plain.second, poses[k])), 1e-5);
+  }
+  EXPECT_GT(exact.cost, plain.cost);
+  EXPECT_NEAR(exact.first.length, weighed.first.length, 1e-4);
+  EXPECT_NEAR(exact.second.length, weighed.second.length, 1e-4);
+  EXPECT_NEAR(std::abs(exact.second.fixed - weighed.second.fixed), 0, 1e-3);
+  EXPECT_THROW((void)fit_pair(poses, crank, rocker, 0.4, std::vector<PoseDemand>(3)), ContractError);
+}
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -102,5 +102,40 @@ TEST(ExactDesigns, ARockingDriverThatWouldTurnBackHasAnOrderDefect) {
   EXPECT_EQ(worst_defect(designed({0.1, 0.5, 0.9, 0.7, 0.3})), "order");
 }
 
+// In the order that is offered the same linkage has no defect.
+TEST(ExactDesigns, AnotherOrderOfThePointsMakesADesignWithoutDefect) {
+  const auto points = test::exact_points("NP-demo");
+  const PathProblem problem = test::exact_problem(points);
+  RunContext context;
+  const NinePointSolutions found =
+      solve_nine_points(points, {.cache = test::starts_folder(), .certify = false}, context);
+  int offered = 0;
+  for (const CurveClass& curve : found.classes) {
+    if (!curve.real) break;
+    for (const TracingFourBar& bars : cognates_of(curve, points[0]))
+      for (const bool turned : {false, true}) {
+        const TracingFourBar driven =
+            turned ? TracingFourBar{bars.rocker_pivot, bars.rocker_pin, bars.crank_pin, bars.crank_pivot}
+                   : bars;
+        const std::vector<int> order = passing_order(problem, exact_design(problem, driven, 0));
+        if (order.empty()) continue;
+        ++offered;
+        std::vector<std::complex<double>> others;
+        for (const int k : order) others.push_back(points[static_cast<std::size_t>(k)]);
+        // The same four-bar, standing at the point that is first now.
+        const FourBar linkage = exact_design(problem, driven, 0).design.linkage;
+        const double angle =
+            exact_design(problem, driven, 0).design.angles[static_cast<std::size_t>(order[0])];
+        const FourBarPosition pose = position(linkage, angle);
+        const std::complex<double> pivot(linkage.pivot_x, linkage.pivot_y);
+        const TracingFourBar there{pivot, pose.crank_pin, pose.coupler_pin,
+                                   pivot + std::polar(linkage.ground, linkage.frame_angle)};
+        EXPECT_LT(std::abs(pose.coupler_point - others[0]), 1e-8);
+        EXPECT_TRUE(exact_design(test::exact_problem(others), there, 0).defects.empty());
+      }
+  }
+  EXPECT_EQ(offered, 8);
+}
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <string>
 
 #include "planar/studies.h"
@@ -107,6 +108,45 @@ TEST(PoseStudy, ManyPosesByLeastSquares) {
   EXPECT_TRUE(result.status == Status::done || result.status == Status::infeasible);
   EXPECT_THAT(result.facts[0].text, HasSubstr("by least squares"));
   ASSERT_FALSE(result.solutions.empty());
+}
+
+std::string one_point(double x, double y) {
+  return "[[target.pose]]\nx_mm = " + std::to_string(x) + "\ny_mm = " + std::to_string(y) + "\n";
+}
+
+TEST(PoseStudyRead, SaysWhatMayBeMixed) {
+  const std::string exact = "exact = true\n";
+  EXPECT_THAT(problems_of(pose_study("fit = \"exact\"\n" + some_poses(3) + one_point(300, 300))),
+              HasSubstr("points, weights and poses that are marked exact are for least_squares"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(1) + one_point(100, 30) + one_point(200, 90) +
+                                     one_point(300, 200) + one_point(350, 250))),
+              HasSubstr("1 of 5 poses have an angle, a motion needs 2 at least; points alone are a path"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(4) + one_point(400, 330) + exact)),
+              HasSubstr("pose 5 is to be met exactly, but has no angle"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(4) + one_point(100, 20))),
+              HasSubstr("pose 5 repeats pose 2"));
+  std::string five;
+  for (int k = 0; k < 5; ++k) five += one_pose(100 * k, 20 * k * k, 10 * k + k * k) + exact;
+  EXPECT_THAT(problems_of(pose_study(five + one_pose(500, 520, 80))),
+              HasSubstr("5 poses are to be met exactly beside others, at most 4 can be"));
+}
+
+TEST(PoseStudy, MixesExactPosesOthersAndPoints) {
+  const std::string exact = "exact = true\n";
+  const study::Result result = run_text(pose_study(one_pose(0, 0, 0) + exact + one_pose(95, 25, 12) +
+                                                   "weight = 4\n" + one_point(200, 70) + one_point(300, 170) +
+                                                   one_pose(400, 310, 50) + exact + one_point(450, 430)));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_THAT(result.facts[0].text, HasSubstr("6, 2 of them exactly, 3 at any rotation, by least squares"));
+  const Table* poses = result.table("poses");
+  ASSERT_TRUE(poses);
+  EXPECT_LT(poses->find("distance_m")->values[0], 1e-10);
+  EXPECT_LT(std::abs(poses->find("rotation_error_rad")->values[4]), 1e-10);
+  EXPECT_TRUE(std::isnan(poses->find("rotation_error_rad")->values[2]));
+  int ghosts = 0;
+  for (const auto& body : result.scenes[0].bodies) ghosts += body.run == 1;
+  EXPECT_EQ(ghosts, 3);
+  EXPECT_EQ(result.scenes[0].targets[0].x.size(), 6u);
 }
 
 }  // namespace

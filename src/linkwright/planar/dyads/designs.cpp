@@ -27,6 +27,8 @@ constexpr double same_swept = 0.6;
 constexpr double same_fitted = 1e-4;
 // Sets of five poses from which a fit is started where nothing else is free of defects.
 constexpr int random_starts = 120;
+// Spread of the rotations at points from which a fit is started (rad).
+constexpr double random_rotation = 0.4;
 // Starts farther than this from the poses, times the size, are not fitted.
 constexpr double near_start = 0.5;
 
@@ -112,22 +114,34 @@ class Finder {
     out_.misfit = fit.misfit;
     out_.dyads = fit.dyads;
     pairs(fit.dyads);
-    // The algebraic start is one; where it ends with a defect, five poses at a time give others.
+    // The algebraic start is one; where it ends with a defect, or is of no use because rotations are missing,
+    // five poses at a time give others: those that are met exactly and random ones, points at random
+    // rotations.
     const std::size_t n = p_.poses.size();
-    for (int start = 0; start < random_starts && (out_.free == 0 || out_.designs.empty()); ++start) {
+    std::vector<std::size_t> exact, others;
+    for (std::size_t k = 0; k < n; ++k) (demand_of(k).exact ? exact : others).push_back(k);
+    const bool mixed = std::any_of(p_.demands.begin(), p_.demands.end(),
+                                   [](const PoseDemand& d) { return d.exact || !d.angle; });
+    for (int start = 0; start < random_starts && (mixed || out_.free == 0 || out_.designs.empty()); ++start) {
       if (stopped(static_cast<double>(start) / random_starts)) return;
       RandomStream random({.seed = 1, .individual = static_cast<std::uint32_t>(start)});
-      std::vector<std::size_t> order(n);
-      for (std::size_t k = 0; k < n; ++k) order[k] = k;
+      std::vector<std::size_t> order = exact;
+      std::vector<std::size_t> left = others;
+      for (std::size_t k = 0; order.size() < 5; ++k) {
+        std::swap(left[k], left[k + random.below(static_cast<std::uint32_t>(left.size() - k))]);
+        order.push_back(left[k]);
+      }
       std::vector<BodyPose> five;
-      for (std::size_t k = 0; k < 5; ++k) {
-        std::swap(order[k], order[k + random.below(static_cast<std::uint32_t>(n - k))]);
-        five.push_back(p_.poses[order[k]]);
+      for (const std::size_t k : order) {
+        five.push_back(p_.poses[k]);
+        if (!demand_of(k).angle) five.back().angle += random_rotation * random.normal();
       }
       const GuidingDyads dyads = solve_dyads(five);
       pairs({dyads.real().begin(), dyads.real().end()});
     }
   }
+
+  PoseDemand demand_of(std::size_t k) const { return p_.demands.empty() ? PoseDemand{} : p_.demands[k]; }
 
   // Fits every pair of dyads to the poses.
   void pairs(const std::vector<GuidingDyad>& dyads) {
@@ -136,13 +150,22 @@ class Finder {
         const GuidingDyad &a = dyads[i], &b = dyads[j];
         if (context_.interrupted()) return;
         if (!wanted(p_, a) || !wanted(p_, b) || !makes_linkage(a, b, size_)) continue;
-        if (spread(a, p_.poses) > near_start * size_ || spread(b, p_.poses) > near_start * size_) continue;
+        if (spread_of(a) > near_start * size_ || spread_of(b) > near_start * size_) continue;
         const double length = p_.angle_length > 0 ? p_.angle_length : size_;
-        PoseFit fit = fit_pair(p_.poses, a, b, length);
+        PoseFit fit = fit_pair(p_.poses, a, b, length, p_.demands);
         ++out_.starts;
         if (!fit.converged || !makes_linkage(fit.first, fit.second, size_)) continue;
         both(fit.first, fit.second, fit.reached, fit.cost);
       }
+  }
+
+  // Of the poses whose rotation is known.
+  double spread_of(const GuidingDyad& dyad) const {
+    if (p_.demands.empty()) return spread(dyad, p_.poses);
+    std::vector<BodyPose> poses;
+    for (std::size_t k = 0; k < p_.poses.size(); ++k)
+      if (demand_of(k).angle) poses.push_back(p_.poses[k]);
+    return poses.empty() ? 0 : spread(dyad, poses);
   }
 
   // The linkage of two dyads by either drive.
@@ -165,8 +188,9 @@ class Finder {
       } else {
         for (std::size_t k = 0; k < reached.size(); ++k) {
           design.distance = std::max(design.distance, std::abs(reached[k].origin - p_.poses[k].origin));
-          design.rotation =
-              std::max(design.rotation, std::abs(math::wrap_angle(reached[k].angle - p_.poses[k].angle)));
+          if (demand_of(k).angle)
+            design.rotation =
+                std::max(design.rotation, std::abs(math::wrap_angle(reached[k].angle - p_.poses[k].angle)));
         }
       }
       // Of a sweep many have the same defect: a few show which.
@@ -214,6 +238,11 @@ PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context) {
         !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= most_open_numbers),
         "dyad {} has {} freedoms", dyad + 1, freedoms(problem, dyad));
   LINKWRIGHT_REQUIRE(problem.exact || problem.poses.size() >= 5, "{} poses", problem.poses.size());
+  LINKWRIGHT_REQUIRE(problem.demands.empty() || problem.demands.size() == problem.poses.size(), "{} demands",
+                     problem.demands.size());
+  LINKWRIGHT_REQUIRE(std::count_if(problem.demands.begin(), problem.demands.end(),
+                                   [](const PoseDemand& d) { return d.exact; }) <= most_exact_demands,
+                     "more than {} poses are to be met exactly", most_exact_demands);
   return Finder(problem, context).find();
 }
 

@@ -7,6 +7,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/planar/dyads/family.h"
 #include "linkwright/planar/dyads/passage.h"
+#include "linkwright/planar/dyads/pose_fit.h"
 #include "linkwright/planar/dyads/solve.h"
 
 // Linkages of two dyads that lead a body through poses.
@@ -16,19 +17,23 @@ struct PoseProblem {
   std::vector<BodyPose> poses;
   std::array<Prescription, 2> pivots;  ///< of the two dyads
   std::vector<GuidingDyadType> types = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
-  bool exact = true;        ///< every pose is met; else as near as can be, without prescriptions
+  bool exact = true;                ///< every pose is met; else as near as can be, without prescriptions
+  std::vector<PoseDemand> demands;  ///< one for each pose, or none (not exact)
   double angle_length = 0;  ///< m: what a rotation of a radian counts as (not exact); 0 = size of the motion
   int most_designs = 12;
 };
 /// How many conditions a dyad lacks for a finite number of solutions; up to most_open_numbers are swept.
 int freedoms(const PoseProblem& problem, std::size_t dyad);
 
+/// How many poses may be met exactly beside others; five leave nothing to choose.
+inline constexpr int most_exact_demands = 4;
+
 struct PoseDesign {
   GuidingDyad driver, other;
   std::vector<BodyPose> reached;  ///< where the linkage holds the body next to each pose
   Passage passage;
   double distance = 0;    ///< m, greatest distance of the body's origin from where it should be
-  double rotation = 0;    ///< rad, greatest error of rotation
+  double rotation = 0;    ///< rad, greatest error of rotation, of poses that have one
   double cost = 0;        ///< see PoseFit; 0 = exact
   double link_ratio = 0;  ///< longest over shortest of links, ground and body, of RR and RR
 };
@@ -48,8 +53,11 @@ struct PoseAnswer {
 };
 
 /// All linkages of an exact problem, or of its sweeps the best ones that differ; else those next to the
-/// poses. Throws ContractError where `freedoms` are not 0 to 2, or for fewer than five poses that are not met
-/// exactly.
+/// poses, which a search finds: from the dyads that fit all poses best, and from those through five at a
+/// time, the ones that are met exactly among them and points at random rotations.
+///
+/// Throws ContractError where `freedoms` are not 0 to 2; for fewer than five poses that are not met exactly;
+/// for more than four demands to be exact, or another number of demands than poses.
 PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context);
 
 }  // namespace linkwright::planar

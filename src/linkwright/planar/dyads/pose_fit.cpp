@@ -1,9 +1,11 @@
 #include "linkwright/planar/dyads/pose_fit.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
@@ -97,6 +99,86 @@ std::optional<Nearest2> nearest_pose(const GuidingDyad& a, const GuidingDyad& b,
   return std::nullopt;
 }
 
+// Likewise for a point: the rotation is free, and one combination of the gaps does without it. `miss` has one
+// number, which moves with that combination.
+struct NearestPoint {
+  BodyPose reached;
+  double miss = 0, of_first = 0, of_second = 0;  // slopes of the miss by both gaps
+  GapSlopes first, second;
+};
+
+std::optional<NearestPoint> nearest_point(const GuidingDyad& a, const GuidingDyad& b, const BodyPose& point,
+                                          double length) {
+  NearestPoint out;
+  out.reached = point;
+  for (int step = 0; step < 60; ++step) {
+    out.first = gap_slopes(a, out.reached);
+    out.second = gap_slopes(b, out.reached);
+    const double pa = out.first.pose[2], qa = out.second.pose[2], turning = std::hypot(pa, qa);
+    if (!(turning > 0)) return std::nullopt;
+    const auto without = [&](double p, double q) { return (qa * p - pa * q) / turning; };
+    const auto with = [&](double p, double q) { return (pa * p + qa * q) / turning; };
+    const double rx = without(out.first.pose[0], out.second.pose[0]),
+                 ry = without(out.first.pose[1], out.second.pose[1]), size = std::hypot(rx, ry);
+    if (!(size > 1e-9)) return std::nullopt;
+    const Complex off = point.origin - out.reached.origin;
+    const double miss = (without(out.first.gap, out.second.gap) + rx * off.real() + ry * off.imag()) / size;
+    const Complex to = off - miss * Complex(rx, ry) / size;
+    const double turn =
+        -(with(out.first.gap, out.second.gap) + with(out.first.pose[0], out.second.pose[0]) * to.real() +
+          with(out.first.pose[1], out.second.pose[1]) * to.imag()) /
+        turning;
+    out.reached.origin += to;
+    out.reached.angle += std::clamp(turn, -0.5, 0.5);
+    out.miss = miss / length;
+    out.of_first = qa / turning / size / length;
+    out.of_second = -pa / turning / size / length;
+    if (!std::isfinite(turn) || !std::isfinite(miss)) return std::nullopt;
+    if (std::abs(to) < 1e-13 * length && std::abs(turn) < 1e-13) return out;
+  }
+  return std::nullopt;
+}
+
+// What poses that are met exactly weigh next to others, one search after the other, before the numbers are
+// moved to meet them: at once the way would be a narrow valley.
+constexpr std::array<double, 3> exact_weights = {1e2, 1e4, 1e6};
+
+// Moves the numbers as little as can be, each in units of its own size, until the dyads hold the poses:
+// Newton's method of least length, one dyad at a time. False where it does not come to that.
+bool meet(std::span<const BodyPose> poses, GuidingDyad& dyad, double size) {
+  if (poses.empty()) return true;
+  const std::size_t count = count_of(dyad.type), m = poses.size();
+  std::array<double, 5> x{}, unit{};
+  numbers_of(dyad, x.data());
+  for (std::size_t j = 0; j < count; ++j) unit[j] = size;
+  if (dyad.type != GuidingDyadType::rr) unit[2] = 1;
+  const auto residuals = [&](std::span<const double> step, std::span<double> r, std::span<double> jacobian) {
+    std::array<double, 5> at = x;
+    for (std::size_t j = 0; j < count; ++j) at[j] += unit[j] * step[j];
+    const GuidingDyad moved = with_numbers(dyad, at.data());
+    for (std::size_t k = 0; k < m; ++k) {
+      const GapSlopes slopes = gap_slopes(moved, poses[k]);
+      r[k] = slopes.gap / size;
+      for (std::size_t j = 0; j < count && !jacobian.empty(); ++j)
+        jacobian[j * m + k] = slopes.dyad[j] * unit[j] / size;
+    }
+    return true;
+  };
+  math::LeastSquaresWorkspace workspace;
+  math::LeastSquaresOptions options;
+  options.damping = math::Damping::identity;
+  options.lambda0 = 1e-9;
+  options.lambda_max = 1e12;
+  options.decrease_tolerance = 0;
+  options.cost_tolerance = 1e-30;
+  std::vector<double> step(count, 0.0);
+  const math::LeastSquaresReport report =
+      math::minimise_least_squares(residuals, m, step, options, workspace);
+  for (std::size_t j = 0; j < count; ++j) x[j] += unit[j] * step[j];
+  dyad = with_numbers(dyad, x.data());
+  return report.cost < 1e-24;
+}
+
 }  // namespace
 
 GapSlopes gap_slopes(const GuidingDyad& dyad, const BodyPose& pose) {
@@ -134,27 +216,48 @@ GapSlopes gap_slopes(const GuidingDyad& dyad, const BodyPose& pose) {
 }
 
 PoseFit fit_pair(std::span<const BodyPose> poses, const GuidingDyad& first, const GuidingDyad& second,
-                 double length) {
+                 double length, std::span<const PoseDemand> demands) {
   LINKWRIGHT_REQUIRE(poses.size() >= 3, "{} poses", poses.size());
   LINKWRIGHT_REQUIRE(length > 0 && std::isfinite(length), "length {}", length);
+  LINKWRIGHT_REQUIRE(demands.empty() || demands.size() == poses.size(), "{} demands", demands.size());
+  for (const PoseDemand& demand : demands)
+    LINKWRIGHT_REQUIRE(demand.weight > 0 && std::isfinite(demand.weight), "weight {}", demand.weight);
+  const auto demand_of = [&](std::size_t k) { return demands.empty() ? PoseDemand{} : demands[k]; };
   const std::size_t n = poses.size(), m = 2 * n;
   const std::size_t na = count_of(first.type), nb = count_of(second.type);
   std::vector<double> x(na + nb);
   numbers_of(first, x.data());
   numbers_of(second, x.data() + na);
+  const bool any_exact =
+      std::any_of(demands.begin(), demands.end(), [](const PoseDemand& d) { return d.exact; });
+  double exact_weight = 1;
   const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
     const GuidingDyad a = with_numbers(first, at.data()), b = with_numbers(second, at.data() + na);
     for (std::size_t k = 0; k < n; ++k) {
+      const PoseDemand demand = demand_of(k);
+      const double factor = std::sqrt(demand.weight * (demand.exact ? exact_weight : 1));
+      if (!demand.angle) {
+        const std::optional<NearestPoint> near = nearest_point(a, b, poses[k], length);
+        if (!near) return false;
+        r[2 * k] = factor * near->miss;
+        r[2 * k + 1] = 0;
+        for (std::size_t j = 0; j < na + nb && !jacobian.empty(); ++j) {
+          jacobian[j * m + 2 * k] = factor * (j < na ? near->of_first * near->first.dyad[j]
+                                                     : near->of_second * near->second.dyad[j - na]);
+          jacobian[j * m + 2 * k + 1] = 0;
+        }
+        continue;
+      }
       const std::optional<Nearest2> near = nearest_pose(a, b, poses[k], length);
       if (!near) return false;
-      r[2 * k] = near->miss[0];
-      r[2 * k + 1] = near->miss[1];
+      r[2 * k] = factor * near->miss[0];
+      r[2 * k + 1] = factor * near->miss[1];
       if (jacobian.empty()) continue;
       for (std::size_t j = 0; j < na + nb; ++j) {
         const double ga = j < na ? near->first.dyad[j] : 0, gb = j < na ? 0 : near->second.dyad[j - na];
         const double upper = ga / near->l00;
-        jacobian[j * m + 2 * k] = upper;
-        jacobian[j * m + 2 * k + 1] = (gb - near->l10 * upper) / near->l11;
+        jacobian[j * m + 2 * k] = factor * upper;
+        jacobian[j * m + 2 * k + 1] = factor * (gb - near->l10 * upper) / near->l11;
       }
     }
     return true;
@@ -165,19 +268,39 @@ PoseFit fit_pair(std::span<const BodyPose> poses, const GuidingDyad& first, cons
   options.lambda_max = 1e12;
   options.decrease_tolerance = 1e-26;
   options.relative_decrease_tolerance = 1e-12;
-  const math::LeastSquaresReport report = math::minimise_least_squares(residuals, m, x, options, workspace);
+  options.geodesic_acceleration = any_exact;
+  math::LeastSquaresReport report;
+  for (const double weight : exact_weights) {
+    exact_weight = weight;
+    report = math::minimise_least_squares(residuals, m, x, options, workspace);
+    if (!any_exact) break;
+  }
   PoseFit out;
   out.first = with_numbers(first, x.data());
   out.second = with_numbers(second, x.data() + na);
-  out.cost = 2 * report.cost;
   out.converged = report.end != math::LeastSquaresEnd::start && std::isfinite(report.cost);
+  std::vector<BodyPose> exact;
+  for (std::size_t k = 0; k < n; ++k)
+    if (demand_of(k).exact) exact.push_back(poses[k]);
+  if (!meet(exact, out.first, length) || !meet(exact, out.second, length)) out.converged = false;
   // A length of the other sign is a link of the same length the other way round.
   for (GuidingDyad* dyad : {&out.first, &out.second})
     if (dyad->type == GuidingDyadType::rr && dyad->length < 0) out.converged = false;
-  for (const BodyPose& pose : poses) {
-    const std::optional<Nearest2> near = nearest_pose(out.first, out.second, pose, length);
-    if (!near) out.converged = false;
-    out.reached.push_back(near ? near->reached : pose);
+  for (std::size_t k = 0; k < n; ++k) {
+    const PoseDemand demand = demand_of(k);
+    double square = 0;
+    BodyPose reached = poses[k];
+    if (demand.angle) {
+      const std::optional<Nearest2> near = nearest_pose(out.first, out.second, poses[k], length);
+      if (!near) out.converged = false;
+      if (near) reached = near->reached, square = std::pow(near->miss[0], 2) + std::pow(near->miss[1], 2);
+    } else {
+      const std::optional<NearestPoint> near = nearest_point(out.first, out.second, poses[k], length);
+      if (!near) out.converged = false;
+      if (near) reached = near->reached, square = near->miss * near->miss;
+    }
+    out.reached.push_back(reached);
+    out.cost += demand.weight * square;
   }
   return out;
 }

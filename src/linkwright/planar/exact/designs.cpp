@@ -132,6 +132,29 @@ ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars,
   return out;
 }
 
+std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& design) {
+  if (problem.timing != Timing::free || problem.closed || severity(design) != 1) return {};
+  const FourBarClass type = classify(design.design.linkage);
+  const std::vector<double>& angles = design.design.angles;
+  // Of a crank that rocks the angles count from the end of its range, else from the first point.
+  double from = angles[0];
+  for (const AngleInterval& interval : type.inputs) {
+    if (type.crank_rotates_fully) break;
+    const double inside = angles[0] - 2 * pi * std::floor((angles[0] - interval.from + 1e-9) / (2 * pi));
+    if (inside <= interval.to + 1e-9) from = interval.from - 1e-9;
+  }
+  std::vector<double> turned;
+  std::vector<int> out;
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    turned.push_back(forward_step(1, from, angles[k]));
+    out.push_back(static_cast<int>(k));
+  }
+  std::sort(out.begin(), out.end(), [&](int a, int b) { return turned[at(a)] < turned[at(b)]; });
+  const auto place = [&](int which) { return std::find(out.begin(), out.end(), which) - out.begin(); };
+  if (place(static_cast<int>(angles.size()) - 1) < place(0)) std::reverse(out.begin(), out.end());
+  return out;
+}
+
 int severity(const ExactDesign& design) {
   int worst = 0;
   for (const Defect& defect : design.defects) switch (defect.kind) {

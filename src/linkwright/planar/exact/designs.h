@@ -21,6 +21,10 @@ struct ExactDesign {
 /// the one that turns less; where the problem has a timing, that of `sense`.
 ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars, int curve, double sense = 1);
 
+/// In which order a design meets the points of an open path in one motion: their numbers from 0, the first
+/// before the last. Empty unless the order is all that is wrong with it, and where the problem has a timing.
+std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& design);
+
 /// Every cognate of the real classes with either of its cranks as the driver, best first: without defects
 /// before order, circuit and branch, then a crank that rotates fully, then the larger transmission angle on
 /// the path.

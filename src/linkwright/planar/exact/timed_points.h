@@ -27,7 +27,7 @@ struct TimedPointSolutions {
   int cranks = 0,
       real_cranks =
           0;       ///< cranks that hold the points at their rotations, complex ones included in the first
-  int slides = 0;  ///< couplers on a slide instead of a rocker, which are no four-bars; not of a sweep
+  int slides = 0;  ///< couplers on a slide instead of a rocker, not of a sweep
   std::vector<TracingFourBar> found;
   /// Number of the coupler curve of each, from 0: timed cognates, whose cranks turn alike, share one (not of
   /// a sweep).

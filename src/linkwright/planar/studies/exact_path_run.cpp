@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -332,7 +333,7 @@ class ExactReport {
     if (timed_ && !swept_) {
       add("cranks", "cranks at their angles, complex ones with them", counts_.classes);
       add("real_cranks", "real cranks", cranks_);
-      add("slides", "couplers led by a slide (slider-cranks)", slides_);
+      add("slides", "couplers led by a slide instead of a rocker", slides_);
     } else if (!timed_) {
       add("classes", certificates_ ? "classes of coupler curves" : "finite solutions", counts_.classes);
     }
@@ -390,12 +391,28 @@ class ExactReport {
                        whole_ - counts_.classes, whole_),
            "mirror-symmetric points, points on a line or on a grid are such; move one of them a little to "
            "see the rest");
+    if (counts_.defect_free == 0) offer_order(warn);
     if (dependent_ && answers_ == 0)
       warn("the points and crank angles depend on each other: infinitely many cranks hold them",
            "move a point, or change a crank angle");
     if (stopped_ == Status::done && counts_.lost > 0)
       warn(fmt::format("{} paths were lost: four-bars may be missing", counts_.lost),
            "move a point a little and compare");
+  }
+
+  // Designs that only meet the points in another order: the order that most of them have.
+  void offer_order(const study::AddWarning& warn) const {
+    std::map<std::vector<int>, int> orders;
+    for (const ExactDesign& d : designs_)
+      if (const std::vector<int> order = passing_order(p_, d); !order.empty()) ++orders[order];
+    if (orders.empty()) return;
+    const auto best = std::max_element(orders.begin(), orders.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    std::string list;
+    for (const int k : best->first) list += fmt::format("{}{}", list.empty() ? "" : ", ", k + 1);
+    warn(fmt::format("in the order {} {} of these four-bars would pass the points in one motion", list,
+                     best->second),
+         "write the points in that order if it will do");
   }
 
   const PathProblem& p_;

@@ -13,7 +13,10 @@ namespace linkwright::planar {
 
 /// One `[[target.pose]]`.
 struct PoseForm {
-  double x = 0, y = 0, angle = 0;
+  double x = 0, y = 0;
+  std::optional<double> angle;
+  double weight = 1;
+  bool exact = false;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseForm& p) {
@@ -23,10 +26,19 @@ void fields(Visitor&& visit, PoseForm& p) {
   visit(
       Field{.key = "y", .summary = "origin of the body, y", .dimension = Dimension::length, .required = true},
       p.y);
-  visit(
-      Field{
-          .key = "angle", .summary = "rotation of the body", .dimension = Dimension::angle, .required = true},
-      p.angle);
+  visit(Field{.key = "angle",
+              .summary = "rotation of the body; left out: a point that its origin passes at any rotation "
+                         "(least_squares)",
+              .dimension = Dimension::angle},
+        p.angle);
+  visit(Field{.key = "weight",
+              .summary = "of the errors of this pose next to the others (least_squares)",
+              .minimum = 0,
+              .exclusive_minimum = true},
+        p.weight);
+  visit(Field{.key = "exact",
+              .summary = "met exactly, the others as near as can be (least_squares); four at most"},
+        p.exact);
 }
 
 struct PivotLineForm {
@@ -80,9 +92,11 @@ void fields(Visitor&& visit, PoseMechanism& m) {
 /// How the poses are met.
 enum class PoseFitting { automatic, exact, least_squares };
 constexpr std::array<EnumName<PoseFitting>, 3> names(PoseFitting) {
-  return {{{PoseFitting::automatic, "automatic", "exactly up to five poses, more by least squares"},
-           {PoseFitting::exact, "exact", "every pose is met: two to five poses"},
-           {PoseFitting::least_squares, "least_squares", "as near as can be: five poses and more"}}};
+  return {
+      {{PoseFitting::automatic, "automatic",
+        "exactly up to five poses; more, or with points or poses that are marked exact, by least squares"},
+       {PoseFitting::exact, "exact", "every pose is met: two to five poses"},
+       {PoseFitting::least_squares, "least_squares", "as near as can be: five poses and more"}}};
 }
 
 struct PoseTarget {
@@ -124,6 +138,7 @@ struct PoseStudy {
   PoseTarget target;
   PoseSearch search;
   PoseProblem problem;  ///< what follows from the above
+  bool mixed = false;   ///< points among the poses, weights, or poses that are marked exact
 };
 
 /// "synthesis" of "planar.four_bar" for "poses".

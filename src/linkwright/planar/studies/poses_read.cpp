@@ -58,7 +58,7 @@ std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Co
   for (std::size_t k = 0; k < x->values.size(); ++k) {
     const auto si = [&](const Column& c) { return split_unit(c.key)->unit->to_si(c.values[k]); };
     out.push_back({si(*x), si(*y), si(*angle)});
-    if (std::isfinite(out.back().x) && std::isfinite(out.back().y) && std::isfinite(out.back().angle))
+    if (std::isfinite(out.back().x) && std::isfinite(out.back().y) && std::isfinite(*out.back().angle))
       continue;
     target.error("file", fmt::format("'{}': pose {} is incomplete", file, k + 1),
                  "give it x, y and an angle");
@@ -67,13 +67,68 @@ std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Co
   return out;
 }
 
-bool same(const BodyPose& a, const BodyPose& b, double size) {
-  return std::abs(a.origin - b.origin) <= same_pose * size &&
-         std::abs(math::wrap_angle(a.angle - b.angle)) <= same_pose;
+// Whether two poses are one; a point is the same as what is at its place.
+bool same(const PoseProblem& p, std::size_t a, std::size_t b, double size) {
+  const BodyPose &one = p.poses[a], &other = p.poses[b];
+  const bool angles = p.demands.empty() || (p.demands[a].angle && p.demands[b].angle);
+  return std::abs(one.origin - other.origin) <= same_pose * size &&
+         (!angles || std::abs(math::wrap_angle(one.angle - other.angle)) <= same_pose);
+}
+
+// The rotation at a point, where a search for it begins: between those of the poses before and after it.
+void guess_rotations(PoseProblem& p) {
+  const std::size_t n = p.poses.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (p.demands[k].angle) continue;
+    std::size_t before = k, after = k;
+    while (before < n && !p.demands[before].angle) --before;  // wraps round below 0
+    while (after < n && !p.demands[after].angle) ++after;
+    if (before >= n && after >= n) return;
+    if (before >= n) {
+      p.poses[k].angle = p.poses[after].angle;
+    } else if (after >= n) {
+      p.poses[k].angle = p.poses[before].angle;
+    } else {
+      const double share = static_cast<double>(k - before) / static_cast<double>(after - before);
+      p.poses[k].angle =
+          p.poses[before].angle + share * math::wrap_angle(p.poses[after].angle - p.poses[before].angle);
+    }
+  }
+}
+
+// What is asked of each pose, where that is not the same of all.
+void set_demands(study::ObjectReader& target, PoseStudy& s) {
+  const std::vector<PoseForm>& forms = s.target.poses;
+  s.mixed = std::any_of(forms.begin(), forms.end(),
+                        [](const PoseForm& f) { return !f.angle || f.exact || f.weight != 1; });
+  if (!s.mixed) return;
+  int with_angle = 0, exact = 0;
+  for (std::size_t k = 0; k < forms.size(); ++k) {
+    const PoseForm& f = forms[k];
+    s.problem.demands.push_back(
+        {.weight = f.weight > 0 ? f.weight : 1, .angle = f.angle.has_value(), .exact = f.exact && f.angle});
+    with_angle += f.angle.has_value();
+    exact += f.exact;
+    if (f.exact && !f.angle)
+      target.error("pose", fmt::format("pose {} is to be met exactly, but has no angle", k + 1),
+                   "give its angle_deg, or leave exact out");
+  }
+  if (with_angle < 2)
+    target.error(
+        "pose",
+        fmt::format("{} of {} poses have an angle, a motion needs 2 at least", with_angle, forms.size()),
+        "points alone are a path: target type \"path_points\"");
+  if (exact > most_exact_demands)
+    target.error("pose",
+                 fmt::format("{} poses are to be met exactly beside others, at most {} can be", exact,
+                             most_exact_demands),
+                 "five poses alone are met exactly by fit = \"exact\"");
+  guess_rotations(s.problem);
 }
 
 // What is wrong with poses by themselves; they are reported at `key`.
-void check_poses(study::ObjectReader& target, const char* key, std::vector<BodyPose>& poses) {
+void check_poses(study::ObjectReader& target, const char* key, PoseProblem& p) {
+  std::vector<BodyPose>& poses = p.poses;
   const std::size_t n = poses.size();
   if (n < 2) {
     target.error(key, fmt::format("{} pose{}, a motion needs at least 2", n, n == 1 ? "" : "s"),
@@ -98,13 +153,14 @@ void check_poses(study::ObjectReader& target, const char* key, std::vector<BodyP
         key,
         fmt::format("the poses are {:.3g} m from the origin and {:.3g} m apart: digits are lost", far, size),
         "put the origin near the poses");
-  if (n > 2 && same(poses.front(), poses.back(), size)) {
+  if (n > 2 && same(p, 0, n - 1, size)) {
     target.warning(key, fmt::format("the last of {} poses repeats the first: taken once", n), "remove it");
     poses.pop_back();
+    if (!p.demands.empty()) p.demands.pop_back();
   }
   for (std::size_t a = 0; a < poses.size(); ++a)
     for (std::size_t b = a + 1; b < poses.size(); ++b)
-      if (same(poses[a], poses[b], size)) {
+      if (same(p, a, b, size)) {
         target.error(key, fmt::format("pose {} repeats pose {}", b + 1, a + 1), "remove one of them");
         return;
       }
@@ -157,7 +213,10 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
   const std::size_t n = s.problem.poses.size();
   const int given = poses_replaced(s.problem.pivots[0]) + poses_replaced(s.problem.pivots[1]);
   const PoseFitting fit = s.target.fit;
-  s.problem.exact = fit == PoseFitting::exact || (fit == PoseFitting::automatic && n <= 5);
+  s.problem.exact = fit == PoseFitting::exact || (fit == PoseFitting::automatic && n <= 5 && !s.mixed);
+  if (s.problem.exact && s.mixed)
+    target.error("fit", "points, weights and poses that are marked exact are for least_squares",
+                 "write fit = \"least_squares\", or give every pose its angle and nothing else");
   if (!s.problem.exact) {
     if (n < 5)
       target.error("fit", fmt::format("{} poses are met exactly, least_squares needs 5 at least", n),
@@ -207,9 +266,11 @@ PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& co
       target->error("pose", "the target has no poses",
                     "write [[target.pose]] with x_mm, y_mm, angle_deg for each, or file = \"poses.csv\"");
     if (s.target.file && !has_poses) s.target.poses = poses_of_file(*target, common, *s.target.file);
-    for (const PoseForm& form : s.target.poses) s.problem.poses.push_back({{form.x, form.y}, form.angle});
+    for (const PoseForm& form : s.target.poses)
+      s.problem.poses.push_back({{form.x, form.y}, form.angle.value_or(0)});
+    set_demands(*target, s);
     if (!s.target.poses.empty() && !(has_poses && has_file)) {
-      check_poses(*target, has_file ? "file" : "pose", s.problem.poses);
+      check_poses(*target, has_file ? "file" : "pose", s.problem);
       if (s.problem.poses.size() >= 2) check_counts(*target, s);
     }
   }
@@ -241,8 +302,13 @@ study::Kind pose_kind() {
     PoseStudy resolved = s;
     resolved.target.file.reset();
     resolved.target.poses.clear();
-    for (const BodyPose& pose : s.problem.poses)
-      resolved.target.poses.push_back({pose.origin.real(), pose.origin.imag(), pose.angle});
+    for (std::size_t k = 0; k < s.problem.poses.size(); ++k) {
+      const BodyPose& pose = s.problem.poses[k];
+      const PoseDemand demand = s.mixed ? s.problem.demands[k] : PoseDemand{};
+      resolved.target.poses.push_back({pose.origin.real(), pose.origin.imag(),
+                                       demand.angle ? std::optional(pose.angle) : std::nullopt, demand.weight,
+                                       demand.exact});
+    }
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);
     prepared.canonical["optimiser"] = study::write_fields(resolved.search);

@@ -238,40 +238,61 @@ class PoseReport {
     scene.runs = {"linkage", "poses"};
     study::Scene::Target target{"poses", {}, {}, {}, {}, {}, false};
     for (std::size_t k = 0; k < p_.poses.size(); ++k) {
+      target.x.push_back(p_.poses[k].origin.real());
+      target.y.push_back(p_.poses[k].origin.imag());
+      target.achieved_x.push_back(d.reached[k].origin.real());
+      target.achieved_y.push_back(d.reached[k].origin.imag());
+      target.achieved_input.push_back(defective(d) ? static_cast<double>(k + 1) : d.passage.drive[k]);
+      place_handles(scene, k);
+      if (!has_angle(k)) continue;
       study::Scene::Body ghost{fmt::format("pose {}", k + 1), {}, study::Scene::BodyStyle::plate, 1};
       for (const LinkagePoint& point : linkage.bodies[body].points) {
         const Complex at = place(p_.poses[k], point.at);
         ghost.points.push_back(static_cast<int>(scene.points.size()));
         scene.points.push_back({fmt::format("{} at pose {}", point.name, k + 1), {at.real()}, {at.imag()}});
       }
-      pose_handles(scene, ghost, k);
+      rotation_handles(scene, ghost, k);
       scene.bodies.push_back(std::move(ghost));
-      target.x.push_back(p_.poses[k].origin.real());
-      target.y.push_back(p_.poses[k].origin.imag());
-      target.achieved_x.push_back(d.reached[k].origin.real());
-      target.achieved_y.push_back(d.reached[k].origin.imag());
-      target.achieved_input.push_back(defective(d) ? static_cast<double>(k + 1) : d.passage.drive[k]);
     }
     scene.targets = {std::move(target)};
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
   }
 
-  // Its origin moves a pose, and what is drawn of the body elsewhere turns it.
-  static void pose_handles(study::Scene& scene, const study::Scene::Body& ghost, std::size_t k) {
+  // The origin of a pose moves it.
+  static void place_handles(study::Scene& scene, std::size_t k) {
     using Measure = study::Scene::Handle::Measure;
     const std::string pose = fmt::format("target.pose[{}].", k);
-    const int index = static_cast<int>(k), origin = ghost.points.back();
+    const int index = static_cast<int>(k);
     scene.handles.push_back({.key = pose + "x_m", .measure = Measure::x, .target = 0, .index = index});
     scene.handles.push_back({.key = pose + "y_m", .measure = Measure::y, .target = 0, .index = index});
+  }
+
+  // What is drawn of the body beside its origin turns a pose.
+  static void rotation_handles(study::Scene& scene, const study::Scene::Body& ghost, std::size_t k) {
+    const int origin = ghost.points.back();
     for (const int point : ghost.points)
       if (point != origin)
-        scene.handles.push_back({.key = pose + "angle_rad",
-                                 .measure = Measure::angle,
+        scene.handles.push_back({.key = fmt::format("target.pose[{}].angle_rad", k),
+                                 .measure = study::Scene::Handle::Measure::angle,
                                  .point = point,
                                  .target = 0,
-                                 .index = index,
+                                 .index = static_cast<int>(k),
                                  .from = origin});
+  }
+
+  bool has_angle(std::size_t k) const { return p_.demands.empty() || p_.demands[k].angle; }
+
+  // "12, 3 of them exactly and 4 without rotation, by least squares".
+  std::string poses_text() const {
+    const std::size_t n = p_.poses.size();
+    if (p_.exact) return fmt::format("{}, met exactly", n);
+    int exact = 0, points = 0;
+    for (const PoseDemand& demand : p_.demands) exact += demand.exact, points += !demand.angle;
+    std::string out = fmt::format("{}", n);
+    if (exact > 0) out += fmt::format(", {} of them exactly", exact);
+    if (points > 0) out += fmt::format(", {} at any rotation", points);
+    return out + ", by least squares";
   }
 
   void pose_table(const PoseDesign& d, std::string name) {
@@ -281,9 +302,9 @@ class PoseReport {
       number.push_back(static_cast<double>(k + 1));
       x.push_back(p_.poses[k].origin.real());
       y.push_back(p_.poses[k].origin.imag());
-      angle.push_back(p_.poses[k].angle);
+      angle.push_back(has_angle(k) ? p_.poses[k].angle : nan);
       distance.push_back(std::abs(d.reached[k].origin - p_.poses[k].origin));
-      rotation.push_back(math::wrap_angle(d.reached[k].angle - p_.poses[k].angle));
+      rotation.push_back(has_angle(k) ? math::wrap_angle(d.reached[k].angle - p_.poses[k].angle) : nan);
     }
     table.add("pose", "pose", std::move(number));
     table.add(rotary(d) ? "drive_angle_rad" : "drive_m",
@@ -410,7 +431,7 @@ class PoseReport {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     const std::size_t n = p_.poses.size();
-    fact("poses", fmt::format("{}, {}", n, p_.exact ? "met exactly" : "by least squares"));
+    fact("poses", poses_text());
     if (!answer_.swept)
       fact("dyads", p_.exact ? fmt::format("{} real of {}", answer_.dyads.size(), answer_.solutions)
                              : fmt::format("{} next to the poses", answer_.dyads.size()));
@@ -454,7 +475,8 @@ class PoseReport {
     if (!p_.exact) {
       fact("worst distance", metres(best.distance));
       fact("worst rotation", fmt::format("{:.4g}°", math::degrees(best.rotation)));
-      fact("misfit of the poses to a four-bar", fmt::format("{:.3g}", answer_.misfit[6]));
+      if (p_.demands.empty())
+        fact("misfit of the poses to a four-bar", fmt::format("{:.3g}", answer_.misfit[6]));
     }
     if (best.passage.pair_angle < flat_pair)
       warn(fmt::format(
