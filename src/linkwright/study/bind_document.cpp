@@ -55,8 +55,8 @@ bool fits(std::string_view pattern, std::string_view key) {
   return false;
 }
 
-/// What the schemas say of a member; empty if none knows its key.
-std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, std::string_view key) {
+/// What the schemas say of a member that they name; empty if none does.
+std::vector<const Value*> named_members_of(const std::vector<const Value*>& schemas, std::string_view key) {
   std::vector<const Value*> all;
   const auto add = [&](const Value& schema) {
     for (const Value* one : alternatives_of(schema)) all.push_back(one);
@@ -67,8 +67,16 @@ std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, s
     if (const Value* patterns = schema->find("patternProperties"); patterns && patterns->is_object())
       for (const Value::Member& pattern : patterns->as_object())
         if (fits(pattern.key, key)) add(pattern.value);
-    if (const Value* free = schema->find("additionalProperties"); free && free->is_object()) add(*free);
   }
+  return all;
+}
+
+/// The same, with what they say of members whose names are free.
+std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, std::string_view key) {
+  std::vector<const Value*> all = named_members_of(schemas, key);
+  for (const Value* schema : schemas)
+    if (const Value* free = schema->find("additionalProperties"); free && free->is_object())
+      for (const Value* one : alternatives_of(*free)) all.push_back(one);
   return all;
 }
 
@@ -76,7 +84,7 @@ std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, s
 // document itself is "".
 void find_homes(const std::vector<const Value*>& schemas, std::string_view key, const std::string& path,
                 bool list, std::set<std::string>& homes) {
-  if (!members_of(schemas, key).empty())
+  if (!named_members_of(schemas, key).empty())
     homes.insert(path.empty() ? std::string() : (list ? "[[" : "[") + path + (list ? "]]" : "]"));
   for (const Value* schema : schemas) {
     const Value* properties = schema->find("properties");
@@ -210,7 +218,8 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     if (const std::string home = meant ? std::string() : home_of(*member, schema_); !home.empty()) {
       const auto [first, fresh] = homes.try_emplace(home, diagnostics_.size());
       if (!fresh) {
-        diagnostics_[first->second].hint += ", with " + member->key;
+        std::string& said = diagnostics_[first->second].hint;
+        said += (said.find(", with ") == std::string::npos ? ", with " : ", ") + member->key;
         continue;
       }
       // A table that is missing is named once.

@@ -23,7 +23,7 @@ TEST(DyadFamily, OfFewerPosesIsASweepOfDyadsThatHoldThem) {
     poses.resize(count);
     const DyadFamily few = dyad_family(poses, {}, {.one = 30, .two = 8}),
                      more = dyad_family(poses, {}, {.one = 60, .two = 16});
-    EXPECT_GT(few.dyads.size(), 10u);
+    EXPECT_FALSE(few.dyads.empty());
     EXPECT_GT(more.dyads.size(), few.dyads.size());
     for (const GuidingDyad& dyad : more.dyads) EXPECT_LT(spread(dyad, poses), 1e-7);
   }

@@ -75,11 +75,14 @@ TEST(FourBarStudyRead, NamesWhatIsWrongWithTheLinkage) {
 }
 
 TEST(FourBarStudyRead, SendsLengthsToTheirTable) {
-  EXPECT_EQ(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.four_bar\"\n"
-                        "ground_mm = 100\ncrank_mm = 40\ncoupler_mm = 120\nrocker_mm = 90\n"),
-            "s.toml:5:1: error: mechanism.ground_mm: unknown key; it belongs in [mechanism.parameters], with "
-            "crank_mm, "
-            "coupler_mm, rocker_mm\n");
+  const std::string all = problems_of(
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.four_bar\"\n"
+      "ground_mm = 100\ncrank_mm = 40\ncoupler_mm = 120\nrocker_mm = 90\n");
+  EXPECT_THAT(all,
+              HasSubstr("5:1: error: mechanism.ground_mm: unknown key; it belongs in [mechanism.parameters], "
+                        "with crank_mm, coupler_mm, rocker_mm\n"));
+  // The table is missing because they are elsewhere.
+  EXPECT_THAT(all, ::testing::Not(HasSubstr("this key is missing")));
 }
 
 TEST(FourBarStudyRead, NamesWhatIsWrongWithTheMasses) {

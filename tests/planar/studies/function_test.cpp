@@ -133,8 +133,8 @@ TEST(FunctionStudy, KeepsALeastTransmissionAngle) {
   EXPECT_EQ(tangent.status, Status::done);
   EXPECT_GE(tangent.solutions[0].objectives.find("least_pair_angle_rad")->as_number(), pi / 6);
   const study::Result decade = run_text(minimax("function = \"log10\"\nx = { from = 1, to = 10 }\n", "69"));
-  ASSERT_FALSE(decade.diagnostics.empty());
-  EXPECT_THAT(decade.diagnostics[0].message, HasSubstr("no four-bar was found with a pair angle of 69°"));
+  EXPECT_GE(decade.solutions[0].objectives.find("least_pair_angle_rad")->as_number(), 69 * pi / 180);
+  EXPECT_TRUE(decade.diagnostics.empty());
 }
 
 }  // namespace
