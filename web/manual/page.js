@@ -15,7 +15,9 @@
       if (inTitle < 0 && inText < 0) return 0;
       sum += inTitle >= 0 ? 10 : 1;
     }
-    return sum / Math.sqrt(part.title.length);
+    // The list of messages names every key; what explains one comes first.
+    const lists = part.at.startsWith("messages.html") ? 0.1 : 1;
+    return (lists * sum) / Math.sqrt(part.title.length);
   }
   function excerpt(words, text) {
     const at = Math.max(0, text.toLowerCase().indexOf(words[0]) - 40);
