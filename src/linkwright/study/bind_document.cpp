@@ -215,7 +215,9 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
   for (const auto& [member, meant] : all) {
     // What there is beside a choice is not known without it.
     if (misspelt_choice && meant != misspelt_choice) continue;
-    if (const std::string home = meant ? std::string() : home_of(*member, schema_); !home.empty()) {
+    // A key of this table that goes with another word of it is at home already.
+    const bool elsewhere = !meant && named_members_of(schemas, member->key).empty();
+    if (const std::string home = elsewhere ? home_of(*member, schema_) : ""; !home.empty()) {
       const auto [first, fresh] = homes.try_emplace(home, diagnostics_.size());
       if (!fresh) {
         std::string& said = diagnostics_[first->second].hint;

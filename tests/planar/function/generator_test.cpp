@@ -10,6 +10,7 @@
 
 #include "linkwright/core/check.h"
 #include "planar/dyad_cases.h"
+#include "planar/function_cases.h"
 
 namespace linkwright::planar {
 namespace {
@@ -36,20 +37,10 @@ std::vector<FunctionPair> stored_pairs(const Value& stored, std::string_view of)
     for (std::size_t k = 0; k < input.size(); ++k) out.push_back({input[k], output[k]});
     return out;
   }
-  const std::string name = at(stored, "inputs.function").as_string();
-  double from = 0, to = 1;
-  double (*y)(double) = nullptr;
-  if (name == "x^1.5 1..4") from = 1, to = 4, y = [](double x) { return std::pow(x, 1.5); };
-  if (name == "log10 1..10") from = 1, to = 10, y = [](double x) { return std::log10(x); };
-  if (name == "log10 1..2") from = 1, to = 2, y = [](double x) { return std::log10(x); };
-  if (name == "sin 0..90") to = pi / 2, y = [](double x) { return std::sin(x); };
-  if (name == "tan 0..45") to = pi / 4, y = [](double x) { return std::tan(x); };
-  if (name == "exp 0..1") y = [](double x) { return std::exp(x); };
-  if (name == "x^2 0..1") y = [](double x) { return x * x; };
-  if (name == "1/x 1..2") from = 1, to = 2, y = [](double x) { return 1 / x; };
+  const FunctionProblem p = stored_function(at(stored, "inputs.function").as_string());
   for (int k = 1; k <= 5; ++k) {
     const double share = 0.5 * (1 - std::cos((2 * k - 1) * pi / 10));
-    out.push_back({pi / 2 * share, pi / 2 * (y(from + (to - from) * share) - y(from)) / (y(to) - y(from))});
+    out.push_back({p.input_range * share, p.output(share)});
   }
   return out;
 }

@@ -30,6 +30,12 @@ std::string target(const std::string& lines) {
   return std::string(head) + "[target]\ntype = \"path_points\"\n" + lines;
 }
 
+// The schema lists the keys of all methods; that of another method is in the right table already.
+TEST(PathStudyRead, AKeyOfAnotherMethodIsUnknown) {
+  EXPECT_THAT(problems_of(target(square) + "[optimiser]\nmethod = \"grey_wolf\"\ncrossover = 0.5\n"),
+              HasSubstr("optimiser.crossover: unknown key; allowed here: seeds, method, population"));
+}
+
 TEST(PathStudyRead, NamesWhatIsWrongWithThePoints) {
   EXPECT_THAT(problems_of(target("")),
               HasSubstr("the target has no points; write points_m = [[x, y], ...] or points_file"));

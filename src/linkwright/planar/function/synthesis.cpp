@@ -15,6 +15,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/optimise/minimise_largest.h"
+#include "linkwright/planar/function/detail/range_errors.h"
 
 namespace linkwright::planar {
 namespace {
@@ -298,27 +299,41 @@ std::optional<double> structural_error(const FunctionProblem& problem, const Fun
   return problem.slider ? error : math::wrap_angle(error);
 }
 
-FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& generator, int samples) {
+RangeErrors range_errors(const std::function<std::optional<PlaceError>(double share)>& at, int samples) {
   LINKWRIGHT_REQUIRE(samples >= 2, "{} samples", samples);
-  FunctionDesign out;
-  out.generator = generator;
+  RangeErrors out;
   double least = 1, sum = 0;
   int there = 0;
   for (int k = 0; k < samples; ++k) {
-    const double share = static_cast<double>(k) / (samples - 1);
-    const std::optional<GeneratorOutput> at = output_at(generator, problem.input_range * share);
-    if (!at) {
+    const std::optional<PlaceError> place = at(static_cast<double>(k) / (samples - 1));
+    if (!place) {
       out.assembles = false;
       continue;
     }
-    const double error = *structural_error(problem, generator, share);
-    out.greatest_error = std::max(out.greatest_error, std::abs(error));
-    sum += error * error;
+    out.greatest_error = std::max(out.greatest_error, std::abs(place->error));
+    sum += place->error * place->error;
     ++there;
-    least = std::min(least, at->sine);
+    least = std::min(least, place->sine);
   }
   out.rms_error = there > 0 ? std::sqrt(sum / there) : infinity;
   out.pair_angle = out.assembles ? std::asin(std::min(1.0, least)) : 0;
+  return out;
+}
+
+FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& generator, int samples) {
+  const RangeErrors errors = range_errors(
+      [&](double share) -> std::optional<PlaceError> {
+        const std::optional<GeneratorOutput> at = output_at(generator, problem.input_range * share);
+        if (!at) return std::nullopt;
+        return PlaceError{*structural_error(problem, generator, share), at->sine};
+      },
+      samples);
+  FunctionDesign out;
+  out.generator = generator;
+  out.assembles = errors.assembles;
+  out.greatest_error = errors.greatest_error;
+  out.rms_error = errors.rms_error;
+  out.pair_angle = errors.pair_angle;
   // An exact point that is missed was met on the other branch.
   const double rounding = 1e-6 * (problem.slider ? std::abs(problem.output(1)) : 1);
   if (problem.fit == FunctionFit::points)

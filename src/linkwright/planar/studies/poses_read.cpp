@@ -11,7 +11,7 @@
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/core/units.h"
+#include "linkwright/core/quantity_columns.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/templates.h"
@@ -36,15 +36,8 @@ std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Co
   const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
   for (const Diagnostic& problem : problems) target.unreadable("file", study::in_file(problem));
   if (!table) return {};
-  const auto column = [&](std::string_view base, Dimension dimension) -> const Column* {
-    for (const Column& c : table->columns) {
-      const auto key = split_unit(c.key);
-      if (key && key->base == base && key->dimension == dimension) return &c;
-    }
-    return nullptr;
-  };
-  const Column *x = column("x", Dimension::length), *y = column("y", Dimension::length),
-               *angle = column("angle", Dimension::angle);
+  const auto x = quantity(*table, "x", Dimension::length), y = quantity(*table, "y", Dimension::length),
+             angle = quantity(*table, "angle", Dimension::angle);
   if (!x || !y || !angle) {
     std::vector<std::string> found;
     for (const Column& c : table->columns) found.push_back(c.key);
@@ -55,11 +48,9 @@ std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Co
     return {};
   }
   std::vector<PoseForm> out;
-  for (std::size_t k = 0; k < x->values.size(); ++k) {
-    const auto si = [&](const Column& c) { return split_unit(c.key)->unit->to_si(c.values[k]); };
-    out.push_back({si(*x), si(*y), si(*angle)});
-    if (std::isfinite(out.back().x) && std::isfinite(out.back().y) && std::isfinite(*out.back().angle))
-      continue;
+  for (std::size_t k = 0; k < x->size(); ++k) {
+    out.push_back({(*x)[k], (*y)[k], (*angle)[k]});
+    if (std::isfinite((*x)[k]) && std::isfinite((*y)[k]) && std::isfinite((*angle)[k])) continue;
     target.error("file", fmt::format("'{}': pose {} is incomplete", file, k + 1),
                  "give it x, y and an angle");
     return {};

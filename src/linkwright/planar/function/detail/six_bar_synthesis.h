@@ -12,6 +12,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/optimise/minimise_largest.h"
+#include "linkwright/planar/function/detail/range_errors.h"
 #include "linkwright/planar/function/six_bar.h"
 
 namespace linkwright::planar {
@@ -28,17 +29,32 @@ inline constexpr double between_pairs = 2e-3;
 // Designs whose numbers agree to this share are one.
 inline constexpr double same_six_bar = 2e-2;
 
+/// Errors of a six-bar over the range, at `samples` shares; its output_at gives `output` and `sine`.
+template <class Generator>
+SixBarDesign<Generator> assess_six_bar(const FunctionProblem& problem, const Generator& generator,
+                                       int samples) {
+  const RangeErrors errors = range_errors(
+      [&](double share) -> std::optional<PlaceError> {
+        const auto at = output_at(generator, problem.input_range * share);
+        if (!at) return std::nullopt;
+        return PlaceError{math::wrap_angle(at->output - problem.output(share)), at->sine};
+      },
+      samples);
+  return {generator, errors.assembles, errors.greatest_error, errors.rms_error, errors.pair_angle};
+}
+
 /// The search for six-bars of any structure that generate a function: least squares from the starts of the
 /// model, for the least greatest error powers of the errors, then sequential quadratic programmes. A model
 /// has
-///
-///     Generator, numbers                         what it is, and how many numbers it has
-///     numbers_of(generator), with(generator, x)  to and from these
-///     bounds(most_link, lower, upper)            of the numbers
-///     starts(problem, four_bars, pair_angle)     generators to begin from; four_bars are the best of the
-///     same problem output(generator, input, slopes)           rad, with its slopes unless null; nothing
-///     where it does not assemble pair_cosines(generator, input, cosines, slopes)   of the two angles that
-///     transmit force, likewise usable(generator)                          whether it can be built
+/// - `Generator` and `numbers`: what it is, and how many numbers it has;
+/// - `numbers_of(generator)` and `with(generator, x)`: to and from these;
+/// - `bounds(most_link, lower, upper)`: of the numbers;
+/// - `starts(problem, four_bars, pair_angle)`: generators to begin from; `four_bars` are the best of the
+///   same problem;
+/// - `output(generator, input, slopes)`: rad, with its slopes unless null; nothing where it does not
+/// assemble;
+/// - `pair_cosines(generator, input, cosines, slopes)`: of the two angles that transmit force, likewise;
+/// - `usable(generator)`: whether it can be built.
 template <class Model>
 class SixBarFinder {
   using Generator = typename Model::Generator;
