@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Spoils every value of every template and of some examples, one at a time, misspells every key, table and word of them, and
-counts the error messages: one mistake, one message.
+counts the error messages: one mistake, one message. Each is among those that the manual lists (web/manual/messages.mjs), which reads
+them from the sources.
 
 usage: check_one_message.py LINKWRIGHT EXAMPLES [EVERY]
 EVERY = n takes each n-th mistake only (default 1).
@@ -17,6 +18,14 @@ examples = pathlib.Path(sys.argv[2])
 every = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 # With built-in mechanisms, of which templates have none.
 with_samples = ["studies/jansen-leg", "studies/four-bar-chain-2", "studies/tolerances-hoeken"]
+
+
+def listed_messages():
+    """Patterns of the messages that the manual lists. A message may be put together of several of its texts."""
+    script = pathlib.Path(__file__).resolve().parents[2] / "web/manual/messages.mjs"
+    texts = {one["text"] for one in json.loads(subprocess.run(["node", script], check=True, capture_output=True, text=True).stdout)}
+    return [re.compile(".*?".join(re.escape(part) for part in text.split("…")), re.S)
+            for text in texts if len(re.sub(r"[^A-Za-z]", "", text)) >= 8]
 
 
 def run(*arguments):
@@ -58,7 +67,8 @@ def misspelt(text):
 
 def main():
     kinds = [one["name"] for one in json.loads(run("catalogue", "--json").stdout)]
-    count = failures = 0
+    listed = listed_messages()
+    count = failures = unlisted = 0
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "study.toml"
         studies = [(kind, run("new", kind, "-").stdout) for kind in kinds]
@@ -71,13 +81,18 @@ def main():
                 file.write_text(text)
                 answer = run("check", str(file))
                 errors = [e for e in answer.stderr.splitlines() if ": error: " in e]
+                for error in errors:
+                    said = error.split(": error: ", 1)[1]
+                    if not any(pattern.search(said) for pattern in listed):
+                        unlisted += 1
+                        print(f"{kind}: {line}: not in the manual's list: {said}")
                 if answer.returncode != 2 or len(errors) != 1:
                     failures += 1
                     print(f"{kind}: {line}")
                     for error in errors[:6] or [f"exit code {answer.returncode}, no error"]:
                         print("    " + error.split("study.toml:")[-1][:200])
-    print(f"{count} mistakes, every {every}: {failures} with other than one message")
-    return 1 if failures or count < 100 else 0
+    print(f"{count} mistakes, every {every}: {failures} with other than one message, {unlisted} messages that the manual does not list")
+    return 1 if failures or unlisted or count < 100 else 0
 
 
 sys.exit(main())

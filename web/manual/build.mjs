@@ -10,6 +10,7 @@ import { parseArgs } from "node:util";
 import { deflateRawSync } from "node:zlib";
 import { drawings } from "./drawings.mjs";
 import { escaped, markdown } from "./markdown.mjs";
+import { messageList, requireWords } from "./messages.mjs";
 import { referencePages } from "./reference.mjs";
 
 const { positionals, values: options } = parseArgs({ allowPositionals: true, options: { workbench: { type: "string" }, pictures: { type: "boolean" } } });
@@ -65,9 +66,13 @@ if (lessons.length) add("learn/index.html", "Learn", "Learn", `<p>Ten lessons of
 const theory = listed("theory").map((name) => page(`theory/${name}`));
 for (const t of theory) add(t.path, "Theory", t.title, t.html, { lead: t.lead });
 if (theory.length) add("theory/index.html", "Theory", "Theory", cards(theory.map((t) => ({ href: t.path.replace("theory/", ""), title: t.title, text: t.lead }))));
-for (const [file, section] of [["do.md", "Do"], ["files.md", "Reference"], ["trust.md", "Trust"], ["faq.md", "FAQ"], ["glossary.md", "Glossary"]])
+for (const [file, section] of [["do.md", "Do"], ["files.md", "Reference"], ["messages.md", "Reference"], ["trust.md", "Trust"], ["faq.md", "FAQ"], ["glossary.md", "Glossary"]])
   if (existsSync(join(texts, file))) {
     const made = page(file);
+    if (file === "messages.md") {
+      requireWords(root, made.html);
+      made.html += messageList(root, escaped);
+    }
     add(made.path, section, made.title, made.html, { lead: made.lead, broad: section === "Glossary" });
   }
 
@@ -125,7 +130,7 @@ function parts({ path, section, title, body, lead }) {
   const plain = (html) => html.replace(/<!--formula-->[^]*?<!--end-->/g, " ").replace(/<[^>]*>/g, " ").replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&quot;/g, '"').replace(/&amp;/g, "&").replace(/\s+/g, " ").trim();
   return body.split(/(?=<h[23] id=)/).map((part, i) => {
     const [, id, heading] = /^<h[23] id="([^"]*)"[^>]*>([^]*?)<\/h/.exec(part) ?? [];
-    return { at: id ? `${path}#${id}` : path, in: section, title: heading ? `${title}: ${plain(heading)}` : title, text: `${i ? "" : lead} ${plain(part)}`.slice(0, 4000) };
+    return { at: id ? `${path}#${id}` : path, in: section, title: heading ? `${title}: ${plain(heading)}` : title, text: `${i ? "" : lead} ${plain(part)}`.slice(0, path === "messages.html" ? 20000 : 4000) };
   });
 }
 

@@ -176,7 +176,7 @@ export function referencePages({ ask, json, root }) {
   const index = {
     path: "reference/index.html", title: "Reference", lead: "What the program says of itself: keys, columns, commands, files, functions.",
     html: `${groups.map((group) => `<h2 id="${slug(group)}">${escaped(group)}</h2>${list(kinds.filter((k) => k.group === group).map((k) => pages[kinds.indexOf(k)]))}`).join("")}
-<h2 id="program">Program and files</h2>${list([command, { path: "../files.html", title: "Files of a run" }, result])}<h2 id="libraries">Python and C++</h2>${list([python, ...cpp])}`,
+<h2 id="program">Program and files</h2>${list([command, { path: "../files.html", title: "Files of a run" }, result, { path: "../messages.html", title: "Messages", lead: "statuses, exit codes, and every text that the program can say" }])}<h2 id="libraries">Python and C++</h2>${list([python, ...cpp])}`,
   };
   return [index, ...pages, command, result, python, ...cpp];
 }

@@ -83,6 +83,9 @@ test("search finds keys, words and nothing, without a network", async () => {
   assert.ok((await page.locator("#found a").count()) > 3);
   await page.locator("#search").fill("crank_rotates_fully");
   assert.match(await page.locator("#found a").first().getAttribute("href"), /reference\//);
+  // What a message says leads to it.
+  await page.locator("#search").fill("a quote is not closed");
+  assert.ok((await page.locator("#found a").evaluateAll((links) => links.map((l) => l.getAttribute("href")))).some((href) => /messages\.html#error-/.test(href)));
   await page.locator("#search").fill("nosuchwordanywhere");
   assert.match(await page.locator("#found").innerText(), /Nothing has all of/);
   await page.locator("#search").fill("jacobian");
