@@ -5,7 +5,7 @@ find_program(LINKWRIGHT_PYTHON_EXECUTABLE NAMES python3 PATHS /usr/bin NO_DEFAUL
 if(NOT DEFINED LINKWRIGHT_PYTHON)
   block()
     set(found OFF)
-    if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN AND NOT LINKWRIGHT_SANITIZE AND LINKWRIGHT_PYTHON_EXECUTABLE)
+    if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING AND NOT LINKWRIGHT_SANITIZE AND LINKWRIGHT_PYTHON_EXECUTABLE)
       execute_process(RESULT_VARIABLE missing ERROR_QUIET COMMAND ${LINKWRIGHT_PYTHON_EXECUTABLE} -c
         "import numpy, os, sysconfig; os.stat(sysconfig.get_path('include') + '/Python.h'); os.stat('/usr/include/pybind11')")
       if(missing EQUAL 0)

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Keeps what a program computes, and compares what two programs computed: for changes that must not change results.
 
-    tools/compare_results.py keep LINKWRIGHT FOLDER [--jobs J]    runs all examples, templates and reproductions
-    tools/compare_results.py compare OLD NEW [--tolerance T]      result.json (but for `run`) and CSV files
+    tools/compare_results.py keep LINKWRIGHT FOLDER [--jobs J] [--only PATTERN]    runs all examples, templates and
+                                                                                  reproductions, or some
+    tools/compare_results.py compare OLD NEW [--tolerance T] [--absolute A]        result.json (but for `run`) and CSV files
 
-Numbers are equal when they differ by at most T (1e-12) of the larger one. Exit code 1 when anything differs.
+Numbers are equal when they differ by at most T (1e-12) of the larger one, or by at most A (0). Exit code 1 when anything differs.
 """
 
 import argparse
 import concurrent.futures
 import csv
+import fnmatch
 import json
 import math
 import subprocess
@@ -46,7 +48,10 @@ def keep(options):
         return done.returncode
 
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        codes = list(pool.map(run, studies(options.program)))
+        codes = list(pool.map(run, (one for one in studies(options.program) if fnmatch.fnmatch(one[0], options.only))))
+    if options.only != "*":
+        print(f"{len(codes)} studies kept in {folder}")
+        return 0
     tables = subprocess.run([options.program, "reproduce", "all", "--json"], capture_output=True, text=True, check=False)
     (folder / "reproductions.json").write_text(tables.stdout)
     print(f"{len(codes)} studies and all reproductions kept in {folder}; exit codes "
@@ -54,27 +59,27 @@ def keep(options):
     return 0
 
 
-def same(a, b, tolerance):
+def same(a, b, tolerance, absolute):
     if a == b or math.isnan(a) and math.isnan(b):
         return True
-    return abs(a - b) <= tolerance * max(abs(a), abs(b))
+    return abs(a - b) <= max(absolute, tolerance * max(abs(a), abs(b)))
 
 
-def differences(a, b, tolerance, where=""):
+def differences(a, b, tolerance, absolute=0.0, where=""):
     """Where two JSON values differ."""
     if isinstance(a, dict) and isinstance(b, dict):
         for key in sorted(a.keys() | b.keys()):
             if key not in a or key not in b:
                 yield f"{where}.{key} is only in the {'new' if key in b else 'old'} one"
             else:
-                yield from differences(a[key], b[key], tolerance, f"{where}.{key}")
+                yield from differences(a[key], b[key], tolerance, absolute, f"{where}.{key}")
     elif isinstance(a, list) and isinstance(b, list):
         if len(a) != len(b):
             yield f"{where} has {len(a)} and {len(b)} entries"
         for i, (x, y) in enumerate(zip(a, b)):
-            yield from differences(x, y, tolerance, f"{where}[{i}]")
+            yield from differences(x, y, tolerance, absolute, f"{where}[{i}]")
     elif isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
-        if not same(a, b, tolerance):
+        if not same(a, b, tolerance, absolute):
             yield f"{where} is {a!r} and {b!r}"
     elif a != b:
         yield f"{where} is {a!r} and {b!r}"
@@ -113,7 +118,7 @@ def compare(options):
         elif (old / name).read_bytes() == (new / name).read_bytes():
             continue
         else:
-            found = list(differences(content(old / name), content(new / name), options.tolerance))
+            found = list(differences(content(old / name), content(new / name), options.tolerance, options.absolute))
         if found:
             different += 1
             print(f"{name}: {len(found)} differences")
@@ -130,11 +135,13 @@ def main():
     command.add_argument("program")
     command.add_argument("folder")
     command.add_argument("--jobs", type=int, default=1)
+    command.add_argument("--only", default="*")
     command.set_defaults(run=keep)
     command = commands.add_parser("compare")
     command.add_argument("old")
     command.add_argument("new")
     command.add_argument("--tolerance", type=float, default=1e-12)
+    command.add_argument("--absolute", type=float, default=0.0)
     command.set_defaults(run=compare)
     options = parser.parse_args()
     return options.run(options)

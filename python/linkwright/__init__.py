@@ -15,8 +15,8 @@ from ._linkwright import Diagnostic, version as __version__
 from .errors import StudyError
 from .optimise import Minimum, methods, minimise
 from .studies import (Check, Example, Fact, Kind, Result, Sample, Solution, Study, Table, catalogue, example, examples, read,
-                      run_many, samples, schema, template)
+                      read_tables, run_many, samples, schema, template)
 
 __all__ = ["Check", "Diagnostic", "Example", "Fact", "Kind", "Minimum", "Result", "Sample", "Solution", "Study", "StudyError",
-           "Table", "catalogue", "example", "examples", "methods", "minimise", "parallel", "planar", "read", "run_many",
-           "samples", "schema", "suspension", "template"]
+           "Table", "catalogue", "example", "examples", "methods", "minimise", "parallel", "planar", "read", "read_tables",
+           "run_many", "samples", "schema", "suspension", "template"]

@@ -341,10 +341,11 @@ class Result:
         """Writes the report: one HTML file that needs no network. Raises OSError when it cannot be written."""
         self._run.write_report(os.fspath(file))
 
-    def save(self, folder: Union[str, os.PathLike]) -> list[pathlib.Path]:
+    def save(self, folder: Union[str, os.PathLike], *, longest_table: int = 1_000_000) -> list[pathlib.Path]:
         """Writes into a folder what the command line writes: report, result.json, CSV, drawings, designs. Returns the files.
-        Raises OSError for what cannot be written."""
-        return [pathlib.Path(name) for name in self._run.save(os.fspath(folder))]
+        Tables of more than `longest_table` rows go to files of NumPy, which `read_tables` opens. Raises OSError for what cannot
+        be written."""
+        return [pathlib.Path(name) for name in self._run.save(os.fspath(folder), longest_table)]
 
     def _repr_html_(self) -> str:
         return (f'<iframe title="{html.escape(self._run.title)}" srcdoc="{html.escape(self._run.report())}" '
@@ -357,6 +358,24 @@ class Result:
 def read(file: Union[str, os.PathLike]) -> Study:
     """The study in a TOML or JSON file. Files that it names are looked for beside it."""
     return Study(pathlib.Path(file))
+
+
+def read_tables(folder: Union[str, os.PathLike]) -> dict[str, dict[str, numpy.ndarray]]:
+    """The tables of a result in a folder, as the command line or `Result.save` has written it: by name, and in each its columns by
+    their keys. `status`, and `name` where rows have names, are texts; missing numbers are NaN. Long tables are mapped from their
+    files, not read: their texts are bytes. Raises OSError where there is no result."""
+    folder = pathlib.Path(folder)
+    tables = {}
+    for table in json.loads((folder / "result.json").read_text(encoding="utf-8"))["tables"]:
+        if "file" in table:
+            rows = numpy.load(folder / table["file"], mmap_mode="r")
+            tables[table["name"]] = {key: rows[key] for key in rows.dtype.names}
+            continue
+        columns = {"name": numpy.array(table["names"])} if "names" in table else {}
+        for column, data in zip(table["columns"], table["data"]):
+            columns[column["key"]] = numpy.array(data, dtype=None if column["key"] == "status" else float)
+        tables[table["name"]] = columns
+    return tables
 
 
 def run_many(studies: Iterable[Study], *, threads: int = 2, time_limit: Optional[float] = None,

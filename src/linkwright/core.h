@@ -11,6 +11,7 @@
 #include "linkwright/core/kernels.h"
 #include "linkwright/core/looks.h"
 #include "linkwright/core/memory.h"
+#include "linkwright/core/npy.h"
 #include "linkwright/core/number_lists.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/quantity_columns.h"

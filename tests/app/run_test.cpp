@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "linkwright/core/npy.h"
 #include "tests/study/sample_kind.h"
 
 namespace linkwright::app {
@@ -89,6 +91,61 @@ TEST_F(Run, WritesWhatTheStudyAsksFor) {
             "0.4,done\r\n");
   // Nothing is left of the temporary files.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep/out"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Run, LongTablesStandBesideTheResult) {
+  const auto study = load({.out = {}, .seed = {}, .set = {"output.formats=['csv', 'json', 'html']"}});
+  ASSERT_TRUE(study) << message();
+  RunContext context;
+  ASSERT_TRUE(prepare_folder(folder_ / "out", diagnostics_));
+  for (const std::size_t most : {2u, 3u}) {
+    const RunOutcome outcome = run_and_record(*study, context, most);
+    const auto written = write_results(*study, outcome, folder_ / "out", diagnostics_);
+    const bool apart = most < 3;
+    EXPECT_EQ(written, (std::vector<fs::path>{folder_ / "out/result.json",
+                                              folder_ / (apart ? "out/sweep.npy" : "out/sweep.csv"),
+                                              folder_ / "out/report.html"}));
+    const Value document =
+        *result_json(*study, presented(*study, outcome.result), outcome.record, {}, most).find("tables");
+    const Value& table = document.as_array().at(0);
+    EXPECT_EQ(table.find("columns")->as_array().size(), 3u);
+    EXPECT_EQ(table.find("data") == nullptr, apart);
+    EXPECT_EQ(table.find("file") != nullptr && table.find("file")->as_string() == "sweep.npy", apart);
+    const auto& remarks = outcome.result.diagnostics;
+    EXPECT_EQ(
+        std::any_of(remarks.begin(), remarks.end(),
+                    [](const Diagnostic& d) {
+                      return d.message ==
+                             "the table 'sweep' has 3 rows, more than 2: it is written as sweep.npy, without "
+                             "CSV, and the report shows a part of its rows";
+                    }),
+        apart);
+  }
+  std::string npy;
+  const RunOutcome again = run_and_record(*study, context);
+  NpyPieces pieces(again.result.tables.at(0));
+  for (std::string_view piece = pieces.next(); !piece.empty(); piece = pieces.next()) npy += piece;
+  EXPECT_EQ(read(folder_ / "out/sweep.npy"), npy);
+}
+
+TEST_F(Run, ReportsShowAPartOfLongTables) {
+  study::Result result;
+  Table& table = result.tables.emplace_back(Table{.name = "trials"});
+  table.add("x_m", "x", std::vector<double>(25000));
+  for (std::size_t i = 0; i < 25000; ++i) table.columns[0].values[i] = static_cast<double>(i);
+  table.status.resize(25000, "done");
+  table.status[3] = "singular";
+  result.plots = {{.name = "a", .table = "trials"},
+                  {.name = "b", .table = "trials", .style = study::Plot::Style::map}};
+  EXPECT_EQ(with_short_tables(result, 25000).tables[0].rows(), 25000u);
+  const study::Result shown = with_short_tables(result, 24999);
+  ASSERT_EQ(shown.tables[0].rows(), 8334u);
+  EXPECT_EQ(shown.tables[0].columns[0].values[1], 3);
+  EXPECT_EQ(shown.tables[0].columns[0].values.back(), 24999);
+  EXPECT_EQ(shown.tables[0].status.size(), 8334u);
+  EXPECT_EQ(shown.tables[0].status[1], "singular");
+  ASSERT_EQ(shown.plots.size(), 1u);
+  EXPECT_EQ(shown.plots[0].name, "a");
 }
 
 TEST_F(Run, WritesTheStudiesOfDesigns) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfloat>
 #include <cmath>
 
 #include "linkwright/core/random.h"
@@ -9,7 +10,12 @@
 namespace linkwright::math {
 namespace {
 
-__extension__ typedef __float128 Quad;  // 113 bits: seven more than a double-double
+// 113 bits: seven more than a double-double
+#if LDBL_MANT_DIG >= 113
+using Quad = long double;
+#else
+__extension__ typedef __float128 Quad;
+#endif
 
 Quad quad(const DoubleDouble& a) { return static_cast<Quad>(a.high) + static_cast<Quad>(a.low); }
 

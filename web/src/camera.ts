@@ -15,7 +15,19 @@ export const scales = computed(() => {
   return quantities.map((quantity) => ({ quantity, scale: scene ? arrowScale(scene, quantity) : 0 }));
 });
 const box = computed(() => state.scene.value && boundsWith(state.scene.value, scales.value.filter((s) => state.showArrows[s.quantity].value)));
-const fitted = computed<Camera>(() => (box.value ? fit(box.value, size.value, margin(size.value.width)) : { x: 0, y: 0, scale: 100 }));
+/** px that the key of the arrows takes from the top of a narrow drawing, where it would lie over the mechanism. */
+const keyHeight = computed(() => {
+  if (size.value.width >= 500) return 0;
+  const couples = state.showArrows.force.value && (state.scene.value?.moments.length ?? 0) > 0;
+  const rows = scales.value.filter((s) => s.scale > 0 && state.showArrows[s.quantity].value).length + (couples ? 1 : 0);
+  return rows && 24 * rows;
+});
+const fitted = computed<Camera>(() => {
+  if (!box.value) return { x: 0, y: 0, scale: 100 };
+  const { width, height } = size.value;
+  const below = fit(box.value, { width, height: height - keyHeight.value }, margin(width));
+  return { ...below, y: below.y + keyHeight.value / 2 / below.scale };
+});
 
 /** Height of the drawing at a width: the shape of the largest of the scenes, so that it stays when another one is chosen, but
  *  never so much that the controls leave the first screen. */

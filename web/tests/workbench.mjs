@@ -668,6 +668,67 @@ test("a slider-crank with offset is drawn from nothing, and moves as computed", 
   await close();
 });
 
+test("springs and loads are put on the point that is picked, changed and taken out", async () => {
+  const { page, errors, close } = await open();
+  await writeText(page, spawnSync(program, ["new", "analysis/planar.linkage", "-"], { encoding: "utf8" }).stdout);
+  await until(async () => (await page.locator("h1").innerText()) === "Forces of my linkage");
+  await settled(page);
+  const text = await studyText(page);
+  const mechanism = async () => (await resultOf(page)).study.mechanism;
+  const torqueNow = async () => {
+    const [table] = (await resultOf(page)).tables;
+    return table.data[table.columns.findIndex((c) => /torque/.test(c.key))];
+  };
+  const before = await torqueNow();
+  await page.locator("#tab-numbers").click();
+  await page.evaluate(() => scrollTo(0, 0));
+  const at = await joint(page, "B");
+  await page.mouse.click(at.x, at.y);
+  await page.locator('[data-load="force"]').click();
+  await holds(page, async () => (await mechanism()).force?.length === 1);
+  const { name, point, force_N } = (await mechanism()).force[0];
+  assert.deepEqual([name, point, force_N], ["force", "coupler.B", [0, -10]]);
+  assert.notDeepEqual(await torqueNow(), before);
+  await page.locator('[data-key="mechanism.force[0].point"]').selectOption("rocker.B");
+  await holds(page, async () => (await mechanism()).force[0].point === "rocker.B");
+  await page.locator('[data-load="spring"]').click();
+  await holds(page, async () => (await mechanism()).spring?.length === 1);
+  const spring = (await mechanism()).spring[0];
+  assert.deepEqual([spring.name, spring.first, spring.second, spring.stiffness_N_per_m], ["spring", "ground.O", "coupler.B", 1000]);
+  await until(async () => (await page.locator('.pose [data-body="spring"]').count()) === 1);
+  assertSameTables(await resultOf(page), asTheProgram(await studyText(page)));
+  await page.locator('[data-remove="mechanism.force[0]"]').click();
+  await holds(page, async () => !(await mechanism()).force?.length);
+  for (let i = 0; i < 4; ++i) {
+    await page.locator("#undo").click();
+    await settled(page);
+  }
+  assert.equal(await studyText(page), text);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a finger on a phone means the pin beside it", async () => {
+  const { page, errors, close } = await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await page.locator("#draw").click();
+  const tap = async (x, y, beside = 0) => {
+    const at = await page.locator("#board").evaluate((svg, [x, y]) => {
+      const m = svg.getScreenCTM();
+      return { x: m.a * x + m.e, y: -m.d * y + m.f };
+    }, [x, y]);
+    await page.touchscreen.tap(at.x + beside, at.y);
+  };
+  for (const [x, y] of [[-150, 0], [-90, 80]]) await tap(x, y);
+  await page.locator('[data-tool="ground"]').click();
+  await tap(-150, 0, 14);
+  await until(async () => (await page.locator('#board [data-pin="A"] .ground').count()) === 1);
+  await tap(-150, 0, 30);
+  assert.equal(await page.locator("#board .ground").count(), 1, "what is further away is none");
+  assert.equal(await page.locator("#board .pin").count(), 2);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 /** Where a joint of a drawing in space is on the screen: about its name. */
 async function jointInSpace(page, name) {
   await page.evaluate(() => scrollTo(0, 0));

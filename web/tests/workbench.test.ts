@@ -5,6 +5,7 @@ import { asCommand, asCpp, asFragment, begin, canRedo, canUndo, change, document
 import { withNumbers } from "../src/workbench/engine";
 import { sortOut } from "../src/workbench/files";
 import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/workbench/handles";
+import { places, possible, withLoad } from "../src/workbench/loads";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
 import { along, listOf, pastedRows, tidy, withoutPoint, withPoint, withPose } from "../src/workbench/points";
 import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
@@ -346,4 +347,25 @@ test("rows are pasted as spreadsheets of any country write them", () => {
   for (const text of ["1\t2.5\n3\t4\n", "1;2,5\r\n3;4\r\n", "1 2.5\n\n3 4", "1, 2.5\n3, 4", "1,2.5\n3,4"]) expect(pastedRows(text, 1), text).toEqual([[1, 2.5], [3, 4]]);
   expect(pastedRows("\u22121\t2", 1000)).toEqual([[-0.001, 0.002]]);
   for (const text of ["", "7", "x\ty", "1\t2\t3"]) expect(pastedRows(text, 1), text).toBeNull();
+});
+
+test("loads go to the picked moving point, under names that are free", () => {
+  const study = {
+    mechanism: {
+      type: "planar.linkage",
+      body: [{ name: "ground", points_m: { O: [0, 0] } }, { name: "crank", points_m: { O: [0, 0], A: [0.1, 0] } }],
+      force: [{ name: "force", point: "crank.A", force_N: [1, 0] }],
+    },
+  } as unknown as JsonObject;
+  const list = (key: string) => ({ type: "array", items: { type: "object", properties: { [key]: { type: "string" } } } });
+  const schema = { properties: { mechanism: { properties: { force: list("point"), torque: list("body") } } } } as unknown as JsonObject;
+  expect(possible(study, schema)).toEqual(["force", "torque"]);
+  expect(possible({ mechanism: { type: "planar.four_bar" } }, schema)).toEqual([]);
+  expect(withLoad(study, "force", new Set(["mechanism.body[0].points_m.O", "mechanism.body[1].points_m.O"]))).toEqual({ key: "mechanism.force[1]", value: { name: "force 2", point: "crank.O", force_N: [0, -10] } });
+  expect(withLoad(study, "torque", new Set())).toEqual({ key: "mechanism.torque[0]", value: { name: "torque", body: "crank", torque_N_m: 1 } });
+  expect(withLoad(study, "trace", new Set())).toEqual({ key: "trace[0]", value: { point: "crank.A" } });
+  expect(places(study, "mechanism.force[0].point")).toEqual(["ground.O", "crank.O", "crank.A"]);
+  expect(places(study, "mechanism.torque[0].body")).toEqual(["ground", "crank"]);
+  expect(places(study, "mechanism.force[0].name")).toEqual([]);
+  expect(places(study, "mechanism.joint[0].first")).toEqual([]);
 });

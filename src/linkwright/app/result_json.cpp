@@ -1,6 +1,7 @@
 #include "linkwright/app/result_json.h"
 
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -67,10 +68,11 @@ Value to_value(const study::Comparison& comparison) {
 
 /// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand
 /// beside.
-Value to_value(const Table& table, const NumberLists& lists) {
+Value to_value(const Table& table, const NumberLists& lists, std::size_t most_rows) {
+  const bool apart = table.rows() > most_rows;
   Value v;
   v["name"] = table.name;
-  if (!table.names.empty()) {
+  if (!apart && !table.names.empty()) {
     v["names"] = Value::array();
     for (const std::string& name : table.names) v["names"].push_back(name);
   }
@@ -85,9 +87,15 @@ Value to_value(const Table& table, const NumberLists& lists) {
   for (const Column& column : table.columns) {
     const auto parts = split_unit(column.key);
     describe(column.key, parts ? readable_unit(parts->unit->suffix) : std::string(), column.label);
-    data.push_back(lists(column.values));
+    if (!apart) data.push_back(lists(column.values));
   }
   describe("status", "", "status");
+  if (apart) {
+    v["columns"] = Value(std::move(columns));
+    v["rows"] = table.rows();
+    v["file"] = long_table_file(table);
+    return v;
+  }
   Value::Array status;
   for (std::size_t row = 0; row < table.rows(); ++row)
     status.push_back(table.status.empty() ? Value("done") : Value(table.status[row]));
@@ -189,7 +197,7 @@ study::Result presented(const study::Study& study, study::Result result) {
 }
 
 Value result_json(const study::Study& study, const study::Result& shown, const RunRecord& run,
-                  const NumberLists& lists) {
+                  const NumberLists& lists, std::size_t most_rows) {
   Value v;
   v["schema"] = study::schema_version;
   v["tool"] = "linkwright " + std::string(version());
@@ -205,7 +213,7 @@ Value result_json(const study::Study& study, const study::Result& shown, const R
   v["statistics"] = or_empty(shown.statistics, Value::object());
   v["log"] = or_empty(shown.log, Value::array());
   v["tables"] = Value::array();
-  for (const Table& table : shown.tables) v["tables"].push_back(to_value(table, lists));
+  for (const Table& table : shown.tables) v["tables"].push_back(to_value(table, lists, most_rows));
   v["diagnostics"] = all(shown.diagnostics);
   Value& record = v["run"];
   record["started"] = run.started;
@@ -213,6 +221,27 @@ Value result_json(const study::Study& study, const study::Result& shown, const R
   record["host"] = run.host;
   record["threads"] = run.threads;
   return v;
+}
+
+std::string long_table_file(const Table& table) { return table.name + ".npy"; }
+
+study::Result with_short_tables(study::Result shown, std::size_t most_rows) {
+  constexpr std::size_t shown_rows = 10'000;
+  for (Table& table : shown.tables) {
+    const std::size_t rows = table.rows(), step = (rows + shown_rows - 1) / shown_rows;
+    if (rows <= most_rows || step < 2) continue;
+    const auto thin = [&](auto& values) {
+      for (std::size_t i = 1; i * step < values.size(); ++i) values[i] = std::move(values[i * step]);
+      values.resize((values.size() + step - 1) / step);
+    };
+    thin(table.names);
+    thin(table.status);
+    for (Column& column : table.columns) thin(column.values);
+    std::erase_if(shown.plots, [&](const study::Plot& plot) {
+      return plot.table == table.name && plot.style == study::Plot::Style::map;
+    });
+  }
+  return shown;
 }
 
 Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows) {

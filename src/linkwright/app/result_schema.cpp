@@ -100,7 +100,8 @@ constexpr std::string_view text = R"json({
   "log": {"type": "array", "description": "one object a seed"},
   "tables": {"type": "array", "items": {
     "type": "object",
-    "required": ["name", "columns", "data"],
+    "required": ["name", "columns"],
+    "oneOf": [{"required": ["data"]}, {"required": ["file", "rows"]}],
     "additionalProperties": false,
     "properties": {
       "name": {"type": "string"},
@@ -112,7 +113,9 @@ constexpr std::string_view text = R"json({
         "properties": {"key": {"type": "string"}, "unit": {"type": "string"}, "label": {"type": "string"}}
       }},
       "data": {"type": "array", "description": "an array for each column; the last one holds the status of each row",
-               "items": {"type": "array", "items": {"type": ["number", "string", "null"]}}}
+               "items": {"type": "array", "items": {"type": ["number", "string", "null"]}}},
+      "file": {"type": "string", "description": "of more than a million rows: NumPy's file beside this one that holds them"},
+      "rows": {"type": "integer", "description": "number of rows in that file"}
     }
   }},
   "diagnostics": {"type": "array", "items": {

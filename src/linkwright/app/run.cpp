@@ -9,10 +9,12 @@
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/view.h"
 #include "linkwright/app/write_whole.h"
+#include "linkwright/core/npy.h"
 #include "linkwright/core/platform/machine.h"
 #include "linkwright/core/platform/processes.h"
 #include "linkwright/core/table.h"
@@ -41,6 +43,18 @@ constexpr const char* designs_folder = "designs";
 bool wants(const study::Study& study, study::Format format) {
   const auto& formats = study.common.output.formats;
   return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+Diagnostic long_table_warning(const Table& table, std::size_t most_rows) {
+  return {Diagnostic::Severity::warning,
+          {},
+          {},
+          {},
+          fmt::format(
+              "the table '{}' has {} rows, more than {}: it is written as {}, without CSV, and the report "
+              "shows a part of its rows",
+              table.name, table.rows(), most_rows, long_table_file(table)),
+          "numpy.load(file) reads it in Python"};
 }
 
 /// A study file as a document; of standard input, its messages have a name that people know.
@@ -107,21 +121,40 @@ bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
   return true;
 }
 
-RunOutcome run_and_record(const study::Study& study, RunContext& context) {
+RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t most_rows) {
   RunOutcome outcome;
+  outcome.most_rows = most_rows;
   const auto start = RunContext::Clock::now();
   outcome.record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   outcome.record.host = platform::host_name();
   outcome.record.threads = context.threads();
   outcome.result = study::run_study(study, context);
+  for (const Table& table : outcome.result.tables)
+    if (table.rows() > most_rows) outcome.result.diagnostics.push_back(long_table_warning(table, most_rows));
   outcome.record.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
   return outcome;
+}
+
+std::string report_text(const study::Study& study, const study::Result& shown, const RunOutcome& outcome,
+                        std::string json) {
+  const auto text = [&](const study::Result& drawn, std::string its_json) {
+    return report::html(report_input(study, drawn, outcome.command, std::move(its_json)));
+  };
+  const auto json_of = [&](const study::Result& drawn) {
+    return study::to_json_readable(result_json(study, drawn, outcome.record));
+  };
+  if (std::any_of(shown.tables.begin(), shown.tables.end(),
+                  [&](const Table& table) { return table.rows() > outcome.most_rows; })) {
+    const study::Result drawn = with_short_tables(shown, outcome.most_rows);
+    return text(drawn, json_of(drawn));
+  }
+  return text(shown, json.empty() ? json_of(shown) : std::move(json));
 }
 
 std::vector<fs::path> write_results(const study::Study& study, const RunOutcome& outcome,
                                     const fs::path& folder, Diagnostics& diagnostics) {
   std::vector<fs::path> written;
-  const auto write = [&](const std::string& name, std::string_view text) {
+  const auto write = [&](const std::string& name, const auto& text) {
     const fs::path file = folder / name;
     if (const std::string problem = write_whole(file, text); problem.empty())
       written.push_back(file);
@@ -129,21 +162,27 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       refuse(diagnostics, file, fmt::format("cannot be written: {}", problem));
   };
   const study::Result& result = outcome.result;
+  const auto is_long = [&](const Table& table) { return table.rows() > outcome.most_rows; };
   const study::Result shown = presented(study, result);
   // The report carries it along; for tables alone it is not made, which takes longer than many a study.
   const bool needs_json = wants(study, study::Format::json) || wants(study, study::Format::html);
   const std::string json =
-      needs_json ? study::to_json_readable(result_json(study, shown, outcome.record)) : std::string();
+      needs_json ? study::to_json_readable(result_json(study, shown, outcome.record, {}, outcome.most_rows))
+                 : std::string();
   if (wants(study, study::Format::json)) write("result.json", json);
   const std::string tool = fmt::format("linkwright {}", version());
-  if (wants(study, study::Format::csv))
-    for (const Table& table : shown.tables) write(table.name + ".csv", to_csv(table));
+  for (const Table& table : shown.tables)
+    if (is_long(table) && (wants(study, study::Format::json) || wants(study, study::Format::csv))) {
+      NpyPieces pieces(table);
+      write(long_table_file(table), [&] { return pieces.next(); });
+    } else if (wants(study, study::Format::csv)) {
+      write(table.name + ".csv", to_csv(table));
+    }
   if (wants(study, study::Format::svg))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".svg", report::svg(scene));
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
-  if (wants(study, study::Format::html))
-    write("report.html", report::html(report_input(study, shown, outcome.command, json)));
+  if (wants(study, study::Format::html)) write("report.html", report_text(study, shown, outcome, json));
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {
     const study::Solution& solution = result.solutions[i];
     if (solution.study.is_null()) continue;

@@ -40,15 +40,26 @@ std::filesystem::path output_folder(const study::Study& study, const std::filesy
 /// Makes the folder and tries to write in it, so that an hour's run does not end at a locked door.
 bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostics);
 
+/// Rows of a table that CSV, result.json and reports hold; a longer one is written as .npy (core/npy.h).
+inline constexpr std::size_t longest_table = 1'000'000;
+
 /// What a run gives.
 struct RunOutcome {
   study::Result result;
   RunRecord record;
   std::string command;  ///< command line that does it again, for the report
+  std::size_t most_rows = longest_table;
 };
 
-/// Runs a study, checks included, and notes what `run` of result.json holds.
-RunOutcome run_and_record(const study::Study& study, RunContext& context);
+/// Runs a study, checks included, and notes what `run` of result.json holds. Tables of more than `most_rows`
+/// are warned of.
+RunOutcome run_and_record(const study::Study& study, RunContext& context,
+                          std::size_t most_rows = longest_table);
+
+/// The report of a result as it is presented(), with a part of the rows of long tables. `json`: that of the
+/// result, if it is there.
+std::string report_text(const study::Study& study, const study::Result& shown, const RunOutcome& outcome,
+                        std::string json = {});
 
 /// Writes the files that the study asks for, and the studies of the designs found into `designs` there, each
 /// whole or not at all. Returns those written; problems are appended to `diagnostics`.

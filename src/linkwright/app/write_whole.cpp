@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "linkwright/core/platform/files.h"
 #include "linkwright/core/platform/processes.h"
@@ -17,8 +18,12 @@ constexpr std::string_view ending = ".part";
 }  // namespace
 
 std::string write_whole(const fs::path& file, std::string_view text) {
+  return write_whole(file, [&] { return std::exchange(text, {}); });
+}
+
+std::string write_whole(const fs::path& file, const std::function<std::string_view()>& next) {
   const fs::path temporary = fmt::format("{}.{}{}", file.string(), platform::process_id(), ending);
-  std::error_code error = platform::write_to_disk(temporary, text, file);
+  std::error_code error = platform::write_to_disk(temporary, next, file);
   if (!error) fs::rename(temporary, file, error);
   if (!error) {
     platform::sync_folder(file.parent_path());

@@ -34,7 +34,7 @@ Column& Table::add(std::string key, std::string label, std::vector<double> value
   return columns.back();
 }
 
-std::string to_csv(const Table& table) {
+void require_whole(const Table& table) {
   const std::size_t rows = table.rows();
   for (const Column& column : table.columns)
     LINKWRIGHT_REQUIRE(column.values.size() == rows, "column '{}' has {} rows, expected {}", column.key,
@@ -43,6 +43,11 @@ std::string to_csv(const Table& table) {
                      table.status.size(), rows);
   LINKWRIGHT_REQUIRE(table.names.empty() || table.names.size() == rows, "{} names for {} rows",
                      table.names.size(), rows);
+}
+
+std::string to_csv(const Table& table) {
+  require_whole(table);
+  const std::size_t rows = table.rows();
   fmt::memory_buffer text;
   text.reserve(rows * table.columns.size() * 20);
   const auto put = [&](std::string_view part) { text.append(part.data(), part.data() + part.size()); };

@@ -29,6 +29,9 @@ struct Table {
   Column& add(std::string key, std::string label, std::vector<double> values = {});
 };
 
+/// Throws ContractError when columns, names or status differ in length.
+void require_whole(const Table& table);
+
 /// RFC 4180 text of a table; shortest digits that read back to the same number; missing values are empty.
 /// Throws ContractError when the columns differ in length.
 std::string to_csv(const Table& table);

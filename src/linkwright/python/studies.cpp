@@ -26,7 +26,6 @@
 #include "linkwright/python/bindings.h"
 #include "linkwright/python/study_source.h"
 #include "linkwright/python/values.h"
-#include "linkwright/report/html.h"
 #include "linkwright/study/answer.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/overrides.h"
@@ -227,9 +226,7 @@ std::string json_of(const FinishedRun& run) {
   return study::to_json_readable(app::result_json(run.study, run.shown, run.outcome.record));
 }
 
-std::string report_of(const FinishedRun& run) {
-  return report::html(app::report_input(run.study, run.shown, run.outcome.command, json_of(run)));
-}
+std::string report_of(const FinishedRun& run) { return app::report_text(run.study, run.shown, run.outcome); }
 
 [[noreturn]] void raise_os_error(const std::string& message) {
   PyErr_SetString(PyExc_OSError, message.c_str());
@@ -245,13 +242,15 @@ void write_report(const FinishedRun& run, const fs::path& file) {
   if (!problem.empty()) raise_os_error(fmt::format("{}: cannot be written: {}", file.string(), problem));
 }
 
-std::vector<std::string> save(const FinishedRun& run, const fs::path& folder) {
+std::vector<std::string> save(const FinishedRun& run, const fs::path& folder, std::size_t longest_table) {
   Diagnostics problems;
   std::vector<std::string> out;
   {
     const py::gil_scoped_release unlocked;
+    app::RunOutcome outcome = run.outcome;
+    outcome.most_rows = longest_table;
     if (app::prepare_folder(folder, problems))
-      for (const fs::path& file : app::write_results(run.study, run.outcome, folder, problems))
+      for (const fs::path& file : app::write_results(run.study, outcome, folder, problems))
         out.push_back(file.string());
   }
   if (!problems.empty()) raise_os_error(to_string(problems.front()));

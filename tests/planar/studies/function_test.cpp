@@ -8,6 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "planar/studies.h"
+#include "support/message.h"
 
 namespace linkwright::planar {
 namespace {
@@ -68,6 +69,17 @@ TEST(FunctionStudy, GivesTheErrorOverTheRange) {
     seen = std::max(seen, std::abs(e));
   EXPECT_NEAR(seen, most, 1e-3 * most);
   EXPECT_FALSE(result.solutions[0].scene.empty());
+}
+
+TEST(FunctionStudy, WarnsWhereTheFunctionIsNotFollowed) {
+  const study::Result result =
+      run_text(function_study("function = \"sin\"\nx = { from = 0, to = 300 }\nfit = \"minimax\"\n"));
+  ASSERT_EQ(result.status, Status::done);
+  const auto fact = std::ranges::find(result.facts, "greatest structural error", &study::Fact::label);
+  ASSERT_NE(fact, result.facts.end());
+  EXPECT_EQ(fact->verdict, study::Fact::Verdict::bad);
+  EXPECT_THAT(test::lines_of(result.diagnostics),
+              HasSubstr(" % of what the output moves: the function is not followed"));
 }
 
 TEST(FunctionStudy, SaysWhenNoGeneratorCoversTheRange) {

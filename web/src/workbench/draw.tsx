@@ -25,7 +25,8 @@ const picture = signal<{ url: string; width: number } | null>(null);
 
 const paper = { width: 600, height: 400 }; // mm that are seen
 const grid = 10; // mm
-const near = 9; // mm within which a press means a pin
+/** px within which a press means a pin: fingers are broader than pointers. */
+const near = (pointer: string) => (pointer === "touch" ? 18 : 9);
 
 function set(next: Sketch): void {
   past.value = [...past.value, sketch.value];
@@ -43,9 +44,15 @@ const withPin = (s: Sketch, i: number, change: Partial<Pin>): Sketch => ({ ...s,
 /** A drive is where the ground is. */
 const checked = (s: Sketch): Sketch => (s.drive !== null && !s.pins[s.drive].ground && s.pins[s.drive].guide === null ? { ...s, drive: null } : s);
 
-function pinAt(x: number, y: number): number {
+interface Press {
+  x: number; // mm
+  y: number;
+  reach: number; // mm within which a pin is meant
+}
+
+function pinAt({ x, y, reach }: Press): number {
   let best = -1;
-  let least = near;
+  let least = reach;
   sketch.value.pins.forEach((p, i) => {
     const distance = Math.hypot(p.x - x, p.y - y);
     if (distance < least) [least, best] = [distance, i];
@@ -53,14 +60,14 @@ function pinAt(x: number, y: number): number {
   return best;
 }
 
-function press(x: number, y: number, more: boolean): void {
+function press(at: Press, more: boolean): void {
   const s = sketch.value;
-  let i = pinAt(x, y);
+  let i = pinAt(at);
   if (tool.value === "link") {
     let next = s;
     if (i < 0) {
       const to = (v: number) => (snap.value ? Math.round(v / grid) * grid : Math.round(v * 100) / 100);
-      next = { ...next, pins: [...next.pins, pin(to(x), to(y))] };
+      next = { ...next, pins: [...next.pins, pin(to(at.x), to(at.y))] };
       i = next.pins.length - 1;
     }
     const from = last.value;
@@ -86,9 +93,9 @@ function Board() {
   const svg = useRef<SVGSVGElement>(null);
   const turning = useRef<number | null>(null);
   const moving = useRef<number | null>(null);
-  const at = (event: PointerEvent) => {
+  const at = (event: PointerEvent): Press => {
     const m = svg.current!.getScreenCTM()!.inverse();
-    return { x: m.a * event.clientX + m.e, y: -(m.d * event.clientY + m.f) };
+    return { x: m.a * event.clientX + m.e, y: -(m.d * event.clientY + m.f), reach: m.a * near(event.pointerType) };
   };
   const { pins, links, drive } = sketch.value;
   const hidden = { x: -paper.width / 2, y: -paper.height / 2 };
@@ -97,24 +104,24 @@ function Board() {
     <svg ref={svg} id="board" viewBox={`${hidden.x} ${hidden.y} ${paper.width} ${paper.height}`} role="img" aria-label={`Drawing board: ${pins.length} pins, ${links.length} links`}
       onPointerDown={(e) => {
         if (e.button !== 0) return;
-        const { x, y } = at(e);
-        const i = pinAt(x, y);
+        const where = at(e);
+        const i = pinAt(where);
         if (e.altKey && i >= 0) {
           past.value = [...past.value, sketch.value];
           moving.current = i;
         } else {
-          press(x, y, e.shiftKey);
+          press(where, e.shiftKey);
           if (tool.value === "guide" && i >= 0 && sketch.value.pins[i].guide !== null) turning.current = i;
         }
         svg.current!.setPointerCapture(e.pointerId);
       }}
       onPointerMove={(e) => {
-        const { x, y } = at(e);
+        const { x, y, reach } = at(e);
         if (moving.current !== null) sketch.value = withPin(sketch.value, moving.current, { x: snap.value ? Math.round(x / grid) * grid : x, y: snap.value ? Math.round(y / grid) * grid : y });
         const i = turning.current;
         if (i === null) return;
         const p = sketch.value.pins[i];
-        if (Math.hypot(x - p.x, y - p.y) < near) return;
+        if (Math.hypot(x - p.x, y - p.y) < reach) return;
         const angle = (Math.atan2(y - p.y, x - p.x) * 180) / Math.PI;
         sketch.value = withPin(sketch.value, i, { guide: snap.value ? Math.round(angle / 15) * 15 : Math.round(angle * 10) / 10 });
       }}

@@ -14,7 +14,7 @@ export interface Diagnostic {
 
 export interface Edit {
   key: string;
-  value: number | number[] | number[][] | boolean | string | Record<string, number | string> | null; // null = left out; a table behind the last one of a list is put there
+  value: number | number[] | number[][] | boolean | string | Record<string, number | string | number[]> | null; // null = left out; a table behind the last one of a list is put there
 }
 
 /** A study that the program has read and, if it is without errors, run. */

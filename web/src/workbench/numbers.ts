@@ -1,6 +1,7 @@
 // The numbers, choices and switches of a study, in groups as its tables have them, each with its key.
 import type { Json, JsonObject } from "../data";
 import { nameOf, unitOf } from "../units";
+import { places } from "./loads";
 import { nodeAt, ruleOf, type Rule } from "./schema";
 
 export interface Entry {
@@ -47,7 +48,9 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
       else if (isNumbers(value)) value.forEach((v, i) => own.push({ key: `${key}[${i}]`, label: `${label} ${isPlace(key) ? axes[i] : i + 1}`, value: v, rule: rule(key) }));
       else if (typeof value === "string" || typeof value === "boolean") {
         const found = rule(key);
+        const named = places(study, key).map((place) => ({ value: place, help: "" }));
         if (found && (found.choices || found.flag)) own.push({ key, label, value, rule: found });
+        else if (found && named.length) own.push({ key, label, value, rule: { ...found, choices: named } });
       }
     };
     for (const [name, value] of Object.entries(values)) {

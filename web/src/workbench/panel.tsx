@@ -2,15 +2,17 @@
 import { computed, signal } from "@preact/signals";
 import { Fragment } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import type { JsonObject } from "../data";
 import { spatial } from "../state";
 import { format, nameOf, unitOf } from "../units";
 import { change, document_ } from "./document";
 import { Lists } from "./lists";
+import { isLoad, possible, withLoad } from "./loads";
 import { NumberInput, refused } from "./number_input";
 import { numbersOf, pointsOf, unitKey, type Entry } from "./numbers";
 import type { Edit } from "./engine";
 import { absent } from "./schema";
-import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pickOut, pointOut, schema, shown, stale, toggleLock } from "./session";
+import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pickOut, pointOut, schema, shown, stale, toggleLock, tryEdit } from "./session";
 
 const tab = signal<"text" | "numbers" | "points">("numbers");
 
@@ -104,6 +106,18 @@ function Add({ path }: { path: string }) {
   );
 }
 
+/** Springs and loads are put on the point that is picked in the drawing. */
+function Loads({ study }: { study: JsonObject }) {
+  const may = possible(study, schema.value);
+  if (!may.length) return null;
+  return (
+    <div class="loads">
+      <span class="label">Add at the point that is picked in the drawing, or at the last one:</span>
+      {may.map((load) => <button key={load} type="button" data-load={load} onClick={() => tryEdit([withLoad(study, load, pickedKeys.value)])}>{load.replace("_", " ")}</button>)}
+    </div>
+  );
+}
+
 function Numbers() {
   const study = canonical.value;
   const box = useRef<HTMLDivElement>(null);
@@ -125,7 +139,9 @@ function Numbers() {
           {g.entries.slice(0, most).map((entry) => <Field key={entry.key} entry={entry} />)}
           <Lists group={g} />
           <Add path={g.path} />
+          {isLoad(g.path) && <button type="button" data-remove={g.path} onClick={() => tryEdit([{ key: g.path, value: null }])}>Remove {g.title}</button>}
         </details>))}
+      <Loads study={study} />
     </div>
   );
 }

@@ -21,7 +21,7 @@ export function Thumbnail({ scene }: { scene: Scene }) {
   return (
     <svg viewBox={`0 0 ${size.width} ${size.height}`} aria-hidden="true">
       {flat.traces.map((t) => <path class="path" d={pathOf(flat.input.map((_, i) => place(t.point, i)), t.closed)} />)}
-      {flat.bodies.map((b, k) => b.style !== "ground" && b.style !== "gap" && (
+      {flat.bodies.map((b, k) => !b.run && b.style !== "ground" && b.style !== "gap" && (
         <path class={b.style === "plate" && b.points.length > 2 ? "plate" : "stroke"} style={{ "--colour": `var(--c${colours[k]})` }}
           d={pathOf(b.points.map((p) => place(p, at)), b.style === "plate" && b.points.length > 2)} />))}
       {flat.joints.map((j) => {

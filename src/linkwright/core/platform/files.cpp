@@ -11,7 +11,8 @@
 namespace linkwright::platform {
 namespace fs = std::filesystem;
 
-std::error_code write_to_disk(const fs::path& file, std::string_view text, const fs::path& like) {
+std::error_code write_to_disk(const fs::path& file, const std::function<std::string_view()>& next,
+                              const fs::path& like) {
   const auto failed = [] { return std::error_code(errno, std::generic_category()); };
   struct stat before = {};
   const bool replaces = ::stat(like.c_str(), &before) == 0 && S_ISREG(before.st_mode);
@@ -20,7 +21,8 @@ std::error_code write_to_disk(const fs::path& file, std::string_view text, const
   if (descriptor < 0) return failed();
   std::error_code error;
   if (replaces && ::fchmod(descriptor, before.st_mode & 07777) != 0) error = failed();
-  while (!text.empty() && !error) {
+  std::string_view text;
+  while (!error && !(text.empty() && (text = next()).empty())) {
     const ssize_t count = ::write(descriptor, text.data(), text.size());
     if (count >= 0)
       text.remove_prefix(static_cast<std::size_t>(count));

@@ -142,9 +142,11 @@ class ClassCollection {
   bool add(FoundClass found, int path) {
     int known = -1;
     for (const int near : near_to(found.identity)) {
-      const bool alike = same_identity(found_[at(near)].identity, found.identity),
-                 settled = identify(target_, found) & identify(target_, found_[at(near)]);
-      if (settled ? apart(found_[at(near)].identity, found.identity) < surely_same : alike) known = near;
+      const bool alike = same_identity(found_[at(near)].identity, found.identity);
+      // Both are taken to more digits, whatever comes of one.
+      const bool this_one = identify(target_, found), other = identify(target_, found_[at(near)]);
+      if (this_one && other ? apart(found_[at(near)].identity, found.identity) < surely_same : alike)
+        known = near;
     }
     if (known >= 0) {
       if (path >= 0) {

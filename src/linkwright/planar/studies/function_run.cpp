@@ -189,7 +189,7 @@ class FunctionReport {
     const double pair = math::degrees(best.pair_angle);
     result_.headline = fmt::format("A {} generates {} within {}, least pair angle {:.1f}°.", what, s_.name,
                                    amount(best.greatest_error), pair);
-    fact("greatest structural error", amount(best.greatest_error), Verdict::good);
+    tell_greatest_error(p_, best.greatest_error, amount(best.greatest_error), result_);
     fact("root mean square error", amount(best.rms_error));
     fact("least pair angle", fmt::format("{:.1f}°", pair),
          best.pair_angle < flat_generator ? Verdict::bad : Verdict::plain);
@@ -213,6 +213,26 @@ class FunctionReport {
 };
 
 }  // namespace
+
+void tell_greatest_error(const FunctionProblem& problem, double greatest, std::string text,
+                         study::Result& result) {
+  double least = problem.output(0), most = least;
+  for (int k = 1; k <= 100; ++k) {
+    const double output = problem.output(0.01 * k);
+    least = std::min(least, output);
+    most = std::max(most, output);
+  }
+  const double share = greatest / (most - least);
+  const bool follows = share <= 0.1;
+  study::AddFact{result.facts}("greatest structural error", std::move(text),
+                               follows ? study::Fact::Verdict::good : study::Fact::Verdict::bad);
+  if (!follows)
+    study::AddWarning{result.diagnostics}(
+        fmt::format("the greatest error is {:.0f} % of what the output moves: the function is not followed",
+                    100 * share),
+        problem.fit == FunctionFit::points ? "write fit = \"minimax\", or move the precision points"
+                                           : "take smaller ranges");
+}
 
 study::Result run_function_study(const FunctionStudy& s, const study::Common& common, RunContext& context) {
   return FunctionReport(s, common, find_generators(s.problem, context)).make();

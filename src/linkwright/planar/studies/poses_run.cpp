@@ -99,8 +99,8 @@ std::vector<double> shown_inputs(const PoseDesign& d, int samples) {
 
 class PoseReport {
  public:
-  PoseReport(const PoseStudy& s, const study::Common& common, PoseAnswer answer)
-      : s_(s), p_(s.problem), common_(common), answer_(std::move(answer)) {}
+  PoseReport(const PoseProblem& problem, const study::Common& common, PoseAnswer answer)
+      : p_(problem), common_(common), answer_(std::move(answer)) {}
 
   study::Result make() {
     result_.status = answer_.status != Status::done ? answer_.status
@@ -501,7 +501,6 @@ class PoseReport {
 
   static Complex number_of(const Vec<double>& v) { return {v.x, v.y}; }
 
-  const PoseStudy& s_;
   const PoseProblem& p_;
   const study::Common& common_;
   const PoseAnswer answer_;
@@ -512,7 +511,7 @@ class PoseReport {
 }  // namespace
 
 study::Result run_pose_study(const PoseStudy& s, const study::Common& common, RunContext& context) {
-  return PoseReport(s, common, find_pose_designs(s.problem, context)).make();
+  return PoseReport(s.problem, common, find_pose_designs(s.problem, context)).make();
 }
 
 }  // namespace linkwright::planar

@@ -172,7 +172,7 @@ class SixBarFunctionReport {
     const bool steep = best.pair_angle >= s_.transmission;
     result_.headline = fmt::format("A six-bar generates {} within {}, least pair angle {:.1f}°.", s_.name,
                                    degrees_text(best.greatest_error), math::degrees(best.pair_angle));
-    fact("greatest structural error", degrees_text(best.greatest_error), Verdict::good);
+    tell_greatest_error(p_, best.greatest_error, degrees_text(best.greatest_error), result_);
     fact("root mean square error", degrees_text(best.rms_error));
     fact("least pair angle", fmt::format("{:.1f}°", math::degrees(best.pair_angle)),
          steep ? Verdict::plain : Verdict::bad);
