@@ -718,11 +718,11 @@ test("a finger on a phone means the pin beside it", async () => {
     }, [x, y]);
     await page.touchscreen.tap(at.x + beside, at.y);
   };
-  for (const [x, y] of [[-150, 0], [-90, 80]]) await tap(x, y);
+  for (const [x, y] of [[-100, 0], [-40, 80]]) await tap(x, y);
   await page.locator('[data-tool="ground"]').click();
-  await tap(-150, 0, 14);
+  await tap(-100, 0, 14);
   await until(async () => (await page.locator('#board [data-pin="A"] .ground').count()) === 1);
-  await tap(-150, 0, 30);
+  await tap(-100, 0, 40);
   assert.equal(await page.locator("#board .ground").count(), 1, "what is further away is none");
   assert.equal(await page.locator("#board .pin").count(), 2);
   assert.deepEqual(errors, []);

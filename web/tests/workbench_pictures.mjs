@@ -21,10 +21,15 @@ async function choose(page, example) {
 /** A slider-crank on the board. */
 async function sketch(page) {
   await page.locator("#draw").click();
-  const board = await page.locator("#board").boundingBox();
-  const press = async (x, y) => page.mouse.click(board.x + ((x + 300) / 600) * board.width, board.y + ((200 - y) / 400) * board.height);
-  for (const [x, y] of [[-150, 0], [-90, 60], [120, -30]]) await press(x, y);
-  for (const [name, x, y] of [["ground", -150, 0], ["guide", 120, -30], ["drive", -150, 0], ["trace", -90, 60]]) {
+  const press = async (x, y) => {
+    const at = await page.locator("#board").evaluate((svg, [x, y]) => {
+      const m = svg.getScreenCTM();
+      return { x: m.a * x + m.e, y: -m.d * y + m.f };
+    }, [x, y]);
+    await page.mouse.click(at.x, at.y);
+  };
+  for (const [x, y] of [[-110, 0], [-70, 60], [100, -30]]) await press(x, y);
+  for (const [name, x, y] of [["ground", -110, 0], ["guide", 100, -30], ["drive", -110, 0], ["trace", -70, 60]]) {
     await page.locator(`[data-tool="${name}"]`).click();
     await press(x, y);
   }

@@ -6,9 +6,10 @@ import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin, type S
 
 export const showDraw = signal(false);
 
-type Tool = "link" | "ground" | "guide" | "drive" | "trace" | "erase";
+type Tool = "link" | "move" | "ground" | "guide" | "drive" | "trace" | "erase";
 const tools: { name: Tool; text: string; hint: string }[] = [
   { name: "link", text: "Link", hint: "Press from pin to pin: each press makes the next link. With Shift the pin is added to the link before, which becomes a plate. Escape ends the chain." },
+  { name: "move", text: "Move", hint: "Drag a pin to another place; with Alt every tool does." },
   { name: "ground", text: "Ground", hint: "Press a pin to fix it to the ground, or to free it." },
   { name: "guide", text: "Guide", hint: "Press a pin to put it on a guide, and drag to turn the guide; press again to take it off." },
   { name: "drive", text: "Drive", hint: "Press the pin on the ground, or on a guide, that is driven." },
@@ -23,7 +24,8 @@ const last = signal<number | null>(null); // the pin from which the next link go
 const snap = signal(true);
 const picture = signal<{ url: string; width: number } | null>(null);
 
-const paper = { width: 600, height: 400 }; // mm that are seen
+/** mm that are seen: what a finger can press on a phone. */
+const paper = matchMedia("(max-width: 600px)").matches ? { width: 300, height: 360 } : { width: 600, height: 400 };
 const grid = 10; // mm
 /** px within which a press means a pin: fingers are broader than pointers. */
 const near = (pointer: string) => (pointer === "touch" ? 18 : 9);
@@ -80,7 +82,7 @@ function press(at: Press, more: boolean): void {
     last.value = i;
     return;
   }
-  if (i < 0) return;
+  if (i < 0 || tool.value === "move") return;
   const p = s.pins[i];
   if (tool.value === "ground") set(checked(withPin(s, i, { ground: !p.ground, guide: null })));
   else if (tool.value === "guide") set(checked(withPin(s, i, p.guide === null ? { guide: 0, ground: false } : { guide: null })));
@@ -106,7 +108,7 @@ function Board() {
         if (e.button !== 0) return;
         const where = at(e);
         const i = pinAt(where);
-        if (e.altKey && i >= 0) {
+        if ((e.altKey || tool.value === "move") && i >= 0) {
           past.value = [...past.value, sketch.value];
           moving.current = i;
         } else {
@@ -219,7 +221,7 @@ export function Draw() {
       </div>
       <Board />
       <p class="note" role="status" id="draw-said">{lacks || `${freedom(sketch.value)} degree of freedom, and it is driven.`}</p>
-      <p class="note">{tools.find((t) => t.name === tool.value)!.hint} Alt and drag moves a pin.</p>
+      <p class="note">{tools.find((t) => t.name === tool.value)!.hint}</p>
       <Places />
     </dialog>
   );
