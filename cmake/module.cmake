@@ -23,6 +23,9 @@ else()
   set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 endif()
 
+# By itself emscripten's -Os inlines nothing: an analysis in the page then takes three times as long.
+set(small -Os;-sINLINING_LIMIT=0)
+
 # linkwright_module(<module> SOURCES <files> [DEPENDS <modules or libraries>])
 function(linkwright_module module)
   linkwright_library(${module} ${ARGN})
@@ -43,7 +46,7 @@ function(linkwright_library module)
   target_compile_features(linkwright_${module} PUBLIC cxx_std_20)
   # Reading and reporting take milliseconds a run and two thirds of the compiler's time; a page loads them over the network.
   if(module MATCHES "_studies$|^study$|^report$|^app$|^serve$|^cli$")
-    target_compile_options(linkwright_${module} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O1>>)
+    target_compile_options(linkwright_${module} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,${small},-O1>>)
   endif()
   # Our programs and tests take the flags from the modules; other people's code keeps its own.
   if(PROJECT_IS_TOP_LEVEL)
@@ -51,7 +54,11 @@ function(linkwright_library module)
   else()
     target_link_libraries(linkwright_${module} PRIVATE $<BUILD_INTERFACE:linkwright_flags> PUBLIC ${arg_DEPENDS})
   endif()
-  set_target_properties(linkwright_${module} PROPERTIES EXPORT_NAME ${module} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(linkwright_${module} PROPERTIES EXPORT_NAME ${module})
+  # Into the module of Python.
+  if(NOT EMSCRIPTEN)
+    set_target_properties(linkwright_${module} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   add_library(Linkwright::${module} ALIAS linkwright_${module})
 endfunction()
 

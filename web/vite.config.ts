@@ -25,7 +25,12 @@ const space = { entry: "src/space.ts", name: "linkwrightSpace", file: "space", p
 const boot = { entry: "src/boot.ts", name: "linkwrightBoot", file: "boot", parts: "" };
 
 // The workbench, and what runs beside it.
-const workbench = { ...viewer, entry: "src/workbench/workbench.tsx", name: "linkwrightWorkbench", file: "workbench" };
+const workbench = {
+  entry: "src/workbench/workbench.tsx",
+  name: "linkwrightWorkbench",
+  file: "workbench",
+  parts: `${viewer.parts.slice(0, -1)}; fzstd, (c) 2020 Arjun Barrett.`,
+};
 const worker = { entry: "src/workbench/worker.ts", name: "linkwrightWorker", file: "worker", parts: "" };
 const bundles: Record<string, typeof viewer> = { space, boot, workbench, worker };
 

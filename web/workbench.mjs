@@ -3,6 +3,7 @@
 //   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               one page without, to be served by the program, which is the engine
 //   node workbench.mjs SCRIPTS_FOLDER OUT/ ENGINE_FOLDER        a folder of files for any web host, which browsers keep one by one
 // SCRIPTS_FOLDER has workbench.js, workbench.css, space.js and, for the first, worker.js; ENGINE_FOLDER engine.js and engine.wasm.
+import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { deflateRawSync, gzipSync } from "node:zlib";
@@ -10,6 +11,7 @@ import { deflateRawSync, gzipSync } from "node:zlib";
 const [scripts, out, engine] = process.argv.slice(2);
 const read = (folder, name) => readFileSync(`${folder}/${name}`);
 const packed = (bytes) => deflateRawSync(bytes, { level: 9 }).toString("base64");
+const packedTight = (bytes) => execFileSync("zstd", ["--ultra", "-22", "--stdout", "--quiet"], { input: bytes, maxBuffer: 1 << 28 }).toString("base64");
 // A script ends at the first "</script", wherever that stands.
 const inline = (name) => `\n${read(scripts, name).toString("utf8").replace(/<\/(script)/gi, "<\\/$1")}\n`;
 const folder = out.endsWith("/");
@@ -19,7 +21,7 @@ const workerScript = engine && Buffer.concat([read(engine, "engine.js"), Buffer.
 const carried = !engine ? ""
   : folder ? `<link id="engine-wasm" rel="preload" as="fetch" crossorigin href="engine.wasm">
 <link id="engine-script" rel="prefetch" href="engine.js">
-` : `<script type="text/plain" id="engine-wasm">${packed(read(engine, "engine.wasm"))}</script>
+` : `<script type="text/plain" id="engine-wasm">${packedTight(read(engine, "engine.wasm"))}</script>
 <script type="text/plain" id="engine-script">${packed(workerScript)}</script>
 `;
 // The worker of the engine inherits what the page allows; a page without one allows its own two scripts and its own server.
@@ -57,5 +59,5 @@ if (folder) {
   writeFileSync(`${out}index.html`, page);
 } else {
   writeFileSync(out, out.endsWith(".gz") ? gzipSync(page, { level: 9 }) : page);
-  console.log(`${out}: ${(page.length / 1e6).toFixed(2)} MB`);
+  console.log(`${out}: ${(page.length / 1e6).toFixed(2)} MB, ${(gzipSync(page, { level: 9 }).length / 1e6).toFixed(2)} MB as a web server sends it`);
 }

@@ -4,7 +4,7 @@ import { isSpatial, samplesOf } from "./grid";
 import { placeNear, type Place } from "./motion";
 import { format, spaced } from "./units";
 import { bounds3, sizeOf } from "./space_view";
-import { bounds, niceStep, type Box } from "./view";
+import { bounds, niceStep, onceOf, type Box } from "./view";
 
 export const quantities: Quantity[] = ["force", "velocity", "acceleration"];
 export const plurals: Record<Quantity, string> = { force: "Forces", velocity: "Velocities", acceleration: "Accelerations" };
@@ -47,19 +47,20 @@ export function extentOf(scene: Scene): number | null {
 
 /** Metres of an arrow in the drawing for a value of 1, the same at every sample: the largest arrow is a quarter of the scene, and
  *  samples that stand out, as near a dead point, count as three times the median. 0 = no arrow to draw. */
-export function arrowScale(scene: Scene, quantity: Quantity): number {
+export const arrowScale = (scene: Scene, quantity: Quantity): number => arrowScales(scene)[quantity];
+const arrowScales = onceOf((scene) => Object.fromEntries(quantities.map((quantity) => {
   const vectors = scene.vectors.filter((v) => v.quantity === quantity);
   const extent = vectors.length ? extentOf(scene) : null;
-  if (extent === null) return 0;
+  if (extent === null) return [quantity, 0];
   const sizes = Array.from({ length: samplesOf(scene) }, (_, i) => vectors.reduce((most, v) => {
     const c = componentsNear(v, i);
     return c ? Math.max(most, Math.hypot(c.x, c.y, c.z ?? 0)) : most;
   }, 0))
     .filter((size) => size > 0)
     .sort((a, b) => a - b);
-  if (!sizes.length) return 0;
-  return (shareOfScene * extent) / Math.min(sizes[sizes.length - 1], outstanding * sizes[sizes.length >> 1]);
-}
+  const counted = Math.min(sizes[sizes.length - 1], outstanding * sizes[sizes.length >> 1]);
+  return [quantity, sizes.length ? (shareOfScene * extent) / counted : 0];
+})) as Record<Quantity, number>);
 
 /** The scene's box with the arrows of the quantities at all samples; one that stands out counts up to a third of the scene, and of
  *  a flat scene less across it, which would else be a line in an empty drawing. */

@@ -3,13 +3,17 @@ import { jsonNumber } from "./decimal";
 
 export type Num = number | null;
 
-/** What base64 of raw deflate stands for. */
-export async function inflate(base64: string): Promise<ArrayBuffer> {
+export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
   // A loop: the engine of the workbench is millions of characters, over which an iterator takes a tenth of a second.
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+  return bytes;
+}
+
+/** What base64 of raw deflate stands for. */
+export async function inflate(base64: string): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
 }
 
 type Entry = [count: number, order: number, decimals: number | null];

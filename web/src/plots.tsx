@@ -1,5 +1,6 @@
 // Diagrams. Their cursor and the animation follow each other.
 import { computed } from "@preact/signals";
+import type { JSX } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import { Chart, Reset, Sign, type Curve, type Link } from "./chart";
@@ -215,16 +216,36 @@ const withTable = (plots: Plot[]) =>
     return table && shown ? [{ plot, table }] : [];
   });
 
-const Cards = ({ plots }: { plots: Plot[] }) => (
-  <>
-    {withTable(plots).map(({ plot, table }) => (
-      <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
-        <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
-        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.style === "map" ? <MapPlot plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
-      </div>
-    ))}
-  </>
-);
+/** A diagram in a card. Out of sight it is not drawn anew before it comes into sight: most are, while a mechanism is dragged. */
+function Card({ plot, table }: { plot: Plot; table: Table }) {
+  const card = useRef<HTMLDivElement>(null);
+  const inSight = useRef(true);
+  const drawn = useRef<JSX.Element | null>(null);
+  const [stale, look] = [useRef(false), useState({})[1]];
+  useEffect(() => {
+    const watch = new IntersectionObserver((seen) => {
+      inSight.current = seen[seen.length - 1].isIntersecting;
+      if (inSight.current && stale.current) look({});
+    }, { rootMargin: "100px" });
+    watch.observe(card.current!);
+    return () => watch.disconnect();
+  }, []);
+  stale.current = drawn.current !== null && !inSight.current && !state.printing.value;
+  if (!stale.current)
+    drawn.current = plot.style === "histogram" ? <Histogram plot={plot} table={table} />
+      : plot.style === "polar" ? <Polar plot={plot} table={table} />
+        : plot.style === "map" ? <MapPlot plot={plot} table={table} />
+          : plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} />
+            : <TablePlot plot={plot} table={table} />;
+  return (
+    <div class="card plot" data-plot={plot.name} ref={card}>
+      <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
+      {drawn.current}
+    </div>
+  );
+}
+
+const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot, table }) => <Card key={`${plot.name}/${plot.scene}`} plot={plot} table={table} />)}</>;
 
 /** Plots over the input of the scene that is shown. */
 export function Plots() {

@@ -9,8 +9,17 @@ export interface Box {
   top: number;
 }
 
+/** Makes something of each scene once: scenes do not change. */
+export function onceOf<T>(make: (scene: Scene) => T): (scene: Scene) => T {
+  const known = new WeakMap<Scene, { made: T }>();
+  return (scene) => {
+    if (!known.has(scene)) known.set(scene, { made: make(scene) });
+    return known.get(scene)!.made;
+  };
+}
+
 /** Smallest rectangle with everything of the scene over all samples; null when nothing of it exists. */
-export function bounds(scene: Scene): Box | null {
+export const bounds = onceOf<Readonly<Box> | null>((scene) => {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   const add = (xs: Num[], ys: Num[]) =>
     xs.forEach((x, i) => {
@@ -37,7 +46,7 @@ export function bounds(scene: Scene): Box | null {
     add(t.achieved_x, t.achieved_y);
   }
   return box.left <= box.right ? box : null;
-}
+});
 
 /** Middle of the screen in metres and pixels per metre. */
 export interface Camera {

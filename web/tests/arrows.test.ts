@@ -31,10 +31,8 @@ describe("arrows", () => {
     expect(box.right).toBe(2); // the long one is held to a third of the scene
   });
   it("keeps a flat scene flat", () => {
-    const scene = pulled();
-    const flat = bounds(scene)!;
-    scene.points = scene.points.map((p) => ({ ...p, y: p.y.map((y) => (y === null ? null : y / 100)) }));
-    scene.vectors = [vector("force", 0, [0], [1e9])];
+    const flat = bounds(pulled())!;
+    const scene = { ...pulled(), points: pulled().points.map((p) => ({ ...p, y: p.y.map((y) => (y === null ? null : y / 100)) })), vectors: [vector("force", 0, [0], [1e9])] };
     const box = boundsWith(scene, [{ quantity: "force", scale: 1 }])!;
     expect(box.top - bounds(scene)!.top).toBeLessThanOrEqual((flat.right - flat.left) / 12);
     expect(box.top).toBeGreaterThan(bounds(scene)!.top);

@@ -931,16 +931,22 @@ test("dragging is as fast as it is said to be", async () => {
   await page.evaluate(() => (globalThis.asked = []));
   const from = await joint(page, "foot");
   const times = [];
+  const whole = [];
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   for (let i = 1; i <= 60; ++i) {
     await page.mouse.move(from.x + i, from.y - i / 2);
     await page.waitForTimeout(16);
-    times.push(await page.locator("#took").innerText().catch(() => ""));
+    const [text, title] = await page.locator("#took").evaluate((e) => [e.textContent, e.title]).catch(() => ["", ""]);
+    times.push(text);
+    whole.push(/, ([\d.]+) ms from/.exec(title)?.[1]);
   }
   await page.mouse.up();
-  const known = times.filter((t) => /^[\d.]+ ms$/.test(t)).map(Number.parseFloat).sort((a, b) => a - b);
-  console.log(`  ${known.length} runs seen while the foot of a Jansen leg is dragged, median ${known[Math.floor(known.length / 2)]} ms in the engine`);
+  const sorted = (all) => all.map(Number.parseFloat).sort((a, b) => a - b);
+  const median = (all) => all[Math.floor(all.length / 2)];
+  const known = sorted(times.filter((t) => /^[\d.]+ ms$/.test(t)));
+  const toPage = sorted(whole.filter(Boolean));
+  console.log(`  ${known.length} runs seen while the foot of a Jansen leg is dragged, median ${median(known)} ms in the engine, ${median(toPage)} ms to the page`);
   assert.ok(known.length > 0);
   await close();
 });
