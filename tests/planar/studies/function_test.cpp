@@ -38,8 +38,12 @@ TEST(FunctionStudyRead, SaysWhatIsWrongWithTheFunction) {
   EXPECT_THAT(said,
               HasSubstr("sin takes x in degrees: 0 to 1.5 is a small part of a turn; if radians are meant, "
                         "write from = 0, to = 85.9437"));
-  EXPECT_TRUE(test::prepare(function_study("function = \"sin\"\nx = { from = 0, to = 170 }\n"), said));
+  EXPECT_TRUE(test::prepare(function_study("function = \"sin\"\nx = { from = 0, to = 150 }\n"), said));
   EXPECT_THAT(said, HasSubstr("sin both rises and falls over the range"));
+  EXPECT_THAT(problems_of(function_study("function = \"sin\"\nx = { from = 0, to = 180 }\n")),
+              HasSubstr("sin has the same value at both ends: the output would not move"));
+  EXPECT_THAT(problems_of(function_study("function = \"sin\"\nx = { from = 0, to = 170 }\n")),
+              HasSubstr("sin turns the output by 518°, more than a turn"));
   EXPECT_THAT(problems_of(function_study("table = [[0, 0], [2, 1], [1, 3]]\n")), HasSubstr("x must rise"));
 }
 

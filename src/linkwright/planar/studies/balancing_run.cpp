@@ -156,7 +156,7 @@ class Report {
  public:
   Report(const BalancingStudy& s, const study::Common& common, const BalancingProblem& problem,
          const Runs& runs, RunContext& context)
-      : s_(s), common_(common), p_(problem), runs_(runs), designs_(answers(s, runs)) {
+      : s_(s), p_(problem), runs_(runs), designs_(answers(s, runs)) {
     if (designs_.empty()) return;
     before_ = design_analysis(s, common, p_.task.initial, context);
     after_ = design_analysis(s, common, designs_.front().x, context);
@@ -446,7 +446,6 @@ class Report {
   }
 
   const BalancingStudy& s_;
-  const study::Common& common_;
   const BalancingProblem& p_;
   const Runs& runs_;
   std::vector<BalancedDesign> designs_;

@@ -182,7 +182,7 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
     target.error("output_range", "the output does not move", "write a range other than 0");
   const double from = s.x_from, span = s.x_to - s.x_from, y0 = y(from), y1 = y(s.x_to);
   bool rises = false, falls = false;
-  double last = y0;
+  double last = y0, least = y0, most = y0;
   for (int k = 0; k <= looked_at; ++k) {
     const double x = from + span * k / looked_at, value = y(x);
     // A pole between two places shows as a leap.
@@ -194,10 +194,20 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
     rises = rises || value > last;
     falls = falls || value < last;
     last = value;
+    least = std::min(least, value), most = std::max(most, value);
   }
-  if (y0 == y1) {
+  // But for rounding: sin of 180 deg is not 0.
+  if (!(std::abs(y1 - y0) > 1e-9 * (most - least))) {
     target.error("x", fmt::format("{} has the same value at both ends: the output would not move", s.name),
                  "take a range at whose ends it differs");
+    return;
+  }
+  const double way = std::abs(output_range * (most - least) / (y1 - y0));
+  if (!p.slider && way > full_turn) {
+    target.error("x",
+                 fmt::format("between the ends of its range {} turns the output by {:.0f}°, more than a turn",
+                             s.name, math::degrees(way)),
+                 "take a range over which it only rises or only falls");
     return;
   }
   if (rises && falls)
