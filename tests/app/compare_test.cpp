@@ -93,6 +93,18 @@ TEST(Compare, FactsInOtherUnitsAreConverted) {
   EXPECT_EQ(compare(all).facts[2].text, "400 mm | 0.5 kg");
 }
 
+TEST(Compare, RoundingIsNoDifference) {
+  std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
+  all[0].result.facts[0].text = "2.2e-16 m";
+  all[1].result.facts[0].text = "5.6e-16 m";
+  study::Result result = compare(all);
+  EXPECT_EQ(result.facts[2].text, "2.2e-16 m | 5.6e-16 m");
+  EXPECT_EQ(result.headline, "2 studies compared: 1 of 3 results differ.");
+  all[1].result.facts[0].text = "1e-6 m";
+  result = compare(all);
+  EXPECT_EQ(result.headline, "2 studies compared: 2 of 3 results differ.");
+}
+
 TEST(Compare, CurvesOfEqualInputsAreColumnsOfOneTable) {
   const std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
   const study::Result result = compare(all);

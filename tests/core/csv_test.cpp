@@ -126,6 +126,8 @@ TEST(ReadCsv, ReadsUtf16) {
   EXPECT_EQ(contents(little.substr(2)), "x_mm,y_mm|0.50,1.50|-2.0,3.00") << "without a mark";
   EXPECT_EQ(contents("\xFE\xFF" + big), "x_mm,y_mm|0.50,1.50|-2.0,3.00") << "with two marks";
   EXPECT_EQ(contents("\xEF\xBB\xBF\xEF\xBB\xBFx_mm\n1\n"), "x_mm|1.00");
+  // Joined from several files, or with an empty line before all.
+  EXPECT_EQ(contents("\n\xEF\xBB\xBFx_mm\n1\n\xEF\xBB\xBF\n"), "x_mm|1.00");
   EXPECT_THAT(problems(little.substr(0, little.size() - 1)),
               ::testing::HasSubstr("UTF-16 text that breaks off or is damaged"));
 }

@@ -62,7 +62,11 @@ const Fact* find_fact(const study::Result& result, std::string_view label) {
   return nullptr;
 }
 
+/// Zeros but for rounding, of a residual or a balance: that they differ says nothing.
+bool is_rounding(double value) { return std::abs(value) < 1e-12; }
+
 std::string percent(double value, double first) {
+  if (is_rounding(value) && is_rounding(first)) return {};
   const double share = 100 * (value / first - 1);
   return std::isfinite(share) && value != first ? fmt::format(" ({:+.3g} %)", share) : std::string();
 }
@@ -140,7 +144,7 @@ class Merger {
       if (texts.size() == 1) fact.text = *texts.begin();
       out_.facts.push_back(fact);
       ++compared_;
-      different_ += texts.size() > 1;
+      different_ += texts.size() > 1 && !std::ranges::all_of(values, is_rounding);
       if (!std::isnan(values.front()))
         figure(unit.empty() ? label : fmt::format("{} ({})", label, unit), values);
     }

@@ -166,20 +166,18 @@ class Scanner {
 };
 
 std::string_view trimmed(std::string_view s) {
-  constexpr std::string_view hard_space = "\xC2\xA0";
-  while (true) {
-    if (!s.empty() && (s.front() == ' ' || s.front() == '\t')) {
-      s.remove_prefix(1);
-    } else if (!s.empty() && (s.back() == ' ' || s.back() == '\t')) {
-      s.remove_suffix(1);
-    } else if (s.starts_with(hard_space)) {
-      s.remove_prefix(2);
-    } else if (s.ends_with(hard_space)) {
-      s.remove_suffix(2);
-    } else {
-      return s;
+  // The last of them marks the beginning of a file, and stands inside one that was joined from several.
+  constexpr std::string_view spaces[] = {" ", "\t", "\xC2\xA0", "\xEF\xBB\xBF"};
+  for (bool again = true; again;) {
+    again = false;
+    for (const std::string_view space : spaces) {
+      if (s.starts_with(space))
+        s.remove_prefix(space.size()), again = true;
+      else if (s.ends_with(space))
+        s.remove_suffix(space.size()), again = true;
     }
   }
+  return s;
 }
 
 std::string shown(std::string_view text) {

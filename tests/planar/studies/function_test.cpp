@@ -45,6 +45,8 @@ TEST(FunctionStudyRead, SaysWhatIsWrongWithTheFunction) {
   EXPECT_THAT(problems_of(function_study("function = \"sin\"\nx = { from = 0, to = 170 }\n")),
               HasSubstr("sin turns the output by 518°, more than a turn"));
   EXPECT_THAT(problems_of(function_study("table = [[0, 0], [2, 1], [1, 3]]\n")), HasSubstr("x must rise"));
+  EXPECT_THAT(problems_of(function_study("table = [[0, 0], [1, 0.5], [1.0000000001, 30], [2, 31]]\n")),
+              HasSubstr("the smooth curve through the points reaches -1.47e+09 at x = 0.01"));
 }
 
 TEST(FunctionStudyRead, CountsPointsAndStartAngles) {

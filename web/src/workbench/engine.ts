@@ -1,6 +1,6 @@
 // What the workbench asks of the program, wherever that runs.
 import { jsonNumber } from "../decimal";
-import type { Carried, JsonObject, Num } from "../data";
+import type { Carried, Json, JsonObject, Num } from "../data";
 import type { Question, Reply } from "./worker";
 
 export interface Diagnostic {
@@ -73,16 +73,27 @@ class Finished extends Error {}
 
 /** A document whose lists of numbers stand apart: {"": [first, count]} is one of them. */
 export function withNumbers(json: string, numbers: Float64Array): JsonObject {
-  return JSON.parse(json, (_, value) => {
-    const place = value?.[""];
-    if (!Array.isArray(place)) return value;
-    const out: Num[] = new Array(place[1]);
-    for (let i = 0; i < out.length; ++i) {
-      const v = numbers[place[0] + i];
+  const list = (first: number, count: number) => {
+    const out: Num[] = new Array(count);
+    for (let i = 0; i < count; ++i) {
+      const v = numbers[first + i];
       out[i] = Number.isNaN(v) ? null : v;
     }
     return out;
-  });
+  };
+  // In place, for JSON.parse is slow where it asks for every value.
+  const filled = (value: Json): Json => {
+    if (value === null || typeof value !== "object") return value;
+    if (Array.isArray(value)) {
+      for (let i = 0; i < value.length; ++i) value[i] = filled(value[i]);
+      return value;
+    }
+    const place = value[""];
+    if (Array.isArray(place)) return list(place[0] as number, place[1] as number);
+    for (const key in value) value[key] = filled(value[key]);
+    return value;
+  };
+  return filled(JSON.parse(json) as Json) as JsonObject;
 }
 
 const written = (value: unknown): string =>

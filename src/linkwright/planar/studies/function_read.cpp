@@ -187,8 +187,14 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
     const double x = from + span * k / looked_at, value = y(x);
     // A pole between two places shows as a leap.
     if (!std::isfinite(value) || std::abs(value) > 1e9) {
-      target.error("x", fmt::format("{} has no value at x = {:.4g}", s.name, x),
-                   "take a range where it has one");
+      if (s.target.table)
+        target.error(
+            "table",
+            fmt::format("the smooth curve through the points reaches {:.3g} at x = {:.4g}", value, x),
+            "remove points that are next to each other");
+      else
+        target.error("x", fmt::format("{} has no value at x = {:.4g}", s.name, x),
+                     "take a range where it has one");
       return;
     }
     rises = rises || value > last;
