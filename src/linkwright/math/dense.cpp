@@ -73,7 +73,7 @@ std::vector<double> symmetric_eigenvalues(std::span<const double> matrix, std::s
 Eigenvectors eigenvectors(std::span<const double> matrix, bool vectors) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(square(matrix), vectors);
   Eigenvectors out;
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   out.values.assign(values.begin(), values.end());
   if (!vectors) return out;
   const Eigen::MatrixXcd v = solver.eigenvectors();

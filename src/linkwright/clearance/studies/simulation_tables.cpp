@@ -75,7 +75,7 @@ Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
     for (const ContactEvent& e : r.events)
       if (at(e.joint) == k) press(e.bush_angle, e.force, e.depth);
     for (std::vector<double>* ring : {&force, &depth, &share}) ring->back() = ring->front();
-    const std::string pin = s.pin_name(k);
+    const std::string& pin = s.pin_name(k);
     // As vectors from the middle of the bush, each in its own unit.
     const auto rose = [&](const std::string& end, const char* unit, const std::string& label,
                           const std::vector<double>& of) {
@@ -89,10 +89,9 @@ Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
     };
     rose("_force", "_N", pin + " largest force", force);
     rose("_time_share", "", pin + " time in contact", share);
-    table.add(key(s, k) + "_force_N", pin + " largest force there (N)", std::move(force));
-    if (!only_links(s)) table.add(key(s, k) + "_depth_m", pin + " largest depth there (m)", std::move(depth));
-    table.add(key(s, k) + "_time_share", pin + " share of the rows in which it touches there",
-              std::move(share));
+    table.add(key(s, k) + "_force_N", pin + " largest force there (N)", force);
+    if (!only_links(s)) table.add(key(s, k) + "_depth_m", pin + " largest depth there (m)", depth);
+    table.add(key(s, k) + "_time_share", pin + " share of the rows in which it touches there", share);
   }
   return table;
 }

@@ -50,7 +50,8 @@ Robot delta(const DeltaDimensions& d) {
 Robot hexa(const HexaDimensions& d) {
   Robot out{.freedom = Freedom::space};
   for (int i = 0; i < 6; ++i) {
-    const double azimuth = i / 2 * 2 * pi / 3;
+    const int pair = i / 2;
+    const double azimuth = pair * 2 * pi / 3;
     const double side = i % 2 ? 1 : -1;
     const Vec3 e = radial(azimuth), across{-e.y, e.x, 0};
     out.leg[i] = {.base = d.base_radius * e + side * d.base_offset * across,

@@ -65,7 +65,7 @@ std::optional<Found> find_mass(const std::vector<study::DesignedStep>& steps, st
   }
   std::size_t at = 3;
   if (steps[at].key == "attached" && steps.size() > at + 2 && steps[at + 1].element) {
-    out.attached = *steps[at + 1].element;
+    out.attached = steps[at + 1].element;
     at += 2;
   }
   const std::string base = study::base_of(steps[at].key);

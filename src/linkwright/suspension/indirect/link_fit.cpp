@@ -59,7 +59,8 @@ class Search {
       sum += square;
       e.largest = std::max(e.largest, std::sqrt(square));
     }
-    e.rms = std::sqrt(sum / static_cast<double>(rows_ / parts));
+    const std::size_t places = rows_ / parts;
+    e.rms = std::sqrt(sum / static_cast<double>(places));
     return e;
   }
 

@@ -158,7 +158,7 @@ bool LinkProjection::evaluate_strut(std::span<double> residuals, std::span<doubl
     scatter += w * w.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d values = solver.eigenvalues();
+  const Eigen::Vector3d& values = solver.eigenvalues();
   if (!(values[2] - values[1] > 1e-12 * values[2])) return false;  // no line
   Vec3 v[3];
   for (int k = 0; k < 3; ++k) {
