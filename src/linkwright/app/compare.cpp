@@ -144,7 +144,7 @@ class Merger {
       if (texts.size() == 1) fact.text = *texts.begin();
       out_.facts.push_back(fact);
       ++compared_;
-      different_ += texts.size() > 1 && !std::ranges::all_of(values, is_rounding);
+      different_ += texts.size() > 1 && !std::all_of(values.begin(), values.end(), is_rounding);
       if (!std::isnan(values.front()))
         figure(unit.empty() ? label : fmt::format("{} ({})", label, unit), values);
     }
