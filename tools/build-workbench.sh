@@ -3,10 +3,12 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-if ! command -v em++ >/dev/null 2>&1; then
-  echo "The workbench needs emscripten: tools/install-packages.sh test installs it." >&2
-  exit 1
-fi
+for tool in em++ zstd; do
+  if ! command -v "$tool" >/dev/null 2>&1; then
+    echo "The workbench needs $tool: tools/install-packages.sh test installs it." >&2
+    exit 1
+  fi
+done
 # emscripten keeps the libraries of C and C++ that it has compiled; not everybody may write where Debian has put them.
 cache=/usr/share/emscripten/cache
 [ -w "$cache" ] || export EM_CACHE="$PWD/build/emscripten-cache"

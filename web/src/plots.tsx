@@ -216,27 +216,32 @@ const withTable = (plots: Plot[]) =>
     return table && shown ? [{ plot, table }] : [];
   });
 
+function Diagram({ plot, table }: { plot: Plot; table: Table }) {
+  switch (plot.style) {
+    case "histogram": return <Histogram plot={plot} table={table} />;
+    case "polar": return <Polar plot={plot} table={table} />;
+    case "map": return <MapPlot plot={plot} table={table} />;
+  }
+  return plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />;
+}
+
 /** A diagram in a card. Out of sight it is not drawn anew before it comes into sight: most are, while a mechanism is dragged. */
-function Card({ plot, table }: { plot: Plot; table: Table }) {
+function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
   const card = useRef<HTMLDivElement>(null);
   const inSight = useRef(true);
   const drawn = useRef<JSX.Element | null>(null);
-  const [stale, look] = [useRef(false), useState({})[1]];
+  const stale = useRef(false);
+  const [, drawAnew] = useState({});
   useEffect(() => {
     const watch = new IntersectionObserver((seen) => {
       inSight.current = seen[seen.length - 1].isIntersecting;
-      if (inSight.current && stale.current) look({});
+      if (inSight.current && stale.current) drawAnew({});
     }, { rootMargin: "100px" });
     watch.observe(card.current!);
     return () => watch.disconnect();
   }, []);
   stale.current = drawn.current !== null && !inSight.current && !state.printing.value;
-  if (!stale.current)
-    drawn.current = plot.style === "histogram" ? <Histogram plot={plot} table={table} />
-      : plot.style === "polar" ? <Polar plot={plot} table={table} />
-        : plot.style === "map" ? <MapPlot plot={plot} table={table} />
-          : plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} />
-            : <TablePlot plot={plot} table={table} />;
+  if (!stale.current) drawn.current = <Diagram plot={plot} table={table} />;
   return (
     <div class="card plot" data-plot={plot.name} ref={card}>
       <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
@@ -245,7 +250,7 @@ function Card({ plot, table }: { plot: Plot; table: Table }) {
   );
 }
 
-const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot, table }) => <Card key={`${plot.name}/${plot.scene}`} plot={plot} table={table} />)}</>;
+const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot, table }) => <DiagramCard key={`${plot.name}/${plot.scene}`} plot={plot} table={table} />)}</>;
 
 /** Plots over the input of the scene that is shown. */
 export function Plots() {

@@ -4,12 +4,12 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { extent } from "./camera";
 import { Copy, WheelHint } from "./controls";
 import { Card, coordinates, instant, SpaceKey } from "./forces";
-import type { Scene } from "./data";
 import { placeNear } from "./motion";
 import type { SpaceView } from "./space";
 import { viewpoints, type ViewName } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
+import { onceOf } from "./view";
 
 declare global {
   // eslint-disable-next-line no-var
@@ -56,16 +56,7 @@ function Still() {
 }
 
 /** What the parts of a view are made from; scenes that agree in it are drawn by the same view. */
-function partsOf(scene: Scene): string {
-  let parts = knownParts.get(scene);
-  if (parts === undefined) {
-    const { bodies, discs, joints, vectors } = scene;
-    parts = JSON.stringify([bodies, discs, joints, vectors.map(({ name, quantity, symbol }) => [name, quantity, symbol])]);
-    knownParts.set(scene, parts);
-  }
-  return parts;
-}
-const knownParts = new WeakMap<Scene, string>();
+const partsOf = onceOf(({ bodies, discs, joints, vectors }) => JSON.stringify([bodies, discs, joints, vectors.map(({ name, quantity, symbol }) => [name, quantity, symbol])]));
 
 export function SpaceDrawing() {
   const box = useRef<HTMLDivElement>(null);

@@ -914,6 +914,23 @@ test("a report opens in the workbench, and the workbench opens reports", async (
   await close();
 });
 
+test("diagrams out of sight follow when they come into sight", async () => {
+  const { page, errors, close } = await open({ viewport: { width: 1366, height: 500 } });
+  const last = page.locator(".plot:not([data-plot=convergence])").last();
+  // What is painted, as the browser would keep it.
+  const painted = () => last.locator("canvas").first().evaluate((e) => e.toDataURL());
+  const before = await painted();
+  const from = await joint(page, "W");
+  assert.ok((await last.boundingBox()).y > 700, "the last diagram is out of sight");
+  await drag(page, from, { x: 40, y: -30 });
+  await settled(page);
+  assert.equal(await painted(), before);
+  await last.scrollIntoViewIfNeeded();
+  await until(async () => (await painted()) !== before);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a study of before is there again", async () => {
   const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served && !hosted, reducedMotion: "reduce" });
   const page = await context.newPage();
