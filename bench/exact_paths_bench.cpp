@@ -5,8 +5,9 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/planar/exact/detail/nine_point_starts.h"
-#include "linkwright/planar/exact/five_points.h"
+#include "linkwright/planar/exact/given_pivots.h"
 #include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/exact/slider_points.h"
 
 namespace linkwright::planar {
 namespace {
@@ -20,22 +21,48 @@ const Points& nine_points() {
   return points;
 }
 
-void five_points_with_pivots(benchmark::State& state) {
+Points random_points(int count) {
   RandomStream random({.seed = 1});
-  Points points;
-  for (int i = 0; i < 7; ++i) {
+  Points out;
+  for (int i = 0; i < count; ++i) {
     const double x = random.normal();
-    points.emplace_back(x, random.normal());
+    out.emplace_back(x, random.normal());
   }
+  return out;
+}
+
+// One thread; the first call finds the start set as well.
+template <class Solve>
+void all_solutions(benchmark::State& state, int expected, Solve&& solve) {
   RunContext context;
   context.set_threads(1);
-  const auto solve = [&] {
-    return solve_five_points(std::span(points).first<5>(), {points[5], points[6]}, context).finite;
-  };
-  if (solve() != 36) state.SkipWithError("36 solutions are missing");  // finds the start set as well
-  for (auto _ : state) benchmark::DoNotOptimize(solve());
+  if (solve(context).finite != expected) state.SkipWithError("solutions are missing");
+  for (auto _ : state) benchmark::DoNotOptimize(solve(context));
+}
+
+void five_points_with_pivots(benchmark::State& state) {
+  const Points points = random_points(7);
+  all_solutions(state, five_point_solutions, [&](RunContext& context) {
+    return solve_five_points(std::span(points).first<5>(), {points[5], points[6]}, context);
+  });
 }
 BENCHMARK(five_points_with_pivots)->Unit(benchmark::kMillisecond);
+
+void seven_points_with_a_pivot(benchmark::State& state) {
+  const Points points = random_points(8);
+  all_solutions(state, seven_point_solutions, [&](RunContext& context) {
+    return solve_seven_points(std::span(points).first<7>(), points[7], context);
+  });
+}
+BENCHMARK(seven_points_with_a_pivot)->Unit(benchmark::kMillisecond);
+
+void slider_crank_through_eight_points(benchmark::State& state) {
+  const Points points = random_points(8);
+  all_solutions(state, slider_point_solutions, [&](RunContext& context) {
+    return solve_slider_points(std::span(points).first<8>(), context);
+  });
+}
+BENCHMARK(slider_crank_through_eight_points)->Unit(benchmark::kMillisecond);
 
 // Arguments: threads, certificates.
 void all_classes_of_nine_points(benchmark::State& state) {

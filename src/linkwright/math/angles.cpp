@@ -5,7 +5,6 @@
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
-namespace {}
 
 double wrap_angle(double angle) {
   if (angle > -pi && angle <= pi) return angle;

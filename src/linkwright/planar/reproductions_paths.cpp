@@ -177,7 +177,7 @@ study::Comparisons nine_points(const std::string& source, RunContext& context) {
 study::Comparisons five_points(const std::string& source, RunContext& context) {
   constexpr std::array<std::complex<double>, 5> points = {
       {{0.5, 1.06}, {-0.83, -0.27}, {-0.34, 0.22}, {-0.13, 0.43}, {0.22, 0.78}}};
-  const FivePointSolutions found = solve_five_points(points, {{{0.0, 0.0}, {1.0, 0.0}}}, context);
+  const FourBarSolutions found = solve_five_points(points, {{{0.0, 0.0}, {1.0, 0.0}}}, context);
   const auto finite = static_cast<double>(found.finite), real = static_cast<double>(found.real.size());
   return {{"finite solutions", source, 33, finite, verdict_of(33, finite),
            fmt::format("the points lie on a line: {} of 36 are at infinity", found.infinite)},

@@ -24,7 +24,7 @@ std::vector<ExactDesign> designs_of(const char* id, PathProblem& problem) {
 
 std::string worst_defect(const ExactDesign& design) {
   constexpr const char* names[] = {"none", "order", "circuit", "branch"};
-  return names[severity(design)];
+  return names[severity(design.defects)];
 }
 
 TEST(ExactDesigns, DefectsOfPublishedTargets) {
@@ -41,8 +41,9 @@ TEST(ExactDesigns, DefectsOfPublishedTargets) {
           << id << ' ' << name;
     }
     EXPECT_TRUE(
-        std::is_sorted(designs.begin(), designs.end(),
-                       [](const ExactDesign& a, const ExactDesign& b) { return severity(a) < severity(b); }));
+        std::is_sorted(designs.begin(), designs.end(), [](const ExactDesign& a, const ExactDesign& b) {
+          return severity(a.defects) < severity(b.defects);
+        }));
   }
 }
 

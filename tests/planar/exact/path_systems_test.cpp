@@ -99,6 +99,8 @@ void expect_derivatives(const System& system) {
 TEST(PathSystems, DerivativesAreThoseOfDifferences) {
   expect_derivatives(NinePoints());
   expect_derivatives(FivePointsTwoPivots());
+  expect_derivatives(SevenPointsOnePivot());
+  expect_derivatives(SliderEightPoints());
   RandomStream random({.seed = 11});
   NinePointsTrace::Form form;
   for (std::size_t m = 0; m < NinePointsTrace::forms; ++m)

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -25,6 +26,14 @@ constexpr const char* five =
 constexpr const char* pivots =
     "[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = 0\nrocker_pivot_x_m = 1\nrocker_pivot_y_m = 0\n";
 
+constexpr const char* one_pivot = "[mechanism.parameters]\npivot_x_m = 0.2\npivot_y_m = -0.3\n";
+// Of a four-bar with this pivot: ground 1, crank 0.4, coupler 0.9, rocker 0.8 m, coupler point (0.5, 0.6) m,
+// turned by 0.4 rad, at the crank angles 0.3, 0.9, 1.4, 2.1, 3, 4.2, 5.3 rad.
+constexpr const char* seven =
+    "points_m = [[0.0885103553, 0.6178045650], [0.0937456162, 0.8367705758], [-0.0161357470, 0.8604548764], "
+    "[-0.2116677287, 0.7150696453], [-0.3657981027, 0.3580011426], [-0.3384034613, -0.0921534715], "
+    "[-0.1471737104, -0.1379669089]]\n";
+
 std::string exact(const std::string& parameters, const std::string& target) {
   return "schema = 1\nkind = \"synthesis\"\ntitle = \"test\"\n[mechanism]\ntype = \"planar.four_bar\"\n" +
          parameters + "[target]\ntype = \"path_points\"\nfit = \"exact\"\n" + target;
@@ -38,12 +47,18 @@ double count(const study::Result& result, const char* key) {
 TEST(ExactPathRead, SaysHowManyPointsThereMayBe) {
   EXPECT_THAT(
       problems_of(exact("", five)),
-      HasSubstr("target.points_m: 5 points with free pivots are passed by infinitely many four-bars, fit = "
-                "\"exact\" takes 9; give 9; or 5 and both pivots as numbers"));
+      HasSubstr(
+          "target.points_m: 5 points with free pivots are passed by infinitely many four-bars, fit = "
+          "\"exact\" takes 9; give 9; or 7 and a fixed pivot as numbers, [mechanism.parameters] pivot_x, "
+          "pivot_y, or 5 and rocker_pivot_x, rocker_pivot_y as well; or use what searches"));
+  EXPECT_THAT(
+      problems_of(exact(one_pivot, five)),
+      HasSubstr("5 points with a given pivot are passed by infinitely many four-bars, fit = \"exact\" "
+                "takes 7; give 7; or use what searches"));
   EXPECT_THAT(
       problems_of(exact(pivots, nine)),
       HasSubstr(
-          "9 points with both pivots given are more than a four-bar passes exactly, which are 5; give 5, "
+          "9 points with both pivots given are more than a four-bar passes exactly, which are 5; give 5; "
           "or use what searches: fit = \"least_squares\""));
   EXPECT_THAT(problems_of(exact(pivots, "points_m = [[0, 0], [1, 0], [1, 1], [0, 3]]\n")),
               HasSubstr("4 points with both pivots given are passed by infinitely many"));
@@ -53,13 +68,13 @@ TEST(ExactPathRead, PivotsAreNumbersAndNothingElseIsGiven) {
   EXPECT_THAT(
       problems_of(exact("[mechanism.parameters]\ncrank_m = 0.3\n", nine)),
       HasSubstr("mechanism.parameters: crank is given, fit = \"exact\" leaves no number of the four-bar to "
-                "choose but both fixed pivots"));
+                "choose but the fixed pivots"));
   EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0.3\n", nine)),
-              HasSubstr("fit = \"exact\" takes both fixed pivots as numbers, or none of them"));
+              HasSubstr("fit = \"exact\" takes a fixed pivot as two numbers; give both coordinates"));
   EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = { min = 0, max = 1 }\n"
                                 "rocker_pivot_x_m = 1\nrocker_pivot_y_m = 0\n",
                                 five)),
-              HasSubstr("takes both fixed pivots as numbers"));
+              HasSubstr("takes a fixed pivot as two numbers"));
   EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 1\npivot_y_m = 0\nrocker_pivot_x_m = 1\n"
                                 "rocker_pivot_y_m = 0\n",
                                 five)),
@@ -104,6 +119,37 @@ TEST(ExactPathRead, TheResolvedStudyReadsAgain) {
   EXPECT_EQ(parameters.find("crank_m"), nullptr);
   EXPECT_EQ(parameters.find("rocker_pivot_x_m")->as_number(), 1);
   EXPECT_EQ(study->canonical.find("target")->find("fit")->as_string(), "exact");
+}
+
+TEST(ExactPathRun, AllFourBarsThroughSevenPointsWithAPivot) {
+  const study::Result result = run_text(exact(one_pivot, seven));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_EQ(count(result, "classes"), 486);
+  EXPECT_THAT(result.headline, HasSubstr("All 486 complex solutions for seven points and a pivot"));
+  const auto near = [](const study::Solution& s, const char* key, double value) {
+    for (const study::Parameter& parameter : s.parameters)
+      if (parameter.key == key) return std::abs(parameter.value - value) < 1e-6;
+    return false;
+  };
+  EXPECT_TRUE(std::any_of(result.solutions.begin(), result.solutions.end(), [&](const study::Solution& s) {
+    return s.defects.as_array().size() == 0 && near(s, "ground_m", 1) && near(s, "crank_m", 0.4) &&
+           near(s, "coupler_m", 0.9) && near(s, "rocker_m", 0.8);
+  }));
+  // The pivot of the rocker instead: the same linkages driven from the other side.
+  const study::Result other =
+      run_text(exact("[mechanism.parameters]\nrocker_pivot_x_m = 0.2\nrocker_pivot_y_m = -0.3\n", seven));
+  EXPECT_EQ(count(other, "real_classes"), count(result, "real_classes"));
+  for (const study::Solution& s : other.solutions) {
+    double ground = 0, angle = 0, x = 0, y = 0;
+    for (const study::Parameter& parameter : s.parameters) {
+      if (parameter.key == "ground_m") ground = parameter.value;
+      if (parameter.key == "frame_angle_rad") angle = parameter.value;
+      if (parameter.key == "pivot_x_m") x = parameter.value;
+      if (parameter.key == "pivot_y_m") y = parameter.value;
+    }
+    EXPECT_NEAR(x + ground * std::cos(angle), 0.2, 1e-9);
+    EXPECT_NEAR(y + ground * std::sin(angle), -0.3, 1e-9);
+  }
 }
 
 // Wampler, Morgan and Sommese 1992, problem 3.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/exact/detail/crank_turns.h"
 #include "linkwright/planar/exact/detail/path_systems.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/usability.h"
@@ -41,21 +42,7 @@ std::complex<double> coupler_turn(const TracingFourBar& bars, const std::complex
   const std::complex<double> d = point - first;
   const ComplexNumber place(d.real(), d.imag());
   const CurveEquation<ComplexNumber> curve(z.data(), place, math::conj(place));
-  // 1 + gt / delta without the division
-  const ComplexNumber turn = (curve.gt + curve.delta) * math::conj(curve.delta);
-  const std::complex<double> out(turn.re, turn.im);
-  return out / std::abs(out);
-}
-
-// Steps from point to point, each in [0, 2 pi), and their sum.
-double forward_step(double sense, double from, double to) {
-  const double step = sense * (to - from);
-  return step - 2 * pi * std::floor(step / (2 * pi));
-}
-double turned_in_all(const std::vector<double>& angles, double sense) {
-  double sum = 0;
-  for (std::size_t k = 1; k < angles.size(); ++k) sum += forward_step(sense, angles[k - 1], angles[k]);
-  return sum;
+  return real_turn(curve);
 }
 
 // Whether the crank goes through the points without passing an end of its range.
@@ -133,7 +120,7 @@ ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars,
 }
 
 std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& design) {
-  if (problem.timing != Timing::free || problem.closed || severity(design) != 1) return {};
+  if (problem.timing != Timing::free || problem.closed || severity(design.defects) != 1) return {};
   const FourBarClass type = classify(design.design.linkage);
   const std::vector<double>& angles = design.design.angles;
   // Of a crank that rocks the angles count from the end of its range, else from the first point.
@@ -143,21 +130,12 @@ std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& de
     const double inside = angles[0] - 2 * pi * std::floor((angles[0] - interval.from + 1e-9) / (2 * pi));
     if (inside <= interval.to + 1e-9) from = interval.from - 1e-9;
   }
-  std::vector<double> turned;
-  std::vector<int> out;
-  for (std::size_t k = 0; k < angles.size(); ++k) {
-    turned.push_back(forward_step(1, from, angles[k]));
-    out.push_back(static_cast<int>(k));
-  }
-  std::sort(out.begin(), out.end(), [&](int a, int b) { return turned[at(a)] < turned[at(b)]; });
-  const auto place = [&](int which) { return std::find(out.begin(), out.end(), which) - out.begin(); };
-  if (place(static_cast<int>(angles.size()) - 1) < place(0)) std::reverse(out.begin(), out.end());
-  return out;
+  return order_of_turning(angles, from);
 }
 
-int severity(const ExactDesign& design) {
+int severity(const std::vector<Defect>& defects) {
   int worst = 0;
-  for (const Defect& defect : design.defects) switch (defect.kind) {
+  for (const Defect& defect : defects) switch (defect.kind) {
       case DefectKind::order:
         worst = std::max(worst, 1);
         break;
@@ -183,7 +161,7 @@ void sort_exact_designs(const PathProblem& problem, std::vector<ExactDesign>& de
   std::vector<Rank> ranks;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const ExactDesign& d = designs[i];
-    const int worst = severity(d);
+    const int worst = severity(d.defects);
     // Two designs that differ by rounding alone keep their order: to 1e-6 rad.
     const double transmission = worst < 2 ? std::round(path_transmission(problem, d.design).used * 1e6) : 0;
     ranks.push_back({worst, classify(d.design.linkage).crank_rotates_fully ? 0 : 1, transmission, i});
@@ -214,7 +192,7 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePoi
   return out;
 }
 
-std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePointSolutions& solutions) {
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FourBarSolutions& solutions) {
   std::vector<ExactDesign> out;
   for (std::size_t i = 0; i < solutions.real.size(); ++i)
     out.push_back(exact_design(problem, solutions.real[i], static_cast<int>(i)));

@@ -30,7 +30,7 @@ std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& de
 /// the path.
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePointSolutions& solutions);
 /// The same of five points, where the pivots say which link drives.
-std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FivePointSolutions& solutions);
+std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FourBarSolutions& solutions);
 /// The same where the problem has a timing, whose rotations times `sense` they were solved for. Of a sweep
 /// those that differ, `most_swept_designs` at most.
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPointSolutions& solutions,
@@ -38,6 +38,6 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPo
 inline constexpr std::size_t most_swept_designs = 60;
 
 /// How far a design is from tracing the points: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.
-int severity(const ExactDesign& design);
+int severity(const std::vector<Defect>& defects);
 
 }  // namespace linkwright::planar

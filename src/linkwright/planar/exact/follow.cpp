@@ -22,10 +22,6 @@ template <class System>
 FollowKernels<System> follow_kernels() {
   return LINKWRIGHT_KERNEL_SET(follow);
 }
-template FollowKernels<NinePoints> follow_kernels();
-template FollowKernels<NinePointsTrace> follow_kernels();
-template FollowKernels<FivePointsTwoPivots> follow_kernels();
-
 template <class System, class T>
 Paths<System, T> follow(const System& system, const SystemData<System>& from, const SystemData<System>& to,
                         const Paths<System, T>& starts, const math::TrackerOptions& options,
@@ -51,30 +47,15 @@ Paths<System, T> follow(const System& system, const SystemData<System>& from, co
   return ends;
 }
 
-template Paths<NinePoints> follow(const NinePoints&, const SystemData<NinePoints>&,
-                                  const SystemData<NinePoints>&, const Paths<NinePoints>&,
-                                  const math::TrackerOptions&, RunContext&, std::string_view);
-template Paths<NinePoints, math::DoubleDouble> follow(const NinePoints&, const SystemData<NinePoints>&,
-                                                      const SystemData<NinePoints>&,
-                                                      const Paths<NinePoints, math::DoubleDouble>&,
-                                                      const math::TrackerOptions&, RunContext&,
-                                                      std::string_view);
-template Paths<NinePointsTrace> follow(const NinePointsTrace&, const SystemData<NinePointsTrace>&,
-                                       const SystemData<NinePointsTrace>&, const Paths<NinePointsTrace>&,
-                                       const math::TrackerOptions&, RunContext&, std::string_view);
-template Paths<NinePointsTrace, math::DoubleDouble> follow(const NinePointsTrace&,
-                                                           const SystemData<NinePointsTrace>&,
-                                                           const SystemData<NinePointsTrace>&,
-                                                           const Paths<NinePointsTrace, math::DoubleDouble>&,
-                                                           const math::TrackerOptions&, RunContext&,
-                                                           std::string_view);
-template Paths<FivePointsTwoPivots> follow(const FivePointsTwoPivots&, const SystemData<FivePointsTwoPivots>&,
-                                           const SystemData<FivePointsTwoPivots>&,
-                                           const Paths<FivePointsTwoPivots>&, const math::TrackerOptions&,
-                                           RunContext&, std::string_view);
-template Paths<FivePointsTwoPivots, math::DoubleDouble> follow(
-    const FivePointsTwoPivots&, const SystemData<FivePointsTwoPivots>&,
-    const SystemData<FivePointsTwoPivots>&, const Paths<FivePointsTwoPivots, math::DoubleDouble>&,
-    const math::TrackerOptions&, RunContext&, std::string_view);
+#define LINKWRIGHT_FOLLOW(System)                                                                    \
+  template FollowKernels<System> follow_kernels();                                                   \
+  template Paths<System> follow(const System&, const SystemData<System>&, const SystemData<System>&, \
+                                const Paths<System>&, const math::TrackerOptions&, RunContext&,      \
+                                std::string_view);                                                   \
+  template Paths<System, math::DoubleDouble> follow(                                                 \
+      const System&, const SystemData<System>&, const SystemData<System>&,                           \
+      const Paths<System, math::DoubleDouble>&, const math::TrackerOptions&, RunContext&, std::string_view);
+LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_FOLLOW)
+#undef LINKWRIGHT_FOLLOW
 
 }  // namespace linkwright::planar

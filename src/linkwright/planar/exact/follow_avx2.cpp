@@ -2,14 +2,11 @@
 
 namespace linkwright::planar {
 
-void follow_avx2(const FollowJob<NinePoints>& job) {
-  follow_by<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(job);
-}
-void follow_avx2(const FollowJob<NinePointsTrace>& job) {
-  follow_by<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(job);
-}
-void follow_avx2(const FollowJob<FivePointsTwoPivots>& job) {
-  follow_by<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(job);
-}
+#define LINKWRIGHT_FOLLOW(System)                                   \
+  void follow_avx2(const FollowJob<System>& job) {                  \
+    follow_by<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(job); \
+  }
+LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_FOLLOW)
+#undef LINKWRIGHT_FOLLOW
 
 }  // namespace linkwright::planar

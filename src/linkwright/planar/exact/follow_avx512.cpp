@@ -2,12 +2,9 @@
 
 namespace linkwright::planar {
 
-void follow_avx512(const FollowJob<NinePoints>& job) { follow_by<xsimd::batch<double, xsimd::avx512f>>(job); }
-void follow_avx512(const FollowJob<NinePointsTrace>& job) {
-  follow_by<xsimd::batch<double, xsimd::avx512f>>(job);
-}
-void follow_avx512(const FollowJob<FivePointsTwoPivots>& job) {
-  follow_by<xsimd::batch<double, xsimd::avx512f>>(job);
-}
+#define LINKWRIGHT_FOLLOW(System) \
+  void follow_avx512(const FollowJob<System>& job) { follow_by<xsimd::batch<double, xsimd::avx512f>>(job); }
+LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_FOLLOW)
+#undef LINKWRIGHT_FOLLOW
 
 }  // namespace linkwright::planar

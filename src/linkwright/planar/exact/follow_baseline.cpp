@@ -2,8 +2,9 @@
 
 namespace linkwright::planar {
 
-void follow_baseline(const FollowJob<NinePoints>& job) { follow_by<math::BaselineBatch>(job); }
-void follow_baseline(const FollowJob<NinePointsTrace>& job) { follow_by<math::BaselineBatch>(job); }
-void follow_baseline(const FollowJob<FivePointsTwoPivots>& job) { follow_by<math::BaselineBatch>(job); }
+#define LINKWRIGHT_FOLLOW(System) \
+  void follow_baseline(const FollowJob<System>& job) { follow_by<math::BaselineBatch>(job); }
+LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_FOLLOW)
+#undef LINKWRIGHT_FOLLOW
 
 }  // namespace linkwright::planar

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <memory>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -13,43 +15,64 @@ namespace linkwright::planar {
 namespace {
 
 constexpr int most_monodromy_loops = 80, first_mechanisms = 40;
+constexpr std::uint64_t first_seed = 1;
 constexpr double identity_tolerance = 1e-9;
 
-// The point of the coupler curve of a complex four-bar when its coupler has turned by `rotation`: the
-// equation of either dyad is d D + u d + v D + w = 0; their difference is linear.
-void complex_curve_point(const ComplexFourBar<>& z, std::complex<double> rotation, ComplexNumber& d,
-                         ComplexNumber& D) {
+// Of a dyad at the point P0 + d, D when the body has turned by g, G: s d D + u d + v D + w = 0.
+struct DyadAtPoint {
+  double s;
+  std::complex<double> u, v, w;
+};
+DyadAtPoint dyad_of_pins(const ComplexNumber& pin, const ComplexNumber& pivot,
+                         const ComplexNumber& pin_partner, const ComplexNumber& pivot_partner,
+                         const std::complex<double>& g, const std::complex<double>& G) {
+  const auto x = standard_complex(pin), a = standard_complex(pivot), X = standard_complex(pin_partner),
+             A = standard_complex(pivot_partner);
+  return {1, X - A + X * G, x - a + x * g, -A * x * g - a * X * G};
+}
+std::array<DyadAtPoint, 2> dyads_of(const ComplexFourBar<>& z, const std::complex<double>& g,
+                                    const std::complex<double>& G) {
+  return {dyad_of_pins(z[pin_x], z[pivot_a], z[pin_X], z[pivot_A], g, G),
+          dyad_of_pins(z[pin_y], z[pivot_b], z[pin_Y], z[pivot_B], g, G)};
+}
+std::array<DyadAtPoint, 2> dyads_of(const SliderEightPoints::Bars& z, const std::complex<double>& g,
+                                    const std::complex<double>& G) {
+  const auto y = standard_complex(z[slider_y]), Y = standard_complex(z[slider_Y]),
+             nu = standard_complex(z[guide_nu]);
+  return {dyad_of_pins(z[slider_x], z[slider_a], z[slider_X], z[slider_A], g, G),
+          {0, 1, nu, y * g + nu * Y * G}};
+}
+
+// The point of the coupler curve of a complex linkage when its coupler has turned by `rotation`: the first
+// dyad's equation and a linear one, the second or its difference from the first.
+template <class Bars>
+void complex_curve_point(const Bars& z, std::complex<double> rotation, ComplexNumber& d, ComplexNumber& D) {
   const std::complex<double> g = rotation - 1.0, G = 1.0 / rotation - 1.0;
-  struct {
-    std::complex<double> u, v, w;
-  } dyad[2];
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto x = standard_complex(z[2 * k]), a = standard_complex(z[2 * k + 1]),
-               X = standard_complex(z[2 * k + 4]), A = standard_complex(z[2 * k + 5]);
-    dyad[k] = {X - A + X * G, x - a + x * g, -A * x * g - a * X * G};
-  }
-  const auto u = dyad[0].u - dyad[1].u, v = dyad[0].v - dyad[1].v, w = dyad[0].w - dyad[1].w;
+  const std::array<DyadAtPoint, 2> dyad = dyads_of(z, g, G);
+  const double s = dyad[1].s;
+  const auto u = dyad[0].u * s - dyad[1].u, v = dyad[0].v * s - dyad[1].v, w = dyad[0].w * s - dyad[1].w;
+  // D = -(u d + w) / v
   const auto linear = dyad[0].u * v - dyad[0].v * u - w, constant = dyad[0].w * v - dyad[0].v * w;
   const auto place = (-linear + std::sqrt(linear * linear + 4.0 * u * constant)) / (-2.0 * u);
   d = complex_number(place);
   D = complex_number(-(u * place + w) / v);
 }
 
-// A four-bar with points of its curve, from which paths start well: among some, the one whose equations are
+// A linkage with points of its curve, from which paths start well: among some, the one whose equations are
 // the farthest from singular.
 template <class System>
 void first_solution(RandomStream& stream, SystemData<System>& data, SystemPoint<System>& point) {
   double best = infinity;
   for (int trial = 0; trial < first_mechanisms; ++trial) {
-    ComplexFourBar<> four_bar;
-    for (ComplexNumber& value : four_bar) value = random_complex(stream);
+    typename System::Bars bars;
+    for (ComplexNumber& value : bars) value = random_complex(stream);
     std::array<ComplexNumber, System::others> d, D;
     for (std::size_t j = 0; j < System::others; ++j)
-      complex_curve_point(four_bar, std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi)),
-                          d[j], D[j]);
+      complex_curve_point(bars, std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi)), d[j],
+                          D[j]);
     SystemData<System> p;
     SystemPoint<System> z;
-    System::put(four_bar, d.data(), D.data(), p, z);
+    System::put(bars, d.data(), D.data(), p, z);
     double worst = 0;
     for (int side = 0; side < 3; ++side) {
       ComplexNumber values[System::unknowns], right[1][System::unknowns];
@@ -68,12 +91,6 @@ SystemData<System> random_data(RandomStream& stream) {
   SystemData<System> p;
   for (ComplexNumber& value : p) value = random_complex(stream);
   return p;
-}
-
-template <class System>
-void scale_solution(const Scaling& scaling, SystemPoint<System>& z) {
-  for (std::size_t i = 0; i < System::unknowns; ++i)
-    z[i] = (i < System::unknowns / 2 ? scaling.place : scaling.partner) * z[i];
 }
 
 }  // namespace
@@ -159,7 +176,24 @@ StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContex
   return out;
 }
 
+template <class System>
+std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context) {
+  static std::mutex one_at_a_time;
+  static std::shared_ptr<const StartSet<System>> kept;
+  const std::lock_guard lock(one_at_a_time);
+  if (kept) return kept;
+  auto found = std::make_shared<StartSet<System>>(find_starts<System>(first_seed, expected, context));
+  if (found->status == Status::done) kept = found;
+  return found;
+}
+
 template StartSet<NinePoints> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view);
-template StartSet<FivePointsTwoPivots> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view);
+#define LINKWRIGHT_STARTS(System)                                                                   \
+  template StartSet<System> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view); \
+  template std::shared_ptr<const StartSet<System>> kept_starts(std::size_t, RunContext&);
+LINKWRIGHT_STARTS(FivePointsTwoPivots)
+LINKWRIGHT_STARTS(SevenPointsOnePivot)
+LINKWRIGHT_STARTS(SliderEightPoints)
+#undef LINKWRIGHT_STARTS
 
 }  // namespace linkwright::planar

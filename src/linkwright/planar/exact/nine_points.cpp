@@ -27,10 +27,6 @@ constexpr double nearly_real = 1e-7;
 // digits they differ by less than the second, or they are not. A proof of an identity to the third decides
 // between two.
 constexpr double perhaps_same = 1e-6, surely_same = 1e-10, sharp_identity = 1e-9;
-// A path that stops this near to its end has come to it; one that ends at infinity is then far outside.
-constexpr double nearly_there = 1e-6, far_out = 100;
-// Small steps in doubles for what got lost or ran into another path, before more digits are taken.
-constexpr math::TrackerOptions small_steps = {.predicted = 1e-4, .corrected = 1e-7, .most_steps = 2000};
 
 // A solution in the units of the target, where conjugates are exact.
 struct FoundClass {

@@ -9,7 +9,7 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/exact/five_points.h"
+#include "linkwright/planar/exact/given_pivots.h"
 
 namespace linkwright::planar {
 

@@ -32,11 +32,4 @@ ComplexNumber NinePoints::identity(const SystemPoint<NinePoints>& z) {
   return above * math::inverse(below);
 }
 
-ComplexNumber FivePointsTwoPivots::identity(const SystemPoint<FivePointsTwoPivots>& z) {
-  const RandomForms& forms = random_forms();
-  ComplexNumber sum;
-  for (std::size_t i = 0; i < unknowns; ++i) sum = sum + forms.above[i] * z[i];
-  return sum;
-}
-
 }  // namespace linkwright::planar

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/exact/five_points.h"
+#include "linkwright/planar/exact/given_pivots.h"
 
 namespace linkwright::planar {
 

@@ -8,7 +8,6 @@
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
-namespace {}
 
 ChangeZone::Weights ChangeZone::interpolation(double x) {
   Weights out;

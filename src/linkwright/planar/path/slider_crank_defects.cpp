@@ -10,7 +10,6 @@
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
-namespace {}
 
 std::optional<CrankInterval> crank_interval(const SliderCrankForm& f, double crank_angle) {
   const double size = f.rod + f.crank + std::abs(f.offset);

@@ -30,20 +30,6 @@ void add_violation(SliderPathDesign& design, const char* reason, double amount) 
   if (amount > tolerance::feasibility || std::isnan(amount)) design.violations.push_back({reason, amount});
 }
 
-// Greatest |sine| of the pressure angle while the crank goes from `low` to `high`.
-double greatest_sine(const SliderCrankForm& f, double low, double high) {
-  double greatest = 0;
-  const auto at = [&](double crank_sine) {
-    greatest = std::max(greatest, std::abs((f.offset - f.crank * crank_sine) / f.rod));
-  };
-  at(std::sin(low - f.guide_angle));
-  at(std::sin(high - f.guide_angle));
-  for (const double turn : {0.5 * pi, 1.5 * pi})
-    if (2 * pi * std::floor((high - f.guide_angle - turn) / (2 * pi)) + turn >= low - f.guide_angle)
-      at(turn < pi ? 1 : -1);
-  return greatest;
-}
-
 }  // namespace
 
 std::string_view name(SliderParameter parameter) {
@@ -144,6 +130,19 @@ double greatest_pressure_angle(const SliderCrankForm& f) {
   return std::asin(std::min(1.0, (f.crank + std::abs(f.offset)) / f.rod));
 }
 
+double greatest_pressure_sine(const SliderCrankForm& f, double low, double high) {
+  double greatest = 0;
+  const auto at = [&](double crank_sine) {
+    greatest = std::max(greatest, std::abs((f.offset - f.crank * crank_sine) / f.rod));
+  };
+  at(std::sin(low - f.guide_angle));
+  at(std::sin(high - f.guide_angle));
+  for (const double turn : {0.5 * pi, 1.5 * pi})
+    if (2 * pi * std::floor((high - f.guide_angle - turn) / (2 * pi)) + turn >= low - f.guide_angle)
+      at(turn < pi ? 1 : -1);
+  return greatest;
+}
+
 std::array<double, slider_parameter_count> parameter_values(const SliderPathProblem& problem,
                                                             const SliderPathDesign& d) {
   const SliderCrankForm& f = d.mechanism.parameters;
@@ -187,7 +186,7 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
     double sine = (f.crank + std::abs(f.offset)) / f.rod;
     if (!problem.crank_rotates_fully) {
       const auto [low, high] = std::minmax_element(d.angles.begin(), d.angles.end());
-      sine = greatest_sine(f, *low, *high);
+      sine = greatest_pressure_sine(f, *low, *high);
     }
     add_violation(d, "pressure_angle", sine - std::sin(problem.max_pressure_angle));
   }

@@ -97,6 +97,9 @@ double rotation_margin(const SliderCrankForm& form);
 
 /// Greatest pressure angle over a full turn (rad); NaN when the crank does not rotate fully.
 double greatest_pressure_angle(const SliderCrankForm& form);
+/// Greatest |sine| of the pressure angle while the crank goes from `low` to `high` (rad, from the x axis);
+/// more than 1 where the rod does not reach the guide on the way.
+double greatest_pressure_sine(const SliderCrankForm& form, double low, double high);
 
 /// A design with what it achieves.
 struct SliderPathDesign {

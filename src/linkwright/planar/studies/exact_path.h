@@ -2,8 +2,8 @@
 
 #include "linkwright/planar/studies/path.h"
 
-// fit = "exact" of the path synthesis study: all four-bars through nine points, through five with given
-// pivots, or through three to five at given rotations of the crank.
+// fit = "exact" of the path synthesis study: all four-bars through nine points, through seven with a given
+// pivot, through five with both, or through three to five at given rotations of the crank.
 namespace linkwright::planar {
 
 /// Checks what a study with fit = "exact" asks for, and sets its problem up; the rest of the study has been

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/studies/exact_findings.h"
 #include "linkwright/planar/studies/exact_path.h"
 #include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/planar/studies/path_solution.h"
@@ -29,10 +29,10 @@ constexpr std::size_t most_exact_drawn = 15, least_exact_drawn = 6;
 
 constexpr std::array<std::string_view, 4> severities = {"done", "order", "circuit", "branch"};
 
-struct ExactCounts {
-  int classes = 0, certified = 0, real_classes = 0, infinite = 0, singular = 0, lost = 0;
-  int designs = 0, defect_free = 0, order = 0, circuit = 0, branch = 0;
-};
+// A given pivot; the origin where none is.
+std::complex<double> pivot_place(const std::optional<Range>& x, const std::optional<Range>& y) {
+  return x && y ? std::complex<double>(x->lower, y->lower) : 0.0;
+}
 
 class ExactReport {
  public:
@@ -44,8 +44,8 @@ class ExactReport {
     for (std::size_t k = 0; k < p_.x.size(); ++k) points.emplace_back(p_.x[k], p_.y[k]);
     if (p_.timing != Timing::free) {
       timed(points, context);
-    } else if (parameters_.rocker_pivot_x) {
-      five(points, context);
+    } else if (parameters_.rocker_pivot_x || parameters_.ranges[index(FourBarParameter::pivot_x)]) {
+      pivots(points, context);
     } else {
       nine(points, context);
     }
@@ -54,7 +54,7 @@ class ExactReport {
       return std::move(result_);
     }
     count_designs();
-    judge();
+    judge_designs();
     show_designs();
     finish();
     return std::move(result_);
@@ -62,8 +62,9 @@ class ExactReport {
 
  private:
   void nine(const std::vector<std::complex<double>>& points, RunContext& context) {
-    whole_ = static_cast<int>(nine_point_classes);
-    what_ = "coupler curves through the nine points";
+    found_.whole = static_cast<int>(nine_point_classes);
+    found_.what = "coupler curves through the nine points";
+    found_.certificates = true;
     const PointObstacle blocked = obstacle(points);
     if (blocked.kind != PointObstacle::none) {
       std::string list;
@@ -77,72 +78,78 @@ class ExactReport {
       return;
     }
     const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
-    stopped_ = found.status;
-    counts_.classes = static_cast<int>(found.classes.size());
-    counts_.certified = found.certified;
-    counts_.real_classes = found.real;
-    counts_.infinite = found.infinite;
-    counts_.singular = found.singular;
-    counts_.lost = found.lost;
-    completeness_ = stopped_ == Status::done ? found.completeness : Completeness::incomplete;
+    found_.stopped = found.status;
+    found_.classes = static_cast<int>(found.classes.size());
+    found_.certified = found.certified;
+    found_.real_classes = found.real;
+    found_.infinite = found.infinite;
+    found_.singular = found.singular;
+    found_.lost = found.lost;
+    found_.completeness = found_.stopped == Status::done ? found.completeness : Completeness::incomplete;
     designs_ = exact_designs(p_, found);
     class_table(found);
   }
 
-  void five(const std::vector<std::complex<double>>& points, RunContext& context) {
-    certificates_ = false;
-    whole_ = static_cast<int>(five_point_solutions);
-    what_ = "complex solutions for five points and both pivots";
-    const std::complex<double> crank(parameters_.ranges[index(FourBarParameter::pivot_x)]->lower,
-                                     parameters_.ranges[index(FourBarParameter::pivot_y)]->lower),
-        rocker(parameters_.rocker_pivot_x->lower, parameters_.rocker_pivot_y->lower);
-    const FivePointSolutions found =
-        solve_five_points(std::span(points).first<5>(), {crank, rocker}, context);
-    if (found.status == Status::deadline || found.status == Status::cancelled) stopped_ = found.status;
-    counts_.classes = found.finite;
-    counts_.real_classes = static_cast<int>(found.real.size());
-    counts_.infinite = found.infinite;
-    counts_.singular = found.singular;
-    counts_.lost = found.lost;
-    completeness_ = stopped_ != Status::done || found.lost > 0 ? Completeness::incomplete
-                    : found.finite == whole_                   ? Completeness::complete_uncertified
-                                                               : Completeness::special_target;
+  // Points and fixed pivots, both or one.
+  void pivots(const std::vector<std::complex<double>>& points, RunContext& context) {
+    const auto& crank_x = parameters_.ranges[index(FourBarParameter::pivot_x)];
+    const std::complex<double> crank =
+                                   pivot_place(crank_x, parameters_.ranges[index(FourBarParameter::pivot_y)]),
+                               rocker = pivot_place(parameters_.rocker_pivot_x, parameters_.rocker_pivot_y);
+    FourBarSolutions found;
+    if (crank_x && parameters_.rocker_pivot_x) {
+      found_.whole = static_cast<int>(five_point_solutions);
+      found_.what = "complex solutions for five points and both pivots";
+      found = solve_five_points(std::span(points).first<5>(), {crank, rocker}, context);
+    } else {
+      found_.whole = static_cast<int>(seven_point_solutions);
+      found_.what = "complex solutions for seven points and a pivot";
+      found = solve_seven_points(std::span(points).first<7>(), crank_x ? crank : rocker, context);
+      if (!crank_x)
+        for (TracingFourBar& bars : found.real)
+          bars = {bars.rocker_pivot, bars.rocker_pin, bars.crank_pin, bars.crank_pivot};
+    }
+    if (found.status == Status::deadline || found.status == Status::cancelled) found_.stopped = found.status;
+    found_.classes = found.finite;
+    found_.real_classes = static_cast<int>(found.real.size());
+    found_.infinite = found.infinite;
+    found_.singular = found.singular;
+    found_.lost = found.lost;
+    found_.completeness = completeness_of(found_);
     designs_ = exact_designs(p_, found);
   }
 
   // Points with crank angles, for each sense of rotation that the study searches.
   void timed(const std::vector<std::complex<double>>& points, RunContext& context) {
-    certificates_ = false;
     timed_ = true;
-    const auto pivot = [](const std::optional<Range>& x, const std::optional<Range>& y) {
-      return x && y ? std::optional(std::complex<double>(x->lower, y->lower)) : std::nullopt;
-    };
-    TimedPoints target{.points = points,
-                       .turns = {},
-                       .pivots = {pivot(parameters_.ranges[index(FourBarParameter::pivot_x)],
-                                        parameters_.ranges[index(FourBarParameter::pivot_y)]),
-                                  pivot(parameters_.rocker_pivot_x, parameters_.rocker_pivot_y)}};
+    TimedPoints target{.points = points, .turns = {}, .pivots = {}};
+    if (const auto& x = parameters_.ranges[index(FourBarParameter::pivot_x)])
+      target.pivots[0] = pivot_place(x, parameters_.ranges[index(FourBarParameter::pivot_y)]);
+    if (parameters_.rocker_pivot_x)
+      target.pivots[1] = pivot_place(parameters_.rocker_pivot_x, parameters_.rocker_pivot_y);
     for (const double sense : {1.0, -1.0}) {
       if (sense > 0 ? !p_.search_positive : !p_.search_negative) continue;
       target.turns.clear();
       for (std::size_t k = 0; k < points.size(); ++k) target.turns.push_back(sense * point_angle(p_, k));
       const TimedPointSolutions found = solve_timed_points(target, context);
-      if (found.status != Status::done) stopped_ = found.status;
+      if (found.status != Status::done) found_.stopped = found.status;
       swept_ = found.swept;
       dependent_ = dependent_ || found.dependent;
-      counts_.classes += found.cranks;
+      found_.classes += found.cranks;
       cranks_ += found.real_cranks;
       slides_ += found.slides;
-      const int before = counts_.real_classes;
+      const int before = found_.real_classes;
       for (ExactDesign& d : exact_designs(p_, found, sense)) {
         d.curve += before;
-        counts_.real_classes = std::max(counts_.real_classes, d.curve + 1);
+        found_.real_classes = std::max(found_.real_classes, d.curve + 1);
         designs_.push_back(std::move(d));
       }
     }
-    std::stable_sort(designs_.begin(), designs_.end(),
-                     [](const ExactDesign& a, const ExactDesign& b) { return severity(a) < severity(b); });
-    completeness_ = stopped_ == Status::done ? Completeness::complete_uncertified : Completeness::incomplete;
+    std::stable_sort(designs_.begin(), designs_.end(), [](const ExactDesign& a, const ExactDesign& b) {
+      return severity(a.defects) < severity(b.defects);
+    });
+    found_.completeness =
+        found_.stopped == Status::done ? Completeness::complete_uncertified : Completeness::incomplete;
   }
 
   void class_table(const NinePointSolutions& found) {
@@ -180,11 +187,11 @@ class ExactReport {
              !(positive ? p_.search_positive : p_.search_negative);
     });
     std::stable_partition(designs_.begin(), designs_.end(), [](const ExactDesign& d) { return answers(d); });
-    counts_.designs = static_cast<int>(designs_.size());
-    const std::array<int*, 4> by_severity = {&counts_.defect_free, &counts_.order, &counts_.circuit,
-                                             &counts_.branch};
-    for (const ExactDesign& d : designs_) ++*by_severity[at(severity(d))];
-    answers_ = static_cast<std::size_t>(std::count_if(designs_.begin(), designs_.end(), answers));
+    found_.designs = static_cast<int>(designs_.size());
+    const std::array<int*, 4> by_severity = {&found_.defect_free, &found_.order, &found_.circuit,
+                                             &found_.branch};
+    for (const ExactDesign& d : designs_) ++*by_severity[at(severity(d.defects))];
+    found_.answers = static_cast<std::size_t>(std::count_if(designs_.begin(), designs_.end(), answers));
     design_table();
   }
 
@@ -204,14 +211,18 @@ class ExactReport {
       number.push_back(static_cast<double>(i + 1));
       curve.push_back(d.curve + 1);
       rotates.push_back(classify(d.design.linkage).crank_rotates_fully);
-      transmission.push_back(severity(d) < 2 ? path_transmission(p_, d.design).used : nan);
+      transmission.push_back(severity(d.defects) < 2 ? path_transmission(p_, d.design).used : nan);
       FourBar linkage = d.design.linkage;
       std::size_t j = 0;
       fields([&](const Field&, double& value) { columns[j++].push_back(value); }, linkage);
-      table.status.emplace_back(severities[at(severity(d))]);
+      table.status.emplace_back(severities[at(severity(d.defects))]);
     }
     table.add("design", "design", std::move(number));
-    table.add("class", certificates_ ? "class" : timed_ ? "coupler curve" : "solution", std::move(curve));
+    table.add("class",
+              found_.certificates ? "class"
+              : timed_            ? "coupler curve"
+                                  : "solution",
+              std::move(curve));
     for (std::size_t j = 0; j < keys.size(); ++j) table.add(keys[j], keys[j], std::move(columns[j]));
     table.add("crank_rotates_fully", "the crank rotates fully (1 = yes)", std::move(rotates));
     table.add("min_transmission_angle_rad", "least transmission angle on the path (rad)",
@@ -219,86 +230,34 @@ class ExactReport {
     result_.tables.push_back(std::move(table));
   }
 
-  void judge() {
-    const bool complete = completeness_ != Completeness::incomplete;
-    if (stopped_ != Status::done) {
-      result_.status = stopped_;
-      outcome_ = to_string(stopped_);
-    } else if (!complete) {
-      result_.status = Status::not_converged;
-      outcome_ = name_of(completeness_);
-    } else if (answers_ > 0) {
-      outcome_ = swept_ ? "done" : name_of(completeness_);
-    } else {
-      result_.status = Status::infeasible;
-      outcome_ = counts_.classes == 0        ? "no_solution"
-                 : counts_.real_classes == 0 ? "no_real_solution"
-                                             : "all_defective";
-    }
-    result_.headline = found_text() + " " + answer_text();
+  void judge_designs() {
+    const ExactVerdict verdict = judge(found_);
+    result_.status = verdict.status;
+    outcome_ = swept_ && verdict.status == Status::done ? "done" : verdict.outcome;
+    result_.headline =
+        (timed_ ? timed_text() : found_text(found_)) + " " +
+        answer_text(found_, timed_ ? "these" : "their",
+                    designs_.empty() ? std::string() : fmt::format("a {}", called(designs_[0].design)));
   }
 
-  // "All 1442 coupler curves through the nine points, each with a certificate; 64 are real."
-  std::string found_text() const {
+  std::string timed_text() const {
     if (swept_)
       return fmt::format(
           "Infinitely many four-bars pass the {} points at their crank angles; {} that differ are listed.",
           p_.x.size(), designs_.size());
-    if (timed_)
-      return fmt::format(
-          "{} of {} cranks that hold the {} points at their angles {} real; {} four-bars on {} coupler "
-          "curves have them.",
-          cranks_, counts_.classes, p_.x.size(), cranks_ == 1 ? "is" : "are", designs_.size(),
-          counts_.real_classes);
-    const std::string real =
-        fmt::format("{} of them {} real", counts_.real_classes, counts_.real_classes == 1 ? "is" : "are");
-    switch (completeness_) {
-      case Completeness::complete:
-        return fmt::format("All {} {}, each certified; {}.", whole_, what_, real);
-      case Completeness::complete_uncertified:
-        return certificates_ ? fmt::format("All {} {}, {} of them certified; {}.", whole_, what_,
-                                           counts_.certified, real)
-                             : fmt::format("All {} {}; {}.", whole_, what_, real);
-      case Completeness::special_target:
-        return fmt::format(
-            "{} of the {} {} that points in general have: these are special, the others lie at infinity "
-            "or coincide; {}.",
-            counts_.classes, whole_, what_, real);
-      case Completeness::incomplete:
-        return fmt::format("{} of {} {}, others may be missing; {}.", counts_.classes, whole_, what_, real);
-    }
-    return {};
-  }
-
-  std::string answer_text() const {
-    if (designs_.empty()) return "There is no four-bar to build.";
-    const char* pass = "in one motion and in their order";
-    if (answers_ > 0) {
-      const auto free = static_cast<std::size_t>(counts_.defect_free);
-      return fmt::format("{} of {} {} four-bars {} the points {}{}; the best is a {}.", free, whose(),
-                         designs_.size(), free == 1 ? "passes" : "pass", pass,
-                         free == answers_
-                             ? std::string()
-                             : fmt::format(", {} of them within the limits of the study", answers_),
-                         called(designs_[0].design));
-    }
-    if (counts_.defect_free > 0)
-      return fmt::format("None of the {} four-bars that pass the points {} keeps the limits of the study.",
-                         counts_.defect_free, pass);
     return fmt::format(
-        "None of {} {} four-bars passes the points {}: {} change branch on the way, {} circuit, {} "
-        "meet them in another order.",
-        whose(), designs_.size(), pass, counts_.branch, counts_.circuit, counts_.order);
+        "{} of {} cranks that hold the {} points at their angles {} real; {} four-bars on {} coupler "
+        "curves have them.",
+        cranks_, found_.classes, p_.x.size(), cranks_ == 1 ? "is" : "are", designs_.size(),
+        found_.real_classes);
   }
-
-  const char* whose() const { return timed_ ? "these" : "their"; }
 
   // The answers, and where they are few those that another order of the points would make one; without either
   // the nearest.
   void show_designs() {
-    std::size_t shown = std::min(answers_, most_exact_drawn);
+    std::size_t shown = std::min(found_.answers, most_exact_drawn);
     while (shown < std::min(designs_.size(), least_exact_drawn) &&
-           (severity(designs_[shown]) < 2 || answers_ == 0))
+           (severity(designs_[shown].defects) < 2 || found_.answers == 0))
       ++shown;
     std::vector<PathDesign> drawn;
     for (std::size_t i = 0; i < shown; ++i) {
@@ -331,104 +290,66 @@ class ExactReport {
       table.add(key, label, {static_cast<double>(value)});
     };
     if (timed_ && !swept_) {
-      add("cranks", "cranks at their angles, complex ones with them", counts_.classes);
+      add("cranks", "cranks at their angles, complex ones with them", found_.classes);
       add("real_cranks", "real cranks", cranks_);
       add("slides", "couplers led by a slide instead of a rocker", slides_);
     } else if (!timed_) {
-      add("classes", certificates_ ? "classes of coupler curves" : "finite solutions", counts_.classes);
+      add("classes", found_.certificates ? "classes of coupler curves" : "finite solutions", found_.classes);
     }
-    if (certificates_) add("certified", "with a certificate", counts_.certified);
+    if (found_.certificates) add("certified", "with a certificate", found_.certified);
     add("real_classes",
-        certificates_ ? "real classes"
-        : timed_      ? "coupler curves"
-                      : "real solutions",
-        counts_.real_classes);
-    add("designs", "four-bars with their driver", counts_.designs);
-    add("defect_free", "without defects", counts_.defect_free);
-    add("order_defects", "that meet the points in another order", counts_.order);
-    add("circuit_defects", "that change circuit", counts_.circuit);
-    add("branch_defects", "that change branch", counts_.branch);
-    if (!timed_) {
-      add("infinite", "paths that end at infinity", counts_.infinite);
-      add("singular", "paths that end where solutions meet", counts_.singular);
-      add("lost", "paths that were lost", counts_.lost);
-    }
+        found_.certificates ? "real classes"
+        : timed_            ? "coupler curves"
+                            : "real solutions",
+        found_.real_classes);
+    add_design_counts(table, found_);
+    if (!timed_) add_path_counts(table, found_);
     result_.tables.insert(result_.tables.begin(), std::move(table));
 
     result_.statistics["method"] = "exact";
     result_.statistics["outcome"] = outcome_;
     result_.statistics["completeness"] = outcome_ == "no_solution" ? std::string_view("no_solution")
                                          : swept_                  ? std::string_view("sample")
-                                                                   : name_of(completeness_);
+                                                                   : name_of(found_.completeness);
     const study::AddFact fact{result_.facts};
     if (outcome_ == "no_solution") return;
     if (timed_) {
       fact("found", swept_ ? fmt::format("a sample of {} four-bars", designs_.size())
-                           : fmt::format("{} real cranks of {}", cranks_, counts_.classes));
+                           : fmt::format("{} real cranks of {}", cranks_, found_.classes));
     } else
       fact("found",
-           certificates_ ? fmt::format("{} of {} classes of four-bars, {} certified", counts_.classes, whole_,
-                                       counts_.certified)
-                         : fmt::format("{} of {} solutions", counts_.classes, whole_),
-           completeness_ == Completeness::incomplete ? Verdict::bad : Verdict::plain);
-    if (!swept_) fact(timed_ ? "coupler curves" : "real", fmt::format("{}", counts_.real_classes));
-    fact("four-bars with their driver", fmt::format("{}", counts_.designs));
-    fact("without defects", fmt::format("{}", counts_.defect_free),
-         counts_.defect_free > 0 ? Verdict::good : Verdict::bad);
-    fact("with defects",
-         fmt::format("{} branch, {} circuit, {} order", counts_.branch, counts_.circuit, counts_.order));
-    if (answers_ > 0) result_.facts.push_back(transmission_fact(p_, designs_[0].design));
-    if (counts_.infinite + counts_.singular + counts_.lost > 0)
-      fact("paths without a solution", fmt::format("{} to infinity, {} where solutions meet, {} lost",
-                                                   counts_.infinite, counts_.singular, counts_.lost));
+           found_.certificates ? fmt::format("{} of {} classes of four-bars, {} certified", found_.classes,
+                                             found_.whole, found_.certified)
+                               : fmt::format("{} of {} solutions", found_.classes, found_.whole),
+           found_.completeness == Completeness::incomplete ? Verdict::bad : Verdict::plain);
+    if (!swept_) fact(timed_ ? "coupler curves" : "real", fmt::format("{}", found_.real_classes));
+    add_design_facts(fact, found_);
+    if (found_.answers > 0) result_.facts.push_back(transmission_fact(p_, designs_[0].design));
+    add_path_facts(fact, found_);
     const study::AddWarning warn{result_.diagnostics};
-    if (certificates_ && completeness_ == Completeness::complete)
+    if (found_.certificates && found_.completeness == Completeness::complete)
       fact("evidence",
            "each class is proved to be a solution and different from the others; that there are no more than "
            "1442 is a numerical result, not a theorem");
-    if (completeness_ == Completeness::special_target)
-      warn(fmt::format("the points are special: {} of {} solutions lie at infinity or coincide",
-                       whole_ - counts_.classes, whole_),
-           "mirror-symmetric points, points on a line or on a grid are such; move one of them a little to "
-           "see the rest");
-    if (counts_.defect_free == 0) offer_order(warn);
-    if (dependent_ && answers_ == 0)
+    if (found_.defect_free == 0) {
+      std::vector<std::vector<int>> orders;
+      for (const ExactDesign& d : designs_) orders.push_back(passing_order(p_, d));
+      offer_order(warn, found_, orders);
+    }
+    if (dependent_ && found_.answers == 0)
       warn("the points and crank angles depend on each other: infinitely many cranks hold them",
            "move a point, or change a crank angle");
-    if (stopped_ == Status::done && counts_.lost > 0)
-      warn(fmt::format("{} paths were lost: four-bars may be missing", counts_.lost),
-           "move a point a little and compare");
-  }
-
-  // Designs that only meet the points in another order: the order that most of them have.
-  void offer_order(const study::AddWarning& warn) const {
-    std::map<std::vector<int>, int> orders;
-    for (const ExactDesign& d : designs_)
-      if (const std::vector<int> order = passing_order(p_, d); !order.empty()) ++orders[order];
-    if (orders.empty()) return;
-    const auto best = std::max_element(orders.begin(), orders.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    std::string list;
-    for (const int k : best->first) list += fmt::format("{}{}", list.empty() ? "" : ", ", k + 1);
-    warn(fmt::format("in the order {} {} of these four-bars would pass the points in one motion", list,
-                     best->second),
-         "write the points in that order if it will do");
+    warn_of_missing_solutions(warn, found_);
   }
 
   const PathProblem& p_;
   const PathParameters& parameters_;
   const study::Common& common_;
   study::Result result_;
-  Status stopped_ = Status::done;
-  Completeness completeness_ = Completeness::incomplete;
-  ExactCounts counts_;
+  ExactFindings found_;
   std::vector<ExactDesign> designs_;
-  std::size_t answers_ = 0;
-  int whole_ = 0;
-  bool certificates_ = true;
   bool timed_ = false, swept_ = false, dependent_ = false;
   int cranks_ = 0, slides_ = 0;
-  const char* what_ = "";
   std::string outcome_;
 };
 

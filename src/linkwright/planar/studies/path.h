@@ -104,9 +104,8 @@ enum class PathFit { least_squares, exact };
 constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
   return {{{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
            {PathFit::exact, "exact",
-            "exactly, by all four-bars that pass them: nine points, five with both fixed pivots as numbers, "
-            "or three to "
-            "five with crank angles"}}};
+            "exactly, by all four-bars that pass them: nine points, seven with one fixed pivot as numbers, "
+            "five with both, or three to five with crank angles"}}};
 }
 
 /// The point that traces.

@@ -155,7 +155,8 @@ bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescrip
   return true;
 }
 
-study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+study::Prepared prepare_simulation(study::ObjectReader& document, const study::Common& common,
+                                   LinkageType type) {
   study::Prepared prepared;
   LinkageSimulationStudy s;
   s.quantities = chosen_quantities(common.output.quantities);
@@ -229,7 +230,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   return prepared;
 }
 
-study::Kind kind_of(LinkageType type) {
+study::Kind simulation_kind_of(LinkageType type) {
   study::Kind kind;
   kind.kind = "simulation";
   kind.quantities = linkage_quantity_words();
@@ -241,7 +242,7 @@ study::Kind kind_of(LinkageType type) {
                       study::schema_fields<LinkageSimulationStudy>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
-    return prepare(document, common, type);
+    return prepare_simulation(document, common, type);
   };
   return kind;
 }
@@ -249,7 +250,7 @@ study::Kind kind_of(LinkageType type) {
 }  // namespace
 
 study::Kind linkage_simulation_kind() {
-  study::Kind kind = kind_of(LinkageType::linkage);
+  study::Kind kind = simulation_kind_of(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary =
       "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
@@ -258,7 +259,7 @@ study::Kind linkage_simulation_kind() {
 }
 
 study::Kind four_bar_simulation_kind() {
-  study::Kind kind = kind_of(LinkageType::four_bar);
+  study::Kind kind = simulation_kind_of(LinkageType::four_bar);
   kind.mechanism = "planar.four_bar";
   kind.summary = "motion of a four-bar under its weight, with an energy audit";
   kind.example = templates::simulation_four_bar();
@@ -266,7 +267,7 @@ study::Kind four_bar_simulation_kind() {
 }
 
 study::Kind slider_crank_simulation_kind() {
-  study::Kind kind = kind_of(LinkageType::slider_crank);
+  study::Kind kind = simulation_kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "motion of a slider-crank under its weight, with an energy audit";
   kind.example = templates::simulation_slider_crank();

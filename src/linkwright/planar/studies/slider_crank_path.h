@@ -12,6 +12,7 @@
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/study/remarks.h"
 
 // Path synthesis of the slider-crank: what its file holds (field lists), how it is read, run and reported.
 // What is the same as for the four-bar is taken from there.
@@ -101,14 +102,24 @@ constexpr std::array<EnumName<SliderTracingPoint>, 1> names(SliderTracingPoint) 
   return {{{SliderTracingPoint::rod, "rod", "point C of the rod, at point_distance and point_angle from A"}}};
 }
 
+/// How points are met.
+enum class SliderPathFit { least_squares, exact };
+constexpr std::array<EnumName<SliderPathFit>, 2> names(SliderPathFit) {
+  return {{{SliderPathFit::least_squares, "least_squares",
+            "as near as the slider-cranks that a search finds come"},
+           {SliderPathFit::exact, "exact", "exactly, by all slider-cranks that pass them: eight points"}}};
+}
+
 struct SliderPathTarget : PathPointsForm {
   SliderTracingPoint point = SliderTracingPoint::rod;
+  SliderPathFit fit = SliderPathFit::least_squares;
   bool closed = false;
   SliderPathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
+  visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
   visit(Field{.key = "closed",
               .summary =
                   "the last point is followed by the first; default: whether the last repeats the first"},
@@ -251,6 +262,20 @@ SliderPathRuns run_slider_path_seeds(const SliderPathStudy& study, const study::
 /// The answers of all seeds: distinct designs, best first, or the front of all by falling stroke. One
 /// infeasible design when there is no other.
 std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& study, const SliderPathRuns& runs);
+
+/// Solutions with a drawing and tables of their own.
+inline constexpr std::size_t most_drawn_sliders = 15;
+/// deg, a pressure angle beyond this moves the slider badly.
+inline constexpr double steep_pressure = 75;
+
+/// A design as the next solution of a result, called `label`; the first ones have a drawing.
+void add_slider_solution(study::Result& result, const SliderPathProblem& problem,
+                         const SliderPathDesign& design, const study::Common& common, std::string label);
+/// Tables and diagrams of those with a drawing; plain names for the best design, the number of the solution
+/// in those of the others.
+void add_slider_design_tables(study::Result& result, const SliderPathProblem& problem,
+                              const std::vector<SliderPathDesign>& designs, int samples);
+void warn_of_pressure(const study::AddWarning& warn, double degrees);
 
 study::Result report_slider_path(const SliderPathStudy& study, const study::Common& common,
                                  const SliderPathRuns& runs);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/exact_slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
@@ -184,6 +185,8 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
   set_objectives(document, s);
   set_search(s);
   set_constraints(document, common.units, s);
+  if (s.target.fit == SliderPathFit::exact)
+    if (auto target = document.table("target")) read_exact_slider_path(document, *target, s);
   return s;
 }
 
@@ -212,7 +215,8 @@ study::Kind slider_path_kind() {
     const SliderPathStudy s = read_slider_path_study(document, common);
     study::Prepared prepared;
     SliderPathStudy resolved = s;
-    for (std::size_t j = 0; j < slider_parameter_count; ++j)
+    const bool exact = s.target.fit == SliderPathFit::exact;
+    for (std::size_t j = 0; j < slider_parameter_count && !exact; ++j)
       if (P(j) != P::start_angle || starts_anywhere(s))
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
     resolved.target.points_file.reset();
@@ -225,7 +229,10 @@ study::Kind slider_path_kind() {
     prepared.canonical["objective"] = study::ObjectWriter::to_value(resolved.objectives);
     prepared.canonical["constraint"] = study::ObjectWriter::to_value(resolved.constraints);
     prepared.canonical["optimiser"] = study::write_fields(resolved.optimiser);
-    prepared.run = [s, common](RunContext& context) { return run_slider_path_study(s, common, context); };
+    prepared.run = [s, common, exact](RunContext& context) {
+      return exact ? run_exact_slider_path_study(s, common, context)
+                   : run_slider_path_study(s, common, context);
+    };
     return prepared;
   };
   return kind;

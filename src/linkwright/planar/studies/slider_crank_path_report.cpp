@@ -25,10 +25,6 @@ namespace {
 
 // A seed of a front succeeds when so little of what the front of all seeds dominates is missing.
 constexpr double success_of_front = 1e-3;
-// Solutions with a drawing and tables of their own.
-constexpr std::size_t most_drawn = 15;
-// A pressure angle beyond this moves the slider badly.
-constexpr double steep = 75;
 
 using study::metres;
 
@@ -46,7 +42,11 @@ class Report {
     }
     feasible_ = designs_[0].violations.empty();
     result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
-    for (std::size_t i = 0; i < designs_.size(); ++i) solution(designs_[i], i + 1);
+    for (const SliderPathDesign& d : designs_)
+      add_slider_solution(result_, p_, d, common_,
+                          std::isnan(d.stroke)
+                              ? std::string(name_of(d.mechanism.branch))
+                              : fmt::format("stroke {}, {} rms", metres(d.stroke), metres(rms(d))));
     statistics();
     tables();
     if (feasible_) comparisons();
@@ -55,72 +55,9 @@ class Report {
   }
 
  private:
-  using Style = study::Plot::Style;
   using Verdict = study::Fact::Verdict;
   double rms(const SliderPathDesign& d) const {
     return std::sqrt(d.error / static_cast<double>(p_.x.size()));
-  }
-  bool with_start() const {
-    return !p_.free_timing && !p_.bounds[index(SliderParameter::start_angle)].fixed();
-  }
-
-  void solution(const SliderPathDesign& d, std::size_t number) {
-    constexpr std::array<std::string_view, slider_parameter_count> labels = {
-        "crank length",
-        "rod length",
-        "tracing point, distance from crank pin",
-        "tracing point, angle from rod",
-        "guide direction",
-        "offset of the guide",
-        "crank pivot x",
-        "crank pivot y",
-        "start angle"};
-    study::Solution out;
-    out.label = std::isnan(d.stroke) ? std::string(name_of(d.mechanism.branch))
-                                     : fmt::format("stroke {}, {} rms", metres(d.stroke), metres(rms(d)));
-    const auto values = parameter_values(p_, d);
-    for (std::size_t j = 0; j < slider_parameter_count; ++j) {
-      const auto parameter = SliderParameter(j);
-      if (parameter == SliderParameter::start_angle && !with_start()) continue;
-      const Range& range = p_.bounds[j];
-      double value = values[j];
-      if (is_angle(parameter)) {
-        const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
-        if (turned <= range.upper) value = turned;
-      }
-      out.parameters.push_back({std::string(name(parameter)) + (is_angle(parameter) ? "_rad" : "_m"),
-                                std::string(labels[j]), value, range.lower, range.upper});
-    }
-    // As the analysis of the same mechanism takes it.
-    const SliderCrankForm& f = d.mechanism.parameters;
-    out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
-    out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
-    const SliderPathErrors errors = path_errors(p_, d);
-    out.objectives["path_error_sum_sq_m2"] = d.error;
-    out.objectives["path_error_rms_m"] = rms(d);
-    out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
-    out.objectives["stroke_m"] = d.stroke;
-    const double size = f.crank + f.rod + std::abs(f.offset);
-    out.classification["branch"] = name_of(d.mechanism.branch);
-    out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
-    out.classification["crank_rotates_fully"] = rotation_margin(f) >= -tolerance::feasibility * size;
-    out.classification["rotation_margin_m"] = rotation_margin(f);
-    out.classification["max_pressure_angle_rad"] = greatest_pressure_angle(f);
-    out.classification["active_bounds"] = Value::array();
-    for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
-    out.defects = Value::array();
-    for (const auto& violation : d.violations)
-      out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
-    for (const Defect& defect : defects(p_, d))
-      out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
-    if (number <= most_drawn) {
-      out.scene = fmt::format("solution-{}", number);
-      result_.scenes.push_back(slider_path_scene(p_, d, out.scene, fmt::format("{}: {}", number, out.label),
-                                                 common_.output.samples));
-      out.study = motion_study("planar.slider_crank", study::write_fields(d.mechanism),
-                               shown_angles(d, common_.output.samples), d.angles);
-    }
-    result_.solutions.push_back(std::move(out));
   }
 
   // Of a front: the share of what the front of all seeds dominates that a seed misses. The worst of both
@@ -169,19 +106,7 @@ class Report {
   }
 
   void tables() {
-    for (std::size_t i = 0; i < std::min(designs_.size(), most_drawn); ++i) {
-      // The best design's tables have plain names, those of the others carry the number of the solution.
-      const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result_.solutions[i].scene;
-      result_.tables.push_back(slider_point_table(p_, designs_[i], "points" + suffix));
-      result_.tables.push_back(slider_motion_table(designs_[i], "motion" + suffix, common_.output.samples));
-      const study::AddPlot of_points{
-          result_,
-          {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
-          of_motion{result_, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
-      of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
-      of_motion("displacement" + suffix, "Displacement of the slider", {"slider_m"});
-      of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
-    }
+    add_slider_design_tables(result_, p_, designs_, common_.output.samples);
     if (s_.front && feasible_) front_table();
     result_.tables.push_back(path_seed_table(runs_, missing_));
     cognates();
@@ -208,7 +133,7 @@ class Report {
                                                  .table = "front",
                                                  .x = "stroke_m",
                                                  .y = {"path_error_sum_sq_m2"},
-                                                 .style = Style::points});
+                                                 .style = study::Plot::Style::points});
   }
 
   // The best mechanism and the other one with the same curve.
@@ -302,7 +227,7 @@ class Report {
                ? fmt::format("{}, down to {}", metres(best.stroke), metres(designs_.back().stroke))
                : metres(best.stroke));
       fact("greatest pressure angle", fmt::format("{:.1f}°", pressure),
-           pressure > steep ? Verdict::bad : Verdict::plain);
+           pressure > steep_pressure ? Verdict::bad : Verdict::plain);
     }
     fact("method", runs_.method);
     study::add_seed_facts(
@@ -310,10 +235,7 @@ class Report {
         runs_.answers.size());
     const study::AddWarning warn{result_.diagnostics};
     study::warn_of_missing_seeds(result_, runs_.answers.size(), common_.seeds);
-    if (pressure > steep)
-      warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
-                       pressure),
-           "limit it: [[constraint]] type = \"pressure_angle\", max_deg = 60");
+    warn_of_pressure(warn, pressure);
   }
 
   const SliderPathStudy& s_;
@@ -327,6 +249,92 @@ class Report {
 };
 
 }  // namespace
+
+void add_slider_solution(study::Result& result, const SliderPathProblem& p, const SliderPathDesign& d,
+                         const study::Common& common, std::string label) {
+  const std::size_t number = result.solutions.size() + 1;
+  const bool with_start = !p.free_timing && !p.bounds[index(SliderParameter::start_angle)].fixed();
+  const double rms = std::sqrt(d.error / static_cast<double>(p.x.size()));
+  constexpr std::array<std::string_view, slider_parameter_count> labels = {
+      "crank length",
+      "rod length",
+      "tracing point, distance from crank pin",
+      "tracing point, angle from rod",
+      "guide direction",
+      "offset of the guide",
+      "crank pivot x",
+      "crank pivot y",
+      "start angle"};
+  study::Solution out;
+  out.label = std::move(label);
+  const auto values = parameter_values(p, d);
+  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
+    const auto parameter = SliderParameter(j);
+    if (parameter == SliderParameter::start_angle && !with_start) continue;
+    const Range& range = p.bounds[j];
+    double value = values[j];
+    if (is_angle(parameter)) {
+      const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
+      if (turned <= range.upper) value = turned;
+    }
+    out.parameters.push_back({std::string(name(parameter)) + (is_angle(parameter) ? "_rad" : "_m"),
+                              std::string(labels[j]), value, range.lower, range.upper});
+  }
+  // As the analysis of the same mechanism takes it.
+  const SliderCrankForm& f = d.mechanism.parameters;
+  out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
+  out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
+  const SliderPathErrors errors = path_errors(p, d);
+  out.objectives["path_error_sum_sq_m2"] = d.error;
+  out.objectives["path_error_rms_m"] = rms;
+  out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
+  out.objectives["stroke_m"] = d.stroke;
+  const double size = f.crank + f.rod + std::abs(f.offset);
+  out.classification["branch"] = name_of(d.mechanism.branch);
+  out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
+  out.classification["crank_rotates_fully"] = rotation_margin(f) >= -tolerance::feasibility * size;
+  out.classification["rotation_margin_m"] = rotation_margin(f);
+  out.classification["max_pressure_angle_rad"] = greatest_pressure_angle(f);
+  out.classification["active_bounds"] = Value::array();
+  for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
+  out.defects = Value::array();
+  for (const auto& violation : d.violations)
+    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+  for (const Defect& defect : defects(p, d))
+    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+  if (number <= most_drawn_sliders) {
+    out.scene = fmt::format("solution-{}", number);
+    result.scenes.push_back(
+        slider_path_scene(p, d, out.scene, fmt::format("{}: {}", number, out.label), common.output.samples));
+    out.study = motion_study("planar.slider_crank", study::write_fields(d.mechanism),
+                             shown_angles(d, common.output.samples), d.angles);
+  }
+  result.solutions.push_back(std::move(out));
+}
+
+void add_slider_design_tables(study::Result& result, const SliderPathProblem& p,
+                              const std::vector<SliderPathDesign>& designs, int samples) {
+  using Style = study::Plot::Style;
+  for (std::size_t i = 0; i < std::min(designs.size(), most_drawn_sliders); ++i) {
+    // The best design's tables have plain names, those of the others carry the number of the solution.
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
+    result.tables.push_back(slider_point_table(p, designs[i], "points" + suffix));
+    result.tables.push_back(slider_motion_table(designs[i], "motion" + suffix, samples));
+    const study::AddPlot of_points{
+        result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
+        of_motion{result, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
+    of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
+    of_motion("displacement" + suffix, "Displacement of the slider", {"slider_m"});
+    of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
+  }
+}
+
+void warn_of_pressure(const study::AddWarning& warn, double degrees) {
+  if (degrees > steep_pressure)
+    warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
+                     degrees),
+         "limit it: [[constraint]] type = \"pressure_angle\", max_deg = 60");
+}
 
 study::Result report_slider_path(const SliderPathStudy& s, const study::Common& common,
                                  const SliderPathRuns& runs) {

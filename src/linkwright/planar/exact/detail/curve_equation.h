@@ -9,45 +9,102 @@ namespace linkwright::planar {
 /// where the linkage is real.
 enum FourBarUnknown { pin_x, pivot_a, pin_y, pivot_b, pin_X, pivot_A, pin_Y, pivot_B, four_bar_unknowns };
 
-/// The equation of its coupler curve at the point P0 + d, partner D: 0 where the curve passes it, of degree 3
-/// in d and in D. The coupler turns by e^(i gamma) with g = e^(i gamma) - 1, G its conjugate; each dyad says
-/// p g + q G = r, both together give g = gt / delta, G = ht / delta, and g + G + g G = 0 the equation
+/// A slider-crank likewise: the pin y is on the slider, whose guide has the normal n; nu = n over its
+/// conjugate.
+enum SliderCrankUnknown {
+  slider_x,
+  slider_a,
+  slider_y,
+  slider_X,
+  slider_A,
+  slider_Y,
+  guide_nu,
+  slider_crank_unknowns
+};
+
+/// Whether a body that two dyads lead can be at a point: 0 where it can. It turns by e^(i gamma) with
+/// g = e^(i gamma) - 1, G its conjugate; each dyad says p g + q G = r, both together give g = gt / delta,
+/// G = ht / delta, and g + G + g G = 0 the equation
 ///     gt ht + delta (gt + ht) = 0
 /// (own elimination after Wampler, Morgan and Sommese 1992). Any complex scalar C.
 template <class C>
-struct CurveEquation {
+struct TwoDyads {
   C p1, q1, r1, p2, q2, r2, gt, ht, delta, value;
 
-  LINKWRIGHT_KERNEL CurveEquation(const C* z, const C& d, const C& D)
-      : p1((z[pivot_A] - D) * z[pin_x]),
-        q1((z[pivot_a] - d) * z[pin_X]),
-        r1(d * D - d * (z[pivot_A] - z[pin_X]) - D * (z[pivot_a] - z[pin_x])),
-        p2((z[pivot_B] - D) * z[pin_y]),
-        q2((z[pivot_b] - d) * z[pin_Y]),
-        r2(d * D - d * (z[pivot_B] - z[pin_Y]) - D * (z[pivot_b] - z[pin_y])),
+  LINKWRIGHT_KERNEL TwoDyads(const C& p_1, const C& q_1, const C& r_1, const C& p_2, const C& q_2,
+                             const C& r_2)
+      : p1(p_1),
+        q1(q_1),
+        r1(r_1),
+        p2(p_2),
+        q2(q_2),
+        r2(r_2),
         gt(r1 * q2 - r2 * q1),
         ht(p1 * r2 - p2 * r1),
         delta(p1 * q2 - p2 * q1),
         value(gt * ht + delta * (gt + ht)) {}
 
+  /// Derivatives by the coefficients of the dyads.
+  struct Partials {
+    C p1, q1, r1, p2, q2, r2;
+  };
+  LINKWRIGHT_KERNEL Partials partials() const {
+    const C g = gt + delta, h = ht + delta, s = gt + ht;
+    return {r2 * g + q2 * s,    -(r2 * h + p2 * s), q2 * h - p2 * g,
+            -(r1 * g + q1 * s), r1 * h + p1 * s,    p1 * g - q1 * h};
+  }
+};
+
+/// The equation of a four-bar's coupler curve at the point P0 + d, partner D: of degree 3 in d and in D.
+template <class C>
+struct CurveEquation : TwoDyads<C> {
+  LINKWRIGHT_KERNEL CurveEquation(const C* z, const C& d, const C& D)
+      : TwoDyads<C>((z[pivot_A] - D) * z[pin_x], (z[pivot_a] - d) * z[pin_X],
+                    d * D - d * (z[pivot_A] - z[pin_X]) - D * (z[pivot_a] - z[pin_x]),
+                    (z[pivot_B] - D) * z[pin_y], (z[pivot_b] - d) * z[pin_Y],
+                    d * D - d * (z[pivot_B] - z[pin_Y]) - D * (z[pivot_b] - z[pin_y])) {}
+
   /// Derivatives by the eight unknowns and by d and D.
   LINKWRIGHT_KERNEL void gradient(const C* z, const C& d, const C& D, C* by_z, C& by_d, C& by_D) const {
-    const C g = gt + delta, h = ht + delta, s = gt + ht;
-    const C by_p1 = r2 * g + q2 * s, by_q1 = -(r2 * h + p2 * s), by_r1 = q2 * h - p2 * g;
-    const C by_p2 = -(r1 * g + q1 * s), by_q2 = r1 * h + p1 * s, by_r2 = p1 * g - q1 * h;
-    const C by_p1_x = by_p1 * z[pin_x], by_q1_X = by_q1 * z[pin_X];
-    const C by_p2_y = by_p2 * z[pin_y], by_q2_Y = by_q2 * z[pin_Y];
-    const C Dr1 = D * by_r1, dr1 = d * by_r1, Dr2 = D * by_r2, dr2 = d * by_r2;
-    by_z[pin_x] = by_p1 * (z[pivot_A] - D) + Dr1;
+    const auto by = this->partials();
+    const C by_p1_x = by.p1 * z[pin_x], by_q1_X = by.q1 * z[pin_X];
+    const C by_p2_y = by.p2 * z[pin_y], by_q2_Y = by.q2 * z[pin_Y];
+    const C Dr1 = D * by.r1, dr1 = d * by.r1, Dr2 = D * by.r2, dr2 = d * by.r2;
+    by_z[pin_x] = by.p1 * (z[pivot_A] - D) + Dr1;
     by_z[pivot_a] = by_q1_X - Dr1;
-    by_z[pin_X] = by_q1 * (z[pivot_a] - d) + dr1;
+    by_z[pin_X] = by.q1 * (z[pivot_a] - d) + dr1;
     by_z[pivot_A] = by_p1_x - dr1;
-    by_z[pin_y] = by_p2 * (z[pivot_B] - D) + Dr2;
+    by_z[pin_y] = by.p2 * (z[pivot_B] - D) + Dr2;
     by_z[pivot_b] = by_q2_Y - Dr2;
-    by_z[pin_Y] = by_q2 * (z[pivot_b] - d) + dr2;
+    by_z[pin_Y] = by.q2 * (z[pivot_b] - d) + dr2;
     by_z[pivot_B] = by_p2_y - dr2;
-    by_d = by_r1 * (D - z[pivot_A] + z[pin_X]) + by_r2 * (D - z[pivot_B] + z[pin_Y]) - by_q1_X - by_q2_Y;
-    by_D = by_r1 * (d - z[pivot_a] + z[pin_x]) + by_r2 * (d - z[pivot_b] + z[pin_y]) - by_p1_x - by_p2_y;
+    by_d = by.r1 * (D - z[pivot_A] + z[pin_X]) + by.r2 * (D - z[pivot_B] + z[pin_Y]) - by_q1_X - by_q2_Y;
+    by_D = by.r1 * (d - z[pivot_a] + z[pin_x]) + by.r2 * (d - z[pivot_b] + z[pin_y]) - by_p1_x - by_p2_y;
+  }
+};
+
+/// The same of a slider-crank's curve: of degree 4 in d and D together.
+template <class C>
+struct SliderCurveEquation : TwoDyads<C> {
+  LINKWRIGHT_KERNEL SliderCurveEquation(const C* z, const C& d, const C& D)
+      : TwoDyads<C>((z[slider_A] - D) * z[slider_x], (z[slider_a] - d) * z[slider_X],
+                    d * D - d * (z[slider_A] - z[slider_X]) - D * (z[slider_a] - z[slider_x]), z[slider_y],
+                    z[guide_nu] * z[slider_Y], -(d + z[guide_nu] * D)) {}
+
+  /// Derivatives by the seven unknowns and by d and D.
+  LINKWRIGHT_KERNEL void gradient(const C* z, const C& d, const C& D, C* by_z, C& by_d, C& by_D) const {
+    const auto by = this->partials();
+    const C by_p1_x = by.p1 * z[slider_x], by_q1_X = by.q1 * z[slider_X];
+    const C Dr1 = D * by.r1, dr1 = d * by.r1;
+    by_z[slider_x] = by.p1 * (z[slider_A] - D) + Dr1;
+    by_z[slider_a] = by_q1_X - Dr1;
+    by_z[slider_X] = by.q1 * (z[slider_a] - d) + dr1;
+    by_z[slider_A] = by_p1_x - dr1;
+    by_z[slider_y] = by.p2;
+    by_z[slider_Y] = by.q2 * z[guide_nu];
+    by_z[guide_nu] = by.q2 * z[slider_Y] - by.r2 * D;
+    by_d = by.r1 * (D - z[slider_A] + z[slider_X]) - by_q1_X - by.r2;
+    by_D = by.r1 * (d - z[slider_a] + z[slider_x]) - by_p1_x - by.r2 * z[guide_nu];
   }
 };
 

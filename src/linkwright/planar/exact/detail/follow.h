@@ -81,9 +81,16 @@ double polish_as_needed(const System& system, const SystemData<System>& p, Syste
   return left < 1e-16 ? left : length;
 }
 
+/// Small steps in doubles for what got lost or ran into another path, before more digits are taken.
+inline constexpr math::TrackerOptions small_steps = {
+    .predicted = 1e-4, .corrected = 1e-7, .most_steps = 2000};
 /// Follows again, with twice the digits and small steps, what got lost, from where each path starts.
 inline constexpr math::TrackerOptions careful = {
     .predicted = 1e-3, .corrected = 1e-9, .least_step = 1e-12, .most_steps = 3000};
+
+/// A path that stops this near to its end has come to it; one that ends at infinity has then left the size of
+/// the points (1) this far behind, growing with the root of the way that is left.
+inline constexpr double nearly_there = 1e-6, far_out = 100;
 
 /// The factors of places and of their conjugates that bring data to the mean square 1, turned so that the way
 /// from `base` is short: the two halves' products with it are positive.
@@ -106,6 +113,17 @@ Scaling scale_towards(const SystemData<System>& base, SystemData<System>& p) {
     for (std::size_t j = h * half; j < (h + 1) * half; ++j) p[j] = factor[h] * p[j];
   }
   return {factor[0], factor[1]};
+}
+
+/// A solution of data that are scaled.
+template <class System>
+void scale_solution(const Scaling& scaling, SystemPoint<System>& z) {
+  constexpr std::size_t n = System::places;
+  for (std::size_t i = 0; i < 2 * n; ++i) z[i] = (i < n ? scaling.place : scaling.partner) * z[i];
+  for (std::size_t i = 2 * n; i < z.size(); ++i) z[i] = scaling.place * math::inverse(scaling.partner) * z[i];
+}
+inline Scaling inverse(const Scaling& scaling) {
+  return {math::inverse(scaling.place), math::inverse(scaling.partner)};
 }
 
 }  // namespace linkwright::planar

@@ -24,15 +24,12 @@ using FollowKernels = KernelSet<void (*)(const FollowJob<System>&)>;
 template <class System>
 FollowKernels<System> follow_kernels();
 
-void follow_baseline(const FollowJob<NinePoints>& job);
-void follow_baseline(const FollowJob<NinePointsTrace>& job);
-void follow_baseline(const FollowJob<FivePointsTwoPivots>& job);
-void follow_avx2(const FollowJob<NinePoints>& job);
-void follow_avx2(const FollowJob<NinePointsTrace>& job);
-void follow_avx2(const FollowJob<FivePointsTwoPivots>& job);
-void follow_avx512(const FollowJob<NinePoints>& job);
-void follow_avx512(const FollowJob<NinePointsTrace>& job);
-void follow_avx512(const FollowJob<FivePointsTwoPivots>& job);
+#define LINKWRIGHT_DECLARE_FOLLOW(System)             \
+  void follow_baseline(const FollowJob<System>& job); \
+  void follow_avx2(const FollowJob<System>& job);     \
+  void follow_avx512(const FollowJob<System>& job);
+LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_DECLARE_FOLLOW)
+#undef LINKWRIGHT_DECLARE_FOLLOW
 
 template <class Batch, class System>
 LINKWRIGHT_KERNEL void follow_by(const FollowJob<System>& job) {

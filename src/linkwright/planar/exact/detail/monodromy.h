@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -38,11 +39,16 @@ class Identities {
   int count_ = 0;
 };
 
-/// Finds solutions by monodromy: from one four-bar, made together with its points, around closed ways through
+/// Finds solutions by monodromy: from one linkage, made together with its points, around closed ways through
 /// random data, which permute the solutions, until `expected` are known and one more way brings no other.
 /// Nothing but the seed goes in.
 template <class System>
 StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContext& context,
                              std::string_view stage = {});
+
+/// The start set of a system, found at its first use and kept: a second at most. Its status says that it was
+/// interrupted.
+template <class System>
+std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context);
 
 }  // namespace linkwright::planar

@@ -8,8 +8,9 @@
 #include "linkwright/math/complex.h"
 #include "linkwright/planar/exact/detail/curve_equation.h"
 
-/// The systems of equations of exact path synthesis, as math/path_tracker.h takes them. The first half of the
-/// unknowns and of the data are places, the second half their conjugates, in the same order.
+/// The systems of equations of exact path synthesis, as math/path_tracker.h takes them. Of the unknowns the
+/// first `places` are places, so many after them their conjugates in the same order, what is left the square
+/// of a direction; of the data the first half are places, the second half their conjugates.
 namespace linkwright::planar {
 
 using ComplexNumber = math::Complex<double>;
@@ -77,8 +78,10 @@ LINKWRIGHT_KERNEL C from_double(const ComplexNumber& value) {
 
 /// The curve passes eight points beside the first. Data: d_1..d_8, D_1..D_8.
 struct NinePoints {
-  static constexpr std::size_t unknowns = four_bar_unknowns, others = 8, data = 2 * others;
+  static constexpr std::size_t others = 8, data = 2 * others;
+  static constexpr std::size_t places = 4, unknowns = 2 * places;
   static constexpr double largest_chart = 20;
+  using Bars = ComplexFourBar<>;
 
   template <class C>
   LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
@@ -178,11 +181,26 @@ struct NinePointsTrace {
   }
 };
 
-/// The curve of a four-bar with given fixed pivots passes four points beside the first. Unknowns: x, y, X, Y;
-/// data: d_1..d_4, a, b, D_1..D_4, A, B.
-struct FivePointsTwoPivots {
-  static constexpr std::size_t unknowns = 4, others = 4, half = others + 2, data = 2 * half;
+/// A number that tells solutions apart: a random linear form of the unknowns.
+template <std::size_t n>
+ComplexNumber form_of_unknowns(const std::array<ComplexNumber, n>& z) {
+  const RandomForms& forms = random_forms();
+  static_assert(n <= 2 * RandomForms::count);
+  ComplexNumber sum;
+  for (std::size_t i = 0; i < n; ++i)
+    sum = sum + (i < RandomForms::count ? forms.above[i] : forms.below[i - RandomForms::count]) * z[i];
+  return sum;
+}
+
+/// The curve of a four-bar with `given` fixed pivots, 1 (the crank's) or 2, passes 8 - 2 `given` points
+/// beside the first. Unknowns: x, y, b unless it is given, X, Y, B; data: d_1.., a, b if it is given, D_1..,
+/// A, B.
+template <std::size_t given>
+struct PointsAndPivots {
+  static constexpr std::size_t others = 8 - 2 * given, half = others + given, data = 2 * half;
+  static constexpr std::size_t places = 4 - given, unknowns = 2 * places;
   static constexpr double largest_chart = 1e150;  // there is but one
+  using Bars = ComplexFourBar<>;
 
   template <class C>
   LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
@@ -198,11 +216,14 @@ struct FivePointsTwoPivots {
       const CurveEquation<C> curve(four_bar, p[j], p[half + j]);
       curve.gradient(four_bar, p[j], p[half + j], by_z, by_d, by_D);
       values[j] = curve.value;
-      jacobian[j][0] = by_z[pin_x], jacobian[j][1] = by_z[pin_y];
-      jacobian[j][2] = by_z[pin_X], jacobian[j][3] = by_z[pin_Y];
-      values_rate[j] = by_d * rate[j] + by_D * rate[half + j] + by_z[pivot_a] * rate[others] +
-                       by_z[pivot_b] * rate[others + 1] + by_z[pivot_A] * rate[half + others] +
-                       by_z[pivot_B] * rate[half + others + 1];
+      for (std::size_t i = 0; i < places; ++i) {
+        jacobian[j][i] = by_z[unknown[i]];
+        jacobian[j][places + i] = by_z[unknown[i] + pin_X];
+      }
+      C sum = by_d * rate[j] + by_D * rate[half + j];
+      for (std::size_t k = 0; k < given; ++k) sum = sum + by_z[pivot[k]] * rate[others + k];
+      for (std::size_t k = 0; k < given; ++k) sum = sum + by_z[pivot[k] + pin_X] * rate[half + others + k];
+      values_rate[j] = sum;
     }
   }
   template <class T>
@@ -213,20 +234,77 @@ struct FivePointsTwoPivots {
   /// The four-bar of a solution and its data.
   template <class C>
   LINKWRIGHT_KERNEL static void fill(C* four_bar, const C* z, const C* p) {
-    four_bar[pin_x] = z[0], four_bar[pin_y] = z[1], four_bar[pin_X] = z[2], four_bar[pin_Y] = z[3];
-    four_bar[pivot_a] = p[others], four_bar[pivot_b] = p[others + 1];
-    four_bar[pivot_A] = p[half + others], four_bar[pivot_B] = p[half + others + 1];
+    for (std::size_t i = 0; i < places; ++i)
+      four_bar[unknown[i]] = z[i], four_bar[unknown[i] + pin_X] = z[places + i];
+    for (std::size_t k = 0; k < given; ++k)
+      four_bar[pivot[k]] = p[others + k], four_bar[pivot[k] + pin_X] = p[half + others + k];
   }
-  static void put(const ComplexFourBar<>& four_bar, const ComplexNumber* d, const ComplexNumber* D,
-                  SystemData<FivePointsTwoPivots>& p, SystemPoint<FivePointsTwoPivots>& z) {
-    z = {four_bar[pin_x], four_bar[pin_y], four_bar[pin_X], four_bar[pin_Y]};
+  static void put(const Bars& four_bar, const ComplexNumber* d, const ComplexNumber* D,
+                  SystemData<PointsAndPivots>& p, SystemPoint<PointsAndPivots>& z) {
+    for (std::size_t i = 0; i < places; ++i)
+      z[i] = four_bar[unknown[i]], z[places + i] = four_bar[unknown[i] + pin_X];
     for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[half + j] = D[j];
-    p[others] = four_bar[pivot_a], p[others + 1] = four_bar[pivot_b];
-    p[half + others] = four_bar[pivot_A], p[half + others + 1] = four_bar[pivot_B];
+    for (std::size_t k = 0; k < given; ++k)
+      p[others + k] = four_bar[pivot[k]], p[half + others + k] = four_bar[pivot[k] + pin_X];
   }
-  static ComplexNumber identity(const SystemPoint<FivePointsTwoPivots>& z);
-  static void settle(SystemPoint<FivePointsTwoPivots>&) {}
+  static ComplexNumber identity(const SystemPoint<PointsAndPivots>& z) { return form_of_unknowns(z); }
+  static void settle(SystemPoint<PointsAndPivots>&) {}
+
+ private:
+  static constexpr FourBarUnknown unknown[] = {pin_x, pin_y, pivot_b}, pivot[] = {pivot_a, pivot_b};
 };
+using FivePointsTwoPivots = PointsAndPivots<2>;
+using SevenPointsOnePivot = PointsAndPivots<1>;
+
+/// The curve of a slider-crank passes seven points beside the first. Unknowns as in SliderCrankUnknown; data:
+/// d_1..d_7, D_1..D_7.
+struct SliderEightPoints {
+  static constexpr std::size_t others = 7, data = 2 * others;
+  static constexpr std::size_t places = 3, unknowns = slider_crank_unknowns;
+  static constexpr double largest_chart = 1e150;  // there is but one
+  using Bars = std::array<ComplexNumber, unknowns>;
+
+  template <class C>
+  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
+    C unused[unknowns];
+    evaluate(z, p, p, values, jacobian, unused);
+  }
+  template <class C>
+  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, const C* rate, C* values, C (*jacobian)[unknowns],
+                                  C* values_rate) const {
+    C by_d, by_D;
+    for (std::size_t j = 0; j < others; ++j) {
+      const SliderCurveEquation<C> curve(z, p[j], p[others + j]);
+      values[j] = curve.value;
+      curve.gradient(z, p[j], p[others + j], jacobian[j], by_d, by_D);
+      values_rate[j] = by_d * rate[j] + by_D * rate[others + j];
+    }
+  }
+  template <class T>
+  LINKWRIGHT_KERNEL bool better_chart(std::array<math::Complex<T>, unknowns>&) const {
+    return false;
+  }
+
+  static void put(const Bars& slider_crank, const ComplexNumber* d, const ComplexNumber* D,
+                  SystemData<SliderEightPoints>& p, SystemPoint<SliderEightPoints>& z) {
+    z = slider_crank;
+    for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[others + j] = D[j];
+  }
+  static ComplexNumber identity(const SystemPoint<SliderEightPoints>& z) { return form_of_unknowns(z); }
+  static void settle(SystemPoint<SliderEightPoints>&) {}
+};
+
+/// One thing for each system.
+#define LINKWRIGHT_FOR_EACH_PATH_SYSTEM(make)                                                \
+  make(NinePoints) make(NinePointsTrace) make(FivePointsTwoPivots) make(SevenPointsOnePivot) \
+      make(SliderEightPoints)
+
+/// e^(i gamma) of the turn of a real body at a point that its dyads allow.
+inline std::complex<double> real_turn(const TwoDyads<ComplexNumber>& dyads) {
+  // 1 + gt / delta without the division
+  const std::complex<double> turn = standard_complex((dyads.gt + dyads.delta) * math::conj(dyads.delta));
+  return turn / std::abs(turn);
+}
 
 /// A complex number whose parts are normal with a mean square of 1/2.
 ComplexNumber random_complex(RandomStream& stream);

@@ -1,4 +1,4 @@
-#include "linkwright/planar/exact/five_points.h"
+#include "linkwright/planar/exact/given_pivots.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<std::complex<double>>;
 
-FivePointSolutions solve(const Points& points, const Points& pivots, int threads = 1) {
+FourBarSolutions solve(const Points& points, const Points& pivots, int threads = 1) {
   RunContext context;
   context.set_threads(threads);
   return solve_five_points(std::span(points).first<5>(), {pivots[0], pivots[1]}, context);
@@ -127,6 +127,61 @@ TEST(FivePoints, FindTheLinkageThatDrewThePoints) {
   ASSERT_FALSE(designs.empty());
   EXPECT_TRUE(designs[0].defects.empty());
   EXPECT_LT(designs[0].design.error, 1e-20);
+}
+
+// Two of the three cognates of a curve have a crank at the pivot.
+TEST(SevenPoints, FourHundredAndEightySixSolutionsOfEachRandomTarget) {
+  RandomStream random({.seed = 17});
+  for (int trial = 0; trial < 12; ++trial) {
+    const Points points = random_points(random, 7);
+    const std::complex<double> pivot = random_points(random, 1)[0];
+    RunContext context;
+    const auto found = solve_seven_points(std::span(points).first<7>(), pivot, context);
+    EXPECT_EQ(found.status, Status::done) << trial;
+    EXPECT_EQ(found.finite, 486) << trial;
+    EXPECT_EQ(found.real.size() % 2, 0U) << trial;
+    const PathProblem problem = test::exact_problem(points);
+    for (const ExactDesign& design : exact_designs(problem, found)) {
+      EXPECT_LT(farthest_miss(problem, design.design), 1e-6) << trial;
+      EXPECT_LT(std::abs(crank_pivot(design.design.linkage) - pivot), 1e-12);
+    }
+    for (const TracingFourBar& bars : found.real) {
+      // The cognate: its crank is parallel to the coupler's side at the crank pin.
+      const std::complex<double> pin = bars.crank_pivot + points[0] - bars.crank_pin;
+      EXPECT_TRUE(std::any_of(found.real.begin(), found.real.end(), [&](const TracingFourBar& other) {
+        return std::abs(other.crank_pin - pin) < 1e-6 * (1 + std::abs(pin));
+      })) << trial;
+    }
+  }
+}
+
+TEST(SevenPoints, FindTheLinkageThatDrewThePoints) {
+  const FourBar linkage{.ground = 1,
+                        .crank = 0.4,
+                        .coupler = 0.9,
+                        .rocker = 0.8,
+                        .coupler_u = 0.5,
+                        .coupler_v = 0.6,
+                        .pivot_x = 0.2,
+                        .pivot_y = -0.3,
+                        .frame_angle = 0.4};
+  Points points;
+  for (const double angle : {0.3, 0.9, 1.4, 2.1, 3.0, 4.2, 5.3})
+    points.push_back(position(linkage, angle).coupler_point);
+  RunContext context;
+  context.set_threads(2);
+  const auto found = solve_seven_points(std::span(points).first<7>(), crank_pivot(linkage), context);
+  const FourBarPosition first = position(linkage, 0.3);
+  EXPECT_TRUE(std::any_of(found.real.begin(), found.real.end(), [&](const TracingFourBar& bars) {
+    return std::abs(bars.crank_pin - first.crank_pin) < 1e-8 &&
+           std::abs(bars.rocker_pin - first.coupler_pin) < 1e-8 &&
+           std::abs(bars.rocker_pivot - rocker_pivot(linkage)) < 1e-8;
+  }));
+  const auto designs = exact_designs(test::exact_problem(points), found);
+  ASSERT_FALSE(designs.empty());
+  EXPECT_TRUE(designs[0].defects.empty());
+  EXPECT_LT(designs[0].design.error, 1e-20);
+  EXPECT_THROW(solve_seven_points(std::span(points).first<7>(), {nan, 0}, context), ContractError);
 }
 
 TEST(FivePoints, ACancelledRunSaysSo) {
