@@ -22,6 +22,7 @@
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/exact/given_pivots.h"
+#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/exact/nine_points.h"
 #include "linkwright/planar/exact/slider_designs.h"
 #include "linkwright/planar/exact/slider_points.h"

@@ -34,6 +34,12 @@ TEST(Angles, WrapAgreesWithTheExactRemainderAndIsIdempotent) {
   }
 }
 
+TEST(Angles, IntoARangeByWholeTurns) {
+  EXPECT_NEAR(into_range(-0.5, 0, 2 * pi), 2 * pi - 0.5, 1e-15);
+  EXPECT_NEAR(into_range(7.5, 1, 2), 7.5 - 2 * pi, 1e-15);
+  EXPECT_EQ(into_range(3.0, 1, 2), 3.0);
+}
+
 TEST(Angles, DifferenceTakesTheShortWay) {
   EXPECT_NEAR(angle_difference(radians(-170), radians(170)), radians(20), 1e-15);
   EXPECT_NEAR(angle_difference(radians(170), radians(-170)), radians(-20), 1e-15);

@@ -15,6 +15,11 @@ double wrap_angle(double angle) {
   return wrapped <= -pi ? pi : wrapped;
 }
 
+double into_range(double angle, double lower, double upper) {
+  const double turned = angle - 2 * pi * std::floor((angle - lower) / (2 * pi));
+  return turned <= upper ? turned : angle;
+}
+
 double angle_difference(double to, double from) { return wrap_angle(to - from); }
 
 void unwrap_angles(std::span<double> angles) {

@@ -101,6 +101,10 @@ TEST(PathSystems, DerivativesAreThoseOfDifferences) {
   expect_derivatives(FivePointsTwoPivots());
   expect_derivatives(SevenPointsOnePivot());
   expect_derivatives(SliderEightPoints());
+  for (std::size_t poses = 1; poses <= 3; ++poses) {
+    expect_derivatives(FourBarPoses{.poses = poses});
+    expect_derivatives(SliderPoses{.poses = poses});
+  }
   RandomStream random({.seed = 11});
   NinePointsTrace::Form form;
   for (std::size_t m = 0; m < NinePointsTrace::forms; ++m)

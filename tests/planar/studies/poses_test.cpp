@@ -116,8 +116,16 @@ std::string one_point(double x, double y) {
 
 TEST(PoseStudyRead, SaysWhatMayBeMixed) {
   const std::string exact = "exact = true\n";
-  EXPECT_THAT(problems_of(pose_study("fit = \"exact\"\n" + some_poses(3) + one_point(300, 300))),
-              HasSubstr("points, weights and poses that are marked exact are for least_squares"));
+  const std::string fit = "fit = \"exact\"\n";
+  EXPECT_THAT(
+      problems_of(pose_study(fit + some_poses(3) + one_point(300, 300))),
+      HasSubstr("3 poses and 1 point are met exactly by infinitely many linkages; four-bars take 4 poses and "
+                "2 points, 3 and 4, or 2 and 6; slider-cranks 4 and 1, 3 and 3, or 2 and 5"));
+  EXPECT_THAT(problems_of(pose_study(fit + some_poses(4) + one_point(310, 300) + one_point(420, 410) +
+                                     one_point(520, 590))),
+              HasSubstr("4 poses and 3 points are met exactly by no linkage of two dyads"));
+  EXPECT_THAT(problems_of(pose_study(fit + some_poses(4) + one_point(400, 330) + "weight = 2\n")),
+              HasSubstr("weights and poses that are marked exact are for least_squares"));
   EXPECT_THAT(problems_of(pose_study(some_poses(1) + one_point(100, 30) + one_point(200, 90) +
                                      one_point(300, 200) + one_point(350, 250))),
               HasSubstr("1 of 5 poses have an angle, a motion needs 2 at least; points alone are a path"));
@@ -129,6 +137,35 @@ TEST(PoseStudyRead, SaysWhatMayBeMixed) {
   for (int k = 0; k < 5; ++k) five += one_pose(100 * k, 20 * k * k, 10 * k + k * k) + exact;
   EXPECT_THAT(problems_of(pose_study(five + one_pose(500, 520, 80))),
               HasSubstr("5 poses are to be met exactly beside others, at most 4 can be"));
+}
+
+// Poses and points of a four-bar with ground 1, crank 0.4, coupler 0.9, rocker 0.8 m, by a program of a few
+// lines.
+TEST(PoseStudy, PosesAndPointsThatLeaveNothingToChooseHaveAllFourBars) {
+  std::string target;
+  target += one_pose(88.510355310, 617.804564991, 72.112861104);
+  target += one_point(109.662008130, 803.766243012);
+  target += one_point(35.582357299, 865.774056794);
+  target += one_pose(-87.259118650, 829.171001292, 47.371120820);
+  target += one_point(-211.667728704, 715.069645317);
+  target += one_point(-308.071889076, 548.622886238);
+  target += one_pose(-365.798102710, 358.001142644, 53.060665722);
+  const study::Result result = run_text(pose_study("fit = \"exact\"\n" + target));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_EQ(result.statistics.find("solutions")->as_number(), 201);
+  EXPECT_THAT(result.facts[0].text, HasSubstr("3 poses and 4 points, met exactly"));
+  EXPECT_THAT(result.facts[1].text, HasSubstr("real of 201"));
+  const auto has = [](const study::Solution& s, const char* key, double value) {
+    return std::any_of(s.parameters.begin(), s.parameters.end(), [&](const study::Parameter& p) {
+      return p.key == key && std::abs(p.value - value) < 1e-6;
+    });
+  };
+  EXPECT_TRUE(std::any_of(result.solutions.begin(), result.solutions.end(), [&](const study::Solution& s) {
+    return has(s, "drive_length_m", 0.4) && has(s, "guide_length_m", 0.8);
+  }));
+  const Table* poses = result.table("poses");
+  ASSERT_TRUE(poses);
+  for (const double distance : poses->find("distance_m")->values) EXPECT_EQ(distance, 0);
 }
 
 TEST(PoseStudy, MixesExactPosesOthersAndPoints) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -87,12 +88,24 @@ class Finder {
       exact();
     else
       near();
+    return sorted();
+  }
+
+  PoseAnswer of_pairs(std::span<const GuidedPair> pairs) {
+    out_.pairs = static_cast<int>(pairs.size());
+    for (const GuidedPair& pair : pairs)
+      if (wanted(p_, pair.first) && wanted(p_, pair.second)) both(pair.first, pair.second, pair.poses, 0);
+    out_.status = context_.interruption();
+    return sorted();
+  }
+
+ private:
+  PoseAnswer sorted() {
     std::stable_sort(out_.designs.begin(), out_.designs.end(), better);
     thin();
     return std::move(out_);
   }
 
- private:
   void exact() {
     std::array<std::vector<GuidingDyad>, 2> families;
     const bool alike = poses_replaced(p_.pivots[0]) == 0 && poses_replaced(p_.pivots[1]) == 0;
@@ -183,7 +196,7 @@ class Finder {
       design.link_ratio = link_ratio(a, b);
       design.reached = reached;
       if (p_.exact) {
-        for (const BodyPose& pose : p_.poses)
+        for (const BodyPose& pose : reached)
           design.distance = std::max({design.distance, std::abs(gap(a, pose)), std::abs(gap(b, pose))});
       } else {
         for (std::size_t k = 0; k < reached.size(); ++k) {
@@ -244,6 +257,11 @@ PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context) {
                                    [](const PoseDemand& d) { return d.exact; }) <= most_exact_demands,
                      "more than {} poses are to be met exactly", most_exact_demands);
   return Finder(problem, context).find();
+}
+
+PoseAnswer pose_designs_of(const PoseProblem& problem, std::span<const GuidedPair> pairs,
+                           RunContext& context) {
+  return Finder(problem, context).of_pairs(pairs);
 }
 
 }  // namespace linkwright::planar

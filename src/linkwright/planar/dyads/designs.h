@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "linkwright/core/run_context.h"
@@ -38,6 +39,12 @@ struct PoseDesign {
   double link_ratio = 0;  ///< longest over shortest of links, ground and body, of RR and RR
 };
 
+/// Two dyads that hold a body in all of its poses.
+struct GuidedPair {
+  GuidingDyad first, second;
+  std::vector<BodyPose> poses;
+};
+
 struct PoseAnswer {
   Status status = Status::done;  ///< deadline and cancelled: of what was looked at by then
   std::vector<PoseDesign>
@@ -46,6 +53,7 @@ struct PoseAnswer {
   int solutions = 0;               ///< dyads, complex ones included; 0 where they are swept
   bool dependent = false;  ///< poses and prescriptions depend on each other: infinitely many dyads fit
   bool swept = false;
+  int pairs = -1;  ///< real pairs of dyads of poses mixed with points, then of so many `solutions`; else -1
   int tried = 0, free = 0;         ///< linkages with a drive, and those without defect
   std::array<int, 4> defects{};    ///< of the tried, by PoseDefect
   std::array<double, 8> misfit{};  ///< of fit_dyads (not exact)
@@ -59,5 +67,9 @@ struct PoseAnswer {
 /// Throws ContractError where `freedoms` are not 0 to 2; for fewer than five poses that are not met exactly;
 /// for more than four demands to be exact, or another number of demands than poses.
 PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context);
+
+/// The linkages of pairs that are known to solve an exact problem, with either dyad driven.
+PoseAnswer pose_designs_of(const PoseProblem& problem, std::span<const GuidedPair> pairs,
+                           RunContext& context);
 
 }  // namespace linkwright::planar

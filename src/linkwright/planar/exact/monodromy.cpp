@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -46,7 +47,8 @@ std::array<DyadAtPoint, 2> dyads_of(const SliderEightPoints::Bars& z, const std:
 // The point of the coupler curve of a complex linkage when its coupler has turned by `rotation`: the first
 // dyad's equation and a linear one, the second or its difference from the first.
 template <class Bars>
-void complex_curve_point(const Bars& z, std::complex<double> rotation, ComplexNumber& d, ComplexNumber& D) {
+void complex_curve_point(const Bars& z, const std::complex<double>& rotation, ComplexNumber& d,
+                         ComplexNumber& D) {
   const std::complex<double> g = rotation - 1.0, G = 1.0 / rotation - 1.0;
   const std::array<DyadAtPoint, 2> dyad = dyads_of(z, g, G);
   const double s = dyad[1].s;
@@ -61,23 +63,26 @@ void complex_curve_point(const Bars& z, std::complex<double> rotation, ComplexNu
 // A linkage with points of its curve, from which paths start well: among some, the one whose equations are
 // the farthest from singular.
 template <class System>
-void first_solution(RandomStream& stream, SystemData<System>& data, SystemPoint<System>& point) {
+void first_solution(const System& system, RandomStream& stream, SystemData<System>& data,
+                    SystemPoint<System>& point) {
   double best = infinity;
   for (int trial = 0; trial < first_mechanisms; ++trial) {
     typename System::Bars bars;
     for (ComplexNumber& value : bars) value = random_complex(stream);
-    std::array<ComplexNumber, System::others> d, D;
-    for (std::size_t j = 0; j < System::others; ++j)
-      complex_curve_point(bars, std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi)), d[j],
-                          D[j]);
+    std::array<ComplexNumber, System::others> d, D, turns;
+    for (std::size_t j = 0; j < System::others; ++j) {
+      const auto rotation = std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi));
+      complex_curve_point(bars, rotation, d[j], D[j]);
+      turns[j] = complex_number(rotation);
+    }
     SystemData<System> p;
     SystemPoint<System> z;
-    System::put(bars, d.data(), D.data(), p, z);
+    System::put(bars, d.data(), D.data(), turns.data(), p, z);
     double worst = 0;
     for (int side = 0; side < 3; ++side) {
       ComplexNumber values[System::unknowns], right[1][System::unknowns];
       math::tracker::Lu<double, System::unknowns> lu;
-      System().evaluate(z.data(), p.data(), values, lu.a);
+      system.evaluate(z.data(), p.data(), values, lu.a);
       for (ComplexNumber& value : right[0]) value = random_complex(stream);
       lu.solve(right);
       worst = std::max(worst, math::tracker::size(right[0]));
@@ -117,14 +122,13 @@ void Identities::add(const ComplexNumber& identity) {
 
 template <class System>
 StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContext& context,
-                             std::string_view stage) {
+                             std::string_view stage, const System& system) {
   RandomStream stream({.seed = seed, .run = System::data});
-  const System system;
   const math::TrackerOptions options;
   StartSet<System> out;
   Paths<System> known(1);
   SystemData<System> first;
-  first_solution<System>(stream, first, known[0].z);
+  first_solution<System>(system, stream, first, known[0].z);
   out.base = random_data<System>(stream);
   scale_solution<System>(scale_towards<System>(out.base, first), known[0].z);
   known = follow(system, first, out.base, known, options, context);
@@ -177,23 +181,32 @@ StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContex
 }
 
 template <class System>
-std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context) {
+std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context,
+                                                    const System& system) {
   static std::mutex one_at_a_time;
-  static std::shared_ptr<const StartSet<System>> kept;
+  static std::map<std::size_t, std::shared_ptr<const StartSet<System>>> kept;
   const std::lock_guard lock(one_at_a_time);
-  if (kept) return kept;
-  auto found = std::make_shared<StartSet<System>>(find_starts<System>(first_seed, expected, context));
-  if (found->status == Status::done) kept = found;
+  auto& known = kept[expected];
+  if (known) return known;
+  auto found = std::make_shared<StartSet<System>>(
+      find_starts<System>(first_seed, expected, context, "start set", system));
+  if (found->status == Status::done) known = found;
   return found;
 }
 
-template StartSet<NinePoints> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view);
-#define LINKWRIGHT_STARTS(System)                                                                   \
-  template StartSet<System> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view); \
-  template std::shared_ptr<const StartSet<System>> kept_starts(std::size_t, RunContext&);
+#define LINKWRIGHT_FIND_STARTS(System)                                                             \
+  template StartSet<System> find_starts(std::uint64_t, std::size_t, RunContext&, std::string_view, \
+                                        const System&);
+#define LINKWRIGHT_STARTS(System) \
+  LINKWRIGHT_FIND_STARTS(System)  \
+  template std::shared_ptr<const StartSet<System>> kept_starts(std::size_t, RunContext&, const System&);
+LINKWRIGHT_FIND_STARTS(NinePoints)
 LINKWRIGHT_STARTS(FivePointsTwoPivots)
 LINKWRIGHT_STARTS(SevenPointsOnePivot)
 LINKWRIGHT_STARTS(SliderEightPoints)
+LINKWRIGHT_STARTS(FourBarPoses)
+LINKWRIGHT_STARTS(SliderPoses)
 #undef LINKWRIGHT_STARTS
+#undef LINKWRIGHT_FIND_STARTS
 
 }  // namespace linkwright::planar

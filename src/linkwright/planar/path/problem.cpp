@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/objective.h"
 #include "linkwright/planar/path/targets.h"
@@ -23,12 +24,6 @@ bool is_angle(std::size_t parameter) { return parameter >= index(FourBarParamete
 std::array<double, four_bar_parameter_count> parameters(const FourBar& l, double start) {
   return {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
           l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, start};
-}
-
-// An angle inside its range by whole turns, if it can be.
-double into_range(double angle, const Range& range) {
-  const double turned = angle - 2 * pi * std::floor((angle - range.lower) / (2 * pi));
-  return turned <= range.upper ? turned : angle;
 }
 
 void add_violation(PathDesign& design, const char* reason, double amount) {
@@ -182,7 +177,7 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
   const std::size_t count = problem.timing == Timing::equal_steps ? four_bar_parameter_count : start_index;
   for (std::size_t j = 0; j < count; ++j) {
     const Range& range = problem.bounds[j];
-    const double value = is_angle(j) ? into_range(values[j], range) : values[j];
+    const double value = is_angle(j) ? math::into_range(values[j], range.lower, range.upper) : values[j];
     const double width = range.fixed() ? std::max(1.0, std::abs(range.lower)) : range.upper - range.lower;
     out_of_bounds = std::max({out_of_bounds, (range.lower - value) / width, (value - range.upper) / width});
     const double near = tolerance::active_bound * width;

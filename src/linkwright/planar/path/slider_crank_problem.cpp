@@ -20,12 +20,6 @@ using P = SliderParameter;
 
 bool is_link(std::size_t j) { return j == index(P::crank) || j == index(P::rod); }
 
-// An angle inside its range by whole turns, if it can be.
-double into_range(double angle, const Range& range) {
-  const double turned = angle - 2 * pi * std::floor((angle - range.lower) / (2 * pi));
-  return turned <= range.upper ? turned : angle;
-}
-
 void add_violation(SliderPathDesign& design, const char* reason, double amount) {
   if (amount > tolerance::feasibility || std::isnan(amount)) design.violations.push_back({reason, amount});
 }
@@ -210,7 +204,7 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
     if (problem.free_timing && P(j) == P::start_angle) continue;
     if (P(j) == P::point_angle && values[index(P::point_distance)] == 0) continue;
     const Range& range = problem.bounds[j];
-    double value = is_angle(P(j)) ? into_range(values[j], range) : values[j];
+    double value = is_angle(P(j)) ? math::into_range(values[j], range.lower, range.upper) : values[j];
     // A fixed angle is met from both sides.
     if (is_angle(P(j)) && range.fixed()) value = range.lower + math::wrap_angle(values[j] - range.lower);
     const double width = range.fixed() ? std::max(1.0, std::abs(range.lower)) : range.upper - range.lower;

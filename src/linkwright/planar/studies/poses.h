@@ -27,8 +27,7 @@ void fields(Visitor&& visit, PoseForm& p) {
       Field{.key = "y", .summary = "origin of the body, y", .dimension = Dimension::length, .required = true},
       p.y);
   visit(Field{.key = "angle",
-              .summary = "rotation of the body; left out: a point that its origin passes at any rotation "
-                         "(least_squares)",
+              .summary = "rotation of the body; left out: a point that its origin passes at any rotation",
               .dimension = Dimension::angle},
         p.angle);
   visit(Field{.key = "weight",
@@ -95,7 +94,9 @@ constexpr std::array<EnumName<PoseFitting>, 3> names(PoseFitting) {
   return {
       {{PoseFitting::automatic, "automatic",
         "exactly up to five poses; more, or with points or poses that are marked exact, by least squares"},
-       {PoseFitting::exact, "exact", "every pose is met: two to five poses"},
+       {PoseFitting::exact, "exact",
+        "every pose is met: two to five poses; or, by four-bars, 4 poses and 2 points, 3 and 4, 2 and 6, by "
+        "slider-cranks 4 and 1, 3 and 3, 2 and 5"},
        {PoseFitting::least_squares, "least_squares", "as near as can be: five poses and more"}}};
 }
 

@@ -13,6 +13,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/quantity_columns.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/beside.h"
@@ -199,15 +200,51 @@ void set_pivots(study::ObjectReader& mechanism, PoseStudy& s) {
   }
 }
 
+bool allows(const PoseStudy& s, GuidingDyadType type) {
+  return std::find(s.mechanism.dyads.begin(), s.mechanism.dyads.end(), type) != s.mechanism.dyads.end();
+}
+
+// Whether poses and points together leave nothing to choose of a four-bar or of a slider-crank.
+void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
+  const std::vector<PoseDemand>& demands = s.problem.demands;
+  if (std::any_of(demands.begin(), demands.end(),
+                  [](const PoseDemand& d) { return d.exact || d.weight != 1; }))
+    return target.error("fit", "weights and poses that are marked exact are for least_squares",
+                        "write fit = \"least_squares\", or leave weight and exact out");
+  if (given > 0)
+    return target.error("fit", "pivots are prescribed for poses alone, not with points among them",
+                        "give every pose its angle, or remove [[mechanism.pivot]]");
+  const auto poses =
+      std::count_if(demands.begin(), demands.end(), [](const PoseDemand& d) { return d.angle; });
+  const auto points = static_cast<std::ptrdiff_t>(demands.size()) - poses;
+  if (poses < 2) return;  // reported
+  const auto linkage = linkage_of({s.problem.poses, demands});
+  const char* hint =
+      "four-bars take 4 poses and 2 points, 3 and 4, or 2 and 6; slider-cranks 4 and 1, 3 and 3, or 2 and 5; "
+      "fit = \"least_squares\" takes any";
+  const std::string what = fmt::format("{} poses and {} point{}", poses, points, points == 1 ? "" : "s");
+  if (!linkage)
+    target.error(
+        "pose",
+        fmt::format("{} are met exactly by {}", what,
+                    2 * (poses - 1) + points > 8 ? "no linkage of two dyads" : "infinitely many linkages"),
+        hint);
+  else if (!allows(s, GuidingDyadType::rr) ||
+           (*linkage == MixedPoseLinkage::slider_crank && !allows(s, GuidingDyadType::pr)))
+    target.error("pose",
+                 fmt::format("{} are for {}, which mechanism.dyads leaves out", what,
+                             *linkage == MixedPoseLinkage::four_bar ? "four-bars (RR and RR)"
+                                                                    : "slider-cranks (RR and PR)"),
+                 hint);
+}
+
 // Whether poses and pivots leave a number of linkages that can be listed.
 void check_counts(study::ObjectReader& target, PoseStudy& s) {
   const std::size_t n = s.problem.poses.size();
   const int given = poses_replaced(s.problem.pivots[0]) + poses_replaced(s.problem.pivots[1]);
   const PoseFitting fit = s.target.fit;
   s.problem.exact = fit == PoseFitting::exact || (fit == PoseFitting::automatic && n <= 5 && !s.mixed);
-  if (s.problem.exact && s.mixed)
-    target.error("fit", "points, weights and poses that are marked exact are for least_squares",
-                 "write fit = \"least_squares\", or give every pose its angle and nothing else");
+  if (s.problem.exact && s.mixed) return check_mixed_counts(target, s, given);
   if (!s.problem.exact) {
     if (n < 5)
       target.error("fit", fmt::format("{} poses are met exactly, least_squares needs 5 at least", n),

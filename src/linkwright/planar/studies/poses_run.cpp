@@ -12,6 +12,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/dyads/burmester.h"
 #include "linkwright/planar/dyads/linkage.h"
+#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
@@ -283,13 +284,26 @@ class PoseReport {
 
   bool has_angle(std::size_t k) const { return p_.demands.empty() || p_.demands[k].angle; }
 
-  // "12, 3 of them exactly and 4 without rotation, by least squares".
-  std::string poses_text() const {
+  // "3 poses and 4 points"; "12 poses".
+  std::string poses_and_points() const {
     const std::size_t n = p_.poses.size();
-    if (p_.exact) return fmt::format("{}, met exactly", n);
+    const auto points =
+        p_.exact
+            ? static_cast<std::size_t>(std::count_if(p_.demands.begin(), p_.demands.end(),
+                                                     [](const PoseDemand& demand) { return !demand.angle; }))
+            : 0;
+    return points == 0 ? fmt::format("{} poses", n)
+                       : fmt::format("{} poses and {} point{}", n - points, points, points == 1 ? "" : "s");
+  }
+
+  // "5, met exactly"; "3 poses and 4 points, met exactly"; "12, 3 of them exactly and 4 without rotation, by
+  // least squares".
+  std::string poses_text() const {
+    if (p_.exact)
+      return (p_.demands.empty() ? fmt::format("{}", p_.poses.size()) : poses_and_points()) + ", met exactly";
     int exact = 0, points = 0;
     for (const PoseDemand& demand : p_.demands) exact += demand.exact, points += !demand.angle;
-    std::string out = fmt::format("{}", n);
+    std::string out = fmt::format("{}", p_.poses.size());
     if (exact > 0) out += fmt::format(", {} of them exactly", exact);
     if (points > 0) out += fmt::format(", {} at any rotation", points);
     return out + ", by least squares";
@@ -321,17 +335,20 @@ class PoseReport {
   void statistics() {
     Value& st = result_.statistics;
     st["solutions"] = answer_.solutions;
-    st["real_dyads"] = static_cast<int>(answer_.dyads.size());
+    if (answer_.pairs >= 0)
+      st["real_linkages"] = answer_.pairs;
+    else
+      st["real_dyads"] = static_cast<int>(answer_.dyads.size());
     st["linkages"] = answer_.tried;
     st["defect_free"] = answer_.free;
     for (const PoseDefect defect : {PoseDefect::branch, PoseDefect::circuit, PoseDefect::order})
       st[std::string(name_of(defect)) + "_defects"] = answer_.defects[static_cast<std::size_t>(defect)];
     if (!p_.exact) st["fitted_pairs"] = answer_.starts;
-    st["outcome"] = answer_.free > 0        ? "done"
-                    : answer_.tried > 0     ? "all_defective"
-                    : answer_.dependent     ? "dependent_poses"
-                    : answer_.dyads.empty() ? "no_real_solution"
-                                            : "no_solution";
+    st["outcome"] = answer_.free > 0                              ? "done"
+                    : answer_.tried > 0                           ? "all_defective"
+                    : answer_.dependent                           ? "dependent_poses"
+                    : answer_.dyads.empty() || answer_.pairs == 0 ? "no_real_solution"
+                                                                  : "no_solution";
   }
 
   // Every linkage that was kept, with what is wrong with it.
@@ -381,7 +398,7 @@ class PoseReport {
 
   // Where the pivots of links through four poses can be.
   void curves() {
-    if (!p_.exact || p_.poses.size() != 4) return;
+    if (!p_.exact || p_.poses.size() != 4 || !p_.demands.empty()) return;
     const std::vector<BurmesterPoint> points = burmester_curves(p_.poses, curve_samples);
     if (points.empty()) return;
     const double reach = curve_reach * size_of_motion(p_.poses);
@@ -432,7 +449,9 @@ class PoseReport {
     const study::AddWarning warn{result_.diagnostics};
     const std::size_t n = p_.poses.size();
     fact("poses", poses_text());
-    if (!answer_.swept)
+    if (answer_.pairs >= 0)
+      fact("linkages", fmt::format("{} real of {}", answer_.pairs, answer_.solutions));
+    else if (!answer_.swept)
       fact("dyads", p_.exact ? fmt::format("{} real of {}", answer_.dyads.size(), answer_.solutions)
                              : fmt::format("{} next to the poses", answer_.dyads.size()));
     fact("linkages with a drive", fmt::format("{}", answer_.tried));
@@ -448,6 +467,8 @@ class PoseReport {
     if (shown_.empty()) {
       result_.headline =
           answer_.status != Status::done ? "Stopped before a linkage was found."
+          : answer_.pairs >= 0
+              ? fmt::format("None of the {} linkages through the poses is real.", answer_.solutions)
           : answer_.dyads.size() == 0
               ? fmt::format("No dyad holds the body in all {} poses: there is no real solution.", n)
               : fmt::format("Of the dyads through the poses ({}) no two make a linkage.",
@@ -457,15 +478,15 @@ class PoseReport {
     }
     const PoseDesign& best = *shown_[0];
     if (answer_.free == 0) {
-      result_.headline = fmt::format(
-          "None of {} linkages through the {} poses passes them in one motion: {}.", answer_.tried, n, why());
+      result_.headline = fmt::format("None of {} linkages through the {} passes them in one motion: {}.",
+                                     answer_.tried, poses_and_points(), why());
       relax(warn);
       return;
     }
     const double pair = math::degrees(best.passage.pair_angle);
     result_.headline = fmt::format(
-        "A {} driven by {} leads the body through {} poses{}, least pair angle {:.1f}°.",
-        name_of_linkage(best), drive_of(best), n,
+        "A {} driven by {} leads the body through {}{}, least pair angle {:.1f}°.", name_of_linkage(best),
+        drive_of(best), poses_and_points(),
         p_.exact ? std::string()
                  : fmt::format(" within {} and {:.3g}°", metres(best.distance), math::degrees(best.rotation)),
         pair);
@@ -490,6 +511,9 @@ class PoseReport {
     if (!p_.exact)
       warn("target", "no linkage near the poses passes them in one motion",
            "take poses of a smoother motion, or allow other dyads in mechanism.dyads");
+    else if (answer_.pairs >= 0)
+      warn("target", "poses and points that leave nothing to choose mostly have linkages with defects",
+           "take a pose of a smoother motion, or write fit = \"least_squares\"");
     else if (p_.poses.size() == 5)
       warn("target", "five poses leave at most four dyads, and most of their linkages have defects",
            "take out the pose that matters least: four poses leave a curve to choose from; or write fit = "
@@ -511,7 +535,23 @@ class PoseReport {
 }  // namespace
 
 study::Result run_pose_study(const PoseStudy& s, const study::Common& common, RunContext& context) {
-  return PoseReport(s.problem, common, find_pose_designs(s.problem, context)).make();
+  if (!s.problem.exact || !s.mixed)
+    return PoseReport(s.problem, common, find_pose_designs(s.problem, context)).make();
+  const MixedPoseSolutions found = solve_mixed_poses({s.problem.poses, s.problem.demands}, context);
+  PoseAnswer answer = pose_designs_of(s.problem, found.real, context);
+  answer.solutions = found.finite;
+  if (found.status != Status::done) answer.status = found.status;
+  study::Result result = PoseReport(s.problem, common, std::move(answer)).make();
+  const study::AddWarning warn{result.diagnostics};
+  if (found.lost > 0)
+    warn("target", fmt::format("{} paths were lost: linkages may be missing", found.lost),
+         "move a pose a little and compare");
+  else if (found.finite < found.whole && found.status == Status::done)
+    warn("target",
+         fmt::format("the poses are special: {} of {} solutions lie at infinity or coincide",
+                     found.whole - found.finite, found.whole),
+         "move one of them a little to see the rest");
+  return result;
 }
 
 }  // namespace linkwright::planar

@@ -66,7 +66,11 @@ struct CurveEquation : TwoDyads<C> {
 
   /// Derivatives by the eight unknowns and by d and D.
   LINKWRIGHT_KERNEL void gradient(const C* z, const C& d, const C& D, C* by_z, C& by_d, C& by_D) const {
-    const auto by = this->partials();
+    chain(this->partials(), z, d, D, by_z, by_d, by_D);
+  }
+  /// The same of anything whose derivatives by the coefficients of the dyads are known.
+  LINKWRIGHT_KERNEL static void chain(const typename TwoDyads<C>::Partials& by, const C* z, const C& d,
+                                      const C& D, C* by_z, C& by_d, C& by_D) {
     const C by_p1_x = by.p1 * z[pin_x], by_q1_X = by.q1 * z[pin_X];
     const C by_p2_y = by.p2 * z[pin_y], by_q2_Y = by.q2 * z[pin_Y];
     const C Dr1 = D * by.r1, dr1 = d * by.r1, Dr2 = D * by.r2, dr2 = d * by.r2;
@@ -93,7 +97,11 @@ struct SliderCurveEquation : TwoDyads<C> {
 
   /// Derivatives by the seven unknowns and by d and D.
   LINKWRIGHT_KERNEL void gradient(const C* z, const C& d, const C& D, C* by_z, C& by_d, C& by_D) const {
-    const auto by = this->partials();
+    chain(this->partials(), z, d, D, by_z, by_d, by_D);
+  }
+  /// The same of anything whose derivatives by the coefficients of the dyads are known.
+  LINKWRIGHT_KERNEL static void chain(const typename TwoDyads<C>::Partials& by, const C* z, const C& d,
+                                      const C& D, C* by_z, C& by_d, C& by_D) {
     const C by_p1_x = by.p1 * z[slider_x], by_q1_X = by.q1 * z[slider_X];
     const C Dr1 = D * by.r1, dr1 = d * by.r1;
     by_z[slider_x] = by.p1 * (z[slider_A] - D) + Dr1;

@@ -100,7 +100,7 @@ struct Scaling {
 template <class System>
 Scaling scale_towards(const SystemData<System>& base, SystemData<System>& p) {
   ComplexNumber factor[2];
-  constexpr std::size_t half = System::data / 2;
+  constexpr std::size_t half = System::half;
   for (std::size_t h = 0; h < 2; ++h) {
     double size = 0;
     ComplexNumber product;

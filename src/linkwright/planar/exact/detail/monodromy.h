@@ -44,11 +44,12 @@ class Identities {
 /// Nothing but the seed goes in.
 template <class System>
 StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContext& context,
-                             std::string_view stage = {});
+                             std::string_view stage = {}, const System& system = {});
 
-/// The start set of a system, found at its first use and kept: a second at most. Its status says that it was
-/// interrupted.
+/// The start set of a system with so many solutions, found at its first use and kept: a second at most. Its
+/// status says that it was interrupted.
 template <class System>
-std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context);
+std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunContext& context,
+                                                    const System& system = {});
 
 }  // namespace linkwright::planar

@@ -3,6 +3,8 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
 #include "linkwright/core/random.h"
 #include "linkwright/math/complex.h"
@@ -78,7 +80,7 @@ LINKWRIGHT_KERNEL C from_double(const ComplexNumber& value) {
 
 /// The curve passes eight points beside the first. Data: d_1..d_8, D_1..D_8.
 struct NinePoints {
-  static constexpr std::size_t others = 8, data = 2 * others;
+  static constexpr std::size_t others = 8, half = others, data = 2 * half;
   static constexpr std::size_t places = 4, unknowns = 2 * places;
   static constexpr double largest_chart = 20;
   using Bars = ComplexFourBar<>;
@@ -110,7 +112,7 @@ struct NinePoints {
 
   /// Data and solution of the same points for this four-bar.
   static void put(const ComplexFourBar<>& four_bar, const ComplexNumber* d, const ComplexNumber* D,
-                  SystemData<NinePoints>& p, SystemPoint<NinePoints>& z) {
+                  const ComplexNumber*, SystemData<NinePoints>& p, SystemPoint<NinePoints>& z) {
     z = four_bar;
     for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[others + j] = D[j];
   }
@@ -239,7 +241,7 @@ struct PointsAndPivots {
     for (std::size_t k = 0; k < given; ++k)
       four_bar[pivot[k]] = p[others + k], four_bar[pivot[k] + pin_X] = p[half + others + k];
   }
-  static void put(const Bars& four_bar, const ComplexNumber* d, const ComplexNumber* D,
+  static void put(const Bars& four_bar, const ComplexNumber* d, const ComplexNumber* D, const ComplexNumber*,
                   SystemData<PointsAndPivots>& p, SystemPoint<PointsAndPivots>& z) {
     for (std::size_t i = 0; i < places; ++i)
       z[i] = four_bar[unknown[i]], z[places + i] = four_bar[unknown[i] + pin_X];
@@ -259,7 +261,7 @@ using SevenPointsOnePivot = PointsAndPivots<1>;
 /// The curve of a slider-crank passes seven points beside the first. Unknowns as in SliderCrankUnknown; data:
 /// d_1..d_7, D_1..D_7.
 struct SliderEightPoints {
-  static constexpr std::size_t others = 7, data = 2 * others;
+  static constexpr std::size_t others = 7, half = others, data = 2 * half;
   static constexpr std::size_t places = 3, unknowns = slider_crank_unknowns;
   static constexpr double largest_chart = 1e150;  // there is but one
   using Bars = std::array<ComplexNumber, unknowns>;
@@ -286,7 +288,7 @@ struct SliderEightPoints {
   }
 
   static void put(const Bars& slider_crank, const ComplexNumber* d, const ComplexNumber* D,
-                  SystemData<SliderEightPoints>& p, SystemPoint<SliderEightPoints>& z) {
+                  const ComplexNumber*, SystemData<SliderEightPoints>& p, SystemPoint<SliderEightPoints>& z) {
     z = slider_crank;
     for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[others + j] = D[j];
   }
@@ -294,10 +296,84 @@ struct SliderEightPoints {
   static void settle(SystemPoint<SliderEightPoints>&) {}
 };
 
+/// A body that two dyads lead is at `poses` places beside the first in given rotations, and its origin passes
+/// `unknowns` - 2 `poses` points. Unknowns: those of its linkage; data: d of the poses and points in this
+/// order, D, then e^(i gamma) of the poses; what is more than there are is not used.
+template <template <class> class Curve, class BarsOfSystem>
+struct PosesAndPoints {
+  static constexpr std::size_t unknowns = std::tuple_size_v<BarsOfSystem>, places = unknowns / 2;
+  static constexpr std::size_t others = unknowns - 1, half = others, most_poses = 3,
+                               data = 2 * half + most_poses;
+  static constexpr double largest_chart = 1e150;  // there is but one
+  using Bars = BarsOfSystem;
+
+  std::size_t poses = 1;
+
+  template <class C>
+  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
+    C unused[unknowns];
+    evaluate(z, p, p, values, jacobian, unused);
+  }
+  template <class C>
+  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, const C* rate, C* values, C (*jacobian)[unknowns],
+                                  C* values_rate) const {
+    const C one(ComplexNumber(1, 0)), none;
+    std::size_t row = 0;
+    const auto add = [&](std::size_t j, const C& value, const typename TwoDyads<C>::Partials& by,
+                         const C& by_turn) {
+      C by_d, by_D;
+      values[row] = value;
+      Curve<C>::chain(by, z, p[j], p[half + j], jacobian[row], by_d, by_D);
+      values_rate[row] = by_d * rate[j] + by_D * rate[half + j] + by_turn;
+      ++row;
+    };
+    for (std::size_t j = 0; j < unknowns - poses; ++j) {
+      const Curve<C> curve(z, p[j], p[half + j]);
+      if (j >= poses) {
+        add(j, curve.value, curve.partials(), none);
+        continue;
+      }
+      const C& turn = p[2 * half + j];
+      const C back = math::inverse(turn), g = turn - one, G = back - one;
+      const C slope = rate[2 * half + j], back_slope = -(back * back) * slope;
+      add(j, curve.p1 * g + curve.q1 * G - curve.r1, {g, G, -one, none, none, none},
+          curve.p1 * slope + curve.q1 * back_slope);
+      add(j, curve.p2 * g + curve.q2 * G - curve.r2, {none, none, none, g, G, -one},
+          curve.p2 * slope + curve.q2 * back_slope);
+    }
+  }
+  template <class T>
+  LINKWRIGHT_KERNEL bool better_chart(std::array<math::Complex<T>, unknowns>&) const {
+    return false;
+  }
+
+  static void put(const Bars& bars, const ComplexNumber* d, const ComplexNumber* D,
+                  const ComplexNumber* turns, SystemData<PosesAndPoints>& p, SystemPoint<PosesAndPoints>& z) {
+    z = bars;
+    for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[half + j] = D[j];
+    for (std::size_t j = 0; j < most_poses; ++j) p[2 * half + j] = turns[j];
+  }
+  /// The same for both orders of two dyads of one type.
+  static ComplexNumber identity(const SystemPoint<PosesAndPoints>& z) {
+    const ComplexNumber own = form_of_unknowns(z);
+    if constexpr (unknowns == four_bar_unknowns) {
+      SystemPoint<PosesAndPoints> swapped = z;
+      for (const std::size_t first : {pin_x, pin_X})
+        for (const std::size_t i : {first, first + 1}) std::swap(swapped[i], swapped[i + 2]);
+      return own * form_of_unknowns(swapped);
+    } else {
+      return own;
+    }
+  }
+  static void settle(SystemPoint<PosesAndPoints>&) {}
+};
+using FourBarPoses = PosesAndPoints<CurveEquation, ComplexFourBar<>>;
+using SliderPoses = PosesAndPoints<SliderCurveEquation, std::array<ComplexNumber, slider_crank_unknowns>>;
+
 /// One thing for each system.
 #define LINKWRIGHT_FOR_EACH_PATH_SYSTEM(make)                                                \
   make(NinePoints) make(NinePointsTrace) make(FivePointsTwoPivots) make(SevenPointsOnePivot) \
-      make(SliderEightPoints)
+      make(SliderEightPoints) make(FourBarPoses) make(SliderPoses)
 
 /// e^(i gamma) of the turn of a real body at a point that its dyads allow.
 inline std::complex<double> real_turn(const TwoDyads<ComplexNumber>& dyads) {

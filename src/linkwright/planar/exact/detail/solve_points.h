@@ -48,9 +48,9 @@ SystemPoint<System> conjugate_solution(const SystemPoint<System>& z) {
 /// with twice the digits; the conjugate of a solution is one as well.
 template <class System>
 PointSolutions<System> solve_points(const StartSet<System>& starts, const SystemData<System>& target,
-                                    RunContext& context, std::string_view stage = {}) {
+                                    RunContext& context, std::string_view stage = {},
+                                    const System& system = {}) {
   using namespace solve_points_detail;
-  const System system;
   PointSolutions<System> out;
   SystemData<System> scaled = target;
   const Scaling scaling = scale_towards<System>(starts.base, scaled), back = inverse(scaling);
