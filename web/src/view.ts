@@ -133,9 +133,9 @@ export function targetErrors(target: { x: Num[]; y: Num[]; achieved_x: Num[]; ac
   return { distance, worst };
 }
 
-/** How many times larger errors should be drawn to be seen: 1, 2, 5, 10 ... so that the worst is about 5 % of the drawing. */
+/** How many times larger errors should be drawn to be seen: 1, 2, 5, 10 ... so that the worst is about 5 % of the drawing. Not what is only rounding. */
 export function whiskerScale(worst: number, size: number): number {
-  if (!(worst > 0) || !(size > 0)) return 1;
+  if (!(worst > 1e-9 * size) || !(size > 0)) return 1;
   return Math.max(1, niceStep((0.06 * size) / worst));
 }
 

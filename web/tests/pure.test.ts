@@ -68,6 +68,7 @@ describe("view", () => {
     expect(whiskerScale(0.0001, 1)).toBe(500);
     expect(whiskerScale(0.5, 1)).toBe(1);
     expect(whiskerScale(0, 1)).toBe(1);
+    expect(whiskerScale(1e-15, 1)).toBe(1);
   });
 });
 
