@@ -24,6 +24,7 @@
 #include "linkwright/planar/exact/given_pivots.h"
 #include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/exact/pivot_map.h"
 #include "linkwright/planar/exact/slider_designs.h"
 #include "linkwright/planar/exact/slider_points.h"
 #include "linkwright/planar/exact/timed_points.h"

@@ -20,10 +20,13 @@ export function csv(table: Table): string {
   return lines.join("\r\n") + "\r\n";
 }
 
+/** Whether a table is in other units than those that are shown. */
+export const inOtherUnits = (table: Table): boolean => table.columns.some((c) => inFile(c.key, []).key !== c.key);
+
 /** The table in the units that are shown; nothing when it is in them already. */
 export function tableInFile(table: Table): Table | undefined {
+  if (!inOtherUnits(table)) return undefined;
   const made = table.columns.map((c, i) => inFile(c.key, table.data[i]));
-  if (made.every((column, i) => column.key === table.columns[i].key)) return undefined;
   return { ...table, columns: table.columns.map((c, i) => ({ ...c, key: made[i].key })), data: made.map((column) => column.values) };
 }
 

@@ -1,7 +1,7 @@
 // Tables of the data: in the units of the study, with a choice of columns where there are many.
 import { useMemo, useState } from "preact/hooks";
 import type { Table } from "./data";
-import { csv, save, slug, tableInFile } from "./exports";
+import { csv, inOtherUnits, save, slug, tableInFile } from "./exports";
 import { cellsOf, labelWith, largestSize, unitOf } from "./units";
 
 const mostRows = 2000;
@@ -16,20 +16,21 @@ export function DataTable({ table }: { table: Table }) {
   const [all, setAll] = useState(false);
   const rows = table.data[0]?.length ?? 0;
   const shown = Math.min(rows, mostRows);
-  const heads = useMemo(() => table.columns.map((c, i) => labelWith(c.label, c.key, unitOf(c.key, largestSize(table.data[i])))), [table]);
-  const inFile = useMemo(() => tableInFile(table), [table]);
+  // Of a table that is closed nothing is computed before it is asked for: there may be many, while a mechanism is dragged.
+  const heads = useMemo(() => (open ? table.columns.map((c, i) => labelWith(c.label, c.key, unitOf(c.key, largestSize(table.data[i])))) : []), [table, open]);
+  const otherUnits = inOtherUnits(table);
   const name = slug(table.name);
   // The first column is the input, by which rows are found: it always stays.
   const parts = sought.toLowerCase().split(/\s+/).filter(Boolean);
-  const fits = (i: number) => parts.every((part) => heads[i].toLowerCase().includes(part) || table.columns[i].key.toLowerCase().includes(part));
+  const fits = (i: number) => parts.every((part) => heads[i]?.toLowerCase().includes(part) || table.columns[i].key.toLowerCase().includes(part));
   const found = table.columns.flatMap((_, i) => (i === 0 || fits(i) ? [i] : []));
   const columns = all || parts.length ? found : found.slice(0, mostColumns);
   return (
     <div class="data-table">
       <span class="gets">
-        <button type="button" class="get" data-download={`${table.name}.csv`} aria-label={`${table.name} as CSV${inFile ? ", in the units shown" : ""}`}
-          onClick={() => save(`${name}.csv`, csv(inFile ?? table), "text/csv")}>CSV</button>
-        {inFile && <button type="button" class="get" data-download={`${table.name}, as written.csv`} aria-label={`${table.name}: CSV in SI, as the program writes it`}
+        <button type="button" class="get" data-download={`${table.name}.csv`} aria-label={`${table.name} as CSV${otherUnits ? ", in the units shown" : ""}`}
+          onClick={() => save(`${name}.csv`, csv(tableInFile(table) ?? table), "text/csv")}>CSV</button>
+        {otherUnits && <button type="button" class="get" data-download={`${table.name}, as written.csv`} aria-label={`${table.name}: CSV in SI, as the program writes it`}
           onClick={() => save(`${name}-si.csv`, csv(table), "text/csv")}>CSV in SI</button>}
       </span>
       <details onToggle={(e) => setOpen(e.currentTarget.open)}>

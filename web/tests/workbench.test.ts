@@ -9,7 +9,7 @@ import { places, possible, withLoad } from "../src/workbench/loads";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
 import { along, listOf, pastedRows, tidy, withoutPoint, withPoint, withPose } from "../src/workbench/points";
 import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
-import { absent, nodeAt, ruleOf } from "../src/workbench/schema";
+import { absent, nodeAt, ruleAt, ruleOf } from "../src/workbench/schema";
 
 const paper = { name: "a.toml", text: "one", files: {} };
 
@@ -215,6 +215,15 @@ test("the schema tells what a number is for and between what it may lie", () => 
   expect(groups.map((g) => [g.title, g.path])).toEqual([["mechanism", "mechanism"], ["parameters", "mechanism.parameters"], ["body crank", "mechanism.body[0]"], ["law", "law"]]);
   expect(groups[0].entries.map((e) => [e.key, e.value])).toEqual([["mechanism.branch", "open"]]);
   expect(groups[1].entries[0].value).toEqual({ min: 1, max: 2 });
+});
+
+test("rules are kept while numbers change, and found again when words do", () => {
+  const study = (rise: number, kind: string) => ({ law: { kind, rise_m: rise } });
+  const first = ruleAt(schema, study(1, "b"), "law.rise_m");
+  expect(first?.help).toBe("of b");
+  expect(ruleAt(schema, study(2, "b"), "law.rise_m")).toBe(first);
+  expect(ruleAt(schema, study(2, "a"), "law.rise_m")?.help).toBe("of a");
+  expect(ruleAt(null, study(2, "a"), "law.rise_m")).toBeNull();
 });
 
 test("what a table may have and has not can be added, with what it begins with", () => {

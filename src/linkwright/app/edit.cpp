@@ -352,10 +352,9 @@ std::optional<std::string> appended(std::string_view text, const Value& document
   const Value read = study::read_text(next, syntax, page_text, ignored);
   if (!ignored.empty() || !find(read, *path).value) return std::nullopt;
   Value back = read;
-  Value expected = document;
   if (!erase(back, *path)) return std::nullopt;
   if (!found.value) erase(back, list);
-  return back == expected ? std::optional(std::move(next)) : std::nullopt;
+  return back == document ? std::optional(std::move(next)) : std::nullopt;
 }
 
 std::string comment_at_top(std::string_view text) {

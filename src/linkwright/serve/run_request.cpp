@@ -40,7 +40,7 @@ bool read_files(const Value& files, RunRequest& request, std::string& problem) {
 
 std::string_view tab_of(std::string_view run) {
   const std::size_t dot = run.find('.');
-  if (dot == run.npos || dot > longest_tab || run.size() - dot > longest_number) return {};
+  if (dot > longest_tab || run.size() - dot > longest_number) return {};
   const std::string_view tab = run.substr(0, dot), number = run.substr(dot + 1);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };

@@ -81,7 +81,7 @@ std::string with_decimal_point(std::string_view number) {
 std::string key_with_unit(std::string_view key, std::string_view unit) {
   const auto parts = split_unit(key);
   const std::string base(parts ? parts->base : key);
-  const std::string whole = fmt::format("{}_{}", base, unit);
+  std::string whole = fmt::format("{}_{}", base, unit);
   const auto asked = split_unit(whole);
   if (asked && asked->base == base) return whole;
   return parts ? std::string(key) : fmt::format("{}_UNIT", key);

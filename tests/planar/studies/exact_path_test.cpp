@@ -71,10 +71,9 @@ TEST(ExactPathRead, PivotsAreNumbersAndNothingElseIsGiven) {
                 "choose but the fixed pivots"));
   EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0.3\n", nine)),
               HasSubstr("fit = \"exact\" takes a fixed pivot as two numbers; give both coordinates"));
-  EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = { min = 0, max = 1 }\n"
-                                "rocker_pivot_x_m = 1\nrocker_pivot_y_m = 0\n",
-                                five)),
-              HasSubstr("takes a fixed pivot as two numbers"));
+  EXPECT_THAT(
+      problems_of(exact("[mechanism.parameters]\npivot_x_m = 0\npivot_y_m = { min = 0, max = 1 }\n", seven)),
+      HasSubstr("takes ranges of pivots for both pivots of five points without crank angles"));
   EXPECT_THAT(problems_of(exact("[mechanism.parameters]\npivot_x_m = 1\npivot_y_m = 0\nrocker_pivot_x_m = 1\n"
                                 "rocker_pivot_y_m = 0\n",
                                 five)),
@@ -150,6 +149,34 @@ TEST(ExactPathRun, AllFourBarsThroughSevenPointsWithAPivot) {
     EXPECT_NEAR(x + ground * std::cos(angle), 0.2, 1e-9);
     EXPECT_NEAR(y + ground * std::sin(angle), -0.3, 1e-9);
   }
+}
+
+// Pivots that may choose: the table of places, and the map of those that have an answer.
+TEST(ExactPathRun, FivePointsWithPivotsInARegion) {
+  const std::string region =
+      "[mechanism.parameters]\npivot_x_m = 0.2\npivot_y_m = -0.3\nrocker_pivot_x_m = { min = 0.6, max = 1.6 "
+      "}\n"
+      "rocker_pivot_y_m = { min = -0.4, max = 0.6 }\n";
+  // The first, third, fourth, fifth and seventh of the seven points above.
+  const std::string points =
+      "points_m = [[0.0885103553, 0.6178045650], [-0.0161357470, 0.8604548764], [-0.2116677287, "
+      "0.7150696453], "
+      "[-0.3657981027, 0.3580011426], [-0.1471737104, -0.1379669089]]\n";
+  const study::Result result = run_text(exact(region, points));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_EQ(count(result, "places"), 441);
+  EXPECT_GT(count(result, "places_with_answers"), 0);
+  EXPECT_THAT(result.headline,
+              HasSubstr("of 441 places of the pivots four-bars pass the 5 points in one motion"));
+  const Table* pivots_table = result.table("pivots");
+  ASSERT_TRUE(pivots_table);
+  EXPECT_EQ(pivots_table->rows(), 441U);
+  EXPECT_EQ(result.statistics.find("completeness")->as_string(), "sample");
+  EXPECT_TRUE(std::any_of(result.plots.begin(), result.plots.end(), [](const study::Plot& plot) {
+    return plot.name == "pivots-transmission" && plot.style == study::Plot::Style::map;
+  }));
+  for (const study::Solution& s : result.solutions)
+    EXPECT_LT(s.objectives.find("path_error_max_m")->as_number(), 1e-7);
 }
 
 // Wampler, Morgan and Sommese 1992, problem 3.

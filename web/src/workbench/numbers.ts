@@ -2,7 +2,7 @@
 import type { Json, JsonObject } from "../data";
 import { nameOf, unitOf } from "../units";
 import { places } from "./loads";
-import { nodeAt, ruleOf, type Rule } from "./schema";
+import { ruleAt, type Rule } from "./schema";
 
 export interface Entry {
   key: string; // of the study
@@ -34,10 +34,7 @@ const isRange = (value: Json): value is { min: number; max: number } =>
 /** Those of a whole study, but for what only says how results are written and checked. */
 export function numbersOf(study: JsonObject, schema: JsonObject | null = null): Group[] {
   const groups: Group[] = [];
-  const rule = (key: string) => {
-    const node = nodeAt(schema, study, key);
-    return node && ruleOf(node);
-  };
+  const rule = (key: string) => ruleAt(schema, study, key);
   /** The numbers of a table and of the tables in it; a list of tables gives a group an entry. */
   function table(values: JsonObject, path: string, title: string): void {
     const own: Entry[] = [];

@@ -1,6 +1,6 @@
 // Beside the drawing: the study as text, and its numbers one by one.
 import { computed, signal } from "@preact/signals";
-import { Fragment } from "preact";
+import { Fragment, type JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { JsonObject } from "../data";
 import { spatial } from "../state";
@@ -89,6 +89,18 @@ function Field({ entry }: { entry: Entry }) {
   );
 }
 
+/** The field of each number, made anew only when the number has changed: most have not, while one is dragged. */
+function useFields(): (entry: Entry) => JSX.Element {
+  const made = useRef(new Map<string, { entry: Entry; field: JSX.Element }>()).current;
+  return (entry) => {
+    const before = made.get(entry.key);
+    if (before && before.entry.value === entry.value && before.entry.label === entry.label && before.entry.rule === entry.rule) return before.field;
+    const field = <Field key={entry.key} entry={entry} />;
+    made.set(entry.key, { entry, field });
+    return field;
+  };
+}
+
 const most = 400; // numbers of one group that are listed
 
 function Add({ path }: { path: string }) {
@@ -122,6 +134,7 @@ function Numbers() {
   const study = canonical.value;
   const box = useRef<HTMLDivElement>(null);
   const keys = [...pickedKeys.value].join();
+  const fieldOf = useFields();
   useEffect(() => {
     const [list, number] = [box.current, box.current?.querySelector(".picked")];
     if (!keys || !list || !number) return;
@@ -136,7 +149,7 @@ function Numbers() {
       {groups.map((g) => (
         <details key={g.path || g.title} open={g.entries.length < 12 || g.entries.some(({ key }) => pickedKeys.value.has(key) || pickedKeys.value.has(key.replace(/\[\d+\]$/, "")))}>
           <summary>{g.title}<small>{format(g.entries.length + g.lists.reduce((sum, l) => sum + 2 * l.rows.length, 0))}</small></summary>
-          {g.entries.slice(0, most).map((entry) => <Field key={entry.key} entry={entry} />)}
+          {g.entries.slice(0, most).map(fieldOf)}
           <Lists group={g} />
           <Add path={g.path} />
           {isLoad(g.path) && <button type="button" data-remove={g.path} onClick={() => tryEdit([{ key: g.path, value: null }])}>Remove {g.title}</button>}

@@ -67,8 +67,44 @@ export function ruleOf(node: JsonObject): Rule {
   };
 }
 
+/** What a schema says of a study that differs from the last one by its numbers alone is what it said of that: which it is while something is dragged. */
+interface Said {
+  schema: JsonObject | null;
+  shape: string;
+  rules: Map<string, Rule | null>;
+  absent: Map<string, Absent[]>;
+}
+let last: Said = { schema: null, shape: "", rules: new Map(), absent: new Map() };
+const shapes = new WeakMap<JsonObject, string>();
+function saidOf(schema: JsonObject | null, study: JsonObject): Said {
+  let shape = shapes.get(study);
+  if (shape === undefined) shapes.set(study, (shape = JSON.stringify(study, (_, value: Json) => (typeof value === "number" ? 0 : value))));
+  if (last.schema !== schema || last.shape !== shape) last = { schema, shape, rules: new Map(), absent: new Map() };
+  return last;
+}
+function onceFor<T>(known: Map<string, T>, key: string, make: () => T): T {
+  if (!known.has(key)) known.set(key, make());
+  return known.get(key)!;
+}
+
+/** The rule of a key of a study. */
+export const ruleAt = (schema: JsonObject | null, study: JsonObject, key: string): Rule | null =>
+  onceFor(saidOf(schema, study).rules, key, () => {
+    const node = nodeAt(schema, study, key);
+    return node && ruleOf(node);
+  });
+
+export interface Absent {
+  key: string;
+  name: string;
+  rule: Rule;
+  start: Json;
+}
 /** Numbers, choices and flags that a table of the study may have and has not: with what they begin. */
-export function absent(schema: JsonObject | null, study: JsonObject, path: string): { key: string; name: string; rule: Rule; start: Json }[] {
+export const absent = (schema: JsonObject | null, study: JsonObject, path: string): Absent[] =>
+  onceFor(saidOf(schema, study).absent, path, () => findAbsent(schema, study, path));
+
+function findAbsent(schema: JsonObject | null, study: JsonObject, path: string): Absent[] {
   const node = nodeAt(schema, study, path);
   const table = stepsOf(path).reduce<Json | undefined>((at, step) => (at !== null && typeof at === "object" ? (at as Record<string, Json>)[step] : undefined), study);
   if (!node || !isTable(table)) return [];

@@ -25,7 +25,7 @@ ChainStudy chain_study(const HubLinkStudy& s) {
   };
   out.names = {"link"};
   out.drives = {joint_drive(s.drive.law, s.simulation.end)};
-  out.simulation = s.simulation;
+  out.simulation = static_cast<const SimulationForm&>(s.simulation);
   out.shaping = s.drive.shaping;
   out.samples = s.samples;
   out.table = [form = s.mechanism](const ArmChain&, const Simulation& run) {

@@ -51,8 +51,9 @@ SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
 }
 
 Vector2 SerialMap::position(std::size_t node) const {
-  return {grid.low[0] + grid.step * static_cast<double>(node % nodes[0]),
-          grid.low[1] + grid.step * static_cast<double>(node / nodes[0])};
+  const std::size_t column = node % nodes[0], row = node / nodes[0];
+  return {grid.low[0] + grid.step * static_cast<double>(column),
+          grid.low[1] + grid.step * static_cast<double>(row)};
 }
 
 std::size_t SerialMap::count(SerialCriterion criterion) const {

@@ -208,9 +208,13 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPo
                                solutions.swept ? static_cast<int>(i) : solutions.curve[i], sense));
   sort_exact_designs(problem, out);
   if (!solutions.swept) return out;
+  return designs_that_differ(problem, std::move(out));
+}
+
+std::vector<ExactDesign> designs_that_differ(const PathProblem& problem, std::vector<ExactDesign> designs) {
   const double apart = same_swept_design * path_size(problem);
   std::vector<ExactDesign> kept;
-  for (ExactDesign& design : out) {
+  for (ExactDesign& design : designs) {
     if (kept.size() == most_swept_designs) break;
     if (std::none_of(kept.begin(), kept.end(), [&](const ExactDesign& k) {
           return distance_between(k.design.linkage, design.design.linkage) < apart;

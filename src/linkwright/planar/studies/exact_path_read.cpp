@@ -32,11 +32,12 @@ std::array<const std::optional<Range>*, 4> pivot_numbers(const PathParameters& p
           &p.rocker_pivot_x, &p.rocker_pivot_y};
 }
 
-// Whether a pivot is given by two numbers, by none, or by what no exact solution takes.
-enum class GivenPivot { none, place, other };
+// Whether a pivot is given by two numbers, by two of which one or both are ranges, by none, or by one alone.
+enum class GivenPivot { none, place, region, other };
 GivenPivot given_pivot(const std::optional<Range>& x, const std::optional<Range>& y) {
   if (!x && !y) return GivenPivot::none;
-  return x && y && x->fixed() && y->fixed() ? GivenPivot::place : GivenPivot::other;
+  if (!x || !y) return GivenPivot::other;
+  return x->fixed() && y->fixed() ? GivenPivot::place : GivenPivot::region;
 }
 
 // How many fixed pivots are given, unless what is given of one is not a place, which is reported, as is what
@@ -58,12 +59,20 @@ std::optional<int> read_pivots(study::ObjectReader& document, const PathStudy& s
   const GivenPivot crank = given_pivot(*numbers[0], *numbers[1]),
                    rocker = given_pivot(*numbers[2], *numbers[3]);
   const int given = (crank != GivenPivot::none) + (rocker != GivenPivot::none);
+  const bool region = crank == GivenPivot::region || rocker == GivenPivot::region;
+  if (region && (given < 2 || s.problem.timing != Timing::free)) {
+    mechanism->error(
+        "parameters",
+        "fit = \"exact\" takes ranges of pivots for both pivots of five points without crank angles",
+        "give pivot_x, pivot_y, rocker_pivot_x and rocker_pivot_y, or one number for each coordinate");
+    return std::nullopt;
+  }
   if (crank == GivenPivot::other || rocker == GivenPivot::other) {
     mechanism->error("parameters", "fit = \"exact\" takes a fixed pivot as two numbers",
                      "give both coordinates, each one number, or leave both out");
     return std::nullopt;
   }
-  if (given == 2 && numbers[0]->value().lower == numbers[2]->value().lower &&
+  if (given == 2 && !region && numbers[0]->value().lower == numbers[2]->value().lower &&
       numbers[1]->value().lower == numbers[3]->value().lower)
     mechanism->error("parameters", "the two fixed pivots coincide", "give them different places");
   return given;

@@ -13,6 +13,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/exact/designs.h"
+#include "linkwright/planar/exact/pivot_map.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/usability.h"
 #include "linkwright/planar/studies/exact_findings.h"
@@ -44,6 +45,8 @@ class ExactReport {
     for (std::size_t k = 0; k < p_.x.size(); ++k) points.emplace_back(p_.x[k], p_.y[k]);
     if (p_.timing != Timing::free) {
       timed(points, context);
+    } else if (pivots_may_choose()) {
+      region(context);
     } else if (parameters_.rocker_pivot_x || parameters_.ranges[index(FourBarParameter::pivot_x)]) {
       pivots(points, context);
     } else {
@@ -88,6 +91,75 @@ class ExactReport {
     found_.completeness = found_.stopped == Status::done ? found.completeness : Completeness::incomplete;
     designs_ = exact_designs(p_, found);
     class_table(found);
+  }
+
+  std::array<const std::optional<Range>*, 4> pivot_ranges() const {
+    return {&parameters_.ranges[index(FourBarParameter::pivot_x)],
+            &parameters_.ranges[index(FourBarParameter::pivot_y)], &parameters_.rocker_pivot_x,
+            &parameters_.rocker_pivot_y};
+  }
+  bool pivots_may_choose() const {
+    const auto ranges = pivot_ranges();
+    return std::any_of(ranges.begin(), ranges.end(),
+                       [](const auto* range) { return *range && !(*range)->fixed(); });
+  }
+
+  // Five points, and pivots that may be anywhere in their ranges.
+  void region(RunContext& context) {
+    swept_ = true;
+    PivotRanges ranges;
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = pivot_ranges()[i]->value();
+    PivotMap map = map_pivots(p_, ranges, context);
+    found_.stopped = map.status;
+    found_.classes = map.finite;
+    found_.lost = map.lost;
+    found_.completeness =
+        map.status == Status::done ? Completeness::complete_uncertified : Completeness::incomplete;
+    places_ = static_cast<int>(map.places.size());
+    for (const PivotMapPlace& place : map.places) places_with_answers_ += place.answers > 0;
+    designs_ = std::move(map.designs);
+    found_.real_classes = static_cast<int>(designs_.size());
+    map_table(map);
+  }
+
+  void map_table(const PivotMap& map) {
+    static constexpr std::array<const char*, 4> keys = {"pivot_x_m", "pivot_y_m", "rocker_pivot_x_m",
+                                                        "rocker_pivot_y_m"},
+                                                labels = {"crank pivot x (m)", "crank pivot y (m)",
+                                                          "rocker pivot x (m)", "rocker pivot y (m)"};
+    Table table{.name = "pivots"};
+    std::array<std::vector<double>, 4> at;
+    std::vector<double> real, answers, transmission;
+    for (const PivotMapPlace& place : map.places) {
+      const double values[] = {place.pivots[0].real(), place.pivots[0].imag(), place.pivots[1].real(),
+                               place.pivots[1].imag()};
+      for (std::size_t i = 0; i < at.size(); ++i) at[i].push_back(values[i]);
+      real.push_back(place.real);
+      answers.push_back(place.answers);
+      transmission.push_back(place.transmission);
+      table.status.emplace_back("done");
+    }
+    for (std::size_t i = 0; i < at.size(); ++i) table.add(keys[i], labels[i], std::move(at[i]));
+    table.add("four_bars", "four-bars through the points", std::move(real));
+    table.add("answers", "of them without defects and within the limits", std::move(answers));
+    table.add("min_transmission_angle_rad", "least transmission angle of the best (rad)",
+              std::move(transmission));
+    result_.tables.push_back(std::move(table));
+    std::vector<const char*> free;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (map.steps[i] > 1) free.push_back(keys[i]);
+    const bool plane = free.size() == 2;
+    if (free.size() > 2) return;
+    for (const auto& [key, title] :
+         {std::pair{"min_transmission_angle_rad", "Least transmission angle of the best four-bar"},
+          std::pair{"answers", "Four-bars without defects"}})
+      result_.plots.push_back(
+          {.name = fmt::format("pivots-{}", key[0] == 'm' ? "transmission" : "answers"),
+           .title = fmt::format("{}, by the place of the pivots", title),
+           .table = "pivots",
+           .x = free[0],
+           .y = plane ? std::vector<std::string>{free[1], key} : std::vector<std::string>{key},
+           .style = plane ? study::Plot::Style::map : study::Plot::Style::line});
   }
 
   // Points and fixed pivots, both or one.
@@ -234,10 +306,22 @@ class ExactReport {
     const ExactVerdict verdict = judge(found_);
     result_.status = verdict.status;
     outcome_ = swept_ && verdict.status == Status::done ? "done" : verdict.outcome;
-    result_.headline =
-        (timed_ ? timed_text() : found_text(found_)) + " " +
-        answer_text(found_, timed_ ? "these" : "their",
-                    designs_.empty() ? std::string() : fmt::format("a {}", called(designs_[0].design)));
+    const std::string best =
+        designs_.empty() ? std::string() : fmt::format("a {}", called(designs_[0].design));
+    if (swept_ && !timed_ && found_.answers > 0)
+      result_.headline =
+          fmt::format("{} The best of {} that differ is {}.", region_text(), found_.answers, best);
+    else
+      result_.headline = (timed_   ? timed_text()
+                          : swept_ ? region_text()
+                                   : found_text(found_)) +
+                         " " + answer_text(found_, timed_ || swept_ ? "these" : "their", best);
+  }
+
+  std::string region_text() const {
+    return fmt::format(
+        "At {} of {} places of the pivots four-bars pass the {} points in one motion and in their order.",
+        places_with_answers_, places_, p_.x.size());
   }
 
   std::string timed_text() const {
@@ -293,6 +377,10 @@ class ExactReport {
       add("cranks", "cranks at their angles, complex ones with them", found_.classes);
       add("real_cranks", "real cranks", cranks_);
       add("slides", "couplers led by a slide instead of a rocker", slides_);
+    } else if (swept_ && !timed_) {
+      add("places", "places of the pivots", places_);
+      add("places_with_answers", "places with a four-bar that answers", places_with_answers_);
+      add("classes", "finite solutions of all places", found_.classes);
     } else if (!timed_) {
       add("classes", found_.certificates ? "classes of coupler curves" : "finite solutions", found_.classes);
     }
@@ -313,7 +401,11 @@ class ExactReport {
                                                                    : name_of(found_.completeness);
     const study::AddFact fact{result_.facts};
     if (outcome_ == "no_solution") return;
-    if (timed_) {
+    if (swept_ && !timed_) {
+      fact("places of the pivots", fmt::format("{}", places_));
+      fact("places with an answer", fmt::format("{}", places_with_answers_),
+           places_with_answers_ > 0 ? Verdict::good : Verdict::bad);
+    } else if (timed_) {
       fact("found", swept_ ? fmt::format("a sample of {} four-bars", designs_.size())
                            : fmt::format("{} real cranks of {}", cranks_, found_.classes));
     } else
@@ -323,7 +415,7 @@ class ExactReport {
                                : fmt::format("{} of {} solutions", found_.classes, found_.whole),
            found_.completeness == Completeness::incomplete ? Verdict::bad : Verdict::plain);
     if (!swept_) fact(timed_ ? "coupler curves" : "real", fmt::format("{}", found_.real_classes));
-    add_design_facts(fact, found_);
+    if (!swept_ || timed_) add_design_facts(fact, found_);
     if (found_.answers > 0) result_.facts.push_back(transmission_fact(p_, designs_[0].design));
     add_path_facts(fact, found_);
     const study::AddWarning warn{result_.diagnostics};
@@ -349,7 +441,8 @@ class ExactReport {
   ExactFindings found_;
   std::vector<ExactDesign> designs_;
   bool timed_ = false, swept_ = false, dependent_ = false;
-  int cranks_ = 0, slides_ = 0;
+  int cranks_ = 0, slides_ = 0;               // of points with timing
+  int places_ = 0, places_with_answers_ = 0;  // of pivots that may choose
   std::string outcome_;
 };
 

@@ -105,7 +105,7 @@ constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
   return {{{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
            {PathFit::exact, "exact",
             "exactly, by all four-bars that pass them: nine points, seven with one fixed pivot as numbers, "
-            "five with both, or three to five with crank angles"}}};
+            "five with both, as numbers or ranges to choose from, or three to five with crank angles"}}};
 }
 
 /// The point that traces.
