@@ -50,20 +50,20 @@ void expect_no_more_than(std::size_t expected) {
 
 TEST(SolvePoints, EightyWaysAroundBringNoFurtherSolution) {
   expect_no_more_than<SevenPointsOnePivot>(seven_point_solutions);
-  expect_no_more_than<SliderEightPoints>(slider_point_solutions);
+  expect_no_more_than<SliderPoses>(slider_point_solutions);
 }
 
 TEST(SolvePoints, ASolutionIsRealWhenItsPartnersAreItsConjugates) {
-  SystemPoint<SliderEightPoints> z;
+  SystemPoint<SliderPoses> z;
   for (std::size_t i = 0; i < 3; ++i) z[i] = {1.0 + static_cast<double>(i), 0.5}, z[i + 3] = math::conj(z[i]);
   z[guide_nu] = {0.6, 0.8};
-  EXPECT_TRUE(is_real_solution<SliderEightPoints>(z, 1));
-  EXPECT_EQ(real_place<SliderEightPoints>(z, 1), std::complex(2.0, 0.5));
+  EXPECT_TRUE(is_real_solution<SliderPoses>(z, 1));
+  EXPECT_EQ(real_place<SliderPoses>(z, 1), std::complex(2.0, 0.5));
   z[guide_nu] = {0.6, 0.81};
-  EXPECT_FALSE(is_real_solution<SliderEightPoints>(z, 1));
+  EXPECT_FALSE(is_real_solution<SliderPoses>(z, 1));
   z[guide_nu] = {0.6, 0.8};
   z[4] = {2, 0.5};
-  EXPECT_FALSE(is_real_solution<SliderEightPoints>(z, 1));
+  EXPECT_FALSE(is_real_solution<SliderPoses>(z, 1));
 }
 
 TEST(SolvePoints, PointsMustBeFiniteAndDifferent) {

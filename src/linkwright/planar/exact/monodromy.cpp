@@ -36,7 +36,7 @@ std::array<DyadAtPoint, 2> dyads_of(const ComplexFourBar<>& z, const std::comple
   return {dyad_of_pins(z[pin_x], z[pivot_a], z[pin_X], z[pivot_A], g, G),
           dyad_of_pins(z[pin_y], z[pivot_b], z[pin_Y], z[pivot_B], g, G)};
 }
-std::array<DyadAtPoint, 2> dyads_of(const SliderEightPoints::Bars& z, const std::complex<double>& g,
+std::array<DyadAtPoint, 2> dyads_of(const SliderPoses::Bars& z, const std::complex<double>& g,
                                     const std::complex<double>& G) {
   const auto y = standard_complex(z[slider_y]), Y = standard_complex(z[slider_Y]),
              nu = standard_complex(z[guide_nu]);
@@ -203,7 +203,6 @@ std::shared_ptr<const StartSet<System>> kept_starts(std::size_t expected, RunCon
 LINKWRIGHT_FIND_STARTS(NinePoints)
 LINKWRIGHT_STARTS(FivePointsTwoPivots)
 LINKWRIGHT_STARTS(SevenPointsOnePivot)
-LINKWRIGHT_STARTS(SliderEightPoints)
 LINKWRIGHT_STARTS(FourBarPoses)
 LINKWRIGHT_STARTS(SliderPoses)
 #undef LINKWRIGHT_STARTS

@@ -11,7 +11,7 @@ namespace linkwright::planar {
 
 SliderPointSolutions solve_slider_points(std::span<const std::complex<double>, 8> points,
                                          RunContext& context) {
-  using System = SliderEightPoints;
+  using System = SliderPoses;  // without poses
   require_different(points);
   SliderPointSolutions out;
   const auto starts = kept_starts<System>(slider_point_solutions, context);
@@ -19,11 +19,11 @@ SliderPointSolutions solve_slider_points(std::span<const std::complex<double>, 8
     out.status = starts->status;
     return out;
   }
-  SystemData<System> target;
+  SystemData<System> target{};
   double size = 0;
-  for (std::size_t j = 0; j < System::others; ++j) {
+  for (std::size_t j = 0; j + 1 < points.size(); ++j) {
     target[j] = complex_number(points[j + 1] - points[0]);
-    target[System::others + j] = math::conj(target[j]);
+    target[System::half + j] = math::conj(target[j]);
     size = std::max(size, std::abs(points[j + 1] - points[0]));
   }
   const PointSolutions<System> solutions = solve_points<System>(*starts, target, context, "solutions");

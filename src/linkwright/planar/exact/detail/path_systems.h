@@ -258,56 +258,17 @@ struct PointsAndPivots {
 using FivePointsTwoPivots = PointsAndPivots<2>;
 using SevenPointsOnePivot = PointsAndPivots<1>;
 
-/// The curve of a slider-crank passes seven points beside the first. Unknowns as in SliderCrankUnknown; data:
-/// d_1..d_7, D_1..D_7.
-struct SliderEightPoints {
-  static constexpr std::size_t others = 7, half = others, data = 2 * half;
-  static constexpr std::size_t places = 3, unknowns = slider_crank_unknowns;
-  static constexpr double largest_chart = 1e150;  // there is but one
-  using Bars = std::array<ComplexNumber, unknowns>;
-
-  template <class C>
-  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
-    C unused[unknowns];
-    evaluate(z, p, p, values, jacobian, unused);
-  }
-  template <class C>
-  LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, const C* rate, C* values, C (*jacobian)[unknowns],
-                                  C* values_rate) const {
-    C by_d, by_D;
-    for (std::size_t j = 0; j < others; ++j) {
-      const SliderCurveEquation<C> curve(z, p[j], p[others + j]);
-      values[j] = curve.value;
-      curve.gradient(z, p[j], p[others + j], jacobian[j], by_d, by_D);
-      values_rate[j] = by_d * rate[j] + by_D * rate[others + j];
-    }
-  }
-  template <class T>
-  LINKWRIGHT_KERNEL bool better_chart(std::array<math::Complex<T>, unknowns>&) const {
-    return false;
-  }
-
-  static void put(const Bars& slider_crank, const ComplexNumber* d, const ComplexNumber* D,
-                  const ComplexNumber*, SystemData<SliderEightPoints>& p, SystemPoint<SliderEightPoints>& z) {
-    z = slider_crank;
-    for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[others + j] = D[j];
-  }
-  static ComplexNumber identity(const SystemPoint<SliderEightPoints>& z) { return form_of_unknowns(z); }
-  static void settle(SystemPoint<SliderEightPoints>&) {}
-};
-
-/// A body that two dyads lead is at `poses` places beside the first in given rotations, and its origin passes
-/// `unknowns` - 2 `poses` points. Unknowns: those of its linkage; data: d of the poses and points in this
-/// order, D, then e^(i gamma) of the poses; what is more than there are is not used.
+/// A body that two dyads lead is at `poses` places, none or more, beside the first in given rotations, and
+/// its origin passes `unknowns` - 2 `poses` points. Unknowns: those of its linkage; data: d of the poses and
+/// points in this order, D, then e^(i gamma) of the poses; what is more than there are is not used.
 template <template <class> class Curve, class BarsOfSystem>
 struct PosesAndPoints {
   static constexpr std::size_t unknowns = std::tuple_size_v<BarsOfSystem>, places = unknowns / 2;
-  static constexpr std::size_t others = unknowns - 1, half = others, most_poses = 3,
-                               data = 2 * half + most_poses;
+  static constexpr std::size_t others = unknowns, half = others, most_poses = 3, data = 2 * half + most_poses;
   static constexpr double largest_chart = 1e150;  // there is but one
   using Bars = BarsOfSystem;
 
-  std::size_t poses = 1;
+  std::size_t poses = 0;
 
   template <class C>
   LINKWRIGHT_KERNEL void evaluate(const C* z, const C* p, C* values, C (*jacobian)[unknowns]) const {
@@ -373,7 +334,7 @@ using SliderPoses = PosesAndPoints<SliderCurveEquation, std::array<ComplexNumber
 /// One thing for each system.
 #define LINKWRIGHT_FOR_EACH_PATH_SYSTEM(make)                                                \
   make(NinePoints) make(NinePointsTrace) make(FivePointsTwoPivots) make(SevenPointsOnePivot) \
-      make(SliderEightPoints) make(FourBarPoses) make(SliderPoses)
+      make(FourBarPoses) make(SliderPoses)
 
 /// e^(i gamma) of the turn of a real body at a point that its dyads allow.
 inline std::complex<double> real_turn(const TwoDyads<ComplexNumber>& dyads) {
