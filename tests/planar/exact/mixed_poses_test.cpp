@@ -212,6 +212,25 @@ TEST(MixedPoses, TheOrderOfPosesAndTheThreadsDoNotMatter) {
     EXPECT_EQ(one.real[i].first.moving, three.real[i].first.moving);
 }
 
+// The body turns about its own origin from one pose to the other.
+TEST(MixedPoses, TwoPosesMayBeAtOnePlace) {
+  const Case c = {{{{0, 0}, 0},
+                   {{0, 0}, 0.7},
+                   {{1, 0.2}, 0},
+                   {{1.4, 0.9}, 0},
+                   {{0.8, 1.5}, 0.4},
+                   {{-0.2, 1.2}, 0},
+                   {{-0.6, 0.5}, 0}},
+                  {{}, {}, {.angle = false}, {.angle = false}, {}, {.angle = false}, {.angle = false}}};
+  const MixedPoseSolutions found = solve_case(c);
+  EXPECT_EQ(found.lost, 0);
+  EXPECT_GT(found.finite, 0);
+  // What may be a whole family, with a pin at that origin, does not count.
+  EXPECT_LT(found.finite, found.whole);
+  EXPECT_EQ(found.finite + found.infinite + found.singular, found.whole);
+  for (const GuidedPair& pair : found.real) expect_met(c, pair);
+}
+
 TEST(MixedPoses, OnlyWhatLeavesNothingToChooseIsSolved) {
   RandomStream random({.seed = 33});
   EXPECT_FALSE(linkage_of(random_case(random, 5, 0).target()));
@@ -221,7 +240,10 @@ TEST(MixedPoses, OnlyWhatLeavesNothingToChooseIsSolved) {
   RunContext context;
   EXPECT_THROW(solve_mixed_poses(c.target(), context), ContractError);
   Case again = random_case(random, 4, 2);
-  again.poses[3].origin = again.poses[0].origin;
+  const auto point = static_cast<std::size_t>(
+      std::find_if(again.demands.begin(), again.demands.end(), [](const PoseDemand& d) { return !d.angle; }) -
+      again.demands.begin());
+  again.poses[point].origin = again.poses[point == 0 ? 1 : 0].origin;
   EXPECT_THROW(solve_mixed_poses(again.target(), context), ContractError);
 }
 

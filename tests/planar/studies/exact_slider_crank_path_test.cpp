@@ -104,7 +104,8 @@ TEST(ExactSliderPathRun, SpecialPointsAreCalledSo) {
   const study::Result result = run_text(
       eight({}, "points_mm = [[0, 0], [20, 0], [40, 0], [60, 0], [80, 0], [100, 0], [60, 30], [-10, 33]]\n"));
   EXPECT_EQ(result.status, Status::infeasible);
-  EXPECT_THAT(result.headline, HasSubstr("these are special, the others lie at infinity or coincide"));
+  EXPECT_THAT(result.headline, HasSubstr("complex solutions for eight points: these points are special, the "
+                                         "others lie at infinity or coincide"));
   EXPECT_EQ(result.table("counts")->find("lost")->values[0], 0);
 }
 

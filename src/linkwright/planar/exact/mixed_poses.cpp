@@ -135,9 +135,16 @@ MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, RunContext& conte
                      target.demands.size(), target.poses.size());
   const auto linkage = linkage_of(target);
   LINKWRIGHT_REQUIRE(linkage, "{} poses and points have no finite number of linkages", target.poses.size());
-  std::vector<std::complex<double>> places;
-  for (const BodyPose& pose : target.poses) places.push_back(pose.origin);
-  require_different(places);
+  for (std::size_t i = 0; i < target.poses.size(); ++i) {
+    LINKWRIGHT_REQUIRE(
+        std::isfinite(std::abs(target.poses[i].origin)) && std::isfinite(target.poses[i].angle),
+        "pose {} is not finite", i + 1);
+    // Two poses may differ by their rotation alone.
+    for (std::size_t j = 0; j < i; ++j)
+      LINKWRIGHT_REQUIRE(target.poses[i].origin != target.poses[j].origin ||
+                             (target.demands[i].angle && target.demands[j].angle),
+                         "point {} repeats point {}", i + 1, j + 1);
+  }
   MixedPoseSolutions out;
   out.whole = static_cast<int>(mixed_pose_solutions(*linkage, poses_first(target).poses));
   if (*linkage == MixedPoseLinkage::four_bar)

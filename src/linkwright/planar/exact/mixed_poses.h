@@ -39,7 +39,8 @@ struct MixedPoseSolutions {
 
 /// All four-bars, or slider-cranks, that lead a body through poses and its origin through points, by
 /// following the solutions of a generic complex problem, which are found at the first use and kept. Throws
-/// ContractError unless `linkage_of` names one and the places are finite and different.
+/// ContractError unless `linkage_of` names one, poses are finite, and no point is at the place of another or
+/// of a pose.
 MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, RunContext& context);
 
 }  // namespace linkwright::planar

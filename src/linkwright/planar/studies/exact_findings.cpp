@@ -66,10 +66,8 @@ std::string found_text(const ExactFindings& f) {
                  ? fmt::format("All {} {}, {} of them certified; {}.", f.whole, f.what, f.certified, real)
                  : fmt::format("All {} {}; {}.", f.whole, f.what, real);
     case Completeness::special_target:
-      return fmt::format(
-          "{} of the {} {} that points in general have: these are special, the others lie at infinity or "
-          "coincide; {}.",
-          f.classes, f.whole, f.what, real);
+      return fmt::format("{} of {} {}: these points are special, the others lie at infinity or coincide; {}.",
+                         f.classes, f.whole, f.what, real);
     case Completeness::incomplete:
       return fmt::format("{} of {} {}, others may be missing; {}.", f.classes, f.whole, f.what, real);
   }

@@ -41,6 +41,25 @@ SystemPoint<System> conjugate_solution(const SystemPoint<System>& z) {
   return out;
 }
 
+// Whether a solution stands alone, so that small changes of the equations move it little: a family of them,
+// or a place where some meet, does not. `z` has a size near 1.
+template <class System>
+bool stands_alone(const System& system, const SystemData<System>& p, const SystemPoint<System>& z) {
+  constexpr double most_moved = 1e13;
+  constexpr std::size_t n = System::unknowns;
+  ComplexNumber values[n], right[1][n];
+  math::tracker::Lu<double, n> lu;
+  system.evaluate(z.data(), p.data(), values, lu.a);
+  for (std::size_t i = 0; i < n; ++i) {
+    double size = 0;
+    for (std::size_t j = 0; j < n; ++j) size += math::norm(lu.a[i][j]);
+    // A change of each equation by its own size, no two alike.
+    right[0][i] = std::sqrt(size) * ComplexNumber(1, 0.37 * static_cast<double>(i));
+  }
+  lu.solve(right);
+  return math::tracker::size(right[0]) < most_moved * most_moved * (1 + squared_size(z));
+}
+
 }  // namespace solve_points_detail
 
 /// Follows every solution of the start set to real data, the second half of `target` the conjugates of the
@@ -85,7 +104,8 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
       scale_solution<System>(back, z);
       z = conjugate_solution<System>(z);
       scale_solution<System>(scaling, z);
-      if (polish(system, scaled, z, 1e-14) < arrived_accuracy) take(z, std::nullopt, unused);
+      if (polish(system, scaled, z, 1e-14) < arrived_accuracy && stands_alone(system, scaled, z))
+        take(z, std::nullopt, unused);
     }
   };
 
@@ -100,7 +120,8 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
     }
     std::vector<std::size_t> again;
     for (std::size_t k = 0; k < paths.size(); ++k) {
-      if (paths[k].arrived && polish(system, scaled, paths[k].z, 1e-14) < arrived_accuracy)
+      if (paths[k].arrived && polish(system, scaled, paths[k].z, 1e-14) < arrived_accuracy &&
+          stands_alone(system, scaled, paths[k].z))
         take(paths[k].z, open[k], again);
       else
         again.push_back(open[k]);
@@ -121,7 +142,8 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
     for (const auto& path : paths) {
       SystemPoint<System> z = rounded(path.z);
       const double size = squared_size(z);
-      if (path.arrived && polish_as_needed(system, scaled, z, 1e-12) < arrived_accuracy)
+      if (path.arrived && polish_as_needed(system, scaled, z, 1e-12) < arrived_accuracy &&
+          stands_alone(system, scaled, z))
         take(z, std::nullopt, unused);
       else if (path.at < 1 - nearly_there)
         ++out.lost;
@@ -132,7 +154,7 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
   }
   // Each solution takes one path. Of the others, some end at infinity, some got lost unless a conjugate made
   // up for them; the rest ended where solutions meet.
-  const int missing = static_cast<int>(all - found.size());
+  const int missing = std::max(0, static_cast<int>(all) - static_cast<int>(found.size()));
   out.infinite = std::min(out.infinite, missing);
   out.lost = std::min(out.lost, missing - out.infinite);
   out.singular = missing - out.infinite - out.lost;
