@@ -16,6 +16,7 @@
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/pose_design.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
@@ -33,70 +34,6 @@ constexpr double flat_pair = 0.35;
 // motion.
 constexpr int curve_samples = 240;
 constexpr double curve_reach = 8;
-
-bool defective(const PoseDesign& d) { return d.passage.defect != PoseDefect::none; }
-bool rotary(const PoseDesign& d) { return d.driver.type == GuidingDyadType::rr; }
-
-std::string type_of(const PoseDesign& d) {
-  return fmt::format("{}+{}", name_of(d.driver.type), name_of(d.other.type));
-}
-std::string_view name_of_linkage(const PoseDesign& d) {
-  const bool rr = d.driver.type == GuidingDyadType::rr && d.other.type == GuidingDyadType::rr;
-  const bool pr = d.driver.type == GuidingDyadType::pr || d.other.type == GuidingDyadType::pr;
-  const bool rp = d.driver.type == GuidingDyadType::rp || d.other.type == GuidingDyadType::rp;
-  const bool link = d.driver.type == GuidingDyadType::rr || d.other.type == GuidingDyadType::rr;
-  if (rr) return "four-bar";
-  if (link) return pr ? "slider-crank" : "inverted slider-crank";
-  return pr && rp ? "slide and sleeve" : pr ? "double slider" : "double sleeve";
-}
-std::string_view drive_of(const PoseDesign& d) {
-  if (rotary(d)) return d.passage.drive_turns ? "a crank" : "a rocker";
-  return d.driver.type == GuidingDyadType::pr ? "a slide" : "a cylinder";
-}
-
-std::string defect_text(const PoseDesign& d) {
-  switch (d.passage.defect) {
-    case PoseDefect::none:
-      return {};
-    case PoseDefect::branch:
-      if (d.passage.from == d.passage.to)
-        return fmt::format("branch: at a dead point at pose {}", d.passage.to + 1);
-      return fmt::format("branch: poses {} and {} are on both sides of a dead point", d.passage.from + 1,
-                         d.passage.to + 1);
-    case PoseDefect::circuit:
-      return fmt::format("circuit: cannot move from pose {} to pose {} without leaving where it assembles",
-                         d.passage.from + 1, d.passage.to + 1);
-    case PoseDefect::order:
-      break;
-  }
-  return "order: meets the poses in another order";
-}
-
-// The four-bar of two links, its coupler point the body's origin.
-FourBar four_bar_of(const PoseDesign& d) {
-  const Complex ground = d.other.fixed - d.driver.fixed, coupler = d.other.moving - d.driver.moving;
-  const Complex point = -d.driver.moving * std::conj(coupler) / std::abs(coupler);
-  return {.ground = std::abs(ground),
-          .crank = d.driver.length,
-          .coupler = std::abs(coupler),
-          .rocker = d.other.length,
-          .coupler_u = point.real(),
-          .coupler_v = point.imag(),
-          .pivot_x = d.driver.fixed.real(),
-          .pivot_y = d.driver.fixed.imag(),
-          .frame_angle = std::arg(ground),
-          .branch = d.passage.side > 0 ? Branch::open : Branch::crossed};
-}
-
-// Inputs that a design is shown at: a turn from the first pose, or from the first to the last pose.
-std::vector<double> shown_inputs(const PoseDesign& d, int samples) {
-  const double from = d.passage.drive.front();
-  double to = d.passage.drive.back();
-  if (d.passage.drive_turns) to = from + std::copysign(2 * pi, to - from);
-  std::vector<double> out(static_cast<std::size_t>(samples));
-  for (int i = 0; i < samples; ++i) out[static_cast<std::size_t>(i)] = from + (to - from) * i / (samples - 1);
-  return out;
-}
 
 class PoseReport {
  public:
