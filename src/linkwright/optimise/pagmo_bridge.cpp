@@ -366,7 +366,7 @@ double hypervolume(std::span<const double> costs, std::span<const double> refere
       points.emplace_back(costs.begin() + static_cast<std::ptrdiff_t>(i),
                           costs.begin() + static_cast<std::ptrdiff_t>(i + m));
   if (points.empty()) return 0;
-  return pagmo::hypervolume(std::move(points), false).compute({reference.begin(), reference.end()});
+  return pagmo::hypervolume(points, false).compute({reference.begin(), reference.end()});
 }
 
 double hypervolume(std::span<const ParetoPoint> front, std::span<const double> reference) {

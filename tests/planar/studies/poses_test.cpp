@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "planar/studies.h"
 
@@ -55,6 +57,71 @@ TEST(PoseStudyRead, SaysHowManyConditionsADyadMeets) {
               HasSubstr("pivots are prescribed for poses that are met exactly"));
   EXPECT_THAT(problems_of(pose_study(some_poses(3), "[[mechanism.pivot]]\ndyad = 3\nfixed_mm = [0, 0]\n")),
               HasSubstr("mechanism.pivot[0].dyad"));
+}
+
+TEST(PoseStudyRead, SaysWhatIsWrongWithRegions) {
+  const auto pivot = [](const std::string& what) { return "[[mechanism.pivot]]\ndyad = 1\n" + what + "\n"; };
+  const std::string region = "fixed_in_region = { min_mm = [0, 0], max_mm = [50, 50] }";
+  EXPECT_THAT(problems_of(pose_study(some_poses(4),
+                                     pivot("fixed_in_region = { min_mm = [0, 60], max_mm = [50, 50] }"))),
+              HasSubstr("fixed_in_region: min is not below max in y"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(3), pivot(region + "\nfixed_mm = [0, 0]"))),
+              HasSubstr("the fixed pivot of dyad 1 is given twice"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(3), pivot(region) + pivot(region))),
+              HasSubstr("the fixed pivot of dyad 1 is given twice"));
+  EXPECT_THAT(problems_of(pose_study(some_poses(2), pivot(region))), HasSubstr("a region is no condition"));
+  EXPECT_THAT(problems_of(pose_study("fit = \"least_squares\"\n" + some_poses(6), pivot(region))),
+              HasSubstr("pivots are prescribed for poses that are met exactly"));
+}
+
+TEST(PoseStudy, KeepsPivotsInTheirRegions) {
+  const auto pivot = [](int dyad, const char* place) {
+    return "[[mechanism.pivot]]\ndyad = " + std::to_string(dyad) + "\nfixed_in_region = " + place + "\n";
+  };
+  const study::Result in = run_text(pose_study(
+      some_poses(3), "dyads = [\"RR\"]\n" + pivot(1, "{ min_mm = [30, 290], max_mm = [120, 430] }") +
+                         pivot(2, "{ min_mm = [-80, 290], max_mm = [0, 430] }")));
+  EXPECT_EQ(in.status, Status::done);
+  EXPECT_FALSE(in.solutions.empty());
+  for (const study::Solution& s : in.solutions) {
+    std::vector<double> x;
+    for (const study::Parameter& p : s.parameters) {
+      if (p.key.ends_with("fixed_x_m")) x.push_back(p.value);
+      if (!p.key.ends_with("fixed_y_m")) continue;
+      EXPECT_GE(p.value, 0.29);
+      EXPECT_LE(p.value, 0.43);
+    }
+    ASSERT_EQ(x.size(), 2u);
+    std::sort(x.begin(), x.end());
+    EXPECT_TRUE(x[0] >= -0.08 && x[0] <= 0 && x[1] >= 0.03 && x[1] <= 0.12) << x[0] << ", " << x[1];
+  }
+  // Two rectangles that are drawn and have a handle at two corners each.
+  const study::Scene& scene = in.scenes.at(0);
+  EXPECT_EQ(
+      std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                    [](const study::Scene::Body& b) { return b.name.starts_with("region of the fixed"); }),
+      2);
+  EXPECT_TRUE(std::any_of(scene.handles.begin(), scene.handles.end(), [&](const study::Scene::Handle& h) {
+    return h.key == "mechanism.pivot[1].fixed_in_region.max_m" &&
+           scene.points[static_cast<std::size_t>(h.point)].x[0] == 0;
+  }));
+
+  const study::Result out =
+      run_text(pose_study(some_poses(5), pivot(1, "{ min_mm = [1e6, 1e6], max_mm = [2e6, 2e6] }")));
+  EXPECT_EQ(out.status, Status::infeasible);
+  EXPECT_THAT(out.headline, HasSubstr("No linkage through the poses has its pivots in the regions"));
+  EXPECT_EQ(out.statistics.find("outcome")->as_string(), "outside_regions");
+}
+
+// No pivot is left that could be swept along a line through the middle.
+TEST(PoseStudy, SweepsTwoPosesWithPivotsOnLines) {
+  std::string lines;
+  for (const int dyad : {1, 2})
+    lines += "[[mechanism.pivot]]\ndyad = " + std::to_string(dyad) +
+             "\nfixed_on_line = { point_mm = [0, -50], direction_deg = 0 }\n";
+  const study::Result result = run_text(pose_study(some_poses(2), lines));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_FALSE(result.solutions.empty());
 }
 
 TEST(PoseStudy, FourPosesHaveTheirCurves) {

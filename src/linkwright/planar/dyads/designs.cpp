@@ -38,10 +38,11 @@ bool wanted(const PoseProblem& p, const GuidingDyad& dyad) {
 }
 
 // All dyads of one prescription that are allowed.
-std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, int& solutions, bool& dependent) {
+std::vector<GuidingDyad> family(const PoseProblem& p, std::size_t which, PoseAnswer& answer) {
   DyadFamily found = dyad_family(p.poses, p.pivots[which], pose_sweep);
-  solutions += found.solutions;
-  dependent = dependent || found.dependent;
+  answer.solutions += found.solutions;
+  answer.outside += found.outside;
+  answer.dependent = answer.dependent || found.dependent;
   std::erase_if(found.dyads, [&](const GuidingDyad& dyad) { return !wanted(p, dyad); });
   return std::move(found.dyads);
 }
@@ -93,8 +94,15 @@ class Finder {
 
   PoseAnswer of_pairs(std::span<const GuidedPair> pairs) {
     out_.pairs = static_cast<int>(pairs.size());
-    for (const GuidedPair& pair : pairs)
-      if (wanted(p_, pair.first) && wanted(p_, pair.second)) both(pair.first, pair.second, pair.poses, 0);
+    const auto in = [&](const GuidingDyad& a, const GuidingDyad& b) {
+      return in_regions(a, p_.pivots[0]) && in_regions(b, p_.pivots[1]);
+    };
+    for (const GuidedPair& pair : pairs) {
+      if (!in(pair.first, pair.second) && !in(pair.second, pair.first))
+        ++out_.outside;
+      else if (wanted(p_, pair.first) && wanted(p_, pair.second))
+        both(pair.first, pair.second, pair.poses, 0);
+    }
     out_.status = context_.interruption();
     return sorted();
   }
@@ -108,9 +116,9 @@ class Finder {
 
   void exact() {
     std::array<std::vector<GuidingDyad>, 2> families;
-    const bool alike = poses_replaced(p_.pivots[0]) == 0 && poses_replaced(p_.pivots[1]) == 0;
-    families[0] = family(p_, 0, out_.solutions, out_.dependent);
-    if (!alike) families[1] = family(p_, 1, out_.solutions, out_.dependent);
+    const bool alike = !prescribes(p_.pivots[0]) && !prescribes(p_.pivots[1]);
+    families[0] = family(p_, 0, out_);
+    if (!alike) families[1] = family(p_, 1, out_);
     out_.swept = freedoms(p_, 0) > 0 || freedoms(p_, 1) > 0;
     if (out_.swept) out_.solutions = 0;
     out_.dyads = families[0];

@@ -16,7 +16,7 @@ namespace linkwright::planar {
 
 struct PoseProblem {
   std::vector<BodyPose> poses;
-  std::array<Prescription, 2> pivots;  ///< of the two dyads
+  std::array<Prescription, 2> pivots;  ///< of the two dyads, either of which may drive
   std::vector<GuidingDyadType> types = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
   bool exact = true;                ///< every pose is met; else as near as can be, without prescriptions
   std::vector<PoseDemand> demands;  ///< one for each pose, or none (not exact)
@@ -51,6 +51,7 @@ struct PoseAnswer {
       designs;                     ///< best first: free of defects, then near (not exact), then by pair angle
   std::vector<GuidingDyad> dyads;  ///< where a finite number fits both prescriptions, those; else of a sweep
   int solutions = 0;               ///< dyads, complex ones included; 0 where they are swept
+  int outside = 0;  ///< of the real dyads or pairs, those left out for a pivot that is not in its region
   bool dependent = false;  ///< poses and prescriptions depend on each other: infinitely many dyads fit
   bool swept = false;
   int pairs = -1;  ///< real pairs of dyads of poses mixed with points, then of so many `solutions`; else -1

@@ -12,12 +12,15 @@ namespace linkwright::planar {
 /// Root mean square distance of the places from their middle (m); 1 where they are one place.
 double size_of_motion(std::span<const BodyPose> poses);
 
+/// Whether every pivot with a region is in it; a slide without that pivot is not.
+bool in_regions(const GuidingDyad& dyad, const Prescription& prescription);
+
 /// How many numbers of a dyad so many poses and a prescription leave open: 5 - poses - what is prescribed.
 int open_numbers(std::size_t poses, const Prescription& prescription);
 inline constexpr int most_open_numbers = 2;
 
-/// In how many directions lines are laid through the middle of the motion and the origin of the body where
-/// one number is open, and how many each where two are.
+/// How many lines or points are taken for a pivot where one number is open, and how many each way where two
+/// are.
 struct DyadSweep {
   int one = 120, two = 18;
 };
@@ -25,12 +28,15 @@ struct DyadSweep {
 struct DyadFamily {
   std::vector<GuidingDyad> dyads;  ///< links without length left out; of a sweep those within reach
   int solutions = 0;               ///< complex ones included, of all lines
-  bool dependent = false;          ///< poses and prescription depend on each other
+  int outside = 0;         ///< real ones left out because a pivot is not in its region (not of a sweep)
+  bool dependent = false;  ///< poses and prescription depend on each other
 };
 
-/// The dyads through poses with a prescription, a condition that is missing replaced by "the pivot lies on
-/// this line". The slides of four poses are among them. Of a sweep, pivots farther than five times the size
-/// of the motion are left out.
+/// The dyads through poses with a prescription, a condition that is missing replaced by others in turn: the
+/// pivot is at this point of its line or region, or on this line through the middle of the motion, through
+/// the origin of the body or across its region. The slides of four poses are among them. Dyads with a pivot
+/// outside its region are left out, and so are those without the pivot that has one; of a sweep, those with
+/// pivots farther than five times the size of the motion, unless these are in a region.
 ///
 /// Throws ContractError unless open_numbers are 0 to most_open_numbers.
 DyadFamily dyad_family(std::span<const BodyPose> poses, const Prescription& prescription,

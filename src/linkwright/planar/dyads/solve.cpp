@@ -387,6 +387,8 @@ int poses_replaced(const Prescription& p) {
          p.moving_line.has_value();
 }
 
+bool prescribes(const Prescription& p) { return poses_replaced(p) > 0 || p.fixed_region || p.moving_region; }
+
 GuidingDyads solve_dyads(std::span<const BodyPose> poses, const Prescription& prescription) {
   LINKWRIGHT_REQUIRE(static_cast<int>(poses.size()) + poses_replaced(prescription) == 5, "{} poses",
                      poses.size());

@@ -22,13 +22,20 @@ struct PivotLine {
   std::complex<double> point;      ///< on it (m)
   std::complex<double> direction;  ///< of any length but 0
 };
-/// What is known of the pivots of a dyad: each pivot is given, on a line, or free.
-struct Prescription {
-  std::optional<std::complex<double>> fixed, moving;  ///< G in the plane, W in the frame of the body (m)
-  std::optional<PivotLine> fixed_line, moving_line;   ///< likewise; not beside a given pivot
+/// A rectangle of the plane or of the body.
+struct PivotRegion {
+  std::complex<double> lower, upper;  ///< least and greatest coordinates (m)
 };
-/// How many poses a prescription replaces: one for a line, two for a pivot.
+/// What is known of the pivots of a dyad: each pivot is given, on a line, in a region, or free.
+struct Prescription {
+  std::optional<std::complex<double>> fixed, moving;       ///< G in the plane, W in the frame of the body (m)
+  std::optional<PivotLine> fixed_line, moving_line;        ///< likewise; not beside a given pivot
+  std::optional<PivotRegion> fixed_region, moving_region;  ///< of dyad_family; not beside one or a line
+};
+/// How many poses a prescription replaces: one for a line, two for a pivot, none for a region.
 int poses_replaced(const Prescription& prescription);
+/// Whether it says anything.
+bool prescribes(const Prescription& prescription);
 
 /// The real dyads, RR by rising length, then PR and RP.
 struct GuidingDyads {
@@ -43,8 +50,8 @@ struct GuidingDyads {
   std::span<const GuidingDyad> real() const&& = delete;  ///< it would outlive what it shows
 };
 
-/// All dyads through poses with a prescription: as many poses as make five with `poses_replaced`. Five poses
-/// have up to four. Nothing is allocated.
+/// All dyads through poses with a prescription, wherever its regions are: as many poses as make five with
+/// `poses_replaced`. Five poses have up to four. Nothing is allocated.
 ///
 /// Throws ContractError for another number of poses, a pivot that is given twice, or numbers that are not
 /// finite.

@@ -110,7 +110,7 @@ std::vector<ExactSliderDesign> exact_designs(const SliderPathProblem& problem,
     const int worst = severity(design.defects);
     // Two designs that differ by rounding alone keep their order: to 1e-6 rad.
     const double pressure = worst < 2 ? std::round(design.pressure_angle * 1e6) : 0;
-    ranked.push_back({{worst, std::isnan(design.design.stroke), pressure}, std::move(design)});
+    ranked.push_back({{worst, std::isnan(design.design.stroke), pressure}, design});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -54,11 +54,29 @@ void fields(Visitor&& visit, PivotLineForm& l) {
         l.direction);
 }
 
+struct PivotRegionForm {
+  std::array<double, 2> min{}, max{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, PivotRegionForm& r) {
+  visit(Field{.key = "min",
+              .summary = "least coordinates [x, y]",
+              .dimension = Dimension::length,
+              .required = true},
+        r.min);
+  visit(Field{.key = "max",
+              .summary = "greatest coordinates [x, y]",
+              .dimension = Dimension::length,
+              .required = true},
+        r.max);
+}
+
 /// One `[[mechanism.pivot]]`: what is known of the pivots of a dyad.
 struct PivotForm {
   int dyad = 1;
   std::optional<std::array<double, 2>> fixed, moving;
   std::optional<PivotLineForm> fixed_on_line, moving_on_line;
+  std::optional<PivotRegionForm> fixed_in_region, moving_in_region;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PivotForm& p) {
@@ -76,6 +94,12 @@ void fields(Visitor&& visit, PivotForm& p) {
   visit(Field{.key = "moving_on_line",
               .summary = "a line of the body that its pivot on the body lies on, in the frame of the body"},
         p.moving_on_line);
+  visit(Field{.key = "fixed_in_region", .summary = "a rectangle that its pivot on the ground lies in"},
+        p.fixed_in_region);
+  visit(Field{.key = "moving_in_region",
+              .summary =
+                  "a rectangle of the body that its pivot on the body lies in, in the frame of the body"},
+        p.moving_in_region);
 }
 
 struct PoseMechanism {
@@ -85,7 +109,8 @@ struct PoseMechanism {
 template <class Visitor>
 void fields(Visitor&& visit, PoseMechanism& m) {
   visit(Field{.key = "dyads", .summary = "what may join the body to the ground"}, m.dyads);
-  visit(Field{.key = "pivot", .summary = "pivots that are given, or lie on given lines"}, m.pivots);
+  visit(Field{.key = "pivot", .summary = "pivots that are given, or lie on given lines or in regions"},
+        m.pivots);
 }
 
 /// How the poses are met.

@@ -169,6 +169,13 @@ void set_pivots(study::ObjectReader& mechanism, PoseStudy& s) {
   const auto line = [](const PivotLineForm& form) {
     return PivotLine{complex(form.point), std::polar(1.0, form.direction)};
   };
+  const auto region = [&](const PivotRegionForm& form, const char* key) {
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+      if (!(form.min[axis] < form.max[axis]))
+        mechanism.error("pivot", fmt::format("{}: min is not below max in {}", key, axis == 0 ? "x" : "y"),
+                        "a pivot whose place is known is given by fixed or moving");
+    return PivotRegion{complex(form.min), complex(form.max)};
+  };
   for (const PivotForm& form : s.mechanism.pivots) {
     if (form.dyad != 1 && form.dyad != 2) continue;  // reported already
     Prescription& p = s.problem.pivots[static_cast<std::size_t>(form.dyad - 1)];
@@ -176,15 +183,20 @@ void set_pivots(study::ObjectReader& mechanism, PoseStudy& s) {
       mechanism.error("pivot", fmt::format("the {} pivot of dyad {} is given twice", what, form.dyad),
                       "keep one of them");
     };
-    const bool fixed_before = p.fixed || p.fixed_line, moving_before = p.moving || p.moving_line;
-    if ((form.fixed && form.fixed_on_line) || ((form.fixed || form.fixed_on_line) && fixed_before))
-      return twice("fixed");
-    if ((form.moving && form.moving_on_line) || ((form.moving || form.moving_on_line) && moving_before))
-      return twice("moving");
+    const bool fixed_before = p.fixed || p.fixed_line || p.fixed_region,
+               moving_before = p.moving || p.moving_line || p.moving_region;
+    const int fixed =
+                  form.fixed.has_value() + form.fixed_on_line.has_value() + form.fixed_in_region.has_value(),
+              moving = form.moving.has_value() + form.moving_on_line.has_value() +
+                       form.moving_in_region.has_value();
+    if (fixed + fixed_before > 1) return twice("fixed");
+    if (moving + moving_before > 1) return twice("moving");
     if (form.fixed) p.fixed = complex(*form.fixed);
     if (form.moving) p.moving = complex(*form.moving);
     if (form.fixed_on_line) p.fixed_line = line(*form.fixed_on_line);
     if (form.moving_on_line) p.moving_line = line(*form.moving_on_line);
+    if (form.fixed_in_region) p.fixed_region = region(*form.fixed_in_region, "fixed_in_region");
+    if (form.moving_in_region) p.moving_region = region(*form.moving_in_region, "moving_in_region");
     if (p.fixed && p.moving) {
       mechanism.error("pivot",
                       fmt::format("both pivots of dyad {} are given: nothing is left to choose", form.dyad),
@@ -212,8 +224,8 @@ void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
     return target.error("fit", "weights and poses that are marked exact are for least_squares",
                         "write fit = \"least_squares\", or leave weight and exact out");
   if (given > 0)
-    return target.error("fit", "pivots are prescribed for poses alone, not with points among them",
-                        "give every pose its angle, or remove [[mechanism.pivot]]");
+    return target.error("fit", "pivots are given, or on lines, for poses alone, not with points among them",
+                        "give every pose its angle, or give regions for pivots");
   const auto poses =
       std::count_if(demands.begin(), demands.end(), [](const PoseDemand& d) { return d.angle; });
   const auto points = static_cast<std::ptrdiff_t>(demands.size()) - poses;
@@ -249,7 +261,7 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
     if (n < 5)
       target.error("fit", fmt::format("{} poses are met exactly, least_squares needs 5 at least", n),
                    "write fit = \"exact\", or leave it out");
-    if (given > 0)
+    if (prescribes(s.problem.pivots[0]) || prescribes(s.problem.pivots[1]))
       target.error(
           "fit", "pivots are prescribed for poses that are met exactly, up to five",
           n > 5 ? "keep the poses that matter, or remove [[mechanism.pivot]]" : "write fit = \"exact\"");
@@ -270,7 +282,8 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
           "a pivot that is given counts as two poses, one on a line as one: remove a pose or a pivot");
     if (free > most_open_numbers) {
       target.error("pose", fmt::format("{} poses leave {} numbers of dyad {} open", n, free, dyad + 1),
-                   "add a pose, or [[mechanism.pivot]] with a pivot of it or a line for one");
+                   "add a pose, or [[mechanism.pivot]] with a pivot of it or a line for one; a region is no "
+                   "condition");
     }
   }
 }

@@ -37,8 +37,8 @@ constexpr double curve_reach = 8;
 
 class PoseReport {
  public:
-  PoseReport(const PoseProblem& problem, const study::Common& common, PoseAnswer answer)
-      : p_(problem), common_(common), answer_(std::move(answer)) {}
+  PoseReport(const PoseStudy& study, const study::Common& common, PoseAnswer answer)
+      : p_(study.problem), pivots_(study.mechanism.pivots), common_(common), answer_(std::move(answer)) {}
 
   study::Result make() {
     result_.status = answer_.status != Status::done ? answer_.status
@@ -193,8 +193,42 @@ class PoseReport {
       scene.bodies.push_back(std::move(ghost));
     }
     scene.targets = {std::move(target)};
+    draw_regions(scene);
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
+  }
+
+  // Regions of pivots, those of the body at its first pose; corners move those of the ground.
+  void draw_regions(study::Scene& scene) const {
+    if (!regions()) return;
+    const int run = static_cast<int>(scene.runs.size());
+    scene.runs.emplace_back("regions");
+    for (std::size_t k = 0; k < pivots_.size(); ++k) {
+      const PivotForm& form = pivots_[k];
+      for (const bool fixed : {true, false}) {
+        const auto& region = fixed ? form.fixed_in_region : form.moving_in_region;
+        if (!region) continue;
+        study::Scene::Body drawn{
+            fmt::format("region of the {} pivot of dyad {}", fixed ? "fixed" : "moving", form.dyad),
+            {},
+            study::Scene::BodyStyle::plate,
+            run};
+        const auto& [x0, y0] = region->min;
+        const auto& [x1, y1] = region->max;
+        const Complex corners[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+        for (const Complex corner : corners) {
+          const Complex at = fixed ? corner : place(p_.poses[0], corner);
+          drawn.points.push_back(static_cast<int>(scene.points.size()));
+          scene.points.push_back({"corner of the " + drawn.name, {at.real()}, {at.imag()}});
+        }
+        const std::string key = fmt::format("mechanism.pivot[{}].fixed_in_region.", k);
+        if (fixed) {
+          scene.handles.push_back({.key = key + "min_m", .point = drawn.points[0]});
+          scene.handles.push_back({.key = key + "max_m", .point = drawn.points[2]});
+        }
+        scene.bodies.push_back(std::move(drawn));
+      }
+    }
   }
 
   // The origin of a pose moves it.
@@ -217,6 +251,11 @@ class PoseReport {
                                  .target = 0,
                                  .index = static_cast<int>(k),
                                  .from = origin});
+  }
+
+  bool regions() const {
+    return std::any_of(p_.pivots.begin(), p_.pivots.end(),
+                       [](const Prescription& p) { return p.fixed_region || p.moving_region; });
   }
 
   bool has_angle(std::size_t k) const { return p_.demands.empty() || p_.demands[k].angle; }
@@ -276,6 +315,7 @@ class PoseReport {
       st["real_linkages"] = answer_.pairs;
     else
       st["real_dyads"] = static_cast<int>(answer_.dyads.size());
+    if (answer_.outside > 0) st["outside_regions"] = answer_.outside;
     st["linkages"] = answer_.tried;
     st["defect_free"] = answer_.free;
     for (const PoseDefect defect : {PoseDefect::branch, PoseDefect::circuit, PoseDefect::order})
@@ -284,6 +324,7 @@ class PoseReport {
     st["outcome"] = answer_.free > 0                              ? "done"
                     : answer_.tried > 0                           ? "all_defective"
                     : answer_.dependent                           ? "dependent_poses"
+                    : answer_.outside > 0                         ? "outside_regions"
                     : answer_.dyads.empty() || answer_.pairs == 0 ? "no_real_solution"
                                                                   : "no_solution";
   }
@@ -389,8 +430,11 @@ class PoseReport {
     if (answer_.pairs >= 0)
       fact("linkages", fmt::format("{} real of {}", answer_.pairs, answer_.solutions));
     else if (!answer_.swept)
-      fact("dyads", p_.exact ? fmt::format("{} real of {}", answer_.dyads.size(), answer_.solutions)
+      fact("dyads", p_.exact ? fmt::format("{} real of {}",
+                                           answer_.dyads.size() + static_cast<std::size_t>(answer_.outside),
+                                           answer_.solutions)
                              : fmt::format("{} next to the poses", answer_.dyads.size()));
+    if (answer_.outside > 0) fact("with a pivot outside its region", fmt::format("{}", answer_.outside));
     fact("linkages with a drive", fmt::format("{}", answer_.tried));
     fact("free of defects", fmt::format("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
     if (answer_.tried > answer_.free) fact("defects", why());
@@ -404,6 +448,11 @@ class PoseReport {
     if (shown_.empty()) {
       result_.headline =
           answer_.status != Status::done ? "Stopped before a linkage was found."
+          : answer_.outside > 0
+              ? fmt::format(
+                    "No linkage through the poses has its pivots in the regions: of {}, {} are outside.",
+                    answer_.pairs >= 0 ? "the real linkages" : "the real dyads", answer_.outside)
+          : answer_.swept && regions() ? "No linkage through the poses has its pivots in the regions."
           : answer_.pairs >= 0
               ? fmt::format("None of the {} linkages through the poses is real.", answer_.solutions)
           : answer_.dyads.size() == 0
@@ -445,7 +494,10 @@ class PoseReport {
 
   void relax(const study::AddWarning& warn) const {
     if (answer_.status != Status::done) return;
-    if (!p_.exact)
+    if (regions())
+      warn("mechanism", "the pivots of the linkages through the poses lie elsewhere, or these have defects",
+           "make a region larger, or take it out to see where the pivots can be");
+    else if (!p_.exact)
       warn("target", "no linkage near the poses passes them in one motion",
            "take poses of a smoother motion, or allow other dyads in mechanism.dyads");
     else if (answer_.pairs >= 0)
@@ -463,6 +515,7 @@ class PoseReport {
   static Complex number_of(const Vec<double>& v) { return {v.x, v.y}; }
 
   const PoseProblem& p_;
+  const std::vector<PivotForm>& pivots_;
   const study::Common& common_;
   const PoseAnswer answer_;
   std::vector<const PoseDesign*> shown_;
@@ -473,12 +526,12 @@ class PoseReport {
 
 study::Result run_pose_study(const PoseStudy& s, const study::Common& common, RunContext& context) {
   if (!s.problem.exact || !s.mixed)
-    return PoseReport(s.problem, common, find_pose_designs(s.problem, context)).make();
+    return PoseReport(s, common, find_pose_designs(s.problem, context)).make();
   const MixedPoseSolutions found = solve_mixed_poses({s.problem.poses, s.problem.demands}, context);
   PoseAnswer answer = pose_designs_of(s.problem, found.real, context);
   answer.solutions = found.finite;
   if (found.status != Status::done) answer.status = found.status;
-  study::Result result = PoseReport(s.problem, common, std::move(answer)).make();
+  study::Result result = PoseReport(s, common, std::move(answer)).make();
   const study::AddWarning warn{result.diagnostics};
   if (found.lost > 0)
     warn("target", fmt::format("{} paths were lost: linkages may be missing", found.lost),
