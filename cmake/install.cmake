@@ -20,6 +20,9 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
 # Components: program (what who runs it needs), mpi (its plug-in for ranks of mpirun) and development (headers, libraries, packages of CMake and pkg-config).
 if(TARGET linkwright)
   install(TARGETS linkwright RUNTIME COMPONENT program)
+  if(TARGET linkwright_pagmo)
+    install(TARGETS linkwright_pagmo LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/linkwright COMPONENT program)
+  endif()
   # What the program says of itself (src/linkwright/cli/CMakeLists.txt), where man, bash, zsh and fish look for it.
   if(NOT CMAKE_CROSSCOMPILING)
     set(described ${PROJECT_BINARY_DIR}/described)

@@ -15,7 +15,7 @@ LAYERS = [
     ["core"],
     ["math"],
     ["optimise"],
-    ["study"],
+    ["study", "pagmo"],
     ["planar", "flexible", "suspension", "parallel", "report"],
     ["clearance", "parameter_study"],
     ["app"],

@@ -33,6 +33,7 @@ import wheel_backend  # pylint: disable=wrong-import-position
 
 VERSION = re.search(r'LINKWRIGHT_VERSION "(.*)"', (ROOT / "src/linkwright/version.h").read_text(encoding="utf-8"))[1]
 MAINTAINER = "The Linkwright developers <developers@linkwright.invalid>"
+PAGMO = "lib/linkwright/pagmo.so"  # the plug-in that the program loads when it needs pagmo
 SUMMARY = "analyses, balances and synthesises mechanisms"
 ABOUT = """ Planar linkages, wheel suspensions, parallel robots, joints with clearance
  and flexible arms: positions, forces, drives, limits, balance, and synthesis
@@ -75,12 +76,12 @@ def build_packages():
 
 # --- Debian packages ---------------------------------------------------------------------------------------------------------
 
-def shared_library_packages(file):
-    """What dpkg-shlibdeps says that a program or library depends on."""
+def shared_library_packages(*files):
+    """What dpkg-shlibdeps says that programs or libraries depend on."""
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "debian").mkdir()
         (pathlib.Path(folder) / "debian/control").write_text("Source: linkwright\n\nPackage: linkwright\nArchitecture: any\n", encoding="utf-8")
-        said = output("dpkg-shlibdeps", "-O", f"-e{file}", cwd=folder)
+        said = output("dpkg-shlibdeps", "-O", *(f"-e{file}" for file in files), cwd=folder)
     return said.removeprefix("shlibs:Depends=").split(", ")
 
 
@@ -107,10 +108,10 @@ def deb(out, name, stage, depends, section, summary=SUMMARY):
 def program_deb(build, out, work):
     stage = work / "program"
     install(build, "program", stage / "usr")
-    program = stage / "usr/bin/linkwright"
-    run("strip", program)
+    run("strip", stage / "usr/bin/linkwright")
+    run("strip", "--strip-unneeded", stage / "usr" / PAGMO)
     run("gzip", "-9n", stage / "usr/share/man/man1/linkwright.1")
-    return deb(out, "linkwright", stage, shared_library_packages(build / "bin/linkwright"), "science")
+    return deb(out, "linkwright", stage, shared_library_packages(build / "bin/linkwright", build / PAGMO), "science")
 
 
 def mpi_deb(build, out, work):
@@ -159,10 +160,12 @@ def tarball(build, out, work, bundled, bill):
     stage = work / name
     install(build, "program", stage)
     program = stage / "bin/linkwright"
-    libraries = stage / "lib/linkwright"
-    libraries.mkdir(parents=True)
+    plug_in = stage / PAGMO
+    libraries = plug_in.parent
     run("strip", program)
+    run("strip", "--strip-unneeded", plug_in)
     run("patchelf", "--set-rpath", "$ORIGIN/../lib/linkwright", program)
+    run("patchelf", "--set-rpath", "$ORIGIN", plug_in)
     documents = stage / "share/doc/linkwright"
     (documents / "licences").mkdir(parents=True)
     for library, path in sorted(bundled.items()):
@@ -181,7 +184,7 @@ def tarball(build, out, work, bundled, bill):
                                 "--format=gnu", "-c", name], stdout=subprocess.PIPE)
         # Machine code is packed closer when jumps are written as places; every xz unpacks it.
         filters = ["--x86"] if output("uname", "-m") == "x86_64" else []
-        subprocess.run(["xz", *filters, "--lzma2=preset=6", "-T1", "-c"], stdin=tar.stdout, stdout=stream, check=True)
+        subprocess.run(["xz", *filters, "--lzma2=preset=9e", "-T1", "-c"], stdin=tar.stdout, stdout=stream, check=True)
         tar.stdout.close()
         if tar.wait():
             sys.exit("tar failed")
@@ -226,7 +229,7 @@ def main():
         sys.exit(f"{program} is missing: build it first, for example by ./test")
     os.environ["SOURCE_DATE_EPOCH"] = commit_time()
     given.out.mkdir(parents=True, exist_ok=True)
-    bundled = wheel_backend.libraries_of(program)
+    bundled = wheel_backend.libraries_of(program) | wheel_backend.libraries_of(given.build / PAGMO)
     bill = bill_of_materials(bundled)
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)

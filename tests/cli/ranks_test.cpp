@@ -126,10 +126,9 @@ TEST_F(RunOnRanks, NeedsThePlugIn) {
   EXPECT_EQ(run({"OMPI_COMM_WORLD_SIZE=2", (folder_ / "linkwright").string(), "run",
                  LINKWRIGHT_STUDIES "/jansen-leg.toml"}),
             2);
-  EXPECT_EQ(
-      err_,
-      "linkwright: was started as 2 ranks, but cannot share a study between them: its part for MPI is not "
-      "installed; without them, use --shard\n");
+  EXPECT_THAT(
+      err_, HasSubstr("was started as 2 ranks, but cannot share a study between them: the part for MPI, /"));
+  EXPECT_THAT(err_, HasSubstr("lib/linkwright/mpi.so is not there; without them, use --shard\n"));
 }
 
 }  // namespace

@@ -80,6 +80,9 @@ def main():
     names = {part["name"] for part in bill["components"]}
     assert {"libpagmo8", "libeigen3-dev", "preact", "three"} <= names, names
     command = ["linkwright", "examples", "--copy", STUDY, "&&", "linkwright", "run", f"{STUDY}.toml", "--out", "out", "--quiet"]
+    # Pagmo is loaded when it is needed.
+    by_pagmo = ["linkwright", "examples", "--copy", "fourbar-18-points", "&&", "linkwright", "run", "fourbar-18-points.toml", "--out", "out",
+                "--set", "\"optimiser={method='cma_es'}\"", "--set", "check=[]", "--quiet"]
     with tempfile.TemporaryDirectory() as here:
         run("sh", "-euc", " ".join(command).replace("linkwright ", f"{build}/bin/linkwright "), cwd=here)
         expected = json.loads((pathlib.Path(here) / "out/result.json").read_text(encoding="utf-8"))
@@ -95,6 +98,7 @@ def main():
         (unpacked,) = (root.folder / "opt").iterdir()
         program = f"/opt/{unpacked.name}/bin/linkwright"
         same(root.result(*[program if word == "linkwright" else word for word in command]), expected, f"{archive.name} on {suite}")
+        root.result(*[program if word == "linkwright" else word for word in by_pagmo])
         if len(sys.argv) > 3:
             return
         shutil.rmtree(unpacked)
@@ -104,6 +108,7 @@ def main():
         debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(("linkwright-dev", "linkwright-mpi"))]
         root.call("apt-get", "-q", "-y", "install", "--no-install-recommends", *debs)
         same(root.result(*command), expected, "linkwright.deb")
+        root.result(*by_pagmo)
         for file in ("man1/linkwright.1.gz", "../bash-completion/completions/linkwright"):
             assert (root.folder / "usr/share/man" / file).is_file(), file
         for missing in ("g++", "cc", "cmake", "node"):

@@ -21,6 +21,7 @@
 #include "linkwright/cli/completion.h"
 #include "linkwright/cli/lists.h"
 #include "linkwright/cli/manual.h"
+#include "linkwright/cli/plug_ins.h"
 #include "linkwright/cli/progress.h"
 #include "linkwright/cli/ranks.h"
 #include "linkwright/cli/summary.h"
@@ -383,6 +384,9 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
       fmt::print("{}", completion_script(arguments.shell, completion_words(kinds, reproductions)));
       return 0;
   }
+  return internal_error;
+} catch (const PartMissing& error) {
+  fmt::print(stderr, "linkwright: {}\nInstall the program again; the study is not to blame.\n", error.what());
   return internal_error;
 } catch (const std::exception& error) {
   fmt::print(stderr, "linkwright: internal error: {}\nThis is a fault of the program, not of the study.\n",

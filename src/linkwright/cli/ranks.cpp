@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <filesystem>
 #include <initializer_list>
 #include <string_view>
 
+#include "linkwright/cli/plug_ins.h"
 #include "linkwright/core/platform/machine.h"
 #include "linkwright/core/platform/processes.h"
 
 namespace linkwright::cli {
-namespace fs = std::filesystem;
 namespace {
 
 /// The first of these environment variables as a number, 0 if there is none.
@@ -28,22 +27,6 @@ int number_in(std::initializer_list<const char*> names) {
   return 0;
 }
 
-constexpr const char* plug_in = "linkwright/mpi.so";
-
-/// Beside the program as it is built and installed, or where the loader looks.
-void* load_plug_in(std::string& problem) {
-  std::error_code error;
-  const fs::path program = platform::program_file();
-  for (const char* folder : {"../lib", "../lib/" LINKWRIGHT_MULTIARCH}) {
-    const fs::path file = program.parent_path() / folder / plug_in;
-    if (fs::exists(file, error)) {
-      return platform::load_library(file, problem);
-    }
-  }
-  problem = "its part for MPI is not installed";
-  return nullptr;
-}
-
 }  // namespace
 
 JoinedRanks join_ranks() {
@@ -51,7 +34,7 @@ JoinedRanks join_ranks() {
   const int count = number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
   if (count <= 1) return {};
   std::string problem;
-  void* library = load_plug_in(problem);
+  void* library = load_plug_in("mpi.so", problem);
   auto* join =
       library ? reinterpret_cast<app::JoinRanks*>(platform::function_of(library, "linkwright_join_ranks"))
               : nullptr;
@@ -60,8 +43,8 @@ JoinedRanks join_ranks() {
       join ? join(number_in({"OMPI_COMM_WORLD_RANK"}), number_in({"OMPI_COMM_WORLD_SIZE"})) : nullptr);
   if (!ranks)
     return {nullptr,
-            fmt::format("was started as {} ranks, but cannot share a study between them: {}; without "
-                        "them, use --shard",
+            fmt::format("was started as {} ranks, but cannot share a study between them: the part for "
+                        "MPI, {}; without them, use --shard",
                         count, problem)};
   return {std::move(ranks), {}};
 }
