@@ -36,10 +36,10 @@ Case random_case(RandomStream& random, int poses, int points) {
   return out;
 }
 
-MixedPoseSolutions solve_case(const Case& c, int threads = 2) {
+MixedPoseSolutions solve_case(const Case& c, MixedPoseLinkage linkage, int threads = 2) {
   RunContext context;
   context.set_threads(threads);
-  return solve_mixed_poses(c.target(), context);
+  return solve_mixed_poses(c.target(), linkage, context);
 }
 
 // Both dyads hold the body in all of its poses, where the case asks for.
@@ -59,9 +59,10 @@ void expect_solutions(int poses, int points, MixedPoseLinkage linkage, std::size
   std::size_t real = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const Case c = random_case(random, poses, points);
-    ASSERT_EQ(linkage_of(c.target()), linkage);
+    const auto possible = linkages_of(c.target());
+    ASSERT_TRUE(std::find(possible.begin(), possible.end(), linkage) != possible.end());
     EXPECT_EQ(mixed_pose_solutions(linkage, static_cast<std::size_t>(poses)), expected);
-    const MixedPoseSolutions found = solve_case(c);
+    const MixedPoseSolutions found = solve_case(c, linkage);
     EXPECT_EQ(found.status, Status::done) << trial;
     EXPECT_EQ(found.finite, static_cast<int>(expected)) << trial << " of " << poses << " and " << points;
     for (const GuidedPair& pair : found.real) expect_met(c, pair);
@@ -82,6 +83,12 @@ TEST(MixedPoses, SliderCranksOfRandomTargets) {
   expect_solutions(2, 5, MixedPoseLinkage::slider_crank, 202, 10);
 }
 
+TEST(MixedPoses, InvertedSliderCranksOfRandomTargets) {
+  expect_solutions(4, 1, MixedPoseLinkage::inverted_slider_crank, 6, 20);
+  expect_solutions(3, 3, MixedPoseLinkage::inverted_slider_crank, 56, 20);
+  expect_solutions(2, 5, MixedPoseLinkage::inverted_slider_crank, 448, 5);
+}
+
 // Another route: the slide, which four poses have one of, holds the body at the point in two rotations, and
 // with either there are five poses.
 TEST(MixedPoses, FourPosesAndAPointAreFivePosesTwice) {
@@ -89,7 +96,7 @@ TEST(MixedPoses, FourPosesAndAPointAreFivePosesTwice) {
   int compared = 0;
   for (int trial = 0; trial < 40; ++trial) {
     const Case c = random_case(random, 4, 1);
-    const MixedPoseSolutions found = solve_case(c);
+    const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::slider_crank);
     if (found.real.empty()) continue;
     const GuidingDyad& slide = found.real[0].second;
     const auto point = static_cast<std::size_t>(
@@ -131,6 +138,11 @@ TEST(MixedPoses, EightyWaysAroundBringNoFurtherSolution) {
     EXPECT_EQ(starts.points.size(), expected);
     EXPECT_EQ(starts.loops, 80);
   }
+  for (const auto& [poses, expected] : {std::pair<std::size_t, std::size_t>{4, 6}, {3, 56}}) {
+    const auto starts = find_starts<InvertedPoses>(7, expected + 1, context, {}, {.poses = poses - 1});
+    EXPECT_EQ(starts.points.size(), expected);
+    EXPECT_EQ(starts.loops, 80);
+  }
 }
 
 const FourBar four_bar{.ground = 1,
@@ -153,7 +165,7 @@ TEST(MixedPoses, FindTheFourBarThatLedTheBody) {
       c.poses.push_back({at.coupler_point, with[k] ? at.coupler_angle : 0});
       c.demands.push_back({.angle = with[k]});
     }
-    const MixedPoseSolutions found = solve_case(c);
+    const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::four_bar);
     EXPECT_EQ(found.status, Status::done);
     const auto close = [&](const GuidingDyad& d, std::complex<double> pivot, double length) {
       return std::abs(d.fixed - pivot) < 1e-7 && std::abs(d.length - length) < 1e-7;
@@ -189,7 +201,7 @@ TEST(MixedPoses, FindTheSliderCrankThatLedTheBody) {
     c.poses.push_back({at.point, k % 2 == 0 ? at.rod_angle : 0});
     c.demands.push_back({.angle = k % 2 == 0});
   }
-  const MixedPoseSolutions found = solve_case(c);
+  const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::slider_crank);
   EXPECT_TRUE(std::any_of(found.real.begin(), found.real.end(), [&](const GuidedPair& pair) {
     const double offset =
         std::abs((std::conj(pair.second.normal) * std::complex(0.2, -0.1)).real() - pair.second.offset);
@@ -199,14 +211,41 @@ TEST(MixedPoses, FindTheSliderCrankThatLedTheBody) {
   }));
 }
 
+// A body on a crank, whose line passes a pivot: its poses by the plain construction.
+TEST(MixedPoses, FindTheInvertedSliderCrankThatLedTheBody) {
+  const std::complex<double> crank_pivot(0.2, -0.1), pivot(1.1, 0.3), pin(-0.2, 0.35);
+  const double crank = 0.3, offset = 0.15;
+  Case c;
+  for (int k = 0; k < 7; ++k) {
+    // The frame of the body has its x-axis along the guide, to the right of which the pivot is by the offset.
+    const std::complex<double> at = crank_pivot + std::polar(crank, 0.2 + 0.8 * k), way = pivot - at;
+    const double height = -offset - pin.imag();  // of the pivot over the pin, across the guide
+    const double angle = std::arg(way) - std::asin(height / std::abs(way));
+    const std::complex<double> origin = at - pin * std::polar(1.0, angle);
+    const bool pose = k == 2 || k == 5;
+    c.poses.push_back({origin, pose ? angle : 0});
+    c.demands.push_back({.angle = pose});
+  }
+  const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::inverted_slider_crank);
+  EXPECT_EQ(found.status, Status::done);
+  EXPECT_TRUE(std::any_of(found.real.begin(), found.real.end(), [&](const GuidedPair& pair) {
+    expect_met(c, pair);
+    return std::abs(pair.first.fixed - crank_pivot) < 1e-7 && std::abs(pair.first.length - crank) < 1e-7 &&
+           std::abs(pair.first.moving - pin) < 1e-7 && pair.second.type == GuidingDyadType::rp &&
+           std::abs(pair.second.fixed - pivot) < 1e-7 &&
+           std::abs(std::abs(pair.second.offset) - offset) < 1e-7;
+  }));
+}
+
 TEST(MixedPoses, TheOrderOfPosesAndTheThreadsDoNotMatter) {
   RandomStream random({.seed = 32});
   const Case c = random_case(random, 3, 4);
   Case turned = c;
   std::reverse(turned.poses.begin(), turned.poses.end());
   std::reverse(turned.demands.begin(), turned.demands.end());
-  EXPECT_EQ(solve_case(turned).real.size(), solve_case(c).real.size());
-  const auto one = solve_case(c, 1), three = solve_case(c, 3);
+  constexpr auto linkage = MixedPoseLinkage::four_bar;
+  EXPECT_EQ(solve_case(turned, linkage).real.size(), solve_case(c, linkage).real.size());
+  const auto one = solve_case(c, linkage, 1), three = solve_case(c, linkage, 3);
   ASSERT_EQ(one.real.size(), three.real.size());
   for (std::size_t i = 0; i < one.real.size(); ++i)
     EXPECT_EQ(one.real[i].first.moving, three.real[i].first.moving);
@@ -222,7 +261,7 @@ TEST(MixedPoses, TwoPosesMayBeAtOnePlace) {
                    {{-0.2, 1.2}, 0},
                    {{-0.6, 0.5}, 0}},
                   {{}, {}, {.angle = false}, {.angle = false}, {}, {.angle = false}, {.angle = false}}};
-  const MixedPoseSolutions found = solve_case(c);
+  const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::four_bar);
   EXPECT_EQ(found.lost, 0);
   EXPECT_GT(found.finite, 0);
   // What may be a whole family, with a pin at that origin, does not count.
@@ -233,18 +272,18 @@ TEST(MixedPoses, TwoPosesMayBeAtOnePlace) {
 
 TEST(MixedPoses, OnlyWhatLeavesNothingToChooseIsSolved) {
   RandomStream random({.seed = 33});
-  EXPECT_FALSE(linkage_of(random_case(random, 5, 0).target()));
-  EXPECT_FALSE(linkage_of(random_case(random, 3, 2).target()));
-  EXPECT_FALSE(linkage_of(random_case(random, 1, 8).target()));
+  EXPECT_TRUE(linkages_of(random_case(random, 5, 0).target()).empty());
+  EXPECT_TRUE(linkages_of(random_case(random, 3, 2).target()).empty());
+  EXPECT_TRUE(linkages_of(random_case(random, 1, 8).target()).empty());
   const Case c = random_case(random, 4, 3);
   RunContext context;
-  EXPECT_THROW(solve_mixed_poses(c.target(), context), ContractError);
+  EXPECT_THROW(solve_mixed_poses(c.target(), MixedPoseLinkage::four_bar, context), ContractError);
   Case again = random_case(random, 4, 2);
   const auto point = static_cast<std::size_t>(
       std::find_if(again.demands.begin(), again.demands.end(), [](const PoseDemand& d) { return !d.angle; }) -
       again.demands.begin());
   again.poses[point].origin = again.poses[point == 0 ? 1 : 0].origin;
-  EXPECT_THROW(solve_mixed_poses(again.target(), context), ContractError);
+  EXPECT_THROW(solve_mixed_poses(again.target(), MixedPoseLinkage::four_bar, context), ContractError);
 }
 
 }  // namespace

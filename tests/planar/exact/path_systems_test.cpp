@@ -103,6 +103,7 @@ TEST(PathSystems, DerivativesAreThoseOfDifferences) {
   for (std::size_t poses = 0; poses <= 3; ++poses) {
     expect_derivatives(FourBarPoses{.poses = poses});
     expect_derivatives(SliderPoses{.poses = poses});
+    expect_derivatives(InvertedPoses{.poses = poses});
   }
   RandomStream random({.seed = 11});
   NinePointsTrace::Form form;

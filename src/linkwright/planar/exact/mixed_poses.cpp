@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "linkwright/core/check.h"
@@ -43,29 +45,35 @@ GuidingDyad link(const std::complex<double>& pin, const std::complex<double>& pi
   return out;
 }
 
-std::array<GuidingDyad, 2> dyads_of(const SystemPoint<FourBarPoses>& z, const BodyPose& first) {
-  const auto place = [&](std::size_t i) { return real_place<FourBarPoses>(z, i); };
-  return {link(place(pin_x), place(pivot_a), first), link(place(pin_y), place(pivot_b), first)};
-}
-std::array<GuidingDyad, 2> dyads_of(const SystemPoint<SliderPoses>& z, const BodyPose& first) {
-  const auto place = [&](std::size_t i) { return real_place<SliderPoses>(z, i); };
-  GuidingDyad slide;
-  slide.type = GuidingDyadType::pr;
-  slide.moving = seen_from_body(place(slider_y), first);
-  slide.normal = std::polar(1.0, 0.5 * std::arg(standard_complex(z[guide_nu])));
-  slide.offset = (std::conj(slide.normal) * (first.origin + place(slider_y))).real();
-  return {link(place(slider_x), place(slider_a), first), slide};
+template <class System>
+std::array<GuidingDyad, 2> dyads_of(const SystemPoint<System>& z, const BodyPose& first) {
+  const auto place = [&](std::size_t i) { return real_place<System>(z, i); };
+  if constexpr (std::is_same_v<System, FourBarPoses>) {
+    return {link(place(pin_x), place(pivot_a), first), link(place(pin_y), place(pivot_b), first)};
+  } else {
+    const std::complex<double> normal = std::polar(1.0, 0.5 * std::arg(standard_complex(z[guide_nu]))),
+                               y = place(slider_y);
+    GuidingDyad slide;
+    if constexpr (std::is_same_v<System, SliderPoses>) {
+      slide.type = GuidingDyadType::pr;
+      slide.moving = seen_from_body(y, first);
+      slide.normal = normal;
+      slide.offset = (std::conj(normal) * (first.origin + y)).real();
+    } else {
+      slide.type = GuidingDyadType::rp;
+      slide.fixed = first.origin + y;
+      slide.normal = seen_from_body(normal, first);
+      slide.offset = (std::conj(normal) * y).real();
+    }
+    return {link(place(slider_x), place(slider_a), first), slide};
+  }
 }
 
 template <class C, class System>
 struct CurveOf;
-template <class C>
-struct CurveOf<C, FourBarPoses> {
-  using Type = CurveEquation<C>;
-};
-template <class C>
-struct CurveOf<C, SliderPoses> {
-  using Type = SliderCurveEquation<C>;
+template <class C, template <class> class Curve, class Bars>
+struct CurveOf<C, PosesAndPoints<Curve, Bars>> {
+  using Type = Curve<C>;
 };
 
 template <class System>
@@ -96,7 +104,7 @@ void solve_mixed(const MixedPoses& target, MixedPoseSolutions& out, RunContext& 
   out.singular = solutions.singular;
   for (const SystemPoint<System>& z : solutions.found) {
     if (!is_real_solution<System>(z, size)) continue;
-    const auto [one, other] = dyads_of(z, first);
+    const auto [one, other] = dyads_of<System>(z, first);
     GuidedPair pair{one, other, {target.poses.begin(), target.poses.end()}};
     for (std::size_t j = sorted.poses; j < sorted.order.size(); ++j) {
       const typename CurveOf<ComplexNumber, System>::Type curve(z.data(), data[j - 1],
@@ -115,26 +123,30 @@ void solve_mixed(const MixedPoses& target, MixedPoseSolutions& out, RunContext& 
 
 }  // namespace
 
-std::optional<MixedPoseLinkage> linkage_of(const MixedPoses& target) {
+std::span<const MixedPoseLinkage> linkages_of(const MixedPoses& target) {
+  static constexpr MixedPoseLinkage all[] = {MixedPoseLinkage::four_bar, MixedPoseLinkage::slider_crank,
+                                             MixedPoseLinkage::inverted_slider_crank};
   const std::size_t poses = poses_first(target).poses, points = target.poses.size() - poses;
-  if (poses < 2 || points == 0) return std::nullopt;
+  if (poses < 2 || points == 0) return {};
   const std::size_t conditions = 2 * (poses - 1) + points;
-  if (conditions == four_bar_unknowns) return MixedPoseLinkage::four_bar;
-  if (conditions == slider_crank_unknowns) return MixedPoseLinkage::slider_crank;
-  return std::nullopt;
+  if (conditions == four_bar_unknowns) return std::span(all).first(1);
+  if (conditions == slider_crank_unknowns) return std::span(all).last(2);
+  return {};
 }
 
 std::size_t mixed_pose_solutions(MixedPoseLinkage linkage, std::size_t poses) {
-  constexpr std::size_t four_bars[] = {1112, 201, 30}, slider_cranks[] = {202, 42, 6};
+  constexpr std::size_t solutions[][3] = {{1112, 201, 30}, {202, 42, 6}, {448, 56, 6}};
   LINKWRIGHT_REQUIRE(poses >= 2 && poses <= 4, "{} poses", poses);
-  return linkage == MixedPoseLinkage::four_bar ? four_bars[poses - 2] : slider_cranks[poses - 2];
+  return solutions[static_cast<std::size_t>(linkage)][poses - 2];
 }
 
-MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, RunContext& context) {
+MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, MixedPoseLinkage linkage,
+                                     RunContext& context) {
   LINKWRIGHT_REQUIRE(target.demands.size() == target.poses.size(), "{} demands for {} poses",
                      target.demands.size(), target.poses.size());
-  const auto linkage = linkage_of(target);
-  LINKWRIGHT_REQUIRE(linkage, "{} poses and points have no finite number of linkages", target.poses.size());
+  const auto finite = linkages_of(target);
+  LINKWRIGHT_REQUIRE(std::find(finite.begin(), finite.end(), linkage) != finite.end(),
+                     "{} poses and points have no finite number of these linkages", target.poses.size());
   for (std::size_t i = 0; i < target.poses.size(); ++i) {
     LINKWRIGHT_REQUIRE(
         std::isfinite(std::abs(target.poses[i].origin)) && std::isfinite(target.poses[i].angle),
@@ -146,11 +158,18 @@ MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, RunContext& conte
                          "point {} repeats point {}", i + 1, j + 1);
   }
   MixedPoseSolutions out;
-  out.whole = static_cast<int>(mixed_pose_solutions(*linkage, poses_first(target).poses));
-  if (*linkage == MixedPoseLinkage::four_bar)
-    solve_mixed<FourBarPoses>(target, out, context);
-  else
-    solve_mixed<SliderPoses>(target, out, context);
+  out.whole = static_cast<int>(mixed_pose_solutions(linkage, poses_first(target).poses));
+  switch (linkage) {
+    case MixedPoseLinkage::four_bar:
+      solve_mixed<FourBarPoses>(target, out, context);
+      break;
+    case MixedPoseLinkage::slider_crank:
+      solve_mixed<SliderPoses>(target, out, context);
+      break;
+    case MixedPoseLinkage::inverted_slider_crank:
+      solve_mixed<InvertedPoses>(target, out, context);
+      break;
+  }
   return out;
 }
 

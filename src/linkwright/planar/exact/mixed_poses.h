@@ -11,8 +11,9 @@
 
 namespace linkwright::planar {
 
-/// What leads a body through poses and points that leave it nothing to choose.
-enum class MixedPoseLinkage { four_bar, slider_crank };
+/// What leads a body through poses and points that leave it nothing to choose: RR and RR, RR and PR, RR and
+/// RP.
+enum class MixedPoseLinkage { four_bar, slider_crank, inverted_slider_crank };
 
 /// Poses, of which two at least have a rotation, the others are points that the origin of the body passes.
 struct MixedPoses {
@@ -20,13 +21,14 @@ struct MixedPoses {
   std::span<const PoseDemand> demands;  ///< which of them have a rotation
 };
 
-/// Which linkage has finitely many solutions: four-bars where twice the poses beside the first and the points
-/// are 8 together, slider-cranks where they are 7; none otherwise, and for five poses without points.
-std::optional<MixedPoseLinkage> linkage_of(const MixedPoses& target);
+/// Which linkages have finitely many solutions: four-bars where twice the poses beside the first and the
+/// points are 8 together, both kinds of slider-cranks where they are 7; none otherwise, and for five poses
+/// without points.
+std::span<const MixedPoseLinkage> linkages_of(const MixedPoses& target);
 
 /// Solutions that generic poses and points have, complex ones with them: four-bars 30, 201, 1112 for 4 poses
-/// and 2 points, 3 and 4, 2 and 6; slider-cranks 5, 42, 201 for 4 and 1, 3 and 3, 2 and 5. By monodromy, not
-/// a theorem; two orders of links are one.
+/// and 2 points, 3 and 4, 2 and 6; slider-cranks 6, 42, 202 and inverted ones 6, 56, 448 for 4 and 1, 3 and
+/// 3, 2 and 5. By monodromy, not a theorem; two orders of links are one.
 std::size_t mixed_pose_solutions(MixedPoseLinkage linkage, std::size_t poses);
 
 struct MixedPoseSolutions {
@@ -34,13 +36,13 @@ struct MixedPoseSolutions {
   int whole = 0;                 ///< solutions that generic poses and points have
   int finite = 0, infinite = 0, lost = 0;
   int singular = 0;              ///< ends where solutions meet
-  std::vector<GuidedPair> real;  ///< with the rotations at the points; RR before PR
+  std::vector<GuidedPair> real;  ///< with the rotations at the points; a slide second
 };
 
-/// All four-bars, or slider-cranks, that lead a body through poses and its origin through points, by
+/// All linkages of a kind that lead a body through poses and its origin through points, by
 /// following the solutions of a generic complex problem, which are found at the first use and kept. Throws
-/// ContractError unless `linkage_of` names one, poses are finite, and no point is at the place of another or
-/// of a pose.
-MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, RunContext& context);
+/// ContractError unless it is among `linkages_of`, poses are finite, and no point is at the place of another
+/// or of a pose.
+MixedPoseSolutions solve_mixed_poses(const MixedPoses& target, MixedPoseLinkage linkage, RunContext& context);
 
 }  // namespace linkwright::planar

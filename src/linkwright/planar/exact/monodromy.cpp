@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "linkwright/core/numbers.h"
@@ -31,26 +32,31 @@ DyadAtPoint dyad_of_pins(const ComplexNumber& pin, const ComplexNumber& pivot,
              A = standard_complex(pivot_partner);
   return {1, X - A + X * G, x - a + x * g, -A * x * g - a * X * G};
 }
-std::array<DyadAtPoint, 2> dyads_of(const ComplexFourBar<>& z, const std::complex<double>& g,
+template <class System>
+std::array<DyadAtPoint, 2> dyads_of(const System&, const ComplexFourBar<>& z, const std::complex<double>& g,
                                     const std::complex<double>& G) {
   return {dyad_of_pins(z[pin_x], z[pivot_a], z[pin_X], z[pivot_A], g, G),
           dyad_of_pins(z[pin_y], z[pivot_b], z[pin_Y], z[pivot_B], g, G)};
 }
-std::array<DyadAtPoint, 2> dyads_of(const SliderPoses::Bars& z, const std::complex<double>& g,
+template <template <class> class Curve>
+std::array<DyadAtPoint, 2> dyads_of(const PosesAndPoints<Curve, ComplexSliderCrank>&,
+                                    const ComplexSliderCrank& z, const std::complex<double>& g,
                                     const std::complex<double>& G) {
   const auto y = standard_complex(z[slider_y]), Y = standard_complex(z[slider_Y]),
              nu = standard_complex(z[guide_nu]);
+  constexpr bool inverted = std::is_same_v<Curve<ComplexNumber>, InvertedCurveEquation<ComplexNumber>>;
   return {dyad_of_pins(z[slider_x], z[slider_a], z[slider_X], z[slider_A], g, G),
-          {0, 1, nu, y * g + nu * Y * G}};
+          inverted ? DyadAtPoint{0, 1.0 + G, nu * (1.0 + g), -nu * Y * g - y * G}
+                   : DyadAtPoint{0, 1, nu, y * g + nu * Y * G}};
 }
 
 // The point of the coupler curve of a complex linkage when its coupler has turned by `rotation`: the first
 // dyad's equation and a linear one, the second or its difference from the first.
-template <class Bars>
-void complex_curve_point(const Bars& z, const std::complex<double>& rotation, ComplexNumber& d,
-                         ComplexNumber& D) {
+template <class System>
+void complex_curve_point(const System& system, const typename System::Bars& z,
+                         const std::complex<double>& rotation, ComplexNumber& d, ComplexNumber& D) {
   const std::complex<double> g = rotation - 1.0, G = 1.0 / rotation - 1.0;
-  const std::array<DyadAtPoint, 2> dyad = dyads_of(z, g, G);
+  const std::array<DyadAtPoint, 2> dyad = dyads_of(system, z, g, G);
   const double s = dyad[1].s;
   const auto u = dyad[0].u * s - dyad[1].u, v = dyad[0].v * s - dyad[1].v, w = dyad[0].w * s - dyad[1].w;
   // D = -(u d + w) / v
@@ -72,7 +78,7 @@ void first_solution(const System& system, RandomStream& stream, SystemData<Syste
     std::array<ComplexNumber, System::others> d, D, turns;
     for (std::size_t j = 0; j < System::others; ++j) {
       const auto rotation = std::polar(std::exp(0.3 * stream.normal()), stream.uniform(0, 2 * pi));
-      complex_curve_point(bars, rotation, d[j], D[j]);
+      complex_curve_point(system, bars, rotation, d[j], D[j]);
       turns[j] = complex_number(rotation);
     }
     SystemData<System> p;
@@ -205,6 +211,7 @@ LINKWRIGHT_STARTS(FivePointsTwoPivots)
 LINKWRIGHT_STARTS(SevenPointsOnePivot)
 LINKWRIGHT_STARTS(FourBarPoses)
 LINKWRIGHT_STARTS(SliderPoses)
+LINKWRIGHT_STARTS(InvertedPoses)
 #undef LINKWRIGHT_STARTS
 #undef LINKWRIGHT_FIND_STARTS
 

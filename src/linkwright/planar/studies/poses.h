@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/planar/dyads/designs.h"
+#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/study/kind.h"
 
 // Linkages that lead a body through poses: what their file holds, how it is read, run and reported.
@@ -121,7 +122,7 @@ constexpr std::array<EnumName<PoseFitting>, 3> names(PoseFitting) {
         "exactly up to five poses; more, or with points or poses that are marked exact, by least squares"},
        {PoseFitting::exact, "exact",
         "every pose is met: two to five poses; or, by four-bars, 4 poses and 2 points, 3 and 4, 2 and 6, by "
-        "slider-cranks 4 and 1, 3 and 3, 2 and 5"},
+        "slider-cranks, inverted or not, 4 and 1, 3 and 3, 2 and 5"},
        {PoseFitting::least_squares, "least_squares", "as near as can be: five poses and more"}}};
 }
 
@@ -165,6 +166,7 @@ struct PoseStudy {
   PoseSearch search;
   PoseProblem problem;  ///< what follows from the above
   bool mixed = false;   ///< points among the poses, weights, or poses that are marked exact
+  std::vector<MixedPoseLinkage> exact_linkages;  ///< that meet them exactly, where they are mixed
 };
 
 /// "synthesis" of "planar.four_bar" for "poses".

@@ -13,7 +13,6 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/quantity_columns.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/beside.h"
@@ -216,6 +215,18 @@ bool allows(const PoseStudy& s, GuidingDyadType type) {
   return std::find(s.mechanism.dyads.begin(), s.mechanism.dyads.end(), type) != s.mechanism.dyads.end();
 }
 
+// What stands beside an RR dyad.
+GuidingDyadType other_dyad(MixedPoseLinkage linkage) {
+  switch (linkage) {
+    case MixedPoseLinkage::slider_crank:
+      return GuidingDyadType::pr;
+    case MixedPoseLinkage::inverted_slider_crank:
+      return GuidingDyadType::rp;
+    default:
+      return GuidingDyadType::rr;
+  }
+}
+
 // Whether poses and points together leave nothing to choose of a four-bar or of a slider-crank.
 void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
   const std::vector<PoseDemand>& demands = s.problem.demands;
@@ -230,23 +241,25 @@ void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
       std::count_if(demands.begin(), demands.end(), [](const PoseDemand& d) { return d.angle; });
   const auto points = static_cast<std::ptrdiff_t>(demands.size()) - poses;
   if (poses < 2) return;  // reported
-  const auto linkage = linkage_of({s.problem.poses, demands});
   const char* hint =
       "four-bars take 4 poses and 2 points, 3 and 4, or 2 and 6; slider-cranks 4 and 1, 3 and 3, or 2 and 5; "
       "fit = \"least_squares\" takes any";
   const std::string what = fmt::format("{} poses and {} point{}", poses, points, points == 1 ? "" : "s");
-  if (!linkage)
-    target.error(
+  const auto linkages = linkages_of({s.problem.poses, demands});
+  if (linkages.empty())
+    return target.error(
         "pose",
         fmt::format("{} are met exactly by {}", what,
                     2 * (poses - 1) + points > 8 ? "no linkage of two dyads" : "infinitely many linkages"),
         hint);
-  else if (!allows(s, GuidingDyadType::rr) ||
-           (*linkage == MixedPoseLinkage::slider_crank && !allows(s, GuidingDyadType::pr)))
+  for (const MixedPoseLinkage linkage : linkages)
+    if (allows(s, GuidingDyadType::rr) && allows(s, other_dyad(linkage))) s.exact_linkages.push_back(linkage);
+  if (s.exact_linkages.empty())
     target.error("pose",
                  fmt::format("{} are for {}, which mechanism.dyads leaves out", what,
-                             *linkage == MixedPoseLinkage::four_bar ? "four-bars (RR and RR)"
-                                                                    : "slider-cranks (RR and PR)"),
+                             linkages[0] == MixedPoseLinkage::four_bar
+                                 ? "four-bars (RR and RR)"
+                                 : "slider-cranks (RR and PR, or inverted RR and RP)"),
                  hint);
 }
 

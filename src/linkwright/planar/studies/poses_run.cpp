@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,7 +13,6 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/dyads/burmester.h"
 #include "linkwright/planar/dyads/linkage.h"
-#include "linkwright/planar/exact/mixed_poses.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
@@ -527,19 +527,29 @@ class PoseReport {
 study::Result run_pose_study(const PoseStudy& s, const study::Common& common, RunContext& context) {
   if (!s.problem.exact || !s.mixed)
     return PoseReport(s, common, find_pose_designs(s.problem, context)).make();
-  const MixedPoseSolutions found = solve_mixed_poses({s.problem.poses, s.problem.demands}, context);
-  PoseAnswer answer = pose_designs_of(s.problem, found.real, context);
-  answer.solutions = found.finite;
-  if (found.status != Status::done) answer.status = found.status;
+  int whole = 0, finite = 0, lost = 0;
+  Status status = Status::done;
+  std::vector<GuidedPair> real;
+  for (const MixedPoseLinkage linkage : s.exact_linkages) {
+    MixedPoseSolutions found = solve_mixed_poses({s.problem.poses, s.problem.demands}, linkage, context);
+    whole += found.whole;
+    finite += found.finite;
+    lost += found.lost;
+    if (found.status != Status::done) status = found.status;
+    std::move(found.real.begin(), found.real.end(), std::back_inserter(real));
+  }
+  PoseAnswer answer = pose_designs_of(s.problem, real, context);
+  answer.solutions = finite;
+  if (status != Status::done) answer.status = status;
   study::Result result = PoseReport(s, common, std::move(answer)).make();
   const study::AddWarning warn{result.diagnostics};
-  if (found.lost > 0)
-    warn("target", fmt::format("{} paths were lost: linkages may be missing", found.lost),
+  if (lost > 0)
+    warn("target", fmt::format("{} paths were lost: linkages may be missing", lost),
          "move a pose a little and compare");
-  else if (found.finite < found.whole && found.status == Status::done)
+  else if (finite < whole && status == Status::done)
     warn("target",
-         fmt::format("the poses are special: {} of {} solutions lie at infinity or coincide",
-                     found.whole - found.finite, found.whole),
+         fmt::format("the poses are special: {} of {} solutions lie at infinity or coincide", whole - finite,
+                     whole),
          "move one of them a little to see the rest");
   return result;
 }

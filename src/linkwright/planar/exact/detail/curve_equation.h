@@ -10,7 +10,7 @@ namespace linkwright::planar {
 enum FourBarUnknown { pin_x, pivot_a, pin_y, pivot_b, pin_X, pivot_A, pin_Y, pivot_B, four_bar_unknowns };
 
 /// A slider-crank likewise: the pin y is on the slider, whose guide has the normal n; nu = n over its
-/// conjugate.
+/// conjugate. An inverted one has its guide on the body, and y is the pivot on the ground that it passes.
 enum SliderCrankUnknown {
   slider_x,
   slider_a,
@@ -87,33 +87,73 @@ struct CurveEquation : TwoDyads<C> {
   }
 };
 
+/// The link of a slider-crank, inverted or not, as CurveEquation has those of a four-bar.
+template <class C>
+struct SliderLink {
+  C p, q, r;
+
+  LINKWRIGHT_KERNEL SliderLink(const C* z, const C& d, const C& D)
+      : p((z[slider_A] - D) * z[slider_x]),
+        q((z[slider_a] - d) * z[slider_X]),
+        r(d * D - d * (z[slider_A] - z[slider_X]) - D * (z[slider_a] - z[slider_x])) {}
+
+  /// Derivatives by its unknowns and by d and D of what has such derivatives by p, q and r.
+  LINKWRIGHT_KERNEL static void chain(const C& by_p, const C& by_q, const C& by_r, const C* z, const C& d,
+                                      const C& D, C* by_z, C& by_d, C& by_D) {
+    const C by_p_x = by_p * z[slider_x], by_q_X = by_q * z[slider_X], Dr = D * by_r, dr = d * by_r;
+    by_z[slider_x] = by_p * (z[slider_A] - D) + Dr;
+    by_z[slider_a] = by_q_X - Dr;
+    by_z[slider_X] = by_q * (z[slider_a] - d) + dr;
+    by_z[slider_A] = by_p_x - dr;
+    by_d = by_r * (D - z[slider_A] + z[slider_X]) - by_q_X;
+    by_D = by_r * (d - z[slider_a] + z[slider_x]) - by_p_x;
+  }
+};
+
 /// The same of a slider-crank's curve: of degree 4 in d and D together.
 template <class C>
 struct SliderCurveEquation : TwoDyads<C> {
   LINKWRIGHT_KERNEL SliderCurveEquation(const C* z, const C& d, const C& D)
-      : TwoDyads<C>((z[slider_A] - D) * z[slider_x], (z[slider_a] - d) * z[slider_X],
-                    d * D - d * (z[slider_A] - z[slider_X]) - D * (z[slider_a] - z[slider_x]), z[slider_y],
-                    z[guide_nu] * z[slider_Y], -(d + z[guide_nu] * D)) {}
+      : SliderCurveEquation(SliderLink<C>(z, d, D), z, d, D) {}
 
-  /// Derivatives by the seven unknowns and by d and D.
-  LINKWRIGHT_KERNEL void gradient(const C* z, const C& d, const C& D, C* by_z, C& by_d, C& by_D) const {
-    chain(this->partials(), z, d, D, by_z, by_d, by_D);
-  }
-  /// The same of anything whose derivatives by the coefficients of the dyads are known.
+  /// Derivatives by the seven unknowns and by d and D, of the equation or of anything whose derivatives by
+  /// the coefficients of the dyads are known.
   LINKWRIGHT_KERNEL static void chain(const typename TwoDyads<C>::Partials& by, const C* z, const C& d,
                                       const C& D, C* by_z, C& by_d, C& by_D) {
-    const C by_p1_x = by.p1 * z[slider_x], by_q1_X = by.q1 * z[slider_X];
-    const C Dr1 = D * by.r1, dr1 = d * by.r1;
-    by_z[slider_x] = by.p1 * (z[slider_A] - D) + Dr1;
-    by_z[slider_a] = by_q1_X - Dr1;
-    by_z[slider_X] = by.q1 * (z[slider_a] - d) + dr1;
-    by_z[slider_A] = by_p1_x - dr1;
+    SliderLink<C>::chain(by.p1, by.q1, by.r1, z, d, D, by_z, by_d, by_D);
     by_z[slider_y] = by.p2;
     by_z[slider_Y] = by.q2 * z[guide_nu];
     by_z[guide_nu] = by.q2 * z[slider_Y] - by.r2 * D;
-    by_d = by.r1 * (D - z[slider_A] + z[slider_X]) - by_q1_X - by.r2;
-    by_D = by.r1 * (d - z[slider_a] + z[slider_x]) - by_p1_x - by.r2 * z[guide_nu];
+    by_d = by_d - by.r2;
+    by_D = by_D - by.r2 * z[guide_nu];
   }
+
+ private:
+  LINKWRIGHT_KERNEL SliderCurveEquation(const SliderLink<C>& link, const C* z, const C& d, const C& D)
+      : TwoDyads<C>(link.p, link.q, link.r, z[slider_y], z[guide_nu] * z[slider_Y], -(d + z[guide_nu] * D)) {}
+};
+
+/// The same of an inverted slider-crank's curve.
+template <class C>
+struct InvertedCurveEquation : TwoDyads<C> {
+  LINKWRIGHT_KERNEL InvertedCurveEquation(const C* z, const C& d, const C& D)
+      : InvertedCurveEquation(SliderLink<C>(z, d, D), z, d, D) {}
+
+  LINKWRIGHT_KERNEL static void chain(const typename TwoDyads<C>::Partials& by, const C* z, const C& d,
+                                      const C& D, C* by_z, C& by_d, C& by_D) {
+    SliderLink<C>::chain(by.p1, by.q1, by.r1, z, d, D, by_z, by_d, by_D);
+    const C by_p2_nu = by.p2 * z[guide_nu];
+    by_z[slider_y] = by.q2;
+    by_z[slider_Y] = by_p2_nu;
+    by_z[guide_nu] = by.p2 * (z[slider_Y] - D) + by.r2 * D;
+    by_d = by_d - by.q2 + by.r2;
+    by_D = by_D - by_p2_nu + by.r2 * z[guide_nu];
+  }
+
+ private:
+  LINKWRIGHT_KERNEL InvertedCurveEquation(const SliderLink<C>& link, const C* z, const C& d, const C& D)
+      : TwoDyads<C>(link.p, link.q, link.r, z[guide_nu] * (z[slider_Y] - D), z[slider_y] - d,
+                    d + z[guide_nu] * D) {}
 };
 
 }  // namespace linkwright::planar

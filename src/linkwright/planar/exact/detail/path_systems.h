@@ -329,12 +329,14 @@ struct PosesAndPoints {
   static void settle(SystemPoint<PosesAndPoints>&) {}
 };
 using FourBarPoses = PosesAndPoints<CurveEquation, ComplexFourBar<>>;
-using SliderPoses = PosesAndPoints<SliderCurveEquation, std::array<ComplexNumber, slider_crank_unknowns>>;
+using ComplexSliderCrank = std::array<ComplexNumber, slider_crank_unknowns>;
+using SliderPoses = PosesAndPoints<SliderCurveEquation, ComplexSliderCrank>;
+using InvertedPoses = PosesAndPoints<InvertedCurveEquation, ComplexSliderCrank>;
 
 /// One thing for each system.
 #define LINKWRIGHT_FOR_EACH_PATH_SYSTEM(make)                                                \
   make(NinePoints) make(NinePointsTrace) make(FivePointsTwoPivots) make(SevenPointsOnePivot) \
-      make(FourBarPoses) make(SliderPoses)
+      make(FourBarPoses) make(SliderPoses) make(InvertedPoses)
 
 /// e^(i gamma) of the turn of a real body at a point that its dyads allow.
 inline std::complex<double> real_turn(const TwoDyads<ComplexNumber>& dyads) {
