@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <string>
 
 namespace linkwright::platform {
 namespace {
@@ -25,6 +27,12 @@ TEST(Processes, ProgramsAreStartedWithoutWaiting) {
   int status = 1;
   ASSERT_GT(::wait(&status), 0);
   EXPECT_EQ(status, 0);
+}
+
+TEST(Processes, VariablesThatAreSetKeepTheirValue) {
+  set_where_unset("LINKWRIGHT_OF_A_TEST", "first");
+  set_where_unset("LINKWRIGHT_OF_A_TEST", "second");
+  EXPECT_EQ(std::getenv("LINKWRIGHT_OF_A_TEST"), std::string("first"));
 }
 
 TEST(Processes, LibrariesAreLoadedByFile) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 
 extern char**
     environ;  // NOLINT(readability-redundant-declaration): no header of the system declares it everywhere
@@ -55,6 +56,8 @@ const char* desktop_opener() {
   return "xdg-open";
 #endif
 }
+
+void set_where_unset(const char* variable, const char* value) { ::setenv(variable, value, 0); }
 
 void* load_library(const fs::path& file, std::string& problem) {
   void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);

@@ -20,6 +20,9 @@ std::error_code start_program(const std::string& program, const std::string& arg
 /// The program that opens files and addresses as a double click would.
 const char* desktop_opener();
 
+/// Sets an environment variable of this process that has no value yet. While no other thread runs.
+void set_where_unset(const char* variable, const char* value);
+
 /// A library that is loaded while the program runs, and stays. Null with `problem` where it cannot be.
 void* load_library(const std::filesystem::path& file, std::string& problem);
 /// A function of a library that load_library has given; null where it has none of this name.

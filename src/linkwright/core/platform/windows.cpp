@@ -139,6 +139,10 @@ std::error_code start_program(const std::string& program, const std::string& arg
 
 const char* desktop_opener() { return "explorer"; }
 
+void set_where_unset(const char* variable, const char* value) {
+  if (!::getenv(variable)) ::_putenv_s(variable, value);
+}
+
 void* load_library(const fs::path& file, std::string& problem) {
   const HMODULE library = ::LoadLibraryW(file.c_str());
   if (!library) problem = std::system_category().message(static_cast<int>(::GetLastError()));
