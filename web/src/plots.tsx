@@ -225,11 +225,15 @@ function Diagram({ plot, table }: { plot: Plot; table: Table }) {
   return plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />;
 }
 
-/** A diagram in a card. Out of sight it is not drawn anew before it comes into sight: most are, while a mechanism is dragged. */
+const leastTime = 100; // ms between two states of a diagram while the study is changed by hand
+
+/** A diagram in a card. Out of sight it is not drawn anew before it comes into sight, as most are, and while the mechanism is dragged
+ *  only some times a second: the time is the drawing's. */
 function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
   const card = useRef<HTMLDivElement>(null);
   const inSight = useRef(true);
   const drawn = useRef<JSX.Element | null>(null);
+  const drawnAt = useRef(-leastTime);
   const stale = useRef(false);
   const [, drawAnew] = useState({});
   useEffect(() => {
@@ -240,8 +244,17 @@ function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
     watch.observe(card.current!);
     return () => watch.disconnect();
   }, []);
-  stale.current = drawn.current !== null && !inSight.current && !state.printing.value;
-  if (!stale.current) drawn.current = <Diagram plot={plot} table={table} />;
+  const rest = state.changing.value ? drawnAt.current + leastTime - performance.now() : 0;
+  stale.current = drawn.current !== null && (!inSight.current || rest > 0) && !state.printing.value;
+  if (!stale.current) {
+    drawn.current = <Diagram plot={plot} table={table} />;
+    drawnAt.current = performance.now();
+  }
+  useEffect(() => {
+    if (!stale.current || !inSight.current) return undefined;
+    const later = setTimeout(() => drawAnew({}), rest);
+    return () => clearTimeout(later);
+  });
   return (
     <div class="card plot" data-plot={plot.name} ref={card}>
       <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>

@@ -130,6 +130,8 @@ export interface Hand {
   up(): void;
 }
 export const hand: { now: Hand | null } = { now: null };
+/** The study is being changed by hand: the drawing follows at once, the diagrams some times a second. */
+export const changing = signal(false);
 
 /** What the diagrams draw behind their own curves, to compare with. */
 export const behind = signal<{ name: string; tables: Result["tables"] } | null>(null);

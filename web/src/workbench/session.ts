@@ -135,9 +135,13 @@ async function pump(): Promise<void> {
   if (flying || !wanted) return;
   const { task, gesture, hinders } = wanted;
   wanted = null;
-  flying = { task, since: performance.now() };
+  const own = { task, since: performance.now() };
+  flying = own;
   busy.value = true;
-  void preview(flying);
+  void preview(own);
+  const landed = () => {
+    if (flying === own) flying = null;
+  };
   try {
     const answer = await engine.run(task, (p) => (progress.value = p));
     trouble.value = "";
@@ -146,18 +150,24 @@ async function pump(): Promise<void> {
     // Before the text changes, or it would be asked for again, in the place of what is wanted next.
     answered = print({ text: answer.text, files: task.files });
     if (task.edits) change(answer.text, gesture);
-    // While more is wanted, a text with errors is only half typed.
-    if (!wanted || answer.carried) accept(answer);
     if (answer.carried) unfinished = task.seconds === quick && answer.carried.view.status === "deadline";
-    took.value = { engine: 1000 * answer.seconds, whole: performance.now() - flying.since };
+    // While more is wanted, a text with errors is only half typed.
+    const shows = !wanted || answer.carried !== undefined;
+    // The engine goes on with what is wanted next while this is drawn.
+    landed();
+    void pump();
+    if (shows) accept(answer);
+    took.value = { engine: 1000 * answer.seconds, whole: performance.now() - own.since };
   } catch (error) {
     if (!(error instanceof Stopped)) trouble.value = error instanceof Error ? error.message : String(error);
   } finally {
-    flying = null;
+    landed();
     if (looking) second.stop();
-    ending.value = false;
-    progress.value = null;
-    complete();
+    if (!flying) {
+      ending.value = false;
+      progress.value = null;
+      complete();
+    }
     busy.value = wanted !== null || flying !== null;
     void pump();
   }
@@ -219,6 +229,7 @@ let held: { grip: Grip; gesture: symbol; scene: Scene; study: JsonObject | null 
 function take(scene: Scene, grip: Grip): void {
   state.scrub(grip.sample);
   held = { grip: guided(scene, grip, canonical.value), gesture: Symbol(), scene, study: canonical.value };
+  state.changing.value = true;
 }
 
 function nearest(scene: Scene, at: Place, reach: number): Grip | null {
@@ -314,6 +325,7 @@ const hand: state.Hand = {
     if (state.stroke.value.length && state.scene.value) drawPoints(state.stroke.value, state.scene.value);
     state.stroke.value = [];
     held = null;
+    state.changing.value = false;
     stopped.value = "";
     complete();
   },

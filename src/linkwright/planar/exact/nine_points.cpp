@@ -28,6 +28,9 @@ constexpr double nearly_real = 1e-7;
 // between two.
 constexpr double perhaps_same = 1e-6, surely_same = 1e-10, sharp_identity = 1e-9;
 
+// More classes than these that are missing are those of special points: they are not sought another way.
+constexpr std::size_t most_sought = 24;
+
 // A solution in the units of the target, where conjugates are exact.
 struct FoundClass {
   FineFourBar fine;
@@ -216,6 +219,10 @@ class NineSearch {
     if (open.empty() || classes.full() || context_.interrupted()) return;
     last_attempt(open, out);
     classes.add_conjugates(target_);
+    const std::size_t missing = nine_point_classes - std::min(nine_point_classes, classes.found().size());
+    if (missing == 0 || missing > most_sought || context_.interrupted()) return;
+    by_another_way();
+    classes.add_conjugates(target_);
   }
 
   ClassCollection classes;
@@ -254,6 +261,27 @@ class NineSearch {
         stopped_.push_back({.z = starts_.points[at(i)]});
       }
     return open;
+  }
+
+  // All paths by way of other points: ends that were missed, because paths crossed unseen or came to a place
+  // too near a singular one, are others there.
+  void by_another_way() {
+    RandomStream stream({.seed = 1443});
+    SystemData<NinePoints> other;
+    for (ComplexNumber& value : other) value = random_complex(stream);
+    scale_towards<NinePoints>(starts_.base, other);
+    Paths<NinePoints> paths;
+    for (const SystemPoint<NinePoints>& z : starts_.points) paths.push_back({.z = z});
+    paths = follow(NinePoints(), starts_.base, other, paths, small_steps, context_);
+    std::erase_if(paths, [](const auto& path) { return !path.arrived; });
+    for (auto& path : paths) path.at = 0;
+    paths = follow(NinePoints(), other, scaled_, paths, small_steps, context_);
+    std::vector<std::optional<FoundClass>> ends(paths.size());
+    optimise::parallel_for(paths.size(), context_.threads(), [&](std::size_t i) {
+      if (paths[i].arrived) ends[i] = finish_class(target_, to_target(paths[i].z));
+    });
+    for (auto& end : ends)
+      if (end) classes.add(std::move(*end), -1);
   }
 
   // With twice the digits, on from where doubles stopped; what does not arrive is told by how it ends.

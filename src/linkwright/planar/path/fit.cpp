@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/kernel.h"
+#include "linkwright/planar/path/detail/multipliers.h"
 #include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
@@ -488,34 +489,16 @@ PathFit PathFitter::fit(const FourBar& start, const std::vector<double>& angles,
   }
   if (problem_.timing == Timing::equal_steps && !variable_[9]) q_[9] = problem_.bounds[9].lower;
   angles_ = angles;
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
-  std::fill(values_.begin(), values_.end(), -infinity);
   penalty_ = options.penalty;
 
   PathFit out;
-  double worst = infinity;
-  for (int pass = 0; pass < options.passes; ++pass) {
-    if (!std::isfinite(descend(options))) {
-      out.error = infinity;
-      out.violation = infinity;
-      break;
-    }
-    double merit = 0;
-    evaluate(q_, angles_, false, merit);  // values of the constraints at the end point
-    double now = 0, complementarity = 0;
-    for (std::size_t row = 0; row < values_.size(); ++row) {
-      now = std::max(now, values_[row]);
-      if (multipliers_[row] > 0)
-        complementarity = std::max(complementarity, std::min(multipliers_[row], std::abs(values_[row])));
-    }
-    out.violation = now;
-    out.error = error_;
-    if (pass + 1 == options.passes || (now <= 1e-10 && complementarity <= 1e-9)) break;
-    for (std::size_t row = 0; row < values_.size(); ++row)
-      multipliers_[row] = std::max(0.0, multipliers_[row] + penalty_ * values_[row]);
-    if (now > 0.25 * worst) penalty_ = std::min(10 * penalty_, 1e8);
-    worst = now;
-  }
+  out.violation = minimise_by_multipliers(
+      options.passes, multipliers_, values_, penalty_, [&] { return descend(options); },
+      [&] {
+        double merit = 0;
+        evaluate(q_, angles_, false, merit);
+      });
+  out.error = std::isfinite(out.violation) ? error_ : infinity;
   out.linkage = {.ground = q_[0],
                  .crank = q_[1],
                  .coupler = q_[2],

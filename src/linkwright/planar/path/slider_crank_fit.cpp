@@ -6,6 +6,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/path/detail/multipliers.h"
 #include "linkwright/planar/path/detail/slider_crank_kernel.h"
 
 namespace linkwright::planar {
@@ -271,34 +272,16 @@ SliderPathFit SliderPathFitter::fit(const SliderCrankMechanism& start, const std
       q_[j] = problem_.bounds[j].lower;
   }
   angles_ = angles;
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
-  std::fill(values_.begin(), values_.end(), -infinity);
   penalty_ = options.penalty;
 
   SliderPathFit out;
-  double worst = infinity;
-  for (int pass = 0; pass < options.passes; ++pass) {
-    if (!std::isfinite(descend(options))) {
-      out.error = infinity;
-      out.violation = infinity;
-      break;
-    }
-    double merit = 0;
-    evaluate(q_, angles_, false, merit);  // values of the constraints at the end point
-    double now = 0, complementarity = 0;
-    for (std::size_t row = 0; row < values_.size(); ++row) {
-      now = std::max(now, values_[row]);
-      if (multipliers_[row] > 0)
-        complementarity = std::max(complementarity, std::min(multipliers_[row], std::abs(values_[row])));
-    }
-    out.violation = now;
-    out.error = error_;
-    if (pass + 1 == options.passes || (now <= 1e-10 && complementarity <= 1e-9)) break;
-    for (std::size_t row = 0; row < values_.size(); ++row)
-      multipliers_[row] = std::max(0.0, multipliers_[row] + penalty_ * values_[row]);
-    if (now > 0.25 * worst) penalty_ = std::min(10 * penalty_, 1e8);
-    worst = now;
-  }
+  out.violation = minimise_by_multipliers(
+      options.passes, multipliers_, values_, penalty_, [&] { return descend(options); },
+      [&] {
+        double merit = 0;
+        evaluate(q_, angles_, false, merit);
+      });
+  out.error = std::isfinite(out.violation) ? error_ : infinity;
   const Complex point = std::polar(1.0, q_[index(P::point_angle)]) * q_[index(P::point_distance)];
   out.mechanism.branch = start.branch;
   out.mechanism.parameters = {.crank = q_[index(P::crank)],
