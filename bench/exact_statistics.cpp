@@ -2,7 +2,7 @@
 //
 //   exact_statistics [TARGETS [FIRST [KINDS]]]
 //
-// solves so many targets (200) of each of the first KINDS kinds (3), numbers from FIRST (0) on, and prints a
+// solves so many targets (200) of each of the first KINDS kinds (5), numbers from FIRST (0) on, and prints a
 // table in Markdown, with every target that is not complete by its number. A target takes some tenths of a
 // second on two threads.
 
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     return static_cast<std::uint32_t>(argc > k ? std::atoi(argv[k]) : otherwise);
   };
   const std::uint32_t count = number(1, 200), first = number(2, 0);
-  std::uint32_t kinds = number(3, 3);
+  std::uint32_t kinds = number(3, 5);
   fmt::print(
       "| targets | 1442 classes, each certified | 1442, some uncertified | fewer | real classes: least, "
       "median, most | "
@@ -74,13 +74,17 @@ int main(int argc, char** argv) {
   for (const auto& [kind, name] :
        {std::pair{NinePointTarget::scattered, "scattered"},
         std::pair{NinePointTarget::curve, "on a smooth closed curve"},
-        std::pair{NinePointTarget::crank_rocker, "on the curve of a crank-rocker"}}) {
+        std::pair{NinePointTarget::crank_rocker, "on the curve of a crank-rocker"},
+        std::pair{NinePointTarget::curve_spread, "spread on a smooth closed curve"},
+        std::pair{NinePointTarget::crank_rocker_spread, "spread on the curve of a crank-rocker"}}) {
     if (kinds-- == 0) break;
     const Figures f = figures(kind, first, count);
     fmt::print("| {}, {} | {} | {} | {} | {}, {}, {} | {} ({:.1e} a path) | {} | {} |\n", count, name,
                f.complete, f.uncertified, f.others, f.real.front(), f.real[f.real.size() / 2], f.real.back(),
                f.lost_at_first, static_cast<double>(f.lost_at_first) / (1442.0 * count), f.lost,
-               kind == NinePointTarget::crank_rocker ? std::to_string(f.drawn) : "-");
+               kind == NinePointTarget::crank_rocker || kind == NinePointTarget::crank_rocker_spread
+                   ? std::to_string(f.drawn)
+                   : "-");
     std::fflush(stdout);
     for (const std::string& remark : f.remarks) remarks.push_back(fmt::format("{}, {}", name, remark));
   }

@@ -97,9 +97,10 @@ def deb(out, name, stage, depends, section, summary=SUMMARY):
     lines = [f"Package: {name}", f"Version: {VERSION}", f"Architecture: {architecture}", f"Maintainer: {MAINTAINER}", f"Section: {section}",
              "Priority: optional", f"Installed-Size: {size}", f"Depends: {', '.join(depends)}", f"Description: {summary}", ABOUT]
     (control / "control").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    for path in stage.rglob("*"):
-        path.chmod(0o755 if path.is_dir() or path.parent.name == "bin" else 0o644)
     stage.chmod(0o755)
+    for path in [stage, *stage.rglob("*")]:
+        path.chmod(0o755 if path.is_dir() or path.parent.name == "bin" else 0o644)
+        os.utime(path, (int(commit_time()),) * 2)  # dpkg-deb keeps what is older
     file = out / f"{name}_{VERSION}_{architecture}.deb"
     run("dpkg-deb", "--root-owner-group", "-Zxz", "--build", stage, file)
     return file

@@ -17,9 +17,11 @@
 namespace linkwright::planar::test {
 
 enum class NinePointTarget {
-  scattered,    ///< normally distributed
-  curve,        ///< on a smooth closed curve: three harmonics either way
-  crank_rocker  ///< on the coupler curve of a random crank-rocker
+  scattered,     ///< normally distributed
+  curve,         ///< on a smooth closed curve: three harmonics either way
+  crank_rocker,  ///< on the coupler curve of a random crank-rocker
+  curve_spread,  ///< the same two, but no two points near each other: at a ninth of a turn each, give or take
+  crank_rocker_spread  ///< a fifth of that
 };
 
 struct RandomTarget {
@@ -38,10 +40,13 @@ inline RandomTarget random_target(NinePointTarget kind, std::uint32_t number) {
     for (int k = 0; k < 9; ++k) out.points.push_back(complex_normal(1));
     return out;
   }
+  const bool spread = kind == NinePointTarget::curve_spread || kind == NinePointTarget::crank_rocker_spread;
   std::array<double, 9> angles;
-  for (double& angle : angles) angle = random.uniform(0, 2 * pi);
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    angles[k] = spread ? 2 * pi / 9 * (static_cast<double>(k) + random.uniform(-0.2, 0.2))
+                       : random.uniform(0, 2 * pi);
   std::sort(angles.begin(), angles.end());
-  if (kind == NinePointTarget::curve) {
+  if (kind == NinePointTarget::curve || kind == NinePointTarget::curve_spread) {
     std::array<std::complex<double>, 7> harmonic;
     for (int k = -3; k <= 3; ++k)
       harmonic[static_cast<std::size_t>(k + 3)] = complex_normal(k == 0 ? 0 : 1.0 / (k * k));
