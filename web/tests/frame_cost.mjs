@@ -1,5 +1,5 @@
 // What the animation of reports costs: names of files, one a line, come in; for each [median, 95 %, processor]
-// ms of script a frame go out. The first two go by the clock, the last is the mean time of the processor, which others that use it leave alone.
+// ms of script a frame go out, a line each. The first two go by the clock, the last is the mean time of the processor, which others that use it leave alone.
 // node frame_cost.mjs CHROMIUM < NAMES
 // Script is what runs in callbacks of animation frames and follows from them at once; style, layout and painting come on top and depend on the machine.
 import { readFileSync } from "node:fs";
@@ -29,7 +29,6 @@ await context.addInitScript(() => {
   globalThis.frameCosts = costs;
 });
 const at = (values, share) => values.sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(share * values.length))];
-const out = [];
 for (const name of readFileSync(0, "utf8").split("\n").filter(Boolean)) {
   const page = await context.newPage();
   const session = await context.newCDPSession(page);
@@ -53,8 +52,7 @@ for (const name of readFileSync(0, "utf8").split("\n").filter(Boolean)) {
     processor = m > n ? ((to - from) / (m - n)) * 1e3 : 0;
   }
   const counted = costs.slice(warm, warm + frames);
-  out.push(counted.length ? [at(counted, 0.5), at(counted, 0.95), processor] : [0, 0, 0]);
+  console.log(JSON.stringify(counted.length ? [at(counted, 0.5), at(counted, 0.95), processor] : [0, 0, 0]));
   await page.close();
 }
 await browser.close();
-console.log(JSON.stringify(out));

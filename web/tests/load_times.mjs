@@ -1,4 +1,5 @@
-// How long reports take to open: names of files, one a line, come in; [[first paint, viewer], ...] in ms goes out, medians of three.
+// How long reports take to open: names of files, one a line, come in; for each
+// [first paint, viewer] in ms goes out, a line each, medians of three.
 // node load_times.mjs CHROMIUM < NAMES
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
@@ -16,7 +17,6 @@ await context.addInitScript(() => {
   }).observe(document, { subtree: true, childList: true, attributes: true, attributeFilter: ["hidden"] });
 });
 const middle = (values) => values.sort((a, b) => a - b)[1];
-const out = [];
 for (const name of readFileSync(0, "utf8").split("\n").filter(Boolean)) {
   const runs = [];
   for (let i = 0; i < 3; ++i) {
@@ -30,7 +30,6 @@ for (const name of readFileSync(0, "utf8").split("\n").filter(Boolean)) {
     runs.push(times);
     await page.close();
   }
-  out.push([0, 1].map((k) => middle(runs.map((run) => run[k]))));
+  console.log(JSON.stringify([0, 1].map((k) => middle(runs.map((run) => run[k])))));
 }
 await browser.close();
-console.log(JSON.stringify(out));

@@ -295,7 +295,8 @@ class NineSearch {
                                                                        .at = stopped_[i].at};
       RunContext alone;  // the loop over paths is interrupted, not a path
       alone.set_threads(1);
-      if (path.at < 1 - nearly_there)
+      // Doubles also stop at ends that are only far out, where they cannot tell them from infinite ones.
+      if (!stopped_[i].arrived)
         path = follow(NinePoints(), starts_.base, scaled_, Paths<NinePoints, math::DoubleDouble>{path},
                       careful, alone)[0];
       const ComplexFourBar<> z = rounded(path.z);
