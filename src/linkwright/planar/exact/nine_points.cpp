@@ -21,7 +21,7 @@ namespace {
 
 using FineFourBar = ComplexFourBar<math::DoubleDouble>;
 constexpr std::string_view following = "paths", proving_classes = "certificates";
-constexpr double class_settled = 1e-13, fine_from = 1e-11, fine_settled = 1e-18;
+constexpr double class_settled = 1e-13, fine_from = 1e-11, fine_settled = 1e-17;
 constexpr double nearly_real = 1e-7;
 // Identities that differ by less than the first, in their size, may be those of one class: with twice the
 // digits they differ by less than the second, or they are not. A proof of an identity to the third decides
