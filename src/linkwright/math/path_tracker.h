@@ -17,8 +17,8 @@ struct TrackerOptions {
   double corrected = 1e-5;   ///< largest second correction of Newton's method, relative to |z|
   double first_step = 1e-3;  ///< of the way, whose length is 1
   double largest_step = 0.15;
-  double least_step = 1e-8;
-  int most_steps = 600;  ///< accepted and rejected ones
+  double least_step = 1e-12;
+  int most_steps = 3000;  ///< accepted and rejected ones
 };
 
 /// Where a path ended.

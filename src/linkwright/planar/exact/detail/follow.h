@@ -82,11 +82,9 @@ double polish_as_needed(const System& system, const SystemData<System>& p, Syste
 }
 
 /// Small steps in doubles for what got lost or ran into another path, before more digits are taken.
-inline constexpr math::TrackerOptions small_steps = {
-    .predicted = 1e-4, .corrected = 1e-7, .most_steps = 2000};
+inline constexpr math::TrackerOptions small_steps = {.predicted = 1e-4, .corrected = 1e-7};
 /// Follows again, with twice the digits and small steps, what got lost, from where each path starts.
-inline constexpr math::TrackerOptions careful = {
-    .predicted = 1e-3, .corrected = 1e-9, .least_step = 1e-12, .most_steps = 3000};
+inline constexpr math::TrackerOptions careful = {.predicted = 1e-3, .corrected = 1e-9};
 
 /// A path that stops this near to its end has come to it; one that ends at infinity has then left the size of
 /// the points (1) this far behind, growing with the root of the way that is left.
