@@ -70,7 +70,7 @@ list(APPEND nlopt_sources ${nlopt}/algs/cdirect/hybrid.c)
 add_library(nlopt STATIC EXCLUDE_FROM_ALL ${nlopt_sources})
 file(GLOB nlopt_folders LIST_DIRECTORIES ON ${nlopt}/algs/*)
 target_include_directories(nlopt SYSTEM PUBLIC ${nlopt}/api PRIVATE ${PROJECT_BINARY_DIR}/nlopt ${nlopt}/util ${nlopt_folders})
-target_compile_options(nlopt PRIVATE -O2 -w -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)  # messages of its name its files
+target_compile_options(nlopt PRIVATE -O2 -w)
 block()
   set(NLOPT_MAJOR_VERSION 2)
   set(NLOPT_MINOR_VERSION 7)

@@ -219,7 +219,12 @@ TEST_F(SharedLoop, EndsTheOthersWhenItIsInterrupted) {
   auto threads = others(post, 3, with_what_was_kept, 1'000'000, std::chrono::milliseconds(1));
   const auto ranks = post.join(0);
   RunContext context;
-  context.set_time_limit(std::chrono::milliseconds(100));
+  // The clock may not decide: a slow machine does no piece at all in a given time.
+  std::jthread user([&context] {
+    std::unique_lock lock(Squares::mutex);
+    Squares::arrived.wait(lock, [] { return Squares::done >= 20; });
+    context.cancel();
+  });
   Squares squares(1'000'000);
   {
     LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
@@ -227,9 +232,9 @@ TEST_F(SharedLoop, EndsTheOthersWhenItIsInterrupted) {
     squares.run(context, 0, std::chrono::milliseconds(1));
   }
   threads.clear();
-  EXPECT_EQ(context.interruption(), Status::deadline);
+  EXPECT_EQ(context.interruption(), Status::cancelled);
+  EXPECT_GE(Squares::done, 20);
   EXPECT_LT(Squares::done, 1'000'000);
-  EXPECT_GE(Squares::done, 1);
 }
 
 TEST_F(SharedLoop, DoesWithoutARankThatHasAnotherStudy) {

@@ -2,16 +2,23 @@
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 
 #include "linkwright/math/complex.h"
 #include "linkwright/math/double_double.h"
 
 namespace linkwright::math {
 
+/// Of one operation with such numbers: twice what rounding does, relative to its result.
+template <class T>
+inline constexpr double rounding_bound = 0;
+template <>
+inline constexpr double rounding_bound<double> = 0x1p-52;
+template <>
+inline constexpr double rounding_bound<DoubleDouble> = 0x1p-100;
+
 /// All complex numbers within `radius` of `middle`. Sums and products hold every sum and product of what is
-/// in their parts, rounding included: what holds for the ball holds for the exact numbers. T: double,
-/// DoubleDouble.
+/// in their parts, rounding included: what holds for the ball holds for the exact numbers. T: any with a
+/// rounding_bound.
 template <class T>
 struct Ball {
   Complex<T> middle;
@@ -36,8 +43,9 @@ struct Ball {
   }
 
  private:
-  /// Of one operation, twice what rounding does; of the radius, whose few operations round as well.
-  static constexpr double rounding = std::is_same_v<T, double> ? 0x1p-52 : 0x1p-100;
+  static constexpr double rounding = rounding_bound<T>;
+  static_assert(rounding > 0);
+  /// The few operations of a radius round as well.
   static double up(double bound) { return bound * (1 + 0x1p-48) + 1e-300; }
   static double magnitude(const Complex<T>& z) {
     return std::abs(static_cast<double>(z.re)) + std::abs(static_cast<double>(z.im));

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "linkwright/planar/exact/detail/nine_point_starts.h"
+#include "linkwright/planar/exact/detail/wide_number.h"
 #include "planar/exact_cases.h"
 
 namespace linkwright::planar {
@@ -66,11 +68,37 @@ TEST(Certificate, IsGivenToGoodSolutionsAndNarrow) {
   EXPECT_GT(certified, 190);
 }
 
+TEST(Certificate, FourfoldDigitsNarrowItFurther) {
+  const ExactNinePoints p = widened(known_classes().base);
+  std::array<math::Complex<WideNumber>, NinePoints::data> data;
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = math::Complex<WideNumber>(known_classes().base[i]);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& z = known_classes().points[i];
+    Fine fine = widened(z);
+    polish(NinePoints(), p, fine, 1e-26);
+    ComplexFourBar<WideNumber> wide;
+    for (std::size_t k = 0; k < z.size(); ++k) wide[k] = math::Complex<WideNumber>(z[k]);
+    EXPECT_LT(polish(NinePoints(), data, wide, 1e-50), 1e-50);
+    const auto ball = certify(p, wide), wider = certify(p, fine);
+    ASSERT_TRUE(ball && wider);
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      EXPECT_LT(ball->radius[k], 1e-45 * std::sqrt(squared_size(z)));
+      // The root is in both, so their middles are no further from each other than the sum of the radii.
+      EXPECT_LE(std::abs(static_cast<double>(wide[k].re - WideNumber(fine[k].re.high) - fine[k].re.low)),
+                ball->radius[k] + wider->radius[k]);
+    }
+    const CertifiedIdentity identity = certified_identity(wide, *ball);
+    EXPECT_LT(identity.radius, 1e-14 * (1 + std::sqrt(math::norm(identity.identity))));
+  }
+}
+
 TEST(Certificate, IsNotGivenWhereSolutionsMeet) {
   // Pins in one place: each equation has a double root there.
   ComplexFourBar<> z = known_classes().points[0];
   z[pin_y] = z[pin_x], z[pin_Y] = z[pin_X], z[pivot_b] = z[pivot_a], z[pivot_B] = z[pivot_A];
-  EXPECT_FALSE(certify(widened(known_classes().base), z));
+  const ExactNinePoints p = widened(known_classes().base);
+  EXPECT_FALSE(certify(p, z));
+  EXPECT_FALSE(prove_class(p, widened(z), false, false));
 }
 
 }  // namespace

@@ -75,19 +75,36 @@ TEST(NinePoints, LongLinksAreOneClassEachAndCertified) {
 
 // Points near each other, the nearest by 2e-5 of the size: some classes are so far out that doubles stop
 // before their ends and would call them infinite, others so near to each other that paths come to one twice.
-// The last has a link of 4e7 times the size, which settles with twice the digits to 3e-18 of it.
+// The last but three has a link of 4e7 times the size, which settles with twice the digits to 3e-18 of it;
+// each of the last three has classes that take four times the digits for a certificate.
 TEST(NinePoints, AllClassesOfCrowdedTargets) {
   using test::NinePointTarget;
   for (const auto& [kind, number] : {std::pair{NinePointTarget::curve, 26u},
                                      {NinePointTarget::curve, 43u},
                                      {NinePointTarget::crank_rocker, 70u},
                                      {NinePointTarget::crank_rocker, 97u},
-                                     {NinePointTarget::crank_rocker_spread, 32u}}) {
+                                     {NinePointTarget::crank_rocker_spread, 32u},
+                                     {NinePointTarget::curve, 110u},
+                                     {NinePointTarget::crank_rocker, 133u},
+                                     {NinePointTarget::crank_rocker, 160u}}) {
     const auto found = solve(test::random_target(kind, number).points);
     EXPECT_EQ(found.completeness, Completeness::complete) << static_cast<int>(kind) << ' ' << number;
     EXPECT_EQ(found.certified, 1442) << number;
     EXPECT_EQ(found.infinite + found.singular + found.lost, 0) << number;
   }
+}
+
+// Along a short, nearly straight arc paths end so near to families of degenerate solutions that Newton's
+// method comes to these.
+TEST(NinePoints, AllClassesOfAShortArc) {
+  Points points;
+  for (int i = 0; i < 9; ++i) {
+    const double t = 0.02 * i;
+    points.emplace_back(t + 0.3 * t * t, 0.5 * t * t + 0.7 * t * t * t + 3 * t * t * t * t);
+  }
+  const auto found = solve(points);
+  EXPECT_EQ(found.completeness, Completeness::complete);
+  EXPECT_EQ(found.certified, 1442);
 }
 
 TEST(NinePoints, TheSameBitsOnAnyNumberOfThreads) {

@@ -8,6 +8,8 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/path_tracker.h"
+#include "linkwright/planar/exact/detail/follow.h"
+#include "linkwright/planar/exact/detail/wide_number.h"
 
 namespace linkwright::planar {
 namespace {
@@ -16,13 +18,31 @@ constexpr std::size_t n = four_bar_unknowns;
 constexpr double first_radius = 2, wider = 6;  // of the correction, and of a radius that was too small
 constexpr int most_radii = 5;
 
+// An identity proved to this share of its size decides between two classes.
+constexpr double sharp_identity = 1e-9;
+
+// With at least as many digits.
+template <class T>
+math::Complex<T> widened_to(const DoubleDoubleComplex& z) {
+  if constexpr (std::is_same_v<T, math::DoubleDouble>)
+    return z;
+  else
+    return {T(z.re.high) + T(z.re.low), T(z.im.high) + T(z.im.low)};
+}
+template <class T, std::size_t count>
+std::array<math::Complex<T>, count> widened_to(const std::array<DoubleDoubleComplex, count>& z) {
+  std::array<math::Complex<T>, count> out;
+  for (std::size_t i = 0; i < count; ++i) out[i] = widened_to<T>(z[i]);
+  return out;
+}
+
 template <class T>
 math::Ball<T> data_ball(const DoubleDoubleComplex& value) {
   if constexpr (std::is_same_v<T, double>)
     return math::Ball<double>({value.re.high, value.im.high},
                               2 * (std::abs(value.re.low) + std::abs(value.im.low)));
   else
-    return math::Ball<T>(value);
+    return math::Ball<T>(widened_to<T>(value));
 }
 
 // The columns of the inverse, as good as T makes it.
@@ -117,10 +137,61 @@ CertifiedIdentity certified_identity(const ComplexFourBar<T>& z, const SolutionB
   return {identity, (above.radius + size * below.radius) / floor * (1 + 1e-9) + 1e-15 * size};
 }
 
+namespace {
+
+// What prove_class() tries, sharper and sharper.
+class ClassProver {
+ public:
+  ClassProver(const ExactNinePoints& p, bool real) : p_(p), real_(real) {}
+  const std::optional<CertifiedIdentity>& best() const { return best_; }
+
+  /// True if the identity is sharp.
+  template <class T>
+  bool about(const ComplexFourBar<T>& z) {
+    const ComplexFourBar<T> middle = real_ ? real_four_bar(z) : z;
+    if (const auto ball = certify(p_, middle)) {
+      const CertifiedIdentity proof = certified_identity(middle, *ball);
+      if (!best_ || proof.radius < best_->radius) best_ = proof;
+    }
+    return best_ && best_->radius < sharp_identity * (1 + std::sqrt(math::norm(best_->identity)));
+  }
+
+  /// The same about the three cognates of z, polished to `accuracy` with the digits of T.
+  template <class T>
+  bool about_cognates(const ComplexFourBar<math::DoubleDouble>& z, double accuracy, int steps) {
+    const auto p = widened_to<T>(p_);
+    ComplexFourBar<T> next = widened_to<T>(z);
+    for (int cognate = 0; cognate < 3; ++cognate, next = next_cognate(next)) {
+      ComplexFourBar<T> polished = next;
+      polish(NinePoints(), p, polished, accuracy, steps);
+      if (about(polished)) return true;
+    }
+    return false;
+  }
+
+ private:
+  const ExactNinePoints& p_;
+  const bool real_;
+  std::optional<CertifiedIdentity> best_;
+};
+
+}  // namespace
+
+std::optional<CertifiedIdentity> prove_class(const ExactNinePoints& p,
+                                             const ComplexFourBar<math::DoubleDouble>& z, bool extended,
+                                             bool real) {
+  ClassProver prover(p, real);
+  if (!extended && prover.about(rounded(z))) return prover.best();
+  if (!prover.about_cognates<math::DoubleDouble>(z, 1e-26, 6)) prover.about_cognates<WideNumber>(z, 1e-50, 8);
+  return prover.best();
+}
+
 template std::optional<SolutionBall> certify(const ExactNinePoints&, const ComplexFourBar<double>&);
 template std::optional<SolutionBall> certify(const ExactNinePoints&,
                                              const ComplexFourBar<math::DoubleDouble>&);
+template std::optional<SolutionBall> certify(const ExactNinePoints&, const ComplexFourBar<WideNumber>&);
 template CertifiedIdentity certified_identity(const ComplexFourBar<double>&, const SolutionBall&);
 template CertifiedIdentity certified_identity(const ComplexFourBar<math::DoubleDouble>&, const SolutionBall&);
+template CertifiedIdentity certified_identity(const ComplexFourBar<WideNumber>&, const SolutionBall&);
 
 }  // namespace linkwright::planar

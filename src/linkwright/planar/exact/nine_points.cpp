@@ -24,9 +24,8 @@ constexpr std::string_view following = "paths", proving_classes = "certificates"
 constexpr double class_settled = 1e-13, fine_from = 1e-11, fine_settled = 1e-17;
 constexpr double nearly_real = 1e-7;
 // Identities that differ by less than the first, in their size, may be those of one class: with twice the
-// digits they differ by less than the second, or they are not. A proof of an identity to the third decides
-// between two.
-constexpr double perhaps_same = 1e-6, surely_same = 1e-10, sharp_identity = 1e-9;
+// digits they differ by less than the second, or they are not.
+constexpr double perhaps_same = 1e-6, surely_same = 1e-10;
 
 // More classes than these that are missing are those of special points: they are not sought another way.
 constexpr std::size_t most_sought = 24;
@@ -63,6 +62,16 @@ struct NineTarget {
   }
 };
 
+// Where both pins of one half lie in the coupler point, but for rounding to `digits`, whole families solve
+// the equations: Newton's method comes to them from afar, and what it finds there is one of them unless a
+// certificate says otherwise.
+bool is_of_a_family(const NineTarget& target, const FineFourBar& z, double digits) {
+  const double first = static_cast<double>(math::norm(z[pin_x]) + math::norm(z[pin_y])),
+               second = static_cast<double>(math::norm(z[pin_X]) + math::norm(z[pin_Y]));
+  if (std::min(first, second) > digits * digits * std::max(first, second)) return false;
+  return !prove_class(target.fine, z, false, false);
+}
+
 // Newton's method to the last digits, with more of them where doubles do not settle; nullopt where solutions
 // meet or there is none.
 std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<> z) {
@@ -75,6 +84,7 @@ std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<
     if (!(polish(NinePoints(), target.fine, out.fine, 1e-26, 14) < fine_settled)) return std::nullopt;
     z = rounded(out.fine);
   }
+  if (is_of_a_family(target, out.fine, 1e-14)) return std::nullopt;
   out.z = z;
   out.identity = NinePoints::identity(z);
   if (!std::isfinite(math::norm(out.identity))) return std::nullopt;
@@ -84,6 +94,7 @@ std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<
 std::optional<FoundClass> finish_class(const NineTarget& target, FineFourBar fine) {
   take_smaller_cognate(fine, 0.95);
   if (!(polish(NinePoints(), target.fine, fine, 1e-26, 20) < fine_settled)) return std::nullopt;
+  if (is_of_a_family(target, fine, 1e-24)) return std::nullopt;
   FoundClass out{.fine = fine, .z = rounded(fine), .extended = true, .identity = {}};
   out.identity = NinePoints::identity(out.z);
   if (!std::isfinite(math::norm(out.identity))) return std::nullopt;
@@ -107,29 +118,10 @@ bool identify(const NineTarget& target, FoundClass& found) {
   return found.settled = true;
 }
 
-template <class T>
-ComplexFourBar<T> conjugate_class(const ComplexFourBar<T>& z) {
-  ComplexFourBar<T> out;
-  for (std::size_t i = 0; i < 4; ++i) out[i] = math::conj(z[i + 4]), out[i + 4] = math::conj(z[i]);
-  return out;
-}
-
 bool is_real_class(const ComplexFourBar<>& z) {
   double off = 0;
   for (std::size_t i = 0; i < 4; ++i) off += math::norm(z[i + 4] - math::conj(z[i]));
   return off < nearly_real * nearly_real * squared_size(z);
-}
-
-// The mean of a solution and its conjugate: a place that is its own conjugate, exactly.
-template <class T>
-ComplexFourBar<T> symmetric_class(const ComplexFourBar<T>& z) {
-  const ComplexFourBar<T> other = conjugate_class(z);
-  ComplexFourBar<T> out;
-  for (std::size_t i = 0; i < 4; ++i) {
-    out[i] = T(0.5) * (z[i] + other[i]);
-    out[i + 4] = math::conj(out[i]);
-  }
-  return out;
 }
 
 // The classes that are known, with the paths that led to them.
@@ -162,7 +154,7 @@ class ClassCollection {
   // Points are real: the conjugate of a solution is one as well.
   void add_conjugates(const NineTarget& target) {
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (const ComplexFourBar<> other = conjugate_class(found_[i].z); !has(NinePoints::identity(other)))
+      if (const ComplexFourBar<> other = conjugate_four_bar(found_[i].z); !has(NinePoints::identity(other)))
         if (auto partner = finish_class(target, other)) add(std::move(*partner), -1);
   }
   std::vector<int> take_collided() {
@@ -330,32 +322,6 @@ struct ClassProof {
   std::optional<CertifiedIdentity> identity;
 };
 
-std::optional<CertifiedIdentity> prove_class(const NineTarget& target, const FoundClass& found, bool real) {
-  const auto proved = [&](const auto& z) -> std::optional<CertifiedIdentity> {
-    const auto ball = certify(target.fine, z);
-    if (!ball) return std::nullopt;
-    return certified_identity(z, *ball);
-  };
-  // Of a wide ball the identity says too little to tell it from the others.
-  const auto sharp = [](const std::optional<CertifiedIdentity>& proof) {
-    return proof && proof->radius < sharp_identity * (1 + std::sqrt(math::norm(proof->identity)));
-  };
-  std::optional<CertifiedIdentity> best;
-  if (!found.extended) {
-    best = proved(real ? symmetric_class(found.z) : found.z);
-    if (sharp(best)) return best;
-  }
-  FineFourBar z = found.fine;
-  for (int cognate = 0; cognate < 3; ++cognate, z = next_cognate(z)) {
-    FineFourBar polished = z;
-    polish(NinePoints(), target.fine, polished, 1e-26, 6);
-    const auto proof = proved(real ? symmetric_class(polished) : polished);
-    if (proof && !(best && best->radius <= proof->radius)) best = proof;
-    if (sharp(best)) return best;
-  }
-  return best;
-}
-
 std::vector<ClassProof> classify_classes(const NineTarget& target, const std::vector<FoundClass>& found,
                                          bool certify_them, RunContext& context) {
   std::vector<ClassProof> proofs(found.size());
@@ -364,11 +330,11 @@ std::vector<ClassProof> classify_classes(const NineTarget& target, const std::ve
     ClassProof& proof = proofs[i];
     proof.curve.extended = found[i].extended;
     proof.curve.real = is_real_class(found[i].z);
-    const ComplexFourBar<> z = proof.curve.real ? symmetric_class(found[i].z) : found[i].z;
+    const ComplexFourBar<> z = proof.curve.real ? real_four_bar(found[i].z) : found[i].z;
     for (std::size_t k = 0; k < z.size(); ++k) proof.curve.four_bar[k] = target.unit * standard_complex(z[k]);
     proof.identity = CertifiedIdentity{found[i].identity, infinity};
     if (!certify_them || context.interrupted()) return;
-    if (const auto identity = prove_class(target, found[i], proof.curve.real)) {
+    if (const auto identity = prove_class(target.fine, found[i].fine, found[i].extended, proof.curve.real)) {
       proof.identity = identity;
       proof.curve.certified = true;
     }

@@ -43,6 +43,26 @@ LINKWRIGHT_KERNEL ComplexFourBar<T> next_cognate(const ComplexFourBar<T>& z) {
   return out;
 }
 
+/// The four-bar of the conjugate data; a real one is its own.
+template <class T>
+ComplexFourBar<T> conjugate_four_bar(const ComplexFourBar<T>& z) {
+  ComplexFourBar<T> out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = math::conj(z[i + 4]), out[i + 4] = math::conj(z[i]);
+  return out;
+}
+
+/// The mean of a four-bar and its conjugate: one that is its own conjugate, exactly.
+template <class T>
+ComplexFourBar<T> real_four_bar(const ComplexFourBar<T>& z) {
+  const ComplexFourBar<T> other = conjugate_four_bar(z);
+  ComplexFourBar<T> out;
+  for (std::size_t i = 0; i < 4; ++i) {
+    out[i] = T(0.5) * (z[i] + other[i]);
+    out[i + 4] = math::conj(out[i]);
+  }
+  return out;
+}
+
 /// Sum of the squares of the unknowns.
 template <class T, std::size_t n>
 LINKWRIGHT_KERNEL double squared_size(const std::array<math::Complex<T>, n>& z) {
