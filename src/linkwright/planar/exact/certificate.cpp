@@ -21,18 +21,10 @@ constexpr int most_radii = 5;
 // An identity proved to this share of its size decides between two classes.
 constexpr double sharp_identity = 1e-9;
 
-// With at least as many digits.
-template <class T>
-math::Complex<T> widened_to(const DoubleDoubleComplex& z) {
-  if constexpr (std::is_same_v<T, math::DoubleDouble>)
-    return z;
-  else
-    return {T(z.re.high) + T(z.re.low), T(z.im.high) + T(z.im.low)};
-}
 template <class T, std::size_t count>
-std::array<math::Complex<T>, count> widened_to(const std::array<DoubleDoubleComplex, count>& z) {
+std::array<math::Complex<T>, count> with_digits_of(const std::array<DoubleDoubleComplex, count>& z) {
   std::array<math::Complex<T>, count> out;
-  for (std::size_t i = 0; i < count; ++i) out[i] = widened_to<T>(z[i]);
+  for (std::size_t i = 0; i < count; ++i) out[i] = math::Complex<T>(z[i]);
   return out;
 }
 
@@ -42,7 +34,7 @@ math::Ball<T> data_ball(const DoubleDoubleComplex& value) {
     return math::Ball<double>({value.re.high, value.im.high},
                               2 * (std::abs(value.re.low) + std::abs(value.im.low)));
   else
-    return math::Ball<T>(widened_to<T>(value));
+    return math::Ball<T>(math::Complex<T>(value));
 }
 
 // The columns of the inverse, as good as T makes it.
@@ -159,8 +151,8 @@ class ClassProver {
   /// The same about the three cognates of z, polished to `accuracy` with the digits of T.
   template <class T>
   bool about_cognates(const ComplexFourBar<math::DoubleDouble>& z, double accuracy, int steps) {
-    const auto p = widened_to<T>(p_);
-    ComplexFourBar<T> next = widened_to<T>(z);
+    const auto p = with_digits_of<T>(p_);
+    ComplexFourBar<T> next = with_digits_of<T>(z);
     for (int cognate = 0; cognate < 3; ++cognate, next = next_cognate(next)) {
       ComplexFourBar<T> polished = next;
       polish(NinePoints(), p, polished, accuracy, steps);
