@@ -376,20 +376,6 @@ TEST(SynthesisePath, CancelledReturnsTheBestSoFar) {
   EXPECT_TRUE(nothing.designs.empty());
 }
 
-TEST(SynthesisePath, AnInterruptedRunReturnsTheBestSoFar) {
-  const PathProblem problem = free_eighteen_points(30, true, true);
-  RunContext context;
-  double last = 0;
-  context.set_progress([&](const Progress& progress) {
-    last = progress.fraction;
-    context.cancel();
-  });
-  const PathSynthesis answer = synthesise_path(problem, {.starts = 100000}, context);
-  EXPECT_EQ(answer.status, Status::cancelled);
-  EXPECT_LT(last, 0.5);  // it did not go on to the end
-  EXPECT_FALSE(answer.designs.empty());
-}
-
 TEST(SynthesisePath, RejectsOptionsWithoutMeaning) {
   RunContext context;
   EXPECT_THAT([&] { synthesise_path(printed_eighteen_points(), {.max_solutions = 0}, context); },
