@@ -15,7 +15,7 @@ class OneRank final : public Ranks {
  public:
   int rank() const override { return 0; }
   int count() const override { return 2; }
-  void send(int, std::string message) override { benchmark::DoNotOptimize(message.data()); }
+  void send(int, std::string message, Urgency) override { benchmark::DoNotOptimize(message.data()); }
   void set_receiver(std::function<void(int, std::string_view)> receive) override {
     receive_ = std::move(receive);
   }

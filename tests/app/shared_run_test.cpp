@@ -37,7 +37,7 @@ class Post {
     }
     int rank() const override { return rank_; }
     int count() const override { return static_cast<int>(post_.boxes_.size()); }
-    void send(int to, std::string message) override {
+    void send(int to, std::string message, Urgency) override {
       Box& box = post_.boxes_[static_cast<std::size_t>(to)];
       const std::lock_guard lock(box.mutex);
       box.messages.emplace_back(rank_, std::move(message));
@@ -312,6 +312,77 @@ TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
   }
   EXPECT_TRUE(squares.complete());
   EXPECT_EQ(Squares::done, static_cast<int>(most));
+}
+
+/// What a rank has received, one message after the other.
+class Received {
+ public:
+  explicit Received(Ranks& ranks) : ranks_(ranks) {
+    ranks.set_receiver([this](int, std::string_view message) {
+      const std::lock_guard lock(mutex_);
+      messages_.emplace_back(message);
+      changes_.notify_all();
+    });
+  }
+  ~Received() { ranks_.set_receiver({}); }
+  std::string next() {
+    std::unique_lock lock(mutex_);
+    changes_.wait(lock, [&] { return !messages_.empty(); });
+    std::string message = std::move(messages_.front());
+    messages_.pop_front();
+    return message;
+  }
+
+ private:
+  Ranks& ranks_;
+  std::mutex mutex_;
+  std::condition_variable changes_;
+  std::deque<std::string> messages_;
+};
+
+TEST_F(SharedLoop, GivesAsManyPiecesAsAreAskedForAndAnEvenShareInTheEnd) {
+  Post post(2);
+  const auto ranks = post.join(0), other = post.join(1);
+  Received received(*other);
+  CheckpointFile file(folder_ / "kept", one_study);
+  RunContext context;
+  LeadingRank leading(*ranks, file, one_study, with_what_was_kept, context);
+  EXPECT_EQ(received.next().front(), 'b');
+  std::string given;
+  for (int i = 0; i < 10; ++i) {
+    other->send(0, "a100 30 piece 0");
+    given += received.next() + ",";
+  }
+  EXPECT_EQ(given, "p0 30,p30 60,p60 80,p80 90,p90 95,p95 97,p97 98,p98 99,p99 100,p100 100,");
+  // What lasts long enough is given in smaller shares.
+  other->send(0, "a100 1 another");
+  EXPECT_EQ(received.next(), "p0 12");
+  other->send(0, "e");
+}
+
+TEST_F(SharedLoop, ShortPiecesAreAskedForBeforeTheyAreNeeded) {
+  Post post(2);
+  const auto ranks = post.join(0), other = post.join(1);
+  Received received(*ranks);
+  RunContext context;
+  FollowingRank kept(*other, one_study, at_once, context);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < 25; ++i) ASSERT_EQ(kept.own_piece("piece 0", 0, most), i);  // its first share
+  const auto last_given = std::chrono::steady_clock::now();
+  // 24 pieces in less than 20 ms each: of a machine that is slower, this says nothing.
+  if (last_given - begin < std::chrono::milliseconds(24 * 20)) {
+    const std::string asked = received.next();
+    EXPECT_TRUE(asked.starts_with("a200 ") && asked.ends_with(" piece 0")) << asked;
+    EXPECT_NE(asked, "a200 1 piece 0");
+    ranks->send(1, "p30 32");
+    ASSERT_EQ(kept.own_piece("piece 0", 0, most), 30U);
+    EXPECT_EQ(received.next().substr(0, 5), "a200 ");
+    ranks->send(1, "p40 200");
+    ASSERT_EQ(kept.own_piece("piece 0", 0, most), 31U);
+    ASSERT_EQ(kept.own_piece("piece 0", 0, most), 40U);
+  }
+  ranks->send(1, checkpoint_text(one_study, {}).insert(0, "b"));
+  EXPECT_TRUE(kept.finish().empty());
 }
 
 TEST_F(SharedLoop, ThatNeverBeginsEndsTheOthers) {

@@ -6,6 +6,9 @@
 
 namespace linkwright::app {
 
+/// Whether a message leaves at once, or some 20 ms later together with others, which costs the work less.
+enum class Urgency { at_once, can_wait };
+
 /// The runs of one study that a launcher has started together: ranks 0, 1, ... count - 1, each of which sends
 /// messages to any other one. A plug-in over MPI (src/linkwright/mpi) gives them; tests have their own.
 class Ranks {
@@ -21,7 +24,7 @@ class Ranks {
 
   /// Sends and does not wait. What one rank sends to another one arrives in the order of sending. Usable from
   /// any thread.
-  virtual void send(int to, std::string message) = 0;
+  virtual void send(int to, std::string message, Urgency urgency = Urgency::at_once) = 0;
 
   /// Receives all messages from here on, one after the other, on a thread of its own; what came before waits
   /// for it. An empty function receives no more: messages are dropped, and none is being received.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace linkwright::app {
@@ -12,7 +13,7 @@ namespace {
 
 // The first letter of a message says what it is.
 constexpr char begin_message = 'b';   // from rank 0: the text of its checkpoint
-constexpr char ask_message = 'a';     // to rank 0: "<count> <loop>"
+constexpr char ask_message = 'a';     // to rank 0: "<count> <pieces at least> <loop>"
 constexpr char pieces_message = 'p';  // from rank 0: "<first> <last>", the last one excluded
 constexpr char keep_message = 'k';    // to rank 0: a line of the checkpoint
 constexpr char end_message = 'e';     // either way: no more is done
@@ -26,6 +27,10 @@ std::size_t share_beforehand(std::size_t count, int ranks) {
   const auto all = static_cast<std::size_t>(ranks);
   return count < all ? 0 : std::max<std::size_t>(1, count / (shares * all));
 }
+
+/// What a rank is given lasts at least so long, and the next is asked for so long before it is needed: an
+/// answer takes some milliseconds where all processors are at work.
+constexpr std::chrono::duration<double> answer_time(0.02);
 
 /// How long a rank that was told to end is waited for: one that hangs must not hold up the result.
 constexpr std::chrono::seconds longest_wait(20);
@@ -92,11 +97,13 @@ void LeadingRank::receive(int from, std::string_view message) {
   std::string_view text = message.substr(1);
   switch (message.front()) {
     case ask_message: {
-      const std::size_t count = number_before_blank(text);
+      const std::size_t count = number_before_blank(text), least = number_before_blank(text);
       const std::lock_guard lock(mutex_);
       std::size_t& next = next_of(text, count);
-      const std::size_t first = std::min(next, count);
-      next = std::min(first + std::max<std::size_t>(1, (count - first) / (shares * at_work_.size())), count);
+      const std::size_t first = std::min(next, count), left = count - first, ranks = at_work_.size();
+      // In the end an even share, so that all are done at one time.
+      const std::size_t share = std::max(left / (shares * ranks), std::min(least, left / ranks));
+      next = std::min(first + std::max<std::size_t>(1, share), count);
       ranks_.send(from, message_of(pieces_message, fmt::format("{} {}", first, next)));
       return;
     }
@@ -155,9 +162,9 @@ void FollowingRank::receive(std::string_view message) {
       take_up(text);
       break;
     case pieces_message:
-      first_ = number_before_blank(text);
-      last_ = number_before_blank(text);
-      answered_ = true;
+      answer_.first = number_before_blank(text);
+      answer_.last = number_before_blank(text);
+      asking_ = Asking::answered;
       break;
     case end_message:
       ended_ = true;
@@ -197,7 +204,7 @@ void FollowingRank::keep(std::string_view name, const Value& value) {
   std::string line = message_of(keep_message, checkpoint_line(name, value));
   const std::lock_guard lock(mutex_);
   if (begun_)
-    ranks_.send(0, std::move(line));
+    ranks_.send(0, std::move(line), Urgency::can_wait);
   else if (!ended_)
     unsent_.push_back(std::move(line));
 }
@@ -206,16 +213,31 @@ std::size_t FollowingRank::own_piece(std::string_view loop, std::size_t from, st
   std::unique_lock lock(mutex_);
   if (!std::exchange(at_work_, true) && begin_ == RanksBegin::at_once) {
     const std::size_t share = share_beforehand(count, ranks_.count());
-    last_ = share * static_cast<std::size_t>(ranks_.rank());
-    first_ = last_ - share;
+    own_.last = share * static_cast<std::size_t>(ranks_.rank());
+    own_.first = own_.last - share;
   }
-  first_ = std::max(first_, from);
-  if (first_ >= last_ && !ended_) {
-    answered_ = false;
-    ranks_.send(0, message_of(ask_message, fmt::format("{} {}", count, loop)));
-    changes_.wait(lock, [&] { return answered_ || ended_; });
+  const auto now = std::chrono::steady_clock::now();
+  if (given_ == 0) began_ = now;
+  const std::chrono::duration<double> piece = (now - began_) / std::max(given_, 1.0);
+  const auto ask = [&] {
+    if (asking_ != Asking::no) return;
+    asking_ = Asking::asked;
+    const double least =
+        given_ > 0 ? std::min(std::ceil(answer_time / piece), static_cast<double>(count)) : 1;
+    ranks_.send(
+        0, message_of(ask_message, fmt::format("{} {} {}", count, static_cast<std::size_t>(least), loop)));
+  };
+  own_.first = std::max(own_.first, from);
+  if (own_.first >= own_.last && !ended_) {
+    ask();
+    changes_.wait(lock, [&] { return asking_ == Asking::answered || ended_; });
+    asking_ = Asking::no;
+    own_ = answer_;
   }
-  return !ended_ && first_ < last_ ? first_++ : count;
+  if (ended_ || own_.first >= own_.last) return count;
+  if (given_ > 0 && static_cast<double>(own_.last - own_.first) * piece < answer_time) ask();
+  ++given_;
+  return own_.first++;
 }
 
 }  // namespace linkwright::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
@@ -91,10 +92,18 @@ class FollowingRank final : public Checkpoint {
   bool finished_ = false;
   Diagnostics problems_;
   std::vector<std::string> unsent_;  ///< done before rank 0 was heard of
-  bool at_work_ = false;             ///< has asked for a piece
-  bool answered_ = false;
-  std::size_t first_ = 0, last_ = 0;  ///< pieces that were given to this rank and not yet begun
-  CheckpointLines lines_;             ///< what rank 0 began with, which nothing changes after that
+  /// Pieces that are given to this rank, the last one excluded.
+  struct Pieces {
+    std::size_t first = 0, last = 0;
+  };
+  enum class Asking { no, asked, answered };
+  bool at_work_ = false;  ///< has asked for a piece
+  Pieces own_;            ///< not yet begun
+  Pieces answer_;         ///< those after them
+  Asking asking_ = Asking::no;
+  double given_ = 0;                               ///< pieces that the loop has had from here
+  std::chrono::steady_clock::time_point began_{};  ///< when it had the first
+  CheckpointLines lines_;  ///< what rank 0 began with, which nothing changes after that
 };
 
 }  // namespace linkwright::app

@@ -20,7 +20,10 @@
 namespace linkwright::mpi {
 namespace {
 
-constexpr std::chrono::microseconds shortest_sleep(50), longest_sleep(1000);
+// A look takes some 0.1 ms from the work on a virtual machine, most of it for the timer. Rank 0 is asked for
+// pieces at any time; the others hear only what they have asked for, and that it is over.
+constexpr std::chrono::microseconds shortest_sleep(50), longest_sleep_of_first(2000),
+    longest_sleep_of_others(20000);
 
 class MpiRanks final : public app::Ranks {
  public:
@@ -38,20 +41,26 @@ class MpiRanks final : public app::Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
 
-  void send(int to, std::string message) override {
+  void send(int to, std::string message, app::Urgency urgency) override {
     const std::lock_guard lock(mutex_);
     outgoing_.push_back({to, std::move(message), MPI_REQUEST_NULL});
+    if (urgency == app::Urgency::at_once) wake();
   }
 
   void set_receiver(std::function<void(int, std::string_view)> receive) override {
-    const std::lock_guard lock(receiving_);
-    receive_ = std::move(receive);
-    drop_ = !receive_;
+    {
+      const std::lock_guard lock(receiving_);
+      receive_ = std::move(receive);
+      drop_ = !receive_;
+    }
+    const std::lock_guard lock(mutex_);
+    wake();
   }
 
   void leave() override {
     const std::lock_guard lock(mutex_);
     leaving_ = true;
+    wake();
   }
 
  private:
@@ -67,7 +76,9 @@ class MpiRanks final : public app::Ranks {
     bool arrived = false;
     auto pause = shortest_sleep;
     while (true) {
-      const bool received = take_in(), handed = hand_over(), sent = send_on();
+      take_in();
+      hand_over();
+      send_on();
       if (!arrived && is_leaving() && being_sent_.empty()) {
         arrived = true;
         MPI_Ibarrier(MPI_COMM_WORLD, &all_here);
@@ -77,10 +88,22 @@ class MpiRanks final : public app::Ranks {
         MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
         if (done != 0) break;
       }
-      pause = received || handed || sent ? shortest_sleep : std::min(2 * pause, longest_sleep);
-      std::this_thread::sleep_for(pause);
+      pause = sleep(std::min(2 * pause, rank_ == 0 ? longest_sleep_of_first : longest_sleep_of_others));
     }
     MPI_Finalize();
+  }
+
+  /// Until it is woken, or so long; returns how long it sleeps the next time.
+  std::chrono::microseconds sleep(std::chrono::microseconds longest) {
+    std::unique_lock lock(mutex_);
+    changes_.wait_for(lock, longest, [&] { return woken_; });
+    return std::exchange(woken_, false) ? shortest_sleep : longest;
+  }
+
+  /// With the lock held: what was said at once is done at once, and answers are looked for often.
+  void wake() {
+    woken_ = true;
+    changes_.notify_all();
   }
 
   void join() {
@@ -108,8 +131,7 @@ class MpiRanks final : public app::Ranks {
   }
 
   /// Receives what has come.
-  bool take_in() {
-    bool some = false;
+  void take_in() {
     for (int there = 1; there != 0;) {
       MPI_Status status;
       MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
@@ -120,22 +142,19 @@ class MpiRanks final : public app::Ranks {
       MPI_Recv(text.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
                MPI_STATUS_IGNORE);
       incoming_.push_back({status.MPI_SOURCE, std::move(text), MPI_REQUEST_NULL});
-      some = true;
     }
-    return some;
   }
 
   /// Gives what was received to the receiver, if there is one.
-  bool hand_over() {
+  void hand_over() {
     const std::lock_guard lock(receiving_);
-    const bool some = !incoming_.empty() && (receive_ || drop_);
-    for (; some && !incoming_.empty(); incoming_.pop_front())
+    if (!receive_ && !drop_) return;
+    for (; !incoming_.empty(); incoming_.pop_front())
       if (receive_) receive_(incoming_.front().rank, incoming_.front().text);
-    return some;
   }
 
   /// Begins to send what was given for it, and forgets what has been sent.
-  bool send_on() {
+  void send_on() {
     std::deque<Message> begun;
     {
       const std::lock_guard lock(mutex_);
@@ -151,13 +170,12 @@ class MpiRanks final : public app::Ranks {
       MPI_Test(&m.request, &done, MPI_STATUS_IGNORE);
       return done != 0;
     });
-    return !begun.empty();
   }
 
   int rank_, count_;  // are known before anybody asks
   std::mutex mutex_;  // guards these
   std::condition_variable changes_;
-  bool joined_ = false, leaving_ = false;
+  bool joined_ = false, leaving_ = false, woken_ = false;
   std::deque<Message> outgoing_;
   std::mutex receiving_;  // is held while a message is received, and guards these
   std::function<void(int, std::string_view)> receive_;
