@@ -365,8 +365,10 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
       line.hidden = at === null || at < low - room || at > high + room;
       if (!line.hidden) line.style.transform = `translate${upright ? "Y" : "X"}(${plot.valToPos(at!, "x").toFixed(1)}px)`;
     };
+    let inSight = true;
     const update = () => {
-      if (!plot) return;
+      // While a mechanism moves, most of a frame would go into diagrams that nobody sees.
+      if (!plot || (!inSight && state.playing.peek())) return;
       const now = present?.() ?? -1;
       if (now !== group) {
         group = now;
@@ -406,9 +408,15 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
       update();
     });
     observer.observe(element);
+    const watch = new IntersectionObserver((seen) => {
+      inSight = seen[seen.length - 1].isIntersecting;
+      update();
+    });
+    watch.observe(element.closest(".plot") ?? element);
     return () => {
       if (inside && link) state.held.value = false;
       observer.disconnect();
+      watch.disconnect();
       stop();
       stopMark();
       stopTheme();

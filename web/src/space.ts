@@ -1,4 +1,5 @@
 // The spatial view: a bundle of its own, which only reports with a spatial scene carry. It draws when something has changed.
+// A graphics card draws it, or paint() where there is none.
 import { AmbientLight, DirectionalLight, Group, OrthographicCamera, PerspectiveCamera, Raycaster, Plane, Scene as Stage, Vector2, Vector3, WebGLRenderer, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { arrowScale, quantities, valueNear } from "./arrows";
@@ -6,6 +7,7 @@ import type { Quantity, Scene } from "./data";
 import { placeLabels, symbolOf } from "./labels";
 import { placeAt, placeNear, type Place } from "./motion";
 import { arrowPart, bodyPart, discPart, jointPart, lines, Palette, type Part, type Places } from "./space_parts";
+import { hasFastWebgl, paint } from "./space_flat";
 import { bounds3, cloudOf, fit3, lowestTyre, middleOf, sizeOf, viewpoints, type V3, type ViewName } from "./space_view";
 import { bodyColours, niceStep } from "./view";
 
@@ -46,14 +48,16 @@ export interface SpaceView {
 const fov = 32; // degrees
 const vector = (p: { x: number; y: number; z?: number } | null) => p && new Vector3(p.x, p.y, p.z ?? 0);
 
-/** Opens a view in an element; null when the browser has no WebGL or the scene nothing to draw. */
+let fast: boolean | undefined; // asked once a page
+
+/** Opens a view in an element; null when the scene has nothing to draw. */
 export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView | null {
   const box = bounds3(whole);
   if (!box) return null;
   const canvas = document.createElement("canvas");
-  const context = canvas.getContext("webgl2", { antialias: true });
-  if (!context) return null;
-  const renderer = new WebGLRenderer({ canvas, context, antialias: true });
+  fast ??= hasFastWebgl();
+  const renderer = fast ? new WebGLRenderer({ canvas, antialias: true }) : null;
+  const plane = renderer ? null : canvas.getContext("2d", { alpha: false })!;
   host.append(canvas);
   const labels = host.appendChild(document.createElement("div"));
   labels.className = "space-labels";
@@ -186,8 +190,10 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     // The light comes from the eye, a little from the left and above.
     sun.target.position.copy(controls.target);
     sun.position.set(-0.35, 0.5, 1).applyQuaternion(camera.quaternion).multiplyScalar(size * 4).add(controls.target);
-    renderer.setClearColor(palette.background(), 1);
-    renderer.render(stage, camera);
+    if (renderer) {
+      renderer.setClearColor(palette.background(), 1);
+      renderer.render(stage, camera);
+    } else paint(plane!, stage, camera, palette.background(), canvas.width, canvas.height, Math.min(2, devicePixelRatio));
     write();
     canvas.dataset.frames = String(++frames);
   }
@@ -236,8 +242,13 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
 
   function resize(): void {
     const [width, height] = [Math.max(1, host.clientWidth), Math.max(1, host.clientHeight)];
-    renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    renderer.setSize(width, height);
+    const ratio = Math.min(2, devicePixelRatio);
+    renderer?.setPixelRatio(ratio);
+    renderer?.setSize(width, height);
+    if (!renderer) {
+      Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
+      Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
+    }
     perspective.aspect = width / height;
     perspective.updateProjectionMatrix();
     const half = flat.userData.halfHeight ?? size;
@@ -401,8 +412,8 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
       controls.dispose();
       stage.traverse((o) => (o as { geometry?: { dispose(): void } }).geometry?.dispose());
       palette.dispose();
-      renderer.dispose();
-      renderer.forceContextLoss(); // browsers allow few of them at a time
+      renderer?.dispose();
+      renderer?.forceContextLoss(); // browsers allow few of them at a time
       for (const element of [canvas, labels, triad]) element.remove();
     },
   };

@@ -313,6 +313,7 @@ export function jointPart(palette: Palette, joint: Scene["joints"][number], size
   const usual = palette.solid(ground ? "--ink" : joint.style === "tracer" ? "--error" : "--joint");
   const object = new Mesh(ground ? new BoxGeometry(1.7, 1.7, 1.7) : new SphereGeometry(1, 24, 16), usual);
   object.scale.setScalar(radius);
+  object.renderOrder = joint.style === "tracer" ? 1 : 0; // seen where another joint is at its place
   object.name = joint.name;
   return {
     object,

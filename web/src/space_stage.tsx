@@ -19,7 +19,7 @@ declare global {
 export const space = signal<SpaceView | null>(null);
 export const viewName = signal<ViewName>("oblique");
 
-/** Drawings of the page without scripts, by scene: for browsers without WebGL, and for print. */
+/** Drawings of the page without scripts, by scene: for print. */
 const stills = new Map<number, SVGSVGElement>();
 export function keepStills(page: HTMLElement): void {
   for (const figure of page.querySelectorAll<HTMLElement>("[data-scene]")) stills.set(Number(figure.dataset.scene), figure.querySelector("svg")!);
@@ -101,7 +101,6 @@ export function SpaceDrawing() {
   }, [parts]);
   return (
     <>
-      {flat && <p class="note no-webgl">This browser offers no WebGL: instead of the moving view in space, three views of one pose are shown.</p>}
       <div class={`stage space${flat ? " flat" : ""}`}>
         <div id="space" ref={box} role="img" tabIndex={0} onKeyDown={onKey}
           aria-label={`Mechanism in space: ${whole.title}. Arrow keys turn the view, with shift they move it, plus and minus zoom, 1 to 5 are fixed views`} />

@@ -12,10 +12,10 @@ const [samples, executablePath, python, checkDxf, pictures] = process.argv.slice
 const url = (name) => pathToFileURL(resolve(samples, name)).href;
 const browser = await launch(executablePath);
 
-async function open(name, options = {}, before) {
+async function open(name, options = {}, before, argument) {
   const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true, acceptDownloads: true, ...options });
   const page = await context.newPage();
-  if (before) await page.addInitScript(before);
+  if (before) await page.addInitScript(before, argument);
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
@@ -834,15 +834,51 @@ test("spatial drawings can be taken along", async () => {
   await close();
 });
 
-test("without WebGL, and in print, there are three fixed views", async () => {
-  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" }, () => {
-    HTMLCanvasElement.prototype.getContext = new Proxy(HTMLCanvasElement.prototype.getContext, { apply: (target, self, [kind, ...rest]) => (kind.startsWith("webgl") ? null : Reflect.apply(target, self, [kind, ...rest])) });
-  });
-  assert.ok(await page.locator(".no-webgl").isVisible());
-  assert.ok(await page.locator(".still svg .view").first().isVisible());
-  await equal(() => page.locator("#space canvas").count(), 0);
+/** The picture of a scene in space as PNG, in a browser whose WebGL has the name of this device. */
+async function spatialPicture(device) {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" }, (name) => {
+    const parameter = WebGL2RenderingContext.prototype.getParameter;
+    WebGL2RenderingContext.prototype.getParameter = function (what) {
+      return what === 0x9246 ? name : parameter.call(this, what); // UNMASKED_RENDERER_WEBGL
+    };
+    if (name === "") HTMLCanvasElement.prototype.getContext = new Proxy(HTMLCanvasElement.prototype.getContext, { apply: (target, self, [kind, ...rest]) => (kind.startsWith("webgl") ? null : Reflect.apply(target, self, [kind, ...rest])) });
+  }, device);
+  await page.waitForSelector("#space canvas");
+  await settled(page);
+  const kind = await page.evaluate(() => (document.querySelector("#space canvas").getContext("2d") ? "plane" : "webgl"));
+  const names = await page.locator(".space-labels span:not([hidden])").evaluateAll((all) => all.map((e) => e.style.transform));
+  const shot = await page.locator("#space canvas").screenshot({ animations: "disabled" });
+  /** How much darker than paper, on average, each of 8 x 6 fields is; 1 = black. */
+  const fields = await page.evaluate(async (data) => {
+    const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))]));
+    const canvas = Object.assign(document.createElement("canvas"), { width: picture.width, height: picture.height });
+    const context = canvas.getContext("2d");
+    context.drawImage(picture, 0, 0);
+    const { data: pixels } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const darkness = new Array(48).fill(0);
+    for (let y = 0; y < canvas.height; ++y)
+      for (let x = 0; x < canvas.width; ++x) {
+        const i = 4 * (y * canvas.width + x);
+        const off = (k) => Math.abs(pixels[i + k] - pixels[4 * (canvas.width + 1) * 9 + k]) / 765;
+        darkness[8 * Math.floor((6 * y) / canvas.height) + Math.floor((8 * x) / canvas.width)] += ((off(0) + off(1) + off(2)) * 48) / (canvas.width * canvas.height);
+      }
+    return darkness;
+  }, shot.toString("base64"));
   assert.deepEqual(errors, []);
   await close();
+  return { kind, names, fields };
+}
+
+test("without a graphics card space is painted in the plane, and looks the same", async () => {
+  const [card, computed, none] = [await spatialPicture("ANGLE (NVIDIA, RTX)"), await spatialPicture("ANGLE (Google, SwiftShader driver)"), await spatialPicture("")];
+  assert.deepEqual([card.kind, computed.kind, none.kind], ["webgl", "plane", "plane"]);
+  assert.deepEqual(computed.names, card.names);
+  assert.deepEqual(none.fields, computed.fields);
+  assert.ok(Math.max(...card.fields) > 0.2, "something is drawn");
+  card.fields.forEach((dark, k) => assert.ok(Math.abs(dark - computed.fields[k]) < 0.03 + 0.2 * dark, `field ${k}: ${dark} by the card, ${computed.fields[k]} in the plane`));
+});
+
+test("in print there are three fixed views", async () => {
   const printed = await open("spatial.html", { reducedMotion: "reduce" });
   assert.ok(!(await printed.page.locator(".still").isVisible()));
   await printed.page.emulateMedia({ media: "print" });
