@@ -31,14 +31,14 @@ TEST(Scalar, MultiplyAdd) {
   EXPECT_TRUE(std::isnan(S::multiply_add(nan, 0.0, 1.0)));
 }
 
-TEST(Scalar, MultiplyAddRoundsTwiceWithoutFusedInstructions) {
-#if defined(__FMA__)
-  GTEST_SKIP() << "compiled with fused multiply-add";
-#else
+TEST(Scalar, MultiplyAddRoundsOnceWhereInstructionsDo) {
   // (1 + e)^2 - 1 with e = 2^-30: the fused result keeps e^2, two roundings lose it.
   const double a = 1 + 0x1p-30;
+  EXPECT_NE(a * a - 1, std::fma(a, a, -1.0));
+#if defined(__FMA__) || defined(__aarch64__)
+  EXPECT_EQ(S::multiply_add(a, a, -1.0), std::fma(a, a, -1.0));
+#else
   EXPECT_EQ(S::multiply_add(a, a, -1.0), a * a - 1);
-  EXPECT_NE(S::multiply_add(a, a, -1.0), std::fma(a, a, -1.0));
 #endif
 }
 

@@ -20,7 +20,7 @@ struct Scalar {  // double, Dual
 template <>
 struct Scalar<double> {
   LINKWRIGHT_KERNEL static double multiply_add(double a, double b, double c) {
-#if defined(__FMA__)
+#if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);
 #else
     return a * b + c;
