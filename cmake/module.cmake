@@ -45,7 +45,8 @@ function(linkwright_library module)
                                                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(linkwright_${module} PUBLIC cxx_std_20)
   # Reading and reporting take milliseconds a run and two thirds of the compiler's time; a page loads them over the network.
-  if(module MATCHES "_studies$|^study$|^report$|^app$|^serve$|^cli$")
+  # Of a page that is dragged, reading, drawing and writing are two thirds of an answer.
+  if(module MATCHES "_studies$|^study$|^report$|^app$|^serve$|^cli$" AND NOT (EMSCRIPTEN AND module MATCHES "^study$|^report$|^app$"))
     target_compile_options(linkwright_${module} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,${small},-O1>>)
   endif()
   # Our programs and tests take the flags from the modules; other people's code keeps its own.
