@@ -1,8 +1,5 @@
 // What a thread around places in a plane runs along.
-export interface Spot {
-  x: number;
-  y: number;
-}
+import type { Spot } from "./gestures";
 
 const turn = (o: Spot, a: Spot, b: Spot) => (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 

@@ -2,7 +2,8 @@
 // Everything is painted from far to near; bars are painted in pieces, so that what crosses is in front where it is nearer.
 import { BufferGeometry, Color, Matrix4, Mesh, TubeGeometry, Vector3, type Camera, type Material, type Object3D, type Scene } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { hullOf, type Spot } from "./hull";
+import type { Spot } from "./gestures";
+import { hullOf } from "./hull";
 
 type Coloured = Material & { color: Color; opacity: number; linewidth?: number };
 interface Item {
