@@ -7,6 +7,7 @@
 #include "linkwright/core/csv.h"
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"
+#include "linkwright/core/finite.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/kernels.h"
 #include "linkwright/core/looks.h"

@@ -20,8 +20,6 @@
 namespace linkwright::app {
 namespace {
 
-constexpr const char* page_text = "study";
-
 /// A value of a document and what a number in the unit of the asked key is to be taken times for it.
 struct Found {
   const Value* value = nullptr;

@@ -9,6 +9,9 @@
 
 namespace linkwright::app {
 
+/// What messages call the text of a page, which is no file.
+inline constexpr const char* page_text = "study";
+
 /// A change of the text of a study.
 struct Edit {
   std::string

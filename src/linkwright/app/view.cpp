@@ -77,8 +77,6 @@ void keep_handles(study::Result& result, const study::Study& study) {
     });
 }
 
-constexpr const char* page_text = "study";  // what messages call the text of a page
-
 }  // namespace
 
 report::ReportInput report_input(const study::Study& study, const study::Result& shown, std::string command,

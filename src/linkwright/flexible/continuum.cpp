@@ -12,7 +12,7 @@ namespace linkwright::flexible {
 namespace {
 
 using Minors = std::array<double, 6>;
-using Matrix = std::array<std::array<double, 6>, 6>;
+using Matrix6 = std::array<std::array<double, 6>, 6>;
 
 // Rows of the pairs of components (y, psi, M, V).
 constexpr int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {1, 2, 3, 2, 3, 3};
@@ -20,8 +20,8 @@ constexpr int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {1, 2, 3, 2, 3, 3};
 // Row of a pair i < j.
 constexpr int row[4][4] = {{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}};
 
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix out{};
+Matrix6 product(const Matrix6& a, const Matrix6& b) {
+  Matrix6 out{};
   for (int i = 0; i < 6; ++i)
     for (int k = 0; k < 6; ++k)
       for (int j = 0; j < 6; ++j) out[i][j] += a[i][k] * b[k][j];
@@ -29,14 +29,14 @@ Matrix product(const Matrix& a, const Matrix& b) {
 }
 
 // exp(a) up to a positive factor: its Taylor series after halving, then squares.
-Matrix exponential(Matrix a) {
+Matrix6 exponential(Matrix6 a) {
   double norm = 0;
   for (const auto& line : a)
     for (const double x : line) norm = std::max(norm, std::abs(x));
   int halvings = 0;
   for (; norm > 0.1; norm /= 2) ++halvings;
   const double scale = std::ldexp(1.0, -halvings);
-  Matrix term{}, sum{};
+  Matrix6 term{}, sum{};
   for (int i = 0; i < 6; ++i) {
     for (double& x : a[i]) x *= scale;
     term[i][i] = sum[i][i] = 1;
@@ -66,7 +66,7 @@ double determinant(const Beam& beam, Hub hub, double z) {
   const double rotary = beam.rotary_inertia() / (beam.density * beam.area * length * length);
   // y' = psi + s V, psi' = M, M' = -V - r k psi, V' = -k y; lengths by L, M by E I / L, V by E I / L^2.
   double a[4][4] = {{0, 1, 0, shear}, {0, 0, 1, 0}, {0, -rotary * k, 0, -1}, {-k, 0, 0, 0}};
-  Matrix b{};
+  Matrix6 b{};
   for (int r = 0; r < 6; ++r)
     for (int side = 0; side < 2; ++side)
       for (int m = 0; m < 4; ++m) {
@@ -89,7 +89,7 @@ double determinant(const Beam& beam, Hub hub, double z) {
   }
   Minors start{}, end{};
   for (int r = 0; r < 6; ++r) start[r] = u[first[r]] * v[second[r]] - u[second[r]] * v[first[r]];
-  const Matrix carried = exponential(b);
+  const Matrix6 carried = exponential(b);
   for (int r = 0; r < 6; ++r)
     for (int c = 0; c < 6; ++c) end[r] += carried[r][c] * start[c];
   const double tip = beam.tip_mass / mass * k;

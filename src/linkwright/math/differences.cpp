@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/finite.h"
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
@@ -26,10 +27,6 @@ void require_scales(std::span<const double> x, std::span<const double> scale) {
     LINKWRIGHT_REQUIRE(x[j] + difference_step(s) > x[j] - difference_step(s),
                        "scale {} of variable {} is lost in the rounding of {}", s, j, x[j]);
   }
-}
-
-bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
 /// Central differences one column at a time.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/finite.h"
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
@@ -35,10 +36,6 @@ std::vector<Condition> conditions(const EndConditions& law) {
   return out;
 }
 
-bool finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 std::optional<MotionProblem> interval_problem(double start, double duration) {
   if (!std::isfinite(start)) return MotionProblem{"start", fmt::format("is {} s, must be finite", start), {}};
   if (!(duration > 0) || !std::isfinite(duration))
@@ -62,7 +59,7 @@ std::optional<MotionProblem> problem_of(const CycloidalMotion& law) {
 }
 std::optional<MotionProblem> problem_of(const Polynomial345& law) {
   if (auto bad = interval_problem(law.start, law.duration)) return bad;
-  if (!finite(law.higher)) return MotionProblem{"higher_coefficients", "must be finite", {}};
+  if (!all_finite(law.higher)) return MotionProblem{"higher_coefficients", "must be finite", {}};
   return finite_problem({{"from", law.from}, {"to", law.to}});
 }
 // Solvable exactly when, for each order k, the conditions of orders 0 ... k are at least k + 1 (Polya's
@@ -100,8 +97,8 @@ std::optional<MotionProblem> problem_of(const MotionTable& law) {
   if (law.times.size() < least)
     return MotionProblem{
         "times", fmt::format("has {} rows, must have at least {}", law.times.size(), least), {}};
-  if (!finite(law.times)) return MotionProblem{"times", "must be finite", {}};
-  if (!finite(law.values)) return MotionProblem{"values", "must be finite", {}};
+  if (!all_finite(law.times)) return MotionProblem{"times", "must be finite", {}};
+  if (!all_finite(law.values)) return MotionProblem{"values", "must be finite", {}};
   for (std::size_t i = 1; i < law.times.size(); ++i)
     if (law.times[i] <= law.times[i - 1])
       return MotionProblem{

@@ -18,6 +18,7 @@
 #include <new>
 #include <string_view>
 
+#include "linkwright/core/finite.h"
 #include "linkwright/math/detail/ode_pairs.h"
 #include "linkwright/math/detail/ode_vectors.h"
 
@@ -26,10 +27,6 @@ namespace {
 
 std::span<double> view(N_Vector v) { return {NV_DATA_S(v), static_cast<std::size_t>(NV_LENGTH_S(v))}; }
 std::span<const double> const_view(N_Vector v) { return view(v); }
-
-bool finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
 
 bool runge_kutta(OdeMethod method) {
   return method == OdeMethod::explicit_runge_kutta_5 || method == OdeMethod::explicit_runge_kutta_8;
@@ -64,7 +61,7 @@ struct OdeCallbacks {
 
   static bool projected(OdeStepper& s, double t, std::span<double> y) {
     try {
-      if (s.hooks_->project(t, y) && finite(y)) return true;
+      if (s.hooks_->project(t, y) && all_finite(y)) return true;
     } catch (...) {
       s.thrown = std::current_exception();
     }
@@ -90,7 +87,7 @@ struct OdeCallbacks {
     OdeStepper& s = of(self);
     const std::span<double> out(SM_DATA_D(matrix), static_cast<std::size_t>(SM_LDATA_D(matrix)));
     try {
-      if (s.hooks_->jacobian(t, const_view(y), out) && finite(out)) return fine;
+      if (s.hooks_->jacobian(t, const_view(y), out) && all_finite(out)) return fine;
     } catch (...) {
       s.thrown = std::current_exception();
     }
@@ -279,7 +276,7 @@ void OdeStepper::prepare(const OdeFunction& f, std::size_t n, double from, doubl
 bool OdeStepper::evaluate(double t, std::span<const double> y, std::span<double> rate) noexcept {
   ++evaluations;
   try {
-    return (*f_)(t, y, rate) && finite(rate);
+    return (*f_)(t, y, rate) && all_finite(rate);
   } catch (...) {
     thrown = std::current_exception();
     return false;
@@ -359,7 +356,7 @@ OdeStepper::Outcome OdeStepper::step() {
     impossible = flag == CV_TOO_MUCH_ACC || flag == CV_ILL_INPUT;
   }
   if (impossible) return Outcome::impossible;
-  if (!arrived || !finite(const_view(s.y))) return Outcome::shorter;
+  if (!arrived || !all_finite(const_view(s.y))) return Outcome::shorter;
   t0 = t1;
   t1 = t;
   std::swap(y0, y1);

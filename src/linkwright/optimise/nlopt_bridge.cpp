@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/finite.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/optimise/optimiser.h"
 
@@ -20,10 +21,6 @@ struct Destroy {
   void operator()(nlopt_opt o) const { nlopt_destroy(o); }
 };
 using Nlopt = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, Destroy>;
-
-bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
 
 /// What the callbacks of one search share. NLopt asks for the cost and for the constraints at a point one
 /// after the other, in either order; a point counts once both are known.

@@ -1,51 +1,29 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "linkwright/flexible/studies/arm.h"
+#include "linkwright/study/arm_links.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::flexible {
 namespace {
 
-// More is no arm, and its tables would fill the memory.
-constexpr std::size_t most_links = 20;
-
-bool is_column_name(std::string_view name) {
-  return std::isalpha(static_cast<unsigned char>(name.front())) &&
-         std::all_of(name.begin(), name.end(),
-                     [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
-}
-
 void check_links(study::ObjectReader& mechanism, ArmForm& arm) {
   std::vector<ArmLinkForm>& links = arm.links;
   std::vector<study::ObjectReader> tables = mechanism.tables("link");
-  if (mechanism.has("link") && links.empty() && tables.empty())
-    mechanism.error("link", "an arm has at least one link", "add [[mechanism.link]]");
-  if (links.size() > most_links)
-    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", links.size(), most_links));
   const bool readable = !mechanism.document().has_errors();
+  std::vector<std::string*> names;
+  for (ArmLinkForm& link : links) names.push_back(&link.name);
+  study::complete_arm_links(mechanism, names);
   for (std::size_t k = 0; k < links.size() && k < tables.size(); ++k) {
-    ArmLinkForm& link = links[k];
+    const ArmLinkForm& link = links[k];
     study::ObjectReader& table = tables[k];
-    if (link.name.empty()) {
-      if (table.has("name")) table.error("name", "is empty", "leave it out, or give one");
-      link.name = fmt::format("link{}", k + 1);
-    } else if (!is_column_name(link.name)) {
-      table.error(
-          "name",
-          fmt::format("is '{}', must begin with a letter and contain letters, digits and _ only", link.name),
-          "it becomes the beginning of column names");
-    } else if (link.name == "hub") {
+    if (link.name == "hub")
       table.error("name", "is 'hub', which stands for the hub itself", "take another one");
-    }
-    for (std::size_t other = 0; other < k; ++other)
-      if (links[other].name == link.name)
-        table.error("name", fmt::format("'{}' is also the name of another link", link.name));
     if (k == 0 && link.hinge)
       table.error("hinge", "the first link is welded to the hub",
                   "give the mechanism hub_stiffness, hub_damping and hub_inertia");
@@ -65,14 +43,12 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
   bool all_known = true;  // else the link that lacks a drive is the one whose name is misspelt
   for (std::size_t i = 0; i < drives.size() && i < tables.size(); ++i) {
     const ArmDriveForm& drive = drives[i];
-    const auto at = std::find(known.begin(), known.end(), drive.link);
-    if (at == known.end()) {
-      if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
-      tables[i].no_such("link", "link", drive.link, known);
-      all_known = false;
+    const auto driven = study::driven_link(tables[i], drive.link, known);
+    if (!driven) {
+      all_known = all_known && !tables[i].has("link");
       continue;
     }
-    const auto k = static_cast<std::size_t>(at - known.begin());
+    const std::size_t k = *driven;
     if (laws[k])
       tables[i].error("link", fmt::format("'{}' has a drive already", drive.link),
                       "the hub and every hinge have one drive");

@@ -93,13 +93,13 @@ class Other {
   double link_, arm_ = 0;
 };
 
-struct Stretch {
+struct DriveInterval {
   double from, to;
 };
 
 // Where a drive can be, and where the pair angle may have an extreme between two of its places.
 struct Track {
-  std::vector<Stretch> intervals;
+  std::vector<DriveInterval> intervals;
   std::vector<double> turning;  // of u; of a rotation, up to whole turns
   bool whole = false;           // a rotation without ends
   double rounding = slack;      // of a place
@@ -176,7 +176,7 @@ double wrapped(double angle) { return angle - 2 * pi * std::floor(angle / (2 * p
 
 // Puts the places of a rotation into the interval that holds the first one. False where one is not in it.
 bool bring_into(const Track& track, bool rotation, std::vector<double>& x, int& outside) {
-  for (const Stretch& interval : track.intervals) {
+  for (const DriveInterval& interval : track.intervals) {
     const auto brought = [&](double value) {
       if (!rotation) return value;
       const double past = wrapped(value - interval.from + track.rounding) - track.rounding;

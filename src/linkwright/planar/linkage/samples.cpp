@@ -22,11 +22,6 @@ Linkage crank(std::vector<LinkagePoint> ground, double length) {
   add_drive(l, "O");
   return l;
 }
-LinkageSample full_turn(std::string name, std::string summary, Linkage linkage,
-                        std::initializer_list<std::string_view> traces) {
-  std::vector<BodyPoint> points = points_named(linkage, traces);
-  return {std::move(name), std::move(summary), std::move(linkage), {0}, {2 * pi}, 2 * pi, std::move(points)};
-}
 
 Linkage slider_crank(double crank_length, double rod, double offset, double direction) {
   const complex<double> e = std::polar(1.0, direction);
@@ -43,6 +38,12 @@ Linkage slider_crank(double crank_length, double rod, double offset, double dire
 
 }  // namespace
 
+LinkageSample turning_sample(std::string name, std::string summary, Linkage linkage,
+                             std::initializer_list<std::string_view> traces) {
+  std::vector<BodyPoint> points = points_named(linkage, traces);
+  return {std::move(name), std::move(summary), std::move(linkage), {0}, {2 * pi}, 2 * pi, std::move(points)};
+}
+
 LinkageSample four_bar_sample() {
   Linkage l = crank({{"O", {0, 0}}, {"B0", {0.6, 0}}}, 0.1);
   add_body(l, "coupler", {{"A", {0, 0}}, {"B", {0.4, 0}}, {"C", {0.25, 0.15}}});
@@ -52,19 +53,19 @@ LinkageSample four_bar_sample() {
   add_pin(l, "B0", "ground.B0", "rocker.B0");
   set_mode(l, "coupler", "rocker", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("four_bar", "A crank-rocker with a coupler point.", std::move(l), {"coupler.C"});
+  return turning_sample("four_bar", "A crank-rocker with a coupler point.", std::move(l), {"coupler.C"});
 }
 
 LinkageSample slider_crank_sample() {
-  return full_turn("slider_crank",
-                   "An engine in line: the slider's acceleration is larger at the far dead centre.",
-                   slider_crank(0.05, 0.15, 0, 0), {"rod.B"});
+  return turning_sample("slider_crank",
+                        "An engine in line: the slider's acceleration is larger at the far dead centre.",
+                        slider_crank(0.05, 0.15, 0, 0), {"rod.B"});
 }
 
 LinkageSample offset_slider_crank_sample() {
-  return full_turn("offset_slider_crank",
-                   "Offset and inclined guide: the slider takes longer one way than the other.",
-                   slider_crank(0.05, 0.16, 0.03, 0.25), {"slider.B"});
+  return turning_sample("offset_slider_crank",
+                        "Offset and inclined guide: the slider takes longer one way than the other.",
+                        slider_crank(0.05, 0.16, 0.03, 0.25), {"slider.B"});
 }
 
 LinkageSample inverted_slider_crank_sample() {
@@ -76,7 +77,8 @@ LinkageSample inverted_slider_crank_sample() {
   add_pin(l, "B0", "ground.B0", "sleeve.B0");
   set_mode(l, "rod", "sleeve", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("inverted_slider_crank", "A rod through a swinging sleeve.", std::move(l), {"rod.end"});
+  return turning_sample("inverted_slider_crank", "A rod through a swinging sleeve.", std::move(l),
+                        {"rod.end"});
 }
 
 LinkageSample scotch_yoke_sample() {
@@ -85,8 +87,8 @@ LinkageSample scotch_yoke_sample() {
   add_slot(l, "pin", "yoke.slot", "crank.A", pi / 2);
   add_slide(l, "guide", "ground.guide", "yoke.end");
   set_uniform_all(l, 2);
-  return full_turn("scotch_yoke", "The yoke moves as the cosine of the crank angle, exactly.", std::move(l),
-                   {"yoke.end"});
+  return turning_sample("scotch_yoke", "The yoke moves as the cosine of the crank angle, exactly.",
+                        std::move(l), {"yoke.end"});
 }
 
 LinkageSample whitworth_sample() {
@@ -102,8 +104,8 @@ LinkageSample whitworth_sample() {
   set_mode(l, "lever", "lever", AssemblyMode::plus);
   set_mode(l, "link", "ram", AssemblyMode::minus);
   set_uniform_all(l, 2);
-  return full_turn("whitworth", "A quick-return shaper: slow stroke one way, quick return.", std::move(l),
-                   {"ram.tool"});
+  return turning_sample("whitworth", "A quick-return shaper: slow stroke one way, quick return.",
+                        std::move(l), {"ram.tool"});
 }
 
 LinkageSample toggle_press_sample() {
@@ -127,9 +129,9 @@ LinkageSample toggle_press_sample() {
                       .point = point_named(l, "ram.tool"),
                       .force = {0, 20000},
                       .factor = {LoadArgument::y, {-0.030, -0.028, -0.022}, {1, 0.6, 0}}});
-  return full_turn("toggle_press",
-                   "A knee between crank and ram: the torque stays small where the force is large.",
-                   std::move(l), {"ram.tool", "upper.K"});
+  return turning_sample("toggle_press",
+                        "A knee between crank and ram: the torque stays small where the force is large.",
+                        std::move(l), {"ram.tool", "upper.K"});
 }
 
 LinkageSample hoeken_sample() {
@@ -141,8 +143,9 @@ LinkageSample hoeken_sample() {
   add_pin(l, "B0", "ground.B0", "rocker.B0");
   set_mode(l, "coupler", "rocker", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("hoeken", "The pen runs straight while the crank turns through the half away from B0.",
-                   std::move(l), {"coupler.pen"});
+  return turning_sample("hoeken",
+                        "The pen runs straight while the crank turns through the half away from B0.",
+                        std::move(l), {"coupler.pen"});
 }
 
 LinkageSample chebyshev_sample() {
@@ -154,8 +157,8 @@ LinkageSample chebyshev_sample() {
   add_pin(l, "B0", "ground.B0", "rocker.B0");
   set_mode(l, "coupler", "rocker", AssemblyMode::minus);
   set_uniform_all(l, 2);
-  LinkageSample s = full_turn("chebyshev", "The middle of the coupler runs on a line at 0.2 m, almost.",
-                              std::move(l), {"coupler.pen"});
+  LinkageSample s = turning_sample("chebyshev", "The middle of the coupler runs on a line at 0.2 m, almost.",
+                                   std::move(l), {"coupler.pen"});
   // The dead points are at acos(0.8) and acos(-0.2).
   s.from = {0.66};
   s.to = {1.76};

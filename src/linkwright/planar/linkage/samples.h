@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,10 @@ struct LinkageSample {
   double speed = 1;               ///< of the first input (rad/s or m/s)
   std::vector<BodyPoint> traces;  ///< points whose paths are worth drawing
 };
+
+/// A sample whose input turns once, in a second; the traced points as "body.point".
+LinkageSample turning_sample(std::string name, std::string summary, Linkage linkage,
+                             std::initializer_list<std::string_view> traces);
 
 /// All samples, each under its own name.
 std::span<const LinkageSample> linkage_samples();

@@ -27,10 +27,6 @@ Linkage four_bar_with_points(std::vector<LinkagePoint> more_ground) {
   set_mode(l, "coupler", "rocker", AssemblyMode::plus);
   return l;
 }
-LinkageSample full_turn(std::string name, std::string summary, Linkage linkage, std::string_view trace) {
-  std::vector<BodyPoint> points = points_named(linkage, {trace});
-  return {std::move(name), std::move(summary), std::move(linkage), {0}, {2 * pi}, 2 * pi, std::move(points)};
-}
 
 }  // namespace
 
@@ -43,8 +39,8 @@ LinkageSample watt_1_sample() {
   add_pin(l, "E", "link 1.E", "link 2.E");
   set_mode(l, "link 1", "link 2", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("watt_1", "A six-bar whose second loop rides on coupler and rocker.", std::move(l),
-                   "link 1.E");
+  return turning_sample("watt_1", "A six-bar whose second loop rides on coupler and rocker.", std::move(l),
+                        {"link 1.E"});
 }
 
 LinkageSample watt_2_sample() {
@@ -56,8 +52,8 @@ LinkageSample watt_2_sample() {
   add_pin(l, "H0", "ground.H0", "output.H0");
   set_mode(l, "link", "output", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("watt_2", "Two four-bars in a row: the rocker of the first drives the second.",
-                   std::move(l), "output.H");
+  return turning_sample("watt_2", "Two four-bars in a row: the rocker of the first drives the second.",
+                        std::move(l), {"output.H"});
 }
 
 LinkageSample stephenson_3_sample() {
@@ -69,8 +65,8 @@ LinkageSample stephenson_3_sample() {
   add_pin(l, "E0", "ground.E0", "output.E0");
   set_mode(l, "link", "output", AssemblyMode::minus);
   set_uniform_all(l, 2);
-  return full_turn("stephenson_3", "A point of the coupler drives a third bar: this gives dwells.",
-                   std::move(l), "link.E");
+  return turning_sample("stephenson_3", "A point of the coupler drives a third bar: this gives dwells.",
+                        std::move(l), {"link.E"});
 }
 
 LinkageSample stephenson_2_sample() {
@@ -92,8 +88,9 @@ LinkageSample stephenson_2_sample() {
   add_pin(l, "P2", "bar 2.P2", "rocker.P2");
   add_drive(l, "O");
   set_uniform_all(l, 2);
-  return full_turn("stephenson_2", "A six-bar that does not fall into dyads: four bodies are solved at once.",
-                   std::move(l), "plate.Q2");
+  return turning_sample("stephenson_2",
+                        "A six-bar that does not fall into dyads: four bodies are solved at once.",
+                        std::move(l), {"plate.Q2"});
 }
 
 LinkageSample triad_sample() {
@@ -115,8 +112,9 @@ LinkageSample triad_sample() {
   add_pin(l, "F0", "ground.F0", "bar 2.F0");
   add_drive(l, "O");
   set_uniform_all(l, 2);
-  return full_turn("triad", "A plate on three bars, one of them on a crank: a group without closed form.",
-                   std::move(l), "plate.F");
+  return turning_sample("triad",
+                        "A plate on three bars, one of them on a crank: a group without closed form.",
+                        std::move(l), {"plate.F"});
 }
 
 LinkageSample geared_five_bar_sample() {
@@ -134,8 +132,8 @@ LinkageSample geared_five_bar_sample() {
   add_drive(l, "O");
   set_mode(l, "link 1", "link 2", AssemblyMode::plus);
   set_uniform_all(l, 2);
-  return full_turn("geared_five_bar", "The second crank turns twice as fast, the other way.", std::move(l),
-                   "link 1.P");
+  return turning_sample("geared_five_bar", "The second crank turns twice as fast, the other way.",
+                        std::move(l), {"link 1.P"});
 }
 
 }  // namespace linkwright::planar

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -9,13 +8,11 @@
 
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/arm_links.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
 namespace {
-
-// More is no arm, and its tables would fill the memory.
-constexpr std::size_t most_links = 20;
 
 // In the order of the columns.
 const std::vector<Word>& quantity_words() {
@@ -41,34 +38,11 @@ ArmQuantities chosen_arm_quantities(const std::vector<std::string>& listed) {
           .energy = has("energy")};
 }
 
-bool is_column_name(std::string_view name) {
-  return std::isalpha(static_cast<unsigned char>(name.front())) &&
-         std::all_of(name.begin(), name.end(),
-                     [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
-}
-
 void complete_links(study::ObjectReader& mechanism, std::vector<ArmLinkEntry>& links) {
-  const std::vector<study::ObjectReader> tables = mechanism.tables("link");
-  if (mechanism.has("link") && links.empty() && tables.empty())
-    mechanism.error("link", "an arm has at least one link", "add [[mechanism.link]]");
-  if (links.size() > most_links)
-    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", links.size(), most_links));
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    ArmLinkEntry& link = links[k];
-    study::ObjectReader table = tables[k];
-    if (link.name.empty()) {
-      if (table.has("name")) table.error("name", "is empty", "leave it out, or give one");
-      link.name = fmt::format("link{}", k + 1);
-    } else if (!is_column_name(link.name)) {
-      table.error(
-          "name",
-          fmt::format("is '{}', must begin with a letter and contain letters, digits and _ only", link.name),
-          "it becomes the beginning of column names");
-    }
-    const auto same = std::find_if(links.begin(), links.begin() + static_cast<std::ptrdiff_t>(k),
-                                   [&](const ArmLinkEntry& other) { return other.name == link.name; });
-    if (same != links.begin() + static_cast<std::ptrdiff_t>(k))
-      table.error("name", fmt::format("'{}' is also the name of another link", link.name));
+  std::vector<std::string*> names;
+  for (ArmLinkEntry& link : links) names.push_back(&link.name);
+  study::complete_arm_links(mechanism, names);
+  for (ArmLinkEntry& link : links) {
     if (!link.inertia) link.inertia = link.mass * link.length * link.length / 12;
     if (!link.centre_distance) link.centre_distance = link.length / 2;
   }
@@ -85,14 +59,12 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
   for (const ArmLinkEntry& link : links) known.emplace_back(link.name);
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const ArmDrive& drive = drives[i];
-    const auto at = std::find(known.begin(), known.end(), drive.link);
-    if (at == known.end()) {
-      if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
-      tables[i].no_such("link", "link", drive.link, known);
-      all_known = false;
+    const auto driven_by = study::driven_link(tables[i], drive.link, known);
+    if (!driven_by) {
+      all_known = all_known && !tables[i].has("link");
       continue;
     }
-    const auto k = static_cast<std::size_t>(at - known.begin());
+    const std::size_t k = *driven_by;
     if (driven[k])
       tables[i].error("link", fmt::format("'{}' has a drive already", drive.link),
                       "every link has one drive");

@@ -12,13 +12,15 @@ namespace {
 /// Coefficients c1 ... c14, c0 of x1^4, x1^3 x2, ..., x2^4, x1^3, ..., x2^3, x1^2, x1 x2, x2^2, x1, x2, 1, x1
 /// the travel and x2 the rack (m); toe and camber in rad.
 using Polynomial = std::array<double, 15>;
-constexpr Polynomial toe{-56.8157, -206.172, -414.478, -412.571, -1672.94,  10.1499, 25.3615,   19.2855,
-                         217.48,   -2.259,   0.560529, -3.88192, 0.0240037, 6.34032, 0.00500037};
-constexpr Polynomial camber{-16.7587, 25.2388,  104.936,   38.7101,  197.41,   1.80886,   -1.13993,  -6.08698,
-                            -25.026,  -1.16772, -0.775725, 0.945156, 0.112717, -0.172086, 0.00500037};
-constexpr Polynomial relative_track{-3.40506, -24.9132, -78.0012,  -42.2912, -214.783,
-                                    0.762582, 4.49888,  5.42728,   19.2137,  -1.74714,
-                                    0.514008, -2.78094, 0.0237093, 0.118886, 0};
+constexpr Polynomial toe_targets{-56.8157, -206.172, -414.478,  -412.571, -1672.94,
+                                 10.1499,  25.3615,  19.2855,   217.48,   -2.259,
+                                 0.560529, -3.88192, 0.0240037, 6.34032,  0.00500037};
+constexpr Polynomial camber_targets{-16.7587,  25.2388,  104.936,  38.7101,   197.41,
+                                    1.80886,   -1.13993, -6.08698, -25.026,   -1.16772,
+                                    -0.775725, 0.945156, 0.112717, -0.172086, 0.00500037};
+constexpr Polynomial relative_track_targets{-3.40506, -24.9132, -78.0012,  -42.2912, -214.783,
+                                            0.762582, 4.49888,  5.42728,   19.2137,  -1.74714,
+                                            0.514008, -2.78094, 0.0237093, 0.118886, 0};
 
 TargetObjective objective(const char* name, WheelQuantity quantity, const Polynomial& targets) {
   TargetCurve curve{.quantity = quantity, .measure = TargetMeasure::value, .reference = {}, .points = {}};
@@ -61,9 +63,9 @@ DirectTask published_direct_task() {
                                 .carrier = {carrier[i]},
                                 .length = length[i],
                                 .moved_by_rack = i == 2});
-  task.objectives = {objective("toe", WheelQuantity::toe, toe),
-                     objective("camber", WheelQuantity::camber, camber),
-                     objective("track", WheelQuantity::track, relative_track)};
+  task.objectives = {objective("toe", WheelQuantity::toe, toe_targets),
+                     objective("camber", WheelQuantity::camber, camber_targets),
+                     objective("track", WheelQuantity::track, relative_track_targets)};
   set_angle_tolerances(task.objectives[0]);
   set_angle_tolerances(task.objectives[1]);
   TargetCurve& track = task.objectives[2].curves[0];

@@ -18,7 +18,7 @@ struct MovedPoint {
   std::vector<Vec3> by;
 };
 
-constexpr std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+constexpr std::array<Vec3, 3> unit_axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
 /// How deep something reaches where it may not, and the direction in which the point gets deeper.
 struct Depth {
@@ -38,12 +38,12 @@ struct Largest {
 Depth outside(const PointBox& box, const Vec3& p) {
   Largest out;
   const Vec3 below = box.lower - p, above = p - box.upper;
-  out.offer(below.x, -axes[0]);
-  out.offer(below.y, -axes[1]);
-  out.offer(below.z, -axes[2]);
-  out.offer(above.x, axes[0]);
-  out.offer(above.y, axes[1]);
-  out.offer(above.z, axes[2]);
+  out.offer(below.x, -unit_axes[0]);
+  out.offer(below.y, -unit_axes[1]);
+  out.offer(below.z, -unit_axes[2]);
+  out.offer(above.x, unit_axes[0]);
+  out.offer(above.y, unit_axes[1]);
+  out.offer(above.z, unit_axes[2]);
   return out.best;
 }
 
@@ -106,7 +106,7 @@ class Limits {
     MovedPoint out{of.body[point], std::vector<Vec3>(numbers_.size())};
     if (of.moved_by_rack && position >= 0) out.at += positions_[position].input.rack * guide_.rack_direction;
     for (std::size_t j = 0; j < numbers_.size(); ++j)
-      if (is(j, DesignKind::body, link, point)) out.by[j] = axes[numbers_[j].axis];
+      if (is(j, DesignKind::body, link, point)) out.by[j] = unit_axes[numbers_[j].axis];
     return out;
   }
 
@@ -119,12 +119,12 @@ class Limits {
     if (pose) out.at = place(*pose, reference, guide_.wheel.centre);
     for (std::size_t j = 0; j < numbers_.size(); ++j) {
       Vec3 own;
-      if (is(j, DesignKind::carrier, link, point)) own = axes[numbers_[j].axis];
+      if (is(j, DesignKind::carrier, link, point)) own = unit_axes[numbers_[j].axis];
       if (!pose) {
         out.by[j] = own;
         continue;
       }
-      if (numbers_[j].kind == DesignKind::wheel_centre) own = -axes[numbers_[j].axis];
+      if (numbers_[j].kind == DesignKind::wheel_centre) own = -unit_axes[numbers_[j].axis];
       const Twist& shift = shifts_[position][j];
       out.by[j] = shift.velocity + cross(shift.turning, pose->rotation * offset) + pose->rotation * own;
     }
