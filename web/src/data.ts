@@ -216,20 +216,24 @@ export function readView(carried: Carried): View {
   return { ...view, headline: prose(view.headline), facts: view.facts.map((f) => ({ ...f, label: prose(f.label), text: prose(f.text), rest: f.rest && prose(f.rest) })) };
 }
 
+/** A property whose value is made when it is first asked for. */
+export function once<T>(make: () => T): PropertyDescriptor {
+  let made: { value: T } | undefined;
+  return { enumerable: true, get: () => (made ??= { value: make() }).value };
+}
+
 type RawTable = { name: string; names?: string[]; columns: { key: string; label: string }[]; data: (Num | string)[][] };
 
-/** A table of result.json has the status as its last column, which holds text. */
-export function readTable({ name, names, columns, data }: RawTable): Table {
-  const at = columns.findIndex((c) => c.key === "status");
+/** A table of result.json has the status as its last column, which holds text. Its lists are asked for when they are needed: the
+ *  workbench makes them only then. */
+export function readTable(raw: RawTable): Table {
+  const at = raw.columns.findIndex((c) => c.key === "status");
   const numbers = (_: unknown, i: number) => i !== at;
-  const status = at < 0 ? [] : (data[at] as string[]);
-  return {
-    name,
-    names,
-    columns: columns.filter(numbers),
-    data: data.filter(numbers) as Num[][],
-    status: status.some((s) => s !== "done") ? status : [],
-  };
+  const status = () => (at < 0 ? [] : (raw.data[at] as string[]));
+  return Object.defineProperties({ name: raw.name, names: raw.names, columns: raw.columns.filter(numbers) }, {
+    data: once(() => raw.data.filter(numbers) as Num[][]),
+    status: once(() => (status().some((s) => s !== "done") ? status() : [])),
+  }) as Table;
 }
 
 export const readResult = (carried: Carried): Result => {

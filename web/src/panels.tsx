@@ -7,7 +7,7 @@ import { save, targetTable } from "./exports";
 import { Masonry } from "./masonry";
 import { positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
-import { designOf, goOn, motion, reason, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
+import { designOf, goOn, motion, paced, pacedScene, reason, result, runs, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
 import { DataTable } from "./tables";
 import { targetErrors } from "./view";
@@ -96,14 +96,14 @@ export function Checks() {
 
 /** Bars of how far each target is missed; a click goes there. */
 export function Errors() {
-  const target = scene.value?.targets[0];
+  const target = pacedScene.value?.targets[0];
   if (!target) return null;
   const { distance, worst } = targetErrors(target);
   if (worst < 0) return null;
   const high = distance[worst]!;
   const go = (i: number) => {
     const at = target.achieved_input[i];
-    if (at !== null && at !== undefined) scrub(positionOfTurn(motion.value, at));
+    if (at !== null && at !== undefined) scrub(positionOfTurn(motion.peek(), at));
   };
   const step = Math.max(1, Math.ceil(distance.length / 12));
   return (
@@ -138,6 +138,7 @@ const keysOf = (objects: (JsonObject | null)[]) => [...new Set(objects.flatMap((
 const otherScenes = () => view.scenes.flatMap((s, i) => (view.solution_scenes.includes(s.name) ? [] : [i]));
 
 export function SolutionPicker() {
+  paced.value;
   const others = otherScenes();
   const choices = result.solutions.length
     ? [
@@ -183,6 +184,7 @@ function TakeDesign({ design }: { design: Design }) {
 }
 
 export function Solutions() {
+  paced.value;
   if (!result.solutions.length) return null;
   const objectives = keysOf(result.solutions.map((s) => s.objectives));
   const classes = keysOf(result.solutions.map((s) => s.classification));
@@ -221,6 +223,7 @@ function Within({ value, lower, upper }: { value: Num; lower: Num; upper: Num })
 }
 
 export function Parameters() {
+  paced.value;
   const shown = result.solutions.findIndex((_, i) => sceneOf(i) === sceneIndex.value);
   const index = shown < 0 ? 0 : shown;
   const list = view.parameters[index];
@@ -338,7 +341,8 @@ export function Remarks() {
 }
 
 export function Data() {
-  const missed = scene.value && targetTable(scene.value);
+  paced.value;
+  const missed = pacedScene.value && targetTable(pacedScene.value);
   const tables = missed ? [...result.tables, missed] : result.tables;
   return (
     <Section title="Data" id="data">
@@ -355,6 +359,7 @@ const planarKeys = "space plays, ← → step (shift: 10), T trace, V speed, E t
 const spatialKeys = "space plays, ← → step (shift: 10), comma and full stop step the second input, 1 to 5 fixed views, P parallel projection, + − 0 zoom, M full screen, T traces, N names, R ground, F forces, W velocities, A accelerations, B bounce; in the drawing drag to turn, drag with the right button or shift to move, Ctrl + wheel to zoom, arrow keys turn (shift: move); click a joint, a body or a wheel for its coordinates";
 
 export function Reproduce() {
+  paced.value;
   return (
     <Section title="How to reproduce" id="reproduce">
       {view.source && <p class="source">Source of the study: {view.source}</p>}

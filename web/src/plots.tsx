@@ -42,7 +42,7 @@ const bare = (label: string) => label.replace(/ \([^()]*\)$/, "");
 
 function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   const column = (key: string) => table.columns.findIndex((c) => c.key === key);
-  const linked = plot.scene !== "" && plot.scene === state.scene.value?.name;
+  const linked = plot.scene !== "" && plot.scene === state.sceneName.value;
   const made = useMemo(() => {
     const ys = plot.y.map(column).filter((i) => i >= 0);
     const unit = unitOf(plot.y[0] ?? "", largest(ys.map((i) => table.data[i])));
@@ -78,7 +78,7 @@ const behindOf = (table: Table) => state.behind.value?.tables.find((t) => t.name
 
 /** A diagram with a curve for each value of its group, bands or a baseline. */
 function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
-  const linked = plot.scene !== "" && plot.scene === state.whole.value?.name;
+  const linked = plot.scene !== "" && plot.scene === state.sceneName.value;
   const baseline = plot.baseline ? state.result.tables.find((t) => t.name === plot.baseline) : behindOf(table);
   const groups = useMemo(() => groupsOf(plot, table), [plot, table]);
   /** The group of the inputs that are shown; -1 = none. */
@@ -225,15 +225,11 @@ function Diagram({ plot, table }: { plot: Plot; table: Table }) {
   return plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />;
 }
 
-const leastTime = 100; // ms between two states of a diagram while the study is changed by hand
-
-/** A diagram in a card. Out of sight it is not drawn anew before it comes into sight, as most are, and while the mechanism is dragged
- *  only some times a second: the time is the drawing's. */
+/** A diagram in a card. Out of sight, as most are, it is not drawn anew before it comes into sight. */
 function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
   const card = useRef<HTMLDivElement>(null);
   const inSight = useRef(true);
   const drawn = useRef<JSX.Element | null>(null);
-  const drawnAt = useRef(-leastTime);
   const stale = useRef(false);
   const [, drawAnew] = useState({});
   useEffect(() => {
@@ -244,17 +240,8 @@ function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
     watch.observe(card.current!);
     return () => watch.disconnect();
   }, []);
-  const rest = state.changing.value ? drawnAt.current + leastTime - performance.now() : 0;
-  stale.current = drawn.current !== null && (!inSight.current || rest > 0) && !state.printing.value;
-  if (!stale.current) {
-    drawn.current = <Diagram plot={plot} table={table} />;
-    drawnAt.current = performance.now();
-  }
-  useEffect(() => {
-    if (!stale.current || !inSight.current) return undefined;
-    const later = setTimeout(() => drawAnew({}), rest);
-    return () => clearTimeout(later);
-  });
+  stale.current = drawn.current !== null && !inSight.current && !state.printing.value;
+  if (!stale.current) drawn.current = <Diagram plot={plot} table={table} />;
   return (
     <div class="card plot" data-plot={plot.name} ref={card}>
       <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
@@ -267,7 +254,8 @@ const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot,
 
 /** Plots over the input of the scene that is shown. */
 export function Plots() {
-  const shown = state.view.plots.filter((p) => p.scene !== "" && p.scene === state.scene.value?.name);
+  state.paced.value;
+  const shown = state.view.plots.filter((p) => p.scene !== "" && p.scene === state.sceneName.value);
   const drawn = withTable(shown).map(({ plot }) => plot);
   if (drawn.length === 0) return null;
   const without = shown.filter((p) => !drawn.includes(p));

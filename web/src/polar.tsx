@@ -37,7 +37,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   const [choice, choose] = useChoice(curves.map((c) => c.label), false);
   const all = useMemo(() => boxOf(curves, !path), [curves, path]);
   const frame = useMemo(() => all && frameOf(part ?? all, width, height, margin), [all, part, width]);
-  const linked = plot.scene !== "" && plot.scene === state.scene.value?.name;
+  const linked = plot.scene !== "" && plot.scene === state.sceneName.value;
   const motion = state.motion.value;
   // Rows in the order of the input of the scene that is shown.
   const order = useMemo(() => {

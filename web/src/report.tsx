@@ -2,14 +2,14 @@
 import { Banner, Changes, Checks, Comparisons, Data, Errors, Facts, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
 import { Machine } from "./player";
 import { Fronts, Plots } from "./plots";
-import { nowhere, revision, scene } from "./state";
+import { drawn, paced } from "./state";
 
 export function Report() {
-  revision.value; // everything below is drawn anew with new data
+  paced.value; // all words, tables and diagrams are made anew with new data; the mechanism follows by itself, at once
   return (
     <>
       <Banner />
-      <div class={scene.value && !nowhere ? "hero" : "hero alone"}>
+      <div class={drawn.value ? "hero" : "hero alone"}>
         <Machine />
         <div class="aside"><Facts /><SolutionPicker /><Errors /><Checks /></div>
       </div>

@@ -14,16 +14,22 @@ export let nowhere = false;
 export let reason: Result["diagnostics"][number] | undefined;
 /** Changes whenever these do; a report has one set of data for ever. */
 export const revision = signal(0);
+/** Follows `revision`, for what is read and compared: while the study is changed by hand, only some times a second. A component that
+ *  reads any signals is drawn anew only when these change, so one that shows `view` or `result` reads this as well. */
+export const paced = signal(0);
 
 export const sceneIndex = signal(0);
 /** Which value of the second input is shown. */
 export const row = signal(0);
 /** All samples of the scene that is shown. */
 export const whole = computed<Scene | undefined>(() => (revision.value ? view.scenes[sceneIndex.value] : undefined));
+export const sceneName = computed(() => whole.value?.name);
 /** Those at the second input that is shown. */
 export const scene = computed<Scene | undefined>(() => whole.value && rowOf(whole.value, row.value));
 const none: Motion = { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false };
 export const motion = computed<Motion>(() => (scene.value ? analyse(scene.value) : none));
+/** There is a mechanism to look at. */
+export const drawn = computed(() => scene.value !== undefined && !nowhere);
 export const spatial = computed(() => whole.value !== undefined && isSpatial(whole.value));
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -130,8 +136,30 @@ export interface Hand {
   up(): void;
 }
 export const hand: { now: Hand | null } = { now: null };
-/** The study is being changed by hand: the drawing follows at once, the diagrams some times a second. */
+/** The study is being changed by hand: the drawing follows at once, words, tables and diagrams some times a second. */
 export const changing = signal(false);
+
+const leastTime = 100; // ms between two states of what follows some times a second
+let pacedAt = -leastTime;
+let pending = 0;
+effect(() => {
+  const now = revision.value;
+  const rest = changing.value ? pacedAt + leastTime - performance.now() : 0;
+  clearTimeout(pending);
+  const follow = () => {
+    pacedAt = performance.now();
+    paced.value = now;
+  };
+  if (rest > 0) pending = window.setTimeout(follow, rest);
+  else follow();
+});
+/** The scene as words, tables and diagrams have it. */
+export const pacedScene = computed(() => {
+  paced.value;
+  sceneIndex.value;
+  row.value;
+  return scene.peek();
+});
 
 /** What the diagrams draw behind their own curves, to compare with. */
 export const behind = signal<{ name: string; tables: Result["tables"] } | null>(null);

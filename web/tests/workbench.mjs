@@ -931,6 +931,22 @@ test("diagrams out of sight follow when they come into sight", async () => {
   await close();
 });
 
+test("solutions, parameters and diagrams are those of the study as it is now", async () => {
+  const { page, errors, close } = await open();
+  await choose(page, "quick-return");
+  const told = async () => [await page.locator("#solutions tbody tr").first().innerText(), await page.locator("#parameters tbody").innerText()];
+  const [solution, parameters] = await told();
+  assert.match(solution, /\t40\t1\.4\t/);
+  await page.locator("#tab-text").click();
+  const text = await page.locator("textarea.study").inputValue();
+  await writeText(page, text.replace("time_ratio      = 1.4", "time_ratio      = 1.3"));
+  await until(async () => (await told())[0] !== solution);
+  assert.match((await told())[0], /\t40\t1\.3\t/);
+  assert.notEqual((await told())[1], parameters);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a study of before is there again", async () => {
   const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !served && !hosted, reducedMotion: "reduce" });
   const page = await context.newPage();

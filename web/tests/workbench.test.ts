@@ -68,6 +68,16 @@ test("lists of numbers come back into their document", () => {
   expect(withNumbers('{"a": {"": [1, 3]}, "b": [{"x": {"": [0, 1]}}], "c": []}', numbers)).toEqual({ a: [1, null, 3], b: [{ x: [9] }], c: [] });
 });
 
+test("lists of the tables of a result are made when they are asked for, and once", () => {
+  const numbers = new Float64Array([1, 2, NaN, 4]);
+  const read = withNumbers('{"result": {"tables": [{"name": "t", "data": [{"": [0, 2]}, ["done", "done"], {"": [2, 2]}]}]}}', numbers);
+  const [table] = (read.result as JsonObject).tables as JsonObject[];
+  numbers[0] = 7; // what is read later than this has it
+  expect(table.data).toEqual([[7, 2], ["done", "done"], [null, 4]]);
+  expect(table.data).toBe(table.data);
+  expect(Object.keys(table)).toEqual(["name", "data"]);
+});
+
 // A link of 2 m on the ground's pivot at (1, 1), upright at the second sample.
 const scene = {
   input: [0, 1],

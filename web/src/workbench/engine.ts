@@ -1,6 +1,6 @@
 // What the workbench asks of the program, wherever that runs.
+import { once, type Carried, type Json, type JsonObject, type Num } from "../data";
 import { jsonNumber } from "../decimal";
-import type { Carried, Json, JsonObject, Num } from "../data";
 import type { Question, Reply } from "./worker";
 
 export interface Diagnostic {
@@ -71,7 +71,8 @@ export interface Engine {
 export class Stopped extends Error {}
 class Finished extends Error {}
 
-/** A document whose lists of numbers stand apart: {"": [first, count]} is one of them. */
+/** A document whose lists of numbers stand apart: {"": [first, count]} is one of them. The lists of a result's tables are made when
+ *  they are asked for: most are not, while a mechanism is dragged. */
 export function withNumbers(json: string, numbers: Float64Array): JsonObject {
   const list = (first: number, count: number) => {
     const out: Num[] = new Array(count);
@@ -93,7 +94,13 @@ export function withNumbers(json: string, numbers: Float64Array): JsonObject {
     for (const key in value) value[key] = filled(value[key]);
     return value;
   };
-  return filled(JSON.parse(json) as Json) as JsonObject;
+  const document = JSON.parse(json) as JsonObject;
+  const tables = ((document.result as JsonObject | undefined)?.tables ?? []) as JsonObject[];
+  const later = tables.map((table) => table.data);
+  for (const table of tables) table.data = null;
+  filled(document);
+  tables.forEach((table, i) => Object.defineProperty(table, "data", once(() => filled(later[i]))));
+  return document;
 }
 
 const written = (value: unknown): string =>

@@ -5,7 +5,7 @@ import { NumberInput } from "./number_input";
 import { unitKey, type Group, type List } from "./numbers";
 import type { Edit } from "./engine";
 import { nextRow, pastedRows } from "./points";
-import { canonical, schema, tryEdit } from "./session";
+import { canonical, pacedStudy, schema, tryEdit } from "./session";
 import { nodeAt } from "./schema";
 
 function Rows({ list: { key, label, columns, rows } }: { list: List }) {
@@ -51,8 +51,9 @@ function asTable(path: string): Edit[] {
 
 /** The lists of a group, and a table in the place of a formula. */
 export function Lists({ group: { path, lists } }: { group: Group }) {
-  const target = canonical.value?.target as Record<string, unknown> | undefined;
-  const formula = path === "target" && target?.function !== undefined && nodeAt(schema.value, canonical.value!, "target.table") !== null;
+  const study = pacedStudy.value;
+  const target = study?.target as Record<string, unknown> | undefined;
+  const formula = path === "target" && target?.function !== undefined && nodeAt(schema.value, study!, "target.table") !== null;
   return (
     <>
       {lists.map((list) => <Rows key={list.key} list={list} />)}

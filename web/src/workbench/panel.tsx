@@ -12,7 +12,7 @@ import { NumberInput, refused } from "./number_input";
 import { numbersOf, pointsOf, unitKey, type Entry } from "./numbers";
 import type { Edit } from "./engine";
 import { absent } from "./schema";
-import { bestOf, canonical, diagnostics, edit, handleKeys, locked, pickedKeys, pickOut, pointOut, schema, shown, stale, toggleLock, tryEdit } from "./session";
+import { bestOf, diagnostics, edit, handleKeys, locked, pacedStudy, pickedKeys, pickOut, pointOut, schema, shown, stale, toggleLock, tryEdit } from "./session";
 
 const tab = signal<"text" | "numbers" | "points">("numbers");
 
@@ -104,7 +104,7 @@ function useFields(): (entry: Entry) => JSX.Element {
 const most = 400; // numbers of one group that are listed
 
 function Add({ path }: { path: string }) {
-  const more = path ? absent(schema.value, canonical.value!, path) : [];
+  const more = path ? absent(schema.value, pacedStudy.value!, path) : [];
   if (!more.length) return null;
   return (
     <select class="add" data-add={path} aria-label={`Add to ${path}`} value="" onChange={(e) => {
@@ -131,7 +131,7 @@ function Loads({ study }: { study: JsonObject }) {
 }
 
 function Numbers() {
-  const study = canonical.value;
+  const study = pacedStudy.value;
   const box = useRef<HTMLDivElement>(null);
   const keys = [...pickedKeys.value].join();
   const fieldOf = useFields();
@@ -159,7 +159,7 @@ function Numbers() {
   );
 }
 
-const allPoints = computed(() => (canonical.value ? pointsOf(numbersOf(canonical.value, schema.value)) : []));
+const allPoints = computed(() => (pacedStudy.value ? pointsOf(numbersOf(pacedStudy.value, schema.value)) : []));
 const showPoints = computed(() => shown.value && spatial.value && allPoints.value.length > 2);
 
 /** Hard points row by row; the row of the point that is picked in the drawing stands out, and the other way round. */

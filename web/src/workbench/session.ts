@@ -1,5 +1,5 @@
 // The study, the engine and what is shown of it, kept in step: the newest text wins, and an answer that comes too late is dropped.
-import { computed, effect, signal } from "@preact/signals";
+import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { JsonObject, Scene } from "../data";
 import type { Place } from "../motion";
 import { extent } from "../camera";
@@ -13,18 +13,24 @@ import { along, isPoses, listOf, withoutPoint, withPoint, withPose } from "./poi
 export const catalogue = signal<Catalogue | null>(null);
 export const diagnostics = signal<Diagnostic[]>([]);
 export const canonical = signal<JsonObject | null>(null);
+/** It, as words and numbers have it. */
+export const pacedStudy = computed(() => (state.paced.value, canonical.peek()));
 /** What may stand in studies of the present kind. */
 export const schema = signal<JsonObject | null>(null);
 /** Keys of the study that the drawing shows, and those of them that are kept while it is dragged. */
-export const handleKeys = signal(new Set<string>());
+export const handleKeys = signal<ReadonlySet<string>>(new Set());
 export const locked = signal(new Set<string>());
 const none: ReadonlySet<string> = new Set();
+/** What is the same as before stays the very same, so that nothing is drawn anew for it. */
+const kept = (before: ReadonlySet<string>, now: ReadonlySet<string>) => (before.size === now.size && [...now].every((key) => before.has(key)) ? before : now);
 const keysAt = (scene: Scene, joint: number) => new Set(gripPoint(scene, scene.joints[joint].point, Math.round(state.position.peek()), extent.peek())?.handles.map((h) => h.key));
+let lastPicked = none;
 /** Keys of the numbers behind the joint that is picked in the drawing. */
-export const pickedKeys = computed(() => {
+export const pickedKeys: ReadonlySignal<ReadonlySet<string>> = computed(() => {
   const joint = /^joint (\d+)$/.exec(state.picked.value)?.[1];
-  const scene = shown.value ? state.scene.value : undefined;
-  return joint !== undefined && scene?.joints[Number(joint)] ? keysAt(scene, Number(joint)) : none;
+  const scene = shown.value ? state.pacedScene.value : undefined;
+  const keys = joint !== undefined && scene?.joints[Number(joint)] ? keysAt(scene, Number(joint)) : none;
+  return (lastPicked = kept(lastPicked, keys));
 });
 /** The joint of the drawing that a number is of, as state.picked has it; "" = none. */
 function jointOf(key: string): string {
@@ -46,6 +52,8 @@ export const shown = signal(false);
 /** What is shown is of an earlier text: the present one has errors. */
 export const stale = signal(false);
 export const busy = signal(false);
+/** It has been for so long that one wants to know. */
+export const waiting = signal(false);
 /** The run has been asked to end with the best so far. */
 export const ending = signal(false);
 export const progress = signal<Progress | null>(null);
@@ -93,6 +101,7 @@ async function learn(study: JsonObject): Promise<void> {
   if (kind === name) schema.value = found;
 }
 
+const tellAfter = 150; // ms after which is said that the engine is at work
 const patience = 300; // ms after which a run that nobody waits for any longer is ended
 const timeLimit = 60; // s; the program itself has no limit
 const quick = 0.2; // s for what is seen while something is dragged
@@ -111,7 +120,7 @@ function accept(answer: Answer): void {
   if (now !== subject) state.playing.value = state.motion.value.runs.length > 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   subject = now;
   const scenes = answer.carried.view.scenes;
-  handleKeys.value = new Set(scenes.flatMap((s) => (s.handles ?? []).map((h) => h.key)));
+  handleKeys.value = kept(handleKeys.peek(), new Set(scenes.flatMap((s) => (s.handles ?? []).map((h) => h.key))));
   shown.value = true;
 }
 
@@ -139,8 +148,12 @@ async function pump(): Promise<void> {
   flying = own;
   busy.value = true;
   void preview(own);
+  const saying = setTimeout(() => (waiting.value = true), tellAfter);
   const landed = () => {
-    if (flying === own) flying = null;
+    if (flying !== own) return;
+    clearTimeout(saying);
+    waiting.value = false;
+    flying = null;
   };
   try {
     const answer = await engine.run(task, (p) => (progress.value = p));

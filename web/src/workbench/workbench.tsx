@@ -19,7 +19,7 @@ import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
 import { isPoses } from "./points";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
-import { adding, busy, catalogue, compareWithNow, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble } from "./session";
+import { adding, busy, catalogue, compareWithNow, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble, waiting } from "./session";
 
 const said = signal("");
 
@@ -64,7 +64,7 @@ const best = ({ best }: Progress) => (Number.isFinite(best) ? `, best ${best.toP
 function State() {
   if (trouble.value) return <span class="state bad" role="alert">{trouble.value}</span>;
   if (stopped.value) return <span class="state bad" id="stopped" role="status">{stopped.value}</span>;
-  if (busy.value)
+  if (waiting.value)
     return (
       <span class="state busy" role="status">
         {ending.value ? "taking the best so far" : progress.value ? `${progress.value.stage.replace(/_/g, " ")} ${Math.round(100 * progress.value.fraction)} %${best(progress.value)}` : "running"}
@@ -72,7 +72,7 @@ function State() {
       </span>
     );
   const ms = (value: number) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  return <span class="state" role="status" id="took" title={took.value ? `${ms(took.value.engine)} in the engine, ${ms(took.value.whole)} from the question to the page` : undefined}>{said.value || (took.value ? ms(took.value.engine) : "")}</span>;
+  return <span class="state" role="status" id={busy.value ? undefined : "took"} title={took.value ? `${ms(took.value.engine)} in the engine, ${ms(took.value.whole)} from the question to the page` : undefined}>{said.value || (took.value ? ms(took.value.engine) : "")}</span>;
 }
 
 function Bar() {
