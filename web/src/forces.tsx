@@ -237,9 +237,9 @@ export function Card() {
   const read = readPick(scene, pick, at);
   if (!read) return null;
   const text = [`${read.title} at ${instant(scene, at)}${read.place && `: ${read.place}`}`, ...read.readings.map(lineOf)].join("\n");
-  const fixed = state.picked.value !== "";
+  const pinned = state.picked.value !== "";
   return (
-    <div class={`values-card${fixed ? " fixed" : ""}`} id="picked" role="group" aria-label={`Values of ${read.title}`}>
+    <div class={`values-card${pinned ? " pinned" : ""}`} id="picked" role="group" aria-label={`Values of ${read.title}`}>
       <b>{read.title}</b>
       {read.place && read.place.split("; ").map((line) => <span>{line}</span>)}
       {read.readings.map((r) => (
@@ -253,7 +253,7 @@ export function Card() {
           </>}
         </dl>
       ))}
-      {fixed && <span class="actions"><Copy text={text} /><button type="button" onClick={() => (state.picked.value = "")}>close</button></span>}
+      {pinned && <span class="actions"><Copy text={text} /><button type="button" onClick={() => (state.picked.value = "")}>close</button></span>}
     </div>
   );
 }

@@ -344,6 +344,10 @@ test("arrows and joints tell their values to pointers and keys", async () => {
   await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
   await equal(() => row.locator("button").getAttribute("aria-pressed"), "true");
+  // It stands at the upper right of the drawing, as wide as its words.
+  const [card, stage] = [await page.locator("#picked").boundingBox(), await page.locator(".stage").boundingBox()];
+  assert.ok(card.width > 120 && card.width < 0.63 * stage.width, `the card is ${card.width} wide`);
+  assert.ok(Math.abs(stage.x + stage.width - card.x - card.width - 10) < 2 && Math.abs(card.y - stage.y - 10) < 2, JSON.stringify({ card, stage }));
   await page.locator("#picked .copy").click();
   await equal(() => page.evaluate(() => navigator.clipboard.readText()),
     "crank on rod at A at time 0.25\u202fs\ncrank on rod at A: 36.056\u202fN (x 20\u202fN, y 30\u202fN, direction 56.31°)");
