@@ -228,11 +228,11 @@ function readPick(scene: Scene, pick: string, at: number): { title: string; plac
   };
 }
 
-/** Values of what is pointed at or picked. */
+/** Values of what is pointed at or picked; not while it is dragged, for the card would hide the mechanism. */
 export function Card() {
   const scene = state.scene.value;
   const pick = state.picked.value || state.hovered.value;
-  if (!scene || !pick) return null;
+  if (!scene || !pick || state.changing.value) return null;
   const at = state.position.value;
   const read = readPick(scene, pick, at);
   if (!read) return null;
