@@ -931,7 +931,7 @@ test("diagrams out of sight follow when they come into sight", async () => {
   await close();
 });
 
-test("solutions, parameters and diagrams are those of the study as it is now", async () => {
+test("solutions and parameters are those of the study as it is now", async () => {
   const { page, errors, close } = await open();
   await choose(page, "quick-return");
   const told = async () => [await page.locator("#solutions tbody tr").first().innerText(), await page.locator("#parameters tbody").innerText()];

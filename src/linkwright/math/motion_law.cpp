@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "linkwright/core/check.h"
