@@ -15,19 +15,16 @@ double zero_between(FunctionRef<double(double)> f, double a, double b) {
   LINKWRIGHT_REQUIRE((fa < 0) != (fb < 0), "no change of sign: f({}) = {}, f({}) = {}", a, fa, b, fb);
   const double filler = fa;
   // a: newest point, b: the other side, c: the point before.
-  double c = b, fc = fb, share = 0.5;
+  double share = 0.5;
   for (int iteration = 0; iteration < 200; ++iteration) {
     const double x = a + share * (b - a);
     if (x == a || x == b) break;
     double fx = f(x);
     if (!std::isfinite(fx)) fx = filler;
     if (fx == 0) return x;
-    if ((fx < 0) == (fa < 0)) {
-      c = a, fc = fa;
-    } else {
-      c = b, fc = fb;
-      b = a, fb = fa;
-    }
+    const bool same_side = (fx < 0) == (fa < 0);
+    const double c = same_side ? a : b, fc = same_side ? fa : fb;
+    if (!same_side) b = a, fb = fa;
     a = x, fa = fx;
     const double smallest = std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
     const double least = 0.5 * smallest / std::abs(b - a);

@@ -219,6 +219,7 @@ void copy_chosen(const KernelShape& shape, const std::uint64_t* chosen, const do
 #define LINKWRIGHT_TEXT_OF(x) #x
 #define LINKWRIGHT_TEXT(x) LINKWRIGHT_TEXT_OF(x)
 extern const Kernels table;
+// NOLINTNEXTLINE(misc-definitions-in-headers): compiled once per instruction set
 const Kernels table = {LINKWRIGHT_TEXT(LINKWRIGHT_KERNELS),
                        differential_evolution,
                        self_adaptation,

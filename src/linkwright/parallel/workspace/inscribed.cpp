@@ -394,7 +394,7 @@ class Search {
 
   // The largest size near by that fits, from one that does.
   double grown(Candidate c, double tolerance) {
-    double inside = c.size, outside = c.size;
+    double inside = c.size, outside = 0;
     for (double factor = 1.001;; factor = std::min(factor * factor, 1.05)) {
       c.size = outside = inside * factor;
       if (!fits(c)) break;

@@ -66,7 +66,8 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
                  Batch::load_unaligned(task.position[2] + k)};
   std::array<Vector, N> rod, lever;
   std::array<Batch, N> drive, rate;  // l s . u', abs(j)
-  Mask reaches = one == one, in_travel = reaches, in_elbow = reaches, in_swing = reaches, possible = reaches;
+  Mask reaches = one == Batch(1.0), in_travel = reaches, in_elbow = reaches, in_swing = reaches,
+       possible = reaches;
   Batch input(1.0), drive_transmission(1.0);
   for (int i = 0; i < N; ++i) {
     const PoseCheckLeg& l = task.leg[i];
@@ -123,7 +124,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
       jx[i][5] = moment.z;
     }
   }
-  Mask same_assembly = one == one, transmits = same_assembly, well_conditioned = same_assembly;
+  Mask same_assembly = one == Batch(1.0), transmits = same_assembly, well_conditioned = same_assembly;
   if (inverse_wanted || determinant_wanted) {
     const auto [inverse, determinant] = math::small_inverse<N>(jx);
     if (task.assembly != 0) same_assembly = determinant * Batch(task.assembly) > zero;
@@ -180,7 +181,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
       if (wanted(I::worst_resolution)) put(I::worst_resolution, driven, worst_step<N>(steps));
     }
   }
-  Mask held = one == one;
+  Mask held = one == Batch(1.0);
   if constexpr (N == 3) {
     const bool limited = task.least_constraint > 0;
     if (wanted(I::constraint) || wanted(I::constraint_index) || limited || task.constraint != 0) {

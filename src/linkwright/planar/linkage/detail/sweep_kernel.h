@@ -148,7 +148,7 @@ LINKWRIGHT_KERNEL bool sweep_write(const SweepTask& task, const SweepRows<Batch>
                                    const typename SweepBlock<Batch>::Register& r) {
   const LinkagePlan& plan = *task.plan;
   const Batch none(0.0);
-  auto good = none == none;
+  auto good = none == Batch(0.0);
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
     if (!plan.groups[k].as<Dyad>()) continue;
     const GroupState<Batch>& s = r.states[k];
