@@ -87,6 +87,9 @@ TEST(EditStudy, ASampleIsOpened) {
   EXPECT_THAT(out, HasSubstr("points_mm = { O = [0.0, 0.0], A = [110.0, 0.0] }"));
   EXPECT_THAT(out, testing::Not(HasSubstr("[]")));
   EXPECT_THAT(out, testing::Not(HasSubstr("hoeken")));
+  // The angles of the sample are read in the unit that they were shown in.
+  EXPECT_THAT(out, HasSubstr("_deg = "));
+  EXPECT_THAT(out, testing::Not(HasSubstr("_rad = ")));
   // From then on it is a text like any other.
   EXPECT_EQ(change(out, {{"mechanism.body[1].points_m.A", Value(Value::Array{0.1, 0.0})}}),
             replaced(out, "A = [110.0, 0.0]", "A = [100.0, 0.0]"));
