@@ -23,6 +23,9 @@ else()
   set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 endif()
 
+# Sources compiled as one: the most for which two compilers stay below 3 GB.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+
 # By itself emscripten's -Os inlines nothing: an analysis in the page then takes three times as long.
 set(small -Os;-sINLINING_LIMIT=0)
 
@@ -56,10 +59,6 @@ function(linkwright_library module)
     target_link_libraries(linkwright_${module} PRIVATE $<BUILD_INTERFACE:linkwright_flags> PUBLIC ${arg_DEPENDS})
   endif()
   set_target_properties(linkwright_${module} PROPERTIES EXPORT_NAME ${module})
-  # Study files use the same short names in each kind; eight of them are the most that are compiled together.
-  if(NOT module MATCHES "_studies$")
-    set_target_properties(linkwright_${module} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
-  endif()
   # Into the module of Python.
   if(NOT EMSCRIPTEN)
     set_target_properties(linkwright_${module} PROPERTIES POSITION_INDEPENDENT_CODE ON)

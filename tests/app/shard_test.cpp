@@ -15,9 +15,9 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-const CheckpointOwner owner = {"linkwright 9.8.7", std::string(64, 'a')};
+const CheckpointOwner shard_owner = {"linkwright 9.8.7", std::string(64, 'a')};
 
-std::string text_of(std::string_view name) {
+std::string example_text(std::string_view name) {
   for (const Example& example : examples())
     if (example.name == name) return std::string(example.text);
   return {};
@@ -38,32 +38,32 @@ View run_part(std::string_view text, std::string_view edits, Sharing sharing = {
 
 TEST(Shard, PiecesGoRoundTheRunsThatShareThem) {
   int asked_for_help = 0;
-  ShardCheckpoint second({.index = 1, .count = 3}, owner);
+  ShardCheckpoint second({.index = 1, .count = 3}, shard_owner);
   second.set_leaves([&] { ++asked_for_help; });
   std::vector<std::size_t> own;
   for (std::size_t i = 0; (i = second.own_piece("seed 1", i, 7)) < 7; ++i) own.push_back(i);
   EXPECT_THAT(own, ::testing::ElementsAre(1, 4));
   EXPECT_EQ(asked_for_help, 1);
   EXPECT_THROW(second.rejoin("seed 1"), LeftToOthers);
-  ShardCheckpoint alone({}, owner);
+  ShardCheckpoint alone({}, shard_owner);
   EXPECT_EQ(alone.own_piece("seed 1", 5, 7), 5u);
   EXPECT_NO_THROW(alone.rejoin("seed 1"));
 }
 
 TEST(Shard, WhatOneKeepsAnotherTakes) {
   std::vector<std::string> kept;
-  ShardCheckpoint one({.index = 0, .count = 2}, owner);
+  ShardCheckpoint one({.index = 0, .count = 2}, shard_owner);
   one.set_hand_on([&](const std::string& text) { kept.push_back(text); });
   one.keep("seed 1", Value(0.5));
   EXPECT_EQ(one.find("seed 1").as_number(), 0.5);
   ASSERT_THAT(kept, SizeIs(1));
-  ShardCheckpoint other({}, owner);
+  ShardCheckpoint other({}, shard_owner);
   Diagnostics diagnostics;
   EXPECT_TRUE(other.take(kept[0], diagnostics));
   EXPECT_EQ(other.find("seed 1").as_number(), 0.5);
   EXPECT_TRUE(other.find("seed 2").is_null());
 
-  ShardCheckpoint stranger({}, {owner.tool, std::string(64, 'b')});
+  ShardCheckpoint stranger({}, {shard_owner.tool, std::string(64, 'b')});
   EXPECT_FALSE(stranger.take(kept[0], diagnostics));
   EXPECT_THAT(test::lines_of(diagnostics), HasSubstr("belongs to another study"));
   EXPECT_TRUE(stranger.find("seed 1").is_null());
@@ -72,7 +72,7 @@ TEST(Shard, WhatOneKeepsAnotherTakes) {
 class SharedRuns : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SharedRuns, AnswerAsOneDoes) {
-  const std::string text = text_of(GetParam());
+  const std::string text = example_text(GetParam());
   ASSERT_FALSE(text.empty());
   const std::string edits = R"({"edits":[{"key":"optimiser.seeds.count","value":5}]})";
   const View alone = run_part(text, edits);
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, SharedRuns,
                                            "balance-four-bar-case-1"));
 
 TEST(SharedRun, WithNothingToShareIsTheWholeRun) {
-  const std::string text = text_of("hoeken");
+  const std::string text = example_text("hoeken");
   const View alone = run_part(text, {});
   const View shared = run_part(text, {}, {.shard = {0, 4}, .kept = {}});
   EXPECT_EQ(shared.json, alone.json);

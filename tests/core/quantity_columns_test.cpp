@@ -12,13 +12,13 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-Table read(const std::string& text) {
+Table table_of(const std::string& text) {
   Diagnostics diagnostics;
   return read_csv(text, "t.csv", diagnostics).value();
 }
 
 TEST(QuantityColumns, AreInSIWhateverTheirUnit) {
-  const Table table = read("x_mm,count,angle_deg,x_s\n100,3,180,7\n,4,90,8\n");
+  const Table table = table_of("x_mm,count,angle_deg,x_s\n100,3,180,7\n,4,90,8\n");
   EXPECT_THAT(quantity(table, "x", Dimension::length).value(), ElementsAre(0.1, ::testing::IsNan()));
   EXPECT_THAT(quantity(table, "x", Dimension::time).value(), ElementsAre(7, 8));
   EXPECT_THAT(quantity(table, "count", Dimension::none).value(), ElementsAre(3, 4));
@@ -33,7 +33,7 @@ constexpr QuantityColumn known[] = {
 TEST(QuantityColumns, StandInTheOrderAskedFor) {
   Diagnostics diagnostics;
   const Quantities found =
-      read_quantities(read("spin_deg,x_cm\n180,10\n"), known, "x, tilt and load", "t.csv", diagnostics);
+      read_quantities(table_of("spin_deg,x_cm\n180,10\n"), known, "x, tilt and load", "t.csv", diagnostics);
   EXPECT_THAT(diagnostics, IsEmpty());
   EXPECT_THAT(found.keys, ElementsAre("x_cm", "spin_deg", ""));
   EXPECT_THAT(found.values,
@@ -42,7 +42,7 @@ TEST(QuantityColumns, StandInTheOrderAskedFor) {
 
 TEST(QuantityColumns, EachFaultIsReportedOnce) {
   Diagnostics diagnostics;
-  const Quantities found = read_quantities(read("x,tilt_mm,load_N,load_kN,mass_kg\n1,2,3,4,5\n"), known,
+  const Quantities found = read_quantities(table_of("x,tilt_mm,load_N,load_kN,mass_kg\n1,2,3,4,5\n"), known,
                                            "x, tilt and load", "t.csv", diagnostics);
   report_missing({"time", Dimension::time}, "t.csv", diagnostics);
   EXPECT_EQ(test::lines_of(diagnostics),

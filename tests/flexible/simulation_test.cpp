@@ -17,7 +17,6 @@ namespace linkwright::flexible {
 namespace {
 
 using enum Kinematics;
-constexpr std::size_t per = coordinates_per_cell;
 const double pulse_end[] = {2};
 
 // Another way to the same motion: mass matrix and forces put together column by column from the residuals,
@@ -30,7 +29,7 @@ struct Explicit {
 
   explicit Explicit(const Chain& c) : chain(c) {
     for (std::size_t i = 0; i < state.q.size(); ++i)
-      if (i % per != extension) active.push_back(i);
+      if (i % coordinates_per_cell != extension) active.push_back(i);
   }
   // y = coordinates, angle, rates, angular rate
   void accelerate(std::span<const double> y, double torque, std::span<double> rate) {
@@ -163,11 +162,12 @@ TEST(Simulation, FreeVibrationDecaysAsItsDampingSays) {
   const Chain chain = discretise(beam, 4);
   const double w = modes(chain, 1)[0].frequency, ratio = 0.05 / w + 0.005 * w;
   const Deflection shape = mode_shape(chain, 1).link;
-  Start start{.q = std::vector<double>(per * chain.cells.size())};
+  Start start{.q = std::vector<double>(coordinates_per_cell * chain.cells.size())};
   for (std::size_t s = 0; s < chain.cells.size(); ++s) {
     const double l = chain.cells[s].length, delta = shape.angle[s + 1] - shape.angle[s];
-    start.q[per * s + turn] = 1e-3 * delta;
-    start.q[per * s + slide] = 1e-3 * (shape.eta[s + 1] - shape.eta[s] - l * shape.angle[s] - l / 2 * delta);
+    start.q[coordinates_per_cell * s + turn] = 1e-3 * delta;
+    start.q[coordinates_per_cell * s + slide] =
+        1e-3 * (shape.eta[s + 1] - shape.eta[s] - l * shape.angle[s] - l / 2 * delta);
   }
   const double damped = w * std::sqrt(1 - ratio * ratio), period = 2 * pi / damped;
   const Simulation run = simulate_motion(

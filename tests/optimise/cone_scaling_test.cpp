@@ -10,7 +10,7 @@
 namespace linkwright::optimise {
 namespace {
 
-using Numbers = std::vector<double>;
+using Entries = std::vector<double>;
 
 // A half-line, a cone in space, and one of six rows.
 ConeScaling cones() {
@@ -19,9 +19,9 @@ ConeScaling cones() {
   return c;
 }
 // Inside, nearer to the boundary the smaller `room`.
-Numbers inside(const ConeScaling& c, std::uint64_t seed, double room) {
+Entries inside(const ConeScaling& c, std::uint64_t seed, double room) {
   RandomStream random({.seed = seed});
-  Numbers v(10);
+  Entries v(10);
   for (double& x : v) x = random.normal();
   c.add_unit(c.outside(v) + room, v);
   return v;
@@ -30,9 +30,9 @@ Numbers inside(const ConeScaling& c, std::uint64_t seed, double room) {
 TEST(ConeScaling, BringsBothPointsTogether) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     ConeScaling c = cones();
-    const Numbers s = inside(c, 2 * seed, 0.1), z = inside(c, 2 * seed + 1, 0.1);
+    const Entries s = inside(c, 2 * seed, 0.1), z = inside(c, 2 * seed + 1, 0.1);
     ASSERT_TRUE(c.update(s, z));
-    Numbers a(10), b(10), back(10);
+    Entries a(10), b(10), back(10);
     c.apply(z, false, a);
     c.apply(s, true, b);
     c.apply(b, false, back);
@@ -51,8 +51,8 @@ TEST(ConeScaling, BringsBothPointsTogether) {
 TEST(ConeScaling, DividesWhatItMultiplies) {
   ConeScaling c = cones();
   ASSERT_TRUE(c.update(inside(c, 1, 0.3), inside(c, 2, 0.3)));
-  const Numbers x = inside(c, 3, 1);
-  Numbers d(10), back(10);
+  const Entries x = inside(c, 3, 1);
+  Entries d(10), back(10);
   c.product(c.lambda, x, d);
   c.divide(d, back);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(back[i], x[i], 1e-12);
@@ -62,11 +62,11 @@ TEST(ConeScaling, TheLongestStepEndsOnTheBoundary) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     ConeScaling c = cones();
     ASSERT_TRUE(c.update(inside(c, 2 * seed, 0.5), inside(c, 2 * seed + 1, 0.5)));
-    Numbers direction = inside(c, 100 + seed, 0);
+    Entries direction = inside(c, 100 + seed, 0);
     for (double& d : direction) d = -d;
     const double step = c.longest_step(direction);
     ASSERT_TRUE(std::isfinite(step));
-    Numbers end = c.lambda;
+    Entries end = c.lambda;
     for (std::size_t i = 0; i < 10; ++i) end[i] += step * direction[i];
     EXPECT_NEAR(c.outside(end), 0, 1e-11);
   }
@@ -77,8 +77,8 @@ TEST(ConeScaling, TheLongestStepEndsOnTheBoundary) {
 
 TEST(ConeScaling, NeedsPointsInside) {
   ConeScaling c = cones();
-  Numbers s = inside(c, 1, 1);
-  const Numbers z = inside(c, 2, 1);
+  Entries s = inside(c, 1, 1);
+  const Entries z = inside(c, 2, 1);
   EXPECT_LT(c.outside(s), 0);
   s[0] = -1;
   EXPECT_FALSE(c.update(s, z));

@@ -16,25 +16,25 @@ namespace {
 using linkwright::test::message;
 using ::testing::HasSubstr;
 
-SeedsReport run(const Problem& problem, const GreyWolfOptions& wolves, int seeds, double threshold) {
+SeedsReport run_wolves(const Problem& problem, const GreyWolfOptions& wolves, int seeds, double threshold) {
   OptimiserOptions method = {.method = Method::grey_wolf, .grey_wolf = wolves};
   RunContext context;
   return minimise_seeds(problem, method, {}, {1, seeds}, threshold, context);
 }
 
 TEST(GreyWolf, DefaultsAreThePublishedSetting) {
-  const auto report = run(test::sphere(3), {}, 1, 1);
+  const auto report = run_wolves(test::sphere(3), {}, 1, 1);
   EXPECT_EQ(report.reports[0].evaluations, 1500);
   EXPECT_EQ(report.reports[0].generations, 50);
 }
 
 TEST(GreyWolf, FindsTheKnownOptima) {
-  EXPECT_EQ(run(test::sphere(10), {.generations = 500}, 20, 1e-10).statistics.successes, 20);
-  EXPECT_EQ(run(test::ackley(10), {.generations = 500}, 20, 1e-8).statistics.successes, 20);
+  EXPECT_EQ(run_wolves(test::sphere(10), {.generations = 500}, 20, 1e-10).statistics.successes, 20);
+  EXPECT_EQ(run_wolves(test::ackley(10), {.generations = 500}, 20, 1e-8).statistics.successes, 20);
   // Towards the origin it goes by itself; (1, 1) is another matter.
-  EXPECT_GE(run(test::rosenbrock(2), {.generations = 500}, 20, 1e-3).statistics.successes, 18);
+  EXPECT_GE(run_wolves(test::rosenbrock(2), {.generations = 500}, 20, 1e-3).statistics.successes, 18);
   // A thin crescent of feasible points: most packs find it, few its tip.
-  const SeedStatistics crescent = run(test::g06(), {.generations = 500}, 20, -6900).statistics;
+  const SeedStatistics crescent = run_wolves(test::g06(), {.generations = 500}, 20, -6900).statistics;
   EXPECT_GE(crescent.feasible, 15);
   EXPECT_GE(crescent.successes, 3);
 }
@@ -44,8 +44,8 @@ TEST(GreyWolf, ThePrintedAbsoluteValueCannotReachNegativeCoordinates) {
   const Problem problem = test::make_problem(2, -5, 3, [](std::span<const double> x) {
     return test::Value{std::pow(x[0] + 2, 2) + std::pow(x[1] + 2, 2)};
   });
-  EXPECT_LT(run(problem, {}, 20, 1e-2).statistics.worst, 1e-2);
-  const auto printed = run(problem, {.absolute_value = true}, 20, 1e-2);
+  EXPECT_LT(run_wolves(problem, {}, 20, 1e-2).statistics.worst, 1e-2);
+  const auto printed = run_wolves(problem, {.absolute_value = true}, 20, 1e-2);
   EXPECT_EQ(printed.statistics.successes, 0);
   // After the first, uniform generation every coordinate is 0 or more.
   const auto optimiser = make_optimiser(problem.variables, GreyWolfOptions{.absolute_value = true}, {});
@@ -85,7 +85,8 @@ TEST(GreyWolf, WithoutReachThePackStandsAtTheMeanOfTheLeaders) {
 
 TEST(GreyWolf, TheWorseHalfIsPlacedAnewOnlyWhenAsked) {
   const Problem problem = test::rastrigin(4);
-  const auto plain = run(problem, {}, 5, 0), reset = run(problem, {.reset_worst_half = true}, 5, 0);
+  const auto plain = run_wolves(problem, {}, 5, 0),
+             reset = run_wolves(problem, {.reset_worst_half = true}, 5, 0);
   EXPECT_NE(plain.reports[0].cost, reset.reports[0].cost);
   EXPECT_LT(reset.statistics.median,
             30);  // it still searches: a uniform sample of 1500 has a median best near 25 to 35

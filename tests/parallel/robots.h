@@ -1,10 +1,13 @@
 #pragma once
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/workspace/workspace.h"
 #include "support/published.h"
 
 /// Robots of the reference figures, and those figures.
 namespace linkwright::parallel {
+
+inline constexpr double degree = pi / 180;
 
 inline Robot reference_delta() {
   return delta({.base_radius = 0.2, .platform_radius = 0.045, .arm = 0.35, .rod = 0.8});

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 /// What a person sees of a text: one line a diagnostic.
-std::string messages(std::string_view text, Syntax syntax = Syntax::toml) {
+std::string read_messages(std::string_view text, Syntax syntax = Syntax::toml) {
   Diagnostics diagnostics;
   const Value value = read_text(text, syntax, "s.toml", diagnostics);
   EXPECT_EQ(value.is_null(), has_errors(diagnostics));
@@ -88,64 +88,65 @@ TEST(ReadJson, PositionsOfEveryKeyAndValue) {
 }
 
 TEST(ReadText, FrequentMistakesComeWithTheRemedy) {
-  EXPECT_EQ(messages("a_mm = 100,5 # long\n"),
+  EXPECT_EQ(read_messages("a_mm = 100,5 # long\n"),
             "s.toml:1:11: error: '100,5' is not a number; write the decimal point: 100.5\n");
-  EXPECT_EQ(messages("a_mm = 100,5 mm\n"),
+  EXPECT_EQ(read_messages("a_mm = 100,5 mm\n"),
             "s.toml:1:11: error: '100,5 mm' is not a number; the unit is in the key: a_mm = 100.5\n");
-  EXPECT_EQ(messages("a_m = -1.5e3 mm\n"),
+  EXPECT_EQ(read_messages("a_m = -1.5e3 mm\n"),
             "s.toml:1:14: error: '-1.5e3 mm' is not a number; the unit is in the key: a_mm = -1.5e3\n");
-  EXPECT_EQ(messages("a = 5 mm\n"),
+  EXPECT_EQ(read_messages("a = 5 mm\n"),
             "s.toml:1:7: error: '5 mm' is not a number; the unit is in the key: a_mm = 5\n");
-  EXPECT_EQ(messages("a_mm = 5 furlongs\n"),
+  EXPECT_EQ(read_messages("a_mm = 5 furlongs\n"),
             "s.toml:1:10: error: '5 furlongs' is not a number; the unit is in the key: a_mm = 5\n");
-  EXPECT_EQ(messages("a = 1\ntitle = My linkage # so\n"),
+  EXPECT_EQ(read_messages("a = 1\ntitle = My linkage # so\n"),
             "s.toml:2:9: error: text needs quotes; write title = \"My linkage\"\n");
-  EXPECT_EQ(messages("dir = \"C:\\Users\\me\"\n"),
+  EXPECT_EQ(read_messages("dir = \"C:\\Users\\me\"\n"),
             "s.toml:1:7: error: in double quotes a backslash begins a special character; use / in paths, or "
             "single quotes: dir = 'C:\\Users\\me'\n");
-  EXPECT_THAT(messages("a = [\n  1,\n  2\nb = 3\n"),
+  EXPECT_THAT(read_messages("a = [\n  1,\n  2\nb = 3\n"),
               HasSubstr("is a ] or a comma missing in the list that begins in line 1?"));
   // A line that says nothing of the kind keeps the words of the parser.
-  EXPECT_THAT(messages("a = 1\na = 2\n"), HasSubstr("s.toml:2:5: error: the key 'a' is given twice\n"));
+  EXPECT_THAT(read_messages("a = 1\na = 2\n"), HasSubstr("s.toml:2:5: error: the key 'a' is given twice\n"));
 }
 
 TEST(ReadText, SyntaxErrorsSayWhereAndWhat) {
-  EXPECT_THAT(messages("a = 1\nb = \n"), HasSubstr("s.toml:2:5: error: is not valid TOML"));
-  EXPECT_THAT(messages("a = 1\n["),
+  EXPECT_THAT(read_messages("a = 1\nb = \n"), HasSubstr("s.toml:2:5: error: is not valid TOML"));
+  EXPECT_THAT(read_messages("a = 1\n["),
               HasSubstr("s.toml:2:2: error: the file ends in the middle of a table header"));
-  EXPECT_THAT(messages("[\n"), HasSubstr("s.toml:1:2: error: is not valid TOML"));
-  EXPECT_THAT(messages("a = \"text\nb = 2"), HasSubstr("s.toml:1:10: error: is not valid TOML: in a string"));
-  EXPECT_THAT(messages("crank = 0.4 ]\n"),
+  EXPECT_THAT(read_messages("[\n"), HasSubstr("s.toml:1:2: error: is not valid TOML"));
+  EXPECT_THAT(read_messages("a = \"text\nb = 2"),
+              HasSubstr("s.toml:1:10: error: is not valid TOML: in a string"));
+  EXPECT_THAT(read_messages("crank = 0.4 ]\n"),
               HasSubstr("s.toml:1:13: error: is not valid TOML: in a key-value pair"));
-  EXPECT_THAT(messages("{\"a\": 1,}", Syntax::json),
+  EXPECT_THAT(read_messages("{\"a\": 1,}", Syntax::json),
               HasSubstr("s.toml:1:9: error: is not valid JSON: syntax error"));
-  EXPECT_THAT(messages("{\"a\": 1e999}", Syntax::json), HasSubstr("is not valid JSON: number overflow"));
-  EXPECT_THAT(messages("[1]", Syntax::json),
+  EXPECT_THAT(read_messages("{\"a\": 1e999}", Syntax::json), HasSubstr("is not valid JSON: number overflow"));
+  EXPECT_THAT(read_messages("[1]", Syntax::json),
               HasSubstr("s.toml:1:1: error: the document must be an object { ... }, found array"));
-  EXPECT_THAT(messages("when = 2024-01-01\n"),
+  EXPECT_THAT(read_messages("when = 2024-01-01\n"),
               HasSubstr("s.toml:1:8: error: is a date or time, which no study uses"));
 }
 
 TEST(ReadText, AKeyMayStandOnce) {
-  EXPECT_THAT(messages("a = 1\na = 2\n"), HasSubstr("s.toml:2:5: error: the key 'a' is given twice"));
-  EXPECT_THAT(messages("[a]\nb = 1\n[a]\n"), HasSubstr("s.toml:3:1: error: the key 'a' is given twice"));
-  EXPECT_THAT(messages("{\"a\": 1,\n \"a\": 2}", Syntax::json),
+  EXPECT_THAT(read_messages("a = 1\na = 2\n"), HasSubstr("s.toml:2:5: error: the key 'a' is given twice"));
+  EXPECT_THAT(read_messages("[a]\nb = 1\n[a]\n"), HasSubstr("s.toml:3:1: error: the key 'a' is given twice"));
+  EXPECT_THAT(read_messages("{\"a\": 1,\n \"a\": 2}", Syntax::json),
               HasSubstr("s.toml:2:2: error: the key 'a' is given twice"));
 }
 
 TEST(ReadText, OnlyUtf8AndAsciiOutsideStrings) {
-  EXPECT_THAT(messages("a = 1 # ok\nb = \"\xFF\"\n"),
+  EXPECT_THAT(read_messages("a = 1 # ok\nb = \"\xFF\"\n"),
               HasSubstr("s.toml:2:6: error: the byte 0xFF is not UTF-8 text; save the file as UTF-8"));
-  EXPECT_THAT(messages("a = \"\xED\xA0\x80\""), HasSubstr("the byte 0xED is not UTF-8 text"));
-  EXPECT_THAT(messages("a = \"\xC0\xAF\""), HasSubstr("the byte 0xC0 is not UTF-8 text"));
-  EXPECT_THAT(messages("a = \xE2\x80\x93"
-                       "5\n"),
+  EXPECT_THAT(read_messages("a = \"\xED\xA0\x80\""), HasSubstr("the byte 0xED is not UTF-8 text"));
+  EXPECT_THAT(read_messages("a = \"\xC0\xAF\""), HasSubstr("the byte 0xC0 is not UTF-8 text"));
+  EXPECT_THAT(read_messages("a = \xE2\x80\x93"
+                            "5\n"),
               HasSubstr("s.toml:1:5: error: the character '\xE2\x80\x93' (U+2013) is only allowed in strings "
                         "and comments"));
-  EXPECT_THAT(messages("{\"a\": \xE2\x80\x9Cx\xE2\x80\x9D}", Syntax::json),
+  EXPECT_THAT(read_messages("{\"a\": \xE2\x80\x9Cx\xE2\x80\x9D}", Syntax::json),
               HasSubstr("(U+201C) is only allowed in strings"));
-  EXPECT_EQ(messages("\xEF\xBB\xBF"
-                     "a = '''é \"''' # ü\nb = \"\"\"é\"\"\"\"\"\nc = \"\\\"é\"\n"),
+  EXPECT_EQ(read_messages("\xEF\xBB\xBF"
+                          "a = '''é \"''' # ü\nb = \"\"\"é\"\"\"\"\"\nc = \"\\\"é\"\n"),
             "");
 }
 
@@ -153,28 +154,29 @@ TEST(ReadText, OnlyUtf8AndAsciiOutsideStrings) {
 TEST(ReadText, TextThatIsToldApartFromJsonIsCheckedBeforeItIsParsed) {
   // A study in TOML under a name of JSON is recognised, and characters that toml++ has no answer to are not
   // shown to it.
-  EXPECT_THAT(messages("schema = 1\n", Syntax::json),
+  EXPECT_THAT(read_messages("schema = 1\n", Syntax::json),
               HasSubstr("the text is TOML, but the name of the file says JSON"));
-  EXPECT_THAT(messages("schema = 202\u0159\n", Syntax::json), testing::Not(HasSubstr("the text is TOML")));
-  EXPECT_THAT(messages("schema = " + std::string(100'000, '['), Syntax::json),
+  EXPECT_THAT(read_messages("schema = 202\u0159\n", Syntax::json),
+              testing::Not(HasSubstr("the text is TOML")));
+  EXPECT_THAT(read_messages("schema = " + std::string(100'000, '['), Syntax::json),
               testing::Not(HasSubstr("the text is TOML")));
 }
 
 TEST(ReadText, QuotesInTheMiddleOfAValue) {
-  EXPECT_THAT(messages("at = 202\"\u00e9\"\n"),
+  EXPECT_THAT(read_messages("at = 202\"\u00e9\"\n"),
               HasSubstr("s.toml:1:9: error: is not valid TOML: a text cannot begin with \" here"));
-  EXPECT_THAT(messages("a = 2.\"\u00e9\"\n"), HasSubstr("s.toml:1:7: error: is not valid TOML"));
-  EXPECT_THAT(messages("a = [2.\"\u00e9\"]\n"), HasSubstr("s.toml:1:8: error: is not valid TOML"));
-  EXPECT_EQ(messages("[a.\"\u00e9\"]\n[[b.'\u00e9']]\nc = { 2.'\u00e9' = [1, # x\n 2] }\n"), "");
-  EXPECT_THAT(messages("a = 'x' '\u00e9'\n"), HasSubstr("s.toml:1:9: error: is not valid TOML"));
-  EXPECT_EQ(messages("'a' . \"b\" = ['x', # 'y\n  \"z\", {'c' = 'd', \"e\" = ''}]\n'f' = 1\n"), "");
+  EXPECT_THAT(read_messages("a = 2.\"\u00e9\"\n"), HasSubstr("s.toml:1:7: error: is not valid TOML"));
+  EXPECT_THAT(read_messages("a = [2.\"\u00e9\"]\n"), HasSubstr("s.toml:1:8: error: is not valid TOML"));
+  EXPECT_EQ(read_messages("[a.\"\u00e9\"]\n[[b.'\u00e9']]\nc = { 2.'\u00e9' = [1, # x\n 2] }\n"), "");
+  EXPECT_THAT(read_messages("a = 'x' '\u00e9'\n"), HasSubstr("s.toml:1:9: error: is not valid TOML"));
+  EXPECT_EQ(read_messages("'a' . \"b\" = ['x', # 'y\n  \"z\", {'c' = 'd', \"e\" = ''}]\n'f' = 1\n"), "");
 }
 
 TEST(ReadText, EmptyDocuments) {
-  EXPECT_THAT(messages(""), HasSubstr("s.toml: error: the file is empty"));
-  EXPECT_THAT(messages(" \n\t\n"), HasSubstr("the file is empty"));
-  EXPECT_THAT(messages("# nothing\n"), HasSubstr("the file has no keys"));
-  EXPECT_THAT(messages("{}", Syntax::json), HasSubstr("the file has no keys"));
+  EXPECT_THAT(read_messages(""), HasSubstr("s.toml: error: the file is empty"));
+  EXPECT_THAT(read_messages(" \n\t\n"), HasSubstr("the file is empty"));
+  EXPECT_THAT(read_messages("# nothing\n"), HasSubstr("the file has no keys"));
+  EXPECT_THAT(read_messages("{}", Syntax::json), HasSubstr("the file has no keys"));
 }
 
 // Every way to nest deeply: a recursive parser or destructor without limit would overflow the stack here.
@@ -184,15 +186,15 @@ TEST(ReadText, DeepNestingIsRefused) {
     for (int i = 0; i < times; ++i) all += text;
     return all;
   };
-  EXPECT_THAT(messages("a = " + repeat("[", 200000)),
+  EXPECT_THAT(read_messages("a = " + repeat("[", 200000)),
               HasSubstr("s.toml:1:69: error: tables and arrays are nested more than 64 deep"));
-  EXPECT_THAT(messages("a = " + repeat("{a=", 200000)), HasSubstr("more than 64 deep"));
-  EXPECT_THAT(messages(repeat("a.", 200000) + "a = 1"), HasSubstr("more than 64 deep"));
-  EXPECT_THAT(messages("[" + repeat("a . ", 200000) + "a]"), HasSubstr("more than 64 deep"));
-  EXPECT_THAT(messages("[" + repeat("\"a\".", 60) + "a]\n" + repeat("b.", 60) + "b = 1"),
+  EXPECT_THAT(read_messages("a = " + repeat("{a=", 200000)), HasSubstr("more than 64 deep"));
+  EXPECT_THAT(read_messages(repeat("a.", 200000) + "a = 1"), HasSubstr("more than 64 deep"));
+  EXPECT_THAT(read_messages("[" + repeat("a . ", 200000) + "a]"), HasSubstr("more than 64 deep"));
+  EXPECT_THAT(read_messages("[" + repeat("\"a\".", 60) + "a]\n" + repeat("b.", 60) + "b = 1"),
               HasSubstr("more than 64 deep"));
-  EXPECT_THAT(messages(repeat("{\"a\":", 200000), Syntax::json), HasSubstr("more than 64 deep"));
-  EXPECT_EQ(messages("a = " + repeat("[", 60) + repeat("]", 60)), "");
+  EXPECT_THAT(read_messages(repeat("{\"a\":", 200000), Syntax::json), HasSubstr("more than 64 deep"));
+  EXPECT_EQ(read_messages("a = " + repeat("[", 60) + repeat("]", 60)), "");
 }
 
 TEST(ReadFile, WhatIsNoReadableFile) {

@@ -12,8 +12,6 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double degree = pi / 180;
-
 struct Reference {
   const char* id;
   Robot robot;

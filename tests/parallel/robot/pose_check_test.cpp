@@ -17,8 +17,6 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double degree = pi / 180;
-
 // What the plain functions say of a pose: the other route to everything that the kernel computes.
 struct Plain {
   Criterion criterion = Criterion::none;
@@ -112,13 +110,13 @@ Found all_of(const PoseConditions& c, const std::vector<Pose>& poses) {
   return out;
 }
 
-struct Case {
+struct PoseCase {
   const char* name;
   PoseConditions conditions;
   Vec3 low, high;
   double most_turn;
 };
-std::vector<Case> cases() {
+std::vector<PoseCase> cases() {
   PoseConditions delta{.robot = reference_delta(),
                        .drives = reference_drives(),
                        .assembly = -1,

@@ -28,7 +28,7 @@ const Setting& five_bar() {
       {.conditions = {.robot = reference_five_bar()}, .grid = {{-0.7, -0.7, 0}, {0.7, 0.7, 0}, 0.02}});
   return out;
 }
-const Setting& delta() {
+const Setting& delta_setting() {
   static const Setting out({.conditions = {.robot = reference_delta(),
                                            .drives = reference_drives(),
                                            .assembly = -1,
@@ -88,19 +88,19 @@ TEST(WorkspaceInscribed, RectangleOfTheFiveBar) {
 
 TEST(WorkspaceInscribed, CylinderOfGivenHeightOnTheAxis) {
   const double height = 0.2;
-  const Inscribed found = delta().run({.axis = Vec3{0, 0, 0}, .height = height});
+  const Inscribed found = delta_setting().run({.axis = Vec3{0, 0, 0}, .height = height});
   EXPECT_EQ(found.status, Status::done);
   EXPECT_EQ(found.centre.x, 0);
   EXPECT_EQ(found.centre.y, 0);
   EXPECT_DOUBLE_EQ(2 * found.half.z, height);
   EXPECT_DOUBLE_EQ(found.measure, pi * found.half.x * found.half.x * height);
-  passes(delta(), InscribedShape::cylinder, found, 1 - 1e-3);
+  passes(delta_setting(), InscribedShape::cylinder, found, 1 - 1e-3);
   // The other route: how far rays get from the axis at each height; the least of a window, the largest of
   // those.
   const double step = 0.005;
   std::vector<double> reach;
   for (double z = -1.1; z < -0.3; z += step) {
-    const Rays rays = position_rays(delta().task.conditions, {{0, 0, z}}, directions_around(72),
+    const Rays rays = position_rays(delta_setting().task.conditions, {{0, 0, z}}, directions_around(72),
                                     {.longest = 0.8, .step = 0.02, .tolerance = 1e-7}, RunContext());
     double least = 1;
     for (const Ray& ray : rays.ray) least = std::min(least, ray.reach());
@@ -150,14 +150,14 @@ TEST(WorkspaceInscribed, TheConstraintMakesCylindersSmaller) {
 }
 
 TEST(WorkspaceInscribed, CylindersAnywhere) {
-  const Inscribed on_axis = delta().run({.axis = Vec3{0, 0, 0}});
-  const Inscribed anywhere = delta().run({});
-  const Inscribed flat = delta().run({.ratio = 0.25});
+  const Inscribed on_axis = delta_setting().run({.axis = Vec3{0, 0, 0}});
+  const Inscribed anywhere = delta_setting().run({});
+  const Inscribed flat = delta_setting().run({.ratio = 0.25});
   for (const Inscribed& found : {on_axis, anywhere, flat}) {
     EXPECT_EQ(found.status, Status::done);
     EXPECT_EQ(found.half.x, found.half.y);
     EXPECT_GT(found.measure, found.on_grid);
-    passes(delta(), InscribedShape::cylinder, found, 1 - 1e-3);
+    passes(delta_setting(), InscribedShape::cylinder, found, 1 - 1e-3);
   }
   EXPECT_GT(anywhere.measure, 0.999 * on_axis.measure);
   EXPECT_NEAR(flat.half.z / flat.half.x, 0.25, 1e-12);
@@ -165,10 +165,10 @@ TEST(WorkspaceInscribed, CylindersAnywhere) {
 }
 
 TEST(WorkspaceInscribed, BallAndBoxOfTheDelta) {
-  const Inscribed ball = delta().run({.shape = InscribedShape::ball});
-  const Inscribed box = delta().run({.shape = InscribedShape::box});
-  passes(delta(), InscribedShape::ball, ball, 1 - 1e-3);
-  passes(delta(), InscribedShape::box, box, 1 - 1e-3);
+  const Inscribed ball = delta_setting().run({.shape = InscribedShape::ball});
+  const Inscribed box = delta_setting().run({.shape = InscribedShape::box});
+  passes(delta_setting(), InscribedShape::ball, ball, 1 - 1e-3);
+  passes(delta_setting(), InscribedShape::box, box, 1 - 1e-3);
   EXPECT_NEAR(ball.measure, 4 * pi / 3 * std::pow(ball.half.x, 3), 1e-12);
   EXPECT_NEAR(box.measure, 8 * box.half.x * box.half.y * box.half.z, 1e-12);
   // The ball holds a box, the box a ball.
@@ -183,7 +183,7 @@ TEST(WorkspaceInscribed, NothingFitsInNothing) {
                 {.conditions = s.task.conditions, .shape = InscribedShape::box}, RunContext());
   EXPECT_EQ(found.status, Status::infeasible);
   EXPECT_EQ(found.measure, 0);
-  EXPECT_EQ(delta().run({.height = 2}).status, Status::infeasible);
+  EXPECT_EQ(delta_setting().run({.height = 2}).status, Status::infeasible);
 }
 
 TEST(WorkspaceInscribed, StaysInItsSet) {
@@ -207,10 +207,11 @@ TEST(WorkspaceInscribed, StopsWithTheBestSoFar) {
 
 TEST(WorkspaceInscribed, RefusesTasksWithoutSense) {
   EXPECT_THROW(five_bar().run({}), ContractError);  // a cylinder in the plane
-  EXPECT_THROW(delta().run({.height = 0.2, .ratio = 1}), ContractError);
-  EXPECT_THROW(delta().run({.shape = InscribedShape::ball, .height = 0.2}), ContractError);
-  EXPECT_THROW(inscribed(delta().map, {}, {.conditions = delta().task.conditions}, RunContext()),
-               ContractError);
+  EXPECT_THROW(delta_setting().run({.height = 0.2, .ratio = 1}), ContractError);
+  EXPECT_THROW(delta_setting().run({.shape = InscribedShape::ball, .height = 0.2}), ContractError);
+  EXPECT_THROW(
+      inscribed(delta_setting().map, {}, {.conditions = delta_setting().task.conditions}, RunContext()),
+      ContractError);
 }
 
 }  // namespace

@@ -11,8 +11,6 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double degree = pi / 180;
-
 TEST(WorkspaceRays, AreaOfTheReferenceFiveBar) {
   const double exact = test::number_at(computed("five-bar-singular-area"), "area_m2");
   EXPECT_NEAR(reachable_area(reference_five_bar()), exact, 1e-15);

@@ -51,9 +51,9 @@ Peaks run(const Task& task) {
 // Boskovic 2018, Eq. (2.37) with equal weights.
 double objective(const Peaks& p) { return rss_over_n(p.force1) / 2 + rss_over_n(p.force2) / 2; }
 
-Task published() { return {elements(serial_arm(two_link_arm()))}; }
+Task published_task() { return {elements(serial_arm(two_link_arm()))}; }
 Task with_polynomials(double a1, double a2) {
-  Task task = published();
+  Task task = published_task();
   task.laws = {math::Polynomial345{0, pi, 0, 10, {a1}}, math::Polynomial345{0, 3 * pi / 2, 0, 10, {a2}}};
   return task;
 }
@@ -67,10 +67,10 @@ Task with_counterweights(double p, double mass2, double r2) {
 
 TEST(SerialArmReactions, ObjectiveOfThePublishedArm) {
   const double computed = number_at(dynamics_case("manipulator-reference"), "computed.F_N");
-  EXPECT_NEAR(objective(run(published())), 0.220270706547, 1e-11);
-  EXPECT_NEAR(objective(run(published())), computed, 1e-14);
+  EXPECT_NEAR(objective(run(published_task())), 0.220270706547, 1e-11);
+  EXPECT_NEAR(objective(run(published_task())), computed, 1e-14);
   // Half a unit of the last digit printed.
-  EXPECT_NEAR(objective(run(published())), 0.220271, 5e-7);
+  EXPECT_NEAR(objective(run(published_task())), 0.220271, 5e-7);
 }
 
 TEST(SerialArmReactions, ObjectiveOfThePublishedPolynomials) {
@@ -88,7 +88,7 @@ TEST(SerialArmReactions, ObjectiveOfThePublishedPolynomials) {
 // All eight printed coefficients, which meet the end conditions to their rounding only: a law of its own.
 TEST(SerialArmReactions, ObjectiveOfThePrintedCoefficients) {
   const Value& reference = dynamics_case("manipulator-polynomial");
-  const std::vector<ArmElement> arm = published().arm;
+  const std::vector<ArmElement> arm = published_task().arm;
   std::array<ArmLinkRates, 2> r;
   std::array<ArmJointLoads, 2> loads;
   Peaks p;
@@ -139,7 +139,7 @@ TEST(SerialArmReactions, PeaksOfThePublishedMotions) {
           << id;
     }
   };
-  compare(published(), "manipulator-reference_motion");
+  compare(published_task(), "manipulator-reference_motion");
   compare(with_polynomials(15.885, -8.7111), "manipulator-polynomial_motion");
   compare(with_counterweights(11.5, 7, 0.5), "manipulator-counterweighted_r1_0.5m");
 }
@@ -147,7 +147,7 @@ TEST(SerialArmReactions, PeaksOfThePublishedMotions) {
 // Signs and axes, which magnitudes do not show.
 TEST(SerialArmReactions, ComponentsOfThePublishedMotion) {
   const Value& sample = at(dynamics_case("manipulator-reference_motion"), "computed.sample_i50");
-  const std::vector<ArmElement> arm = published().arm;
+  const std::vector<ArmElement> arm = published_task().arm;
   const auto laws = two_link_motion();
   const std::array<math::Motion, 2> motion = {math::MotionCurve(laws[0])(2.5),
                                               math::MotionCurve(laws[1])(2.5)};
@@ -352,7 +352,7 @@ TEST(SerialArmReactions, AtRestCarryTheWeight) {
 }
 
 TEST(SerialArmReactions, RejectWhatDoesNotFit) {
-  const std::vector<ArmElement> e = published().arm;
+  const std::vector<ArmElement> e = published_task().arm;
   std::vector<ArmLinkRates> r(2);
   std::vector<ArmJointLoads> loads(1);
   EXPECT_THAT(test::message([&] { reactions(e, r, 0, loads); }),

@@ -307,7 +307,7 @@ void check_memory(study::ObjectReader& document, const ToleranceStudy& s) {
         fmt::format("{} draws of {:.0f} quantities", s.draws, quantities), "take fewer draws, or watch less");
 }
 
-study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
+study::Prepared prepare_tolerance(study::ObjectReader& document, const study::Common& common) {
   study::Prepared prepared;
   ToleranceStudy s;
   MonteCarloForm random;
@@ -382,7 +382,7 @@ study::Kind tolerance_kind() {
       "what clearances and length errors do to path, function and forces of any planar linkage: worst case, "
       "random linkages, which tolerance to tighten";
   kind.schema = describe;
-  kind.prepare = prepare;
+  kind.prepare = prepare_tolerance;
   kind.example = templates::analysis_linkage();
   return kind;
 }

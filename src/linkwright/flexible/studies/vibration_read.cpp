@@ -10,8 +10,8 @@
 namespace linkwright::flexible {
 namespace {
 
-std::optional<VibrationStudy> read_study(study::ObjectReader& document, const study::Common& common,
-                                         Value& canonical) {
+std::optional<VibrationStudy> read_vibration(study::ObjectReader& document, const study::Common& common,
+                                             Value& canonical) {
   VibrationStudy s;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
   auto vibration = document.table("vibration");
@@ -84,7 +84,7 @@ study::Kind vibration_kind() {
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_study(document, common, prepared.canonical))
+    if (auto s = read_vibration(document, common, prepared.canonical))
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_vibration(s, context); };
     return prepared;
   };

@@ -18,12 +18,12 @@ namespace linkwright::parallel {
 namespace {
 
 /// A scene is for looking at: so many samples at most.
-constexpr std::size_t most_scene_samples = 1200;
+constexpr std::size_t most_arm_samples = 1200;
 
 Vector2 plane(const Vec3& v) { return {v.x, v.y}; }
 
 /// One instant of the motion.
-struct Instant {
+struct ArmInstant {
   double time = 0;
   ToolState tool;
   SerialAngles angles;
@@ -34,10 +34,10 @@ struct Instant {
   bool reached() const { return angles.status == Status::done; }
 };
 
-Instant instant(const SerialAnalysis& s, double time) {
+ArmInstant instant(const SerialAnalysis& s, double time) {
   const SerialPiArm& arm = s.description.arm;
   const MotionForm& form = s.motion->form;
-  Instant out;
+  ArmInstant out;
   out.time = time;
   out.tool = s.motion->motion(time);
   out.angles = inverse(arm, plane(out.tool.position), s.description.mode);
@@ -51,7 +51,7 @@ Instant instant(const SerialAnalysis& s, double time) {
 }
 
 /// What an instant asks for; nothing out of reach.
-void demands_of(const SerialAnalysis& s, const Instant& at, std::vector<Demand>& out) {
+void demands_of(const SerialAnalysis& s, const ArmInstant& at, std::vector<Demand>& out) {
   out.clear();
   if (!at.reached() || at.rates.status != Status::done) return;
   const SerialDescription& d = s.description;
@@ -128,22 +128,22 @@ double judge_way(PathJudge& judge, const SerialAnalysis& s) {
 }
 
 /// All instants as a table, out of reach NaN.
-Table motion_table(const SerialDescription& d, const std::vector<Instant>& instants, bool forces) {
+Table motion_table(const SerialDescription& d, const std::vector<ArmInstant>& instants, bool forces) {
   Table table{.name = "motion"};
   const auto add = [&](const char* key, const char* label, bool always, auto&& value) {
     std::vector<double> values;
-    for (const Instant& i : instants) values.push_back(always || i.reached() ? value(i) : nan);
+    for (const ArmInstant& i : instants) values.push_back(always || i.reached() ? value(i) : nan);
     table.add(key, label, std::move(values));
   };
-  add("time_s", "time (s)", true, [](const Instant& i) { return i.time; });
-  add("x_m", "x (m)", true, [](const Instant& i) { return i.tool.position.x; });
-  add("y_m", "y (m)", true, [](const Instant& i) { return i.tool.position.y; });
+  add("time_s", "time (s)", true, [](const ArmInstant& i) { return i.time; });
+  add("x_m", "x (m)", true, [](const ArmInstant& i) { return i.tool.position.x; });
+  add("y_m", "y (m)", true, [](const ArmInstant& i) { return i.tool.position.y; });
   add("tool_speed_m_per_s", "speed of the tool (m/s)", true,
-      [](const Instant& i) { return norm(i.tool.velocity); });
+      [](const ArmInstant& i) { return norm(i.tool.velocity); });
   add("tool_acceleration_m_per_s2", "acceleration of the tool (m/s2)", true,
-      [](const Instant& i) { return norm(i.tool.acceleration); });
+      [](const ArmInstant& i) { return norm(i.tool.acceleration); });
   std::vector<std::vector<DriveMotion>> drives;
-  for (const Instant& i : instants) {
+  for (const ArmInstant& i : instants) {
     drives.emplace_back();
     for (std::size_t k = 0; k < 2 && i.reached(); ++k)
       drives.back().push_back({i.angles.angle[k], i.rates.speed[k], i.drives.drive[k], i.loads.drive_speed[k],
@@ -151,11 +151,11 @@ Table motion_table(const SerialDescription& d, const std::vector<Instant>& insta
   }
   add_drive_columns(table, d.arm.drive, d.motors, drives, d.motors_known, forces);
   add("local_conditioning", "local conditioning index", false,
-      [](const Instant& i) { return 1 / i.quality.condition; });
+      [](const ArmInstant& i) { return 1 / i.quality.condition; });
   add("elbow_rad", "angle between the arms (rad)", false,
-      [](const Instant& i) { return elbow_angle(i.angles.angle); });
-  if (std::any_of(instants.begin(), instants.end(), [](const Instant& i) { return !i.reached(); }))
-    for (const Instant& i : instants) table.status.emplace_back(to_string(i.angles.status));
+      [](const ArmInstant& i) { return elbow_angle(i.angles.angle); });
+  if (std::any_of(instants.begin(), instants.end(), [](const ArmInstant& i) { return !i.reached(); }))
+    for (const ArmInstant& i : instants) table.status.emplace_back(to_string(i.angles.status));
   return table;
 }
 
@@ -165,7 +165,7 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   const MotionStudy& study = *s.motion;
   const SerialDescription& d = s.description;
   const auto samples = study.motion.samples(study.form.interval);
-  std::vector<Instant> instants;
+  std::vector<ArmInstant> instants;
   instants.reserve(samples.size());
   for (const auto& sample : samples) {
     if (instants.size() % 256 == 0 && context.interruption() != Status::done) break;
@@ -205,10 +205,10 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
 
   std::vector<SerialSample> drawn;
   std::vector<double> times;
-  const std::size_t stride = (instants.size() + most_scene_samples - 1) / most_scene_samples;
+  const std::size_t stride = (instants.size() + most_arm_samples - 1) / most_arm_samples;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     if (i % stride != 0 && i + 1 != instants.size()) continue;
-    const Instant& at = instants[i];
+    const ArmInstant& at = instants[i];
     drawn.push_back({at.angles.status, at.angles.angle, plane(at.tool.velocity)});
     times.push_back(at.time);
   }

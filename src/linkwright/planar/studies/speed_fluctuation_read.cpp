@@ -32,7 +32,8 @@ void fields(Visitor&& visit, SpeedFluctuationSetup& s) {
 
 namespace {
 
-study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::Common& common,
+                                    LinkageType type) {
   study::Prepared prepared;
   SpeedFluctuationStudy s;
   auto description = read_linkage(document, type, true, common.units);
@@ -70,7 +71,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   return prepared;
 }
 
-study::Kind kind_of(LinkageType type) {
+study::Kind fluctuation_kind(LinkageType type) {
   study::Kind kind;
   kind.kind = "speed_fluctuation";
   kind.schema = [type](study::SchemaWriter& document) {
@@ -84,7 +85,7 @@ study::Kind kind_of(LinkageType type) {
                       study::schema_fields<SpeedFluctuationSetup>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
-    return prepare(document, common, type);
+    return prepare_fluctuation(document, common, type);
   };
   return kind;
 }
@@ -92,7 +93,7 @@ study::Kind kind_of(LinkageType type) {
 }  // namespace
 
 study::Kind linkage_speed_fluctuation_kind() {
-  study::Kind kind = kind_of(LinkageType::linkage);
+  study::Kind kind = fluctuation_kind(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary =
       "speed fluctuation of a planar linkage whose input rotates fully: reduced inertia, flywheel, cycle "
@@ -102,7 +103,7 @@ study::Kind linkage_speed_fluctuation_kind() {
 }
 
 study::Kind four_bar_speed_fluctuation_kind() {
-  study::Kind kind = kind_of(LinkageType::four_bar);
+  study::Kind kind = fluctuation_kind(LinkageType::four_bar);
   kind.mechanism = "planar.four_bar";
   kind.summary = "speed fluctuation of a four-bar whose crank rotates fully: reduced inertia and flywheel";
   kind.example = templates::speed_fluctuation_four_bar();
@@ -110,7 +111,7 @@ study::Kind four_bar_speed_fluctuation_kind() {
 }
 
 study::Kind slider_crank_speed_fluctuation_kind() {
-  study::Kind kind = kind_of(LinkageType::slider_crank);
+  study::Kind kind = fluctuation_kind(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "speed fluctuation of a slider-crank that rotates fully: reduced inertia and flywheel";
   kind.example = templates::speed_fluctuation_slider_crank();

@@ -173,8 +173,8 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
 }
 
 /// The standard curves of a design over the travels of the targets.
-Table sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string name,
-                  std::span<const double> travels) {
+Table direct_sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string name,
+                         std::span<const double> travels) {
   Table table{.name = std::move(name)};
   RunContext nobody;
   const std::array<double, 1> racks{0};
@@ -219,9 +219,9 @@ Range1 range_of(const DirectStudy& s) {
 void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthesis& best,
                  const DirectSynthesis& before) {
   const Range1 range = range_of(s);
-  result.tables.push_back(sweep_table(s, best.guide, "sweep", range.travels));
+  result.tables.push_back(direct_sweep_table(s, best.guide, "sweep", range.travels));
   if (before.answer.assembled)
-    result.tables.push_back(sweep_table(s, s.task.guide, "initial", range.travels));
+    result.tables.push_back(direct_sweep_table(s, s.task.guide, "initial", range.travels));
   const study::AddPlot plot{result,
                             {.table = "sweep",
                              .x = "travel_m",

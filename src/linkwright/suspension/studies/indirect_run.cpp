@@ -170,10 +170,10 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
   return measured(s, completed(s.task, ended));
 }
 
-using Runs = study::SeedRuns<SeedRun>;
+using IndirectRuns = study::SeedRuns<SeedRun>;
 
 /// Exact ones first, then by what the joints miss.
-bool better(const SeedRun& a, const SeedRun& b) {
+bool better_run(const SeedRun& a, const SeedRun& b) {
   const bool good = a.answer.status == Status::done, other = b.answer.status == Status::done;
   return good != other ? good : a.error < b.error;
 }
@@ -301,7 +301,7 @@ Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
   return table;
 }
 
-Table seeds_table(const Runs& runs) {
+Table seeds_table(const IndirectRuns& runs) {
   Table table{.name = "seeds"};
   std::vector<double> seed, error, evaluations;
   for (std::size_t i = 0; i < runs.answers.size(); ++i) {
@@ -339,7 +339,7 @@ study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std
       {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});
 }
 
-void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& runs) {
+void add_statistics(study::Result& result, const IndirectStudy& s, const IndirectRuns& runs) {
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
   for (std::size_t i = 0; i < runs.answers.size(); ++i) {
@@ -366,7 +366,7 @@ std::string metres(double value) {
 
 study::Result run_indirect_study(const IndirectStudy& s, const study::Common& common, RunContext& context) {
   study::Result result;
-  const Runs runs = study::run_seeds(
+  const IndirectRuns runs = study::run_seeds(
       common.seeds, context, "links",
       [&](std::uint64_t seed) { return run_seed(s, seed, common.seeds.count == 1, context); },
       [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; },
@@ -377,7 +377,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     result.headline = "Interrupted before the first seed was done.";
     return result;
   }
-  const SeedRun& best = *std::min_element(runs.answers.begin(), runs.answers.end(), better);
+  const SeedRun& best = *std::min_element(runs.answers.begin(), runs.answers.end(), better_run);
   const WheelGuide& guide = best.answer.guide;
   const bool assembled = std::isfinite(best.error);
   if (result.status == Status::done) result.status = best.answer.status;
