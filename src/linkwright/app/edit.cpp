@@ -361,13 +361,15 @@ std::string comment_at_top(std::string_view text) {
   return std::string(text.substr(0, end));
 }
 
-/// Those of the study, and millimetres where it has chosen no lengths.
+/// Those of the study; millimetres where it has chosen no lengths, and degrees where it has chosen no angles.
 study::DisplayUnits units_of(const study::Study& study) {
   study::DisplayUnits units = study::shown_units(study.common.output.units, study.common.units);
   if (!units.chosen(Dimension::length)) {
     units.choose(*split_unit("length_mm"));
     units.follow();
   }
+  // Without follow(): angular speeds stay those that were shown.
+  if (!units.chosen(Dimension::angle)) units.choose(*split_unit("angle_deg"));
   return units;
 }
 
