@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that a file of src/ includes the standard headers whose names it uses, so that each can be read, moved and included
-alone. A source may leave them to the header of its own name.
+"""Checks that a file of src/ includes the standard headers whose names it uses, and core/check.h for what it requires, so that
+each can be read, moved and compiled alone. A source may leave them to the header of its own name.
 
     tools/check_includes.py [ROOT]
 """
@@ -22,20 +22,21 @@ NAMES = {
     "variant": "variant|visit|get_if|holds_alternative|monostate",
     "vector": "vector",
 }
-USES = {header: re.compile(rf"\bstd::(?:{names})\b") for header, names in NAMES.items()}
+USES = {f"<{header}>": re.compile(rf"\bstd::(?:{names})\b") for header, names in NAMES.items()}
+USES['"linkwright/core/check.h"'] = re.compile(r"(?<!#define )\bLINKWRIGHT_REQUIRE(?=\()")
 COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:[^"\\\n]|\\.)*"', re.S)
 
 
-def standard(path):
-    """Names of the headers in <> that a file includes itself."""
-    return {name for _, bracket, name in repository.includes(path) if bracket == "<"}
+def included(path):
+    """Headers that a file includes itself, in their brackets."""
+    return {f"<{name}>" if bracket == "<" else f'"{name}"' for _, bracket, name in repository.includes(path)}
 
 
 def missing(path):
     """(name, header) of what a file uses and neither it nor, for a source, the header of its name includes."""
     code = COMMENTS_AND_TEXTS.sub("", path.read_text(encoding="utf-8"))
     own = path.with_suffix(".h")
-    there = standard(path) | (standard(own) if path.suffix == ".cpp" and own.is_file() else set())
+    there = included(path) | (included(own) if path.suffix == ".cpp" and own.is_file() else set())
     return [(use[0], header) for header, uses in USES.items() if header not in there and (use := uses.search(code))]
 
 
@@ -45,7 +46,7 @@ def sources(root):
 
 
 def check(root):
-    return [f"{path.relative_to(root).as_posix()}: uses {name} without #include <{header}>"
+    return [f"{path.relative_to(root).as_posix()}: uses {name} without #include {header}"
             for path in sources(root) for name, header in missing(path)]
 
 

@@ -36,6 +36,20 @@ TEST(Spectrum, ReadsTheAmplitudesOfSines) {
   EXPECT_NEAR(s.amplitude[0], 0, 1e-12);
 }
 
+TEST(Spectrum, TransformsAsTheSumSays) {
+  const std::vector<double> values{3, -1, 4, 1, -5, 9, 2};
+  const std::vector<std::complex<double>> lines = fourier_transform(values);
+  ASSERT_EQ(lines.size(), values.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    std::complex<double> sum = 0;
+    for (std::size_t j = 0; j < values.size(); ++j)
+      sum += std::polar(values[j], -2 * pi * static_cast<double>(j * k) / static_cast<double>(values.size()));
+    EXPECT_NEAR(std::abs(lines[k] - sum), 0, 1e-13) << k;
+  }
+  EXPECT_THAT(linkwright::test::message([] { fourier_transform(std::vector<double>{1}); }),
+              HasSubstr("1 values, at least 2 are needed"));
+}
+
 TEST(Spectrum, LosesLittleBetweenItsLines) {
   // 20.5 lines in the interval: the worst case reads 8 / (3 pi) of the amplitude.
   const Spectrum s = spectrum(sines(1024, 1.025 / 1024), 1.025 / 1024);

@@ -31,6 +31,11 @@ class CheckIncludes(ScratchCase):
                                   "src/linkwright/core/b.cpp")
         self.assertIn("b.cpp: uses std::span", finding)
 
+    def test_what_is_required_is_declared(self):
+        text = 'void a(int of) { LINKWRIGHT_REQUIRE(of > 0, "{}", of); }\n'
+        self.assertEqual(self.findings(text), ['src/linkwright/core/a.h: uses LINKWRIGHT_REQUIRE without #include "linkwright/core/check.h"'])
+        self.assertEqual(self.findings(f'#include "linkwright/core/check.h"\n{text}'), [])
+
     def test_comments_texts_and_other_folders_are_left_alone(self):
         self.assertEqual(self.findings('// std::vector\n/* std::span\n */ const char* a = "std::string";\n'), [])
         self.assertEqual(self.findings("std::vector<int> a();\n", "tests/core/a_test.cpp"), [])

@@ -1,10 +1,10 @@
 #include "linkwright/clearance/contact_analysis.h"
 
 #include <cmath>
-#include <unsupported/Eigen/FFT>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/spectrum.h"
 
 namespace linkwright::clearance {
 
@@ -27,9 +27,7 @@ Spectrum amplitude_spectrum(std::span<const double> samples, double interval, bo
     signal[k] = w * (signal[k] - mean);
     weight += w;
   }
-  std::vector<std::complex<double>> transformed;
-  Eigen::FFT<double> fft;
-  fft.fwd(transformed, signal);
+  const std::vector<std::complex<double>> transformed = math::fourier_transform(signal);
   Spectrum out;
   for (std::size_t k = 0; k <= n / 2; ++k) {
     out.frequency.push_back(static_cast<double>(k) / (static_cast<double>(n) * interval));

@@ -1,6 +1,6 @@
 #include "linkwright/flexible/reference_beam.h"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +19,11 @@ using Matrix = Eigen::MatrixXd;
 Vector solved_symmetric(const Matrix& matrix, const Vector& right) {
   const std::vector<double> x = math::solve_symmetric(math::numbers(matrix), math::numbers(right));
   return Eigen::Map<const Vector>(x.data(), right.size());
+}
+
+// Sum over the rows of weight times row of a times row of b.
+Matrix weighted(const Matrix& a, const Vector& weight, const Matrix& b) {
+  return a.transpose() * weight.asDiagonal() * b;
 }
 
 // P_0 ... P_n at x.
@@ -108,7 +113,7 @@ class Elastica {
  public:
   Elastica(const Beam& beam, const ReferenceOptions& o)
       : beam_(beam), g_(grid(beam, o)), terms_(o.degree + 1), points_(o.points) {
-    stiffness_ = beam.bending_stiffness() * g_.curvature.transpose() * g_.weight.asDiagonal() * g_.curvature;
+    stiffness_ = beam.bending_stiffness() * weighted(g_.curvature, g_.weight, g_.curvature);
   }
   int size() const { return 2 * terms_ + 3; }
   int terms() const { return terms_; }
@@ -193,8 +198,7 @@ class Elastica {
     by.col(n) = x_;
     turns.leftCols(n) = g_.angle;
     turns.col(n).setOnes();
-    Matrix mass = bx.transpose() * g_.mass.asDiagonal() * bx + by.transpose() * g_.mass.asDiagonal() * by +
-                  turns.transpose() * g_.inertia.asDiagonal() * turns;
+    Matrix mass = weighted(bx, g_.mass, bx) + weighted(by, g_.mass, by) + weighted(turns, g_.inertia, turns);
     mass(n, n) += beam_.hub_inertia;
     Vector rest = bx.transpose() * g_.mass.cwiseProduct(ax_) + by.transpose() * g_.mass.cwiseProduct(ay_);
     rest.head(n) += stiffness_ * coefficients_;
@@ -288,8 +292,7 @@ ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const Reference
   require(beam, options);
   const Grid g = grid(beam, options);
   const int n = options.points, terms = options.degree + 1;
-  const Matrix stiffness =
-      beam.bending_stiffness() * g.curvature.transpose() * g.weight.asDiagonal() * g.curvature;
+  const Matrix stiffness = beam.bending_stiffness() * weighted(g.curvature, g.weight, g.curvature);
   const Matrix angles = g.angle.topRows(n);
   Vector a = Vector::Zero(terms);
   ReferenceShape out;
@@ -303,7 +306,7 @@ ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const Reference
       const Vector around = g.weight.array() * (y * c.array() - x * s.array());  // of the load, by the angles
       const Vector along = g.weight.array() * (x * c.array() + y * s.array());
       const Vector gradient = stiffness * a - angles.transpose() * around;
-      const Matrix hessian = stiffness + angles.transpose() * along.asDiagonal() * angles;
+      const Matrix hessian = stiffness + weighted(angles, along, angles);
       const Vector step = solved_symmetric(hessian, gradient);
       a -= step;
       met = (angles * step).cwiseAbs().maxCoeff() < 1e-13;
@@ -326,14 +329,13 @@ std::vector<double> reference_frequencies(const Beam& beam, int count, double sp
   const Matrix angles = g.angle.topRows(n);
   const Matrix deflection = g.accumulate * angles;
   const Vector x = (g.accumulate * Vector::Ones(n)).array() + beam.hub_radius;
-  const Matrix mass = deflection.transpose() * g.mass.asDiagonal() * deflection;
+  const Matrix mass = weighted(deflection, g.mass, deflection);
   // The tension that the masses outside a point put there, straightens; their distance grows with the
   // deflection.
   const Vector tension = speed * speed * g.accumulate.transpose() * g.mass.cwiseProduct(x);
-  const Matrix stiffness =
-      beam.bending_stiffness() * g.curvature.transpose() * g.weight.asDiagonal() * g.curvature +
-      angles.transpose() * tension.asDiagonal() * angles - speed * speed * mass;
-  const Matrix whole = mass + g.angle.transpose() * g.inertia.asDiagonal() * g.angle;
+  const Matrix stiffness = beam.bending_stiffness() * weighted(g.curvature, g.weight, g.curvature) +
+                           weighted(angles, tension, angles) - speed * speed * mass;
+  const Matrix whole = mass + weighted(g.angle, g.inertia, g.angle);
   std::vector<double> out = math::symmetric_eigenvalues(math::numbers(stiffness), math::numbers(whole));
   out.resize(static_cast<std::size_t>(count));
   for (double& square : out) square = std::sqrt(std::max(square, 0.0));

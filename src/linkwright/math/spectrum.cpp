@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <unsupported/Eigen/FFT>
 
 #include "linkwright/core/check.h"
@@ -35,13 +34,19 @@ Spectrum spectrum(std::span<const double> values, double step) {
   if (!std::isfinite(mean)) return out;
   for (std::size_t i = 0; i < n; ++i)
     windowed[i] = (values[i] - mean) * (1 - std::cos(2 * pi * static_cast<double>(i) / count));
-  Eigen::FFT<double> transform;
-  std::vector<std::complex<double>> lines;
-  transform.fwd(lines, windowed);
+  const std::vector<std::complex<double>> lines = fourier_transform(windowed);
   for (std::size_t k = 1; 2 * k < n; ++k) {
     out.frequency.push_back(static_cast<double>(k) / (count * step));
     out.amplitude.push_back(2 * std::abs(lines[k]) / count);
   }
+  return out;
+}
+
+std::vector<std::complex<double>> fourier_transform(std::span<const double> values) {
+  LINKWRIGHT_REQUIRE(values.size() >= 2, "{} values, at least 2 are needed", values.size());
+  Eigen::FFT<double> transform;
+  std::vector<std::complex<double>> out(values.size());
+  transform.fwd(out.data(), values.data(), static_cast<Eigen::Index>(values.size()));
   return out;
 }
 

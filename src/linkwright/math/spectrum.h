@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,9 @@ struct Spectrum {
 /// at the end that would make the number have prime factors above 5 are left out. Empty for fewer than 8
 /// values, or when one is not finite. Throws ContractError unless step > 0.
 Spectrum spectrum(std::span<const double> values, double step);
+
+/// Discrete Fourier transform, sum of values[j] exp(-2 pi i j k / n) for k = 0 ... n - 1, of at least 2
+/// values.
+std::vector<std::complex<double>> fourier_transform(std::span<const double> values);
 
 }  // namespace linkwright::math

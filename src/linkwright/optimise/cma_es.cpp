@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/pagmo_bridge.h"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/detail/differential_evolution_base.h"
 

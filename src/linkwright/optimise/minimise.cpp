@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/optimise/pagmo_bridge.h"
 
 namespace linkwright::optimise {

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <utility>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"

@@ -1,11 +1,12 @@
 #include "linkwright/parallel/pi_joint/stiffness_synthesis.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/optimise/nonnegative_fit.h"
@@ -114,14 +115,14 @@ PiStiffnessFit fit_bars(const PiJoint& joint, std::span<const PiStiffnessSample>
   Eigen::VectorXd scale = matrix.colwise().norm();
   for (Eigen::Index j = 0; j < n; ++j)
     if (scale[j] > 0) matrix.col(j) /= scale[j];
-  const Eigen::VectorXd values = matrix.jacobiSvd().singularValues();
-  out.condition = values[n - 1] > 0 ? values[0] / values[n - 1] : infinity;
+  const auto count = [](Eigen::Index k) { return static_cast<std::size_t>(k); };
+  const std::vector<double> values = math::singular_vectors(math::numbers(matrix), count(n)).values;
+  out.condition = values.back() > 0 ? values.front() / values.back() : infinity;
   if (!(out.condition < worst_condition)) {
     out.status = Status::singular;
     out.condition = infinity;
   }
   Eigen::VectorXd x(n);
-  const auto count = [](Eigen::Index k) { return static_cast<std::size_t>(k); };
   const double norm = optimise::fit_nonnegative({matrix.data(), count(m * n)}, {right.data(), count(m)},
                                                 {x.data(), count(n)});
   for (Eigen::Index j = 0; j < n; ++j) *bars[order[j]] = scale[j] / x[j];

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/planar/function/detail/six_bar_synthesis.h"
