@@ -24,8 +24,9 @@ void redistribute_masses(benchmark::State& state) {
                             {2, {0.5, 1.5}, {0.001, 0.32}, {8e-3, 18e-3}}}};
   const std::vector<const char*> names =
       state.range(0) == 0
-          ? std::vector{"O1_x_N", "O1_y_N", "O2_x_N", "O2_y_N",          "O3_x_N",
-                        "O3_y_N", "O4_x_N", "O4_y_N", "drive_torque_N_m"}
+          ? std::vector{"O1_x_N", "O1_y_N", "O2_x_N",
+                        "O2_y_N", "O3_x_N", "O3_y_N",
+                        "O4_x_N", "O4_y_N", "O1_drive_torque_N_m"}
           : std::vector{"shaking_force_x_N", "shaking_force_y_N", "shaking_moment_with_drive_N_m"};
   for (const char* name : names)
     b.objectives.push_back({.quantity = name, .measure = static_cast<Measure>(state.range(1))});
