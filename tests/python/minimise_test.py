@@ -61,6 +61,43 @@ class Minimise(unittest.TestCase):
         self.assertGreaterEqual(found.x[0], 0.5)
         self.assertLess(found.x[0], 0.5001)
 
+    def test_no_finite_candidate_is_worse_than_one_without_a_cost(self):
+        # On the left the cost or the violation does not exist; all others violate by 40 or more, in units of the user.
+        def objective(missing, of_cost):
+            def evaluate(x):
+                exists = x[:, 0] > 0.4
+                return (numpy.where(exists | (not of_cost), x[:, 0], missing),
+                        numpy.where(exists, 100 - 60 * x[:, 0], 0 if of_cost else abs(missing)))
+            return evaluate
+
+        for missing in (numpy.nan, numpy.inf, -numpy.inf):
+            for of_cost in (True, False):
+                for method in linkwright.methods():
+                    with self.subTest(missing=missing, of_cost=of_cost, method=method):
+                        found = minimise(objective(missing, of_cost), [0], [1], method, seed=2, max_evaluations=2000)
+                        self.assertGreater(found.x[0], 0.4)
+                        self.assertEqual(100 - 60 * found.x[0], found.violation)
+                        self.assertEqual("infeasible", found.status)
+
+    def test_where_no_candidate_has_a_cost_the_problem_is_infeasible(self):
+        for method in linkwright.methods():
+            with self.subTest(method):
+                found = minimise(lambda x: numpy.full(len(x), numpy.nan), [0, 0], [1, 1], method, max_evaluations=500)
+                self.assertEqual(("infeasible", numpy.inf), (found.status, found.violation))
+                self.assertTrue(((found.x >= 0) & (found.x <= 1)).all())
+
+    def test_seeds_and_time_limits_that_do_not_exist(self):
+        for seed, said in ((-1, "seed must be from 0 to 2**64 - 1, got -1"), (2**70, f"got {2**70}"),
+                           (1.5, "seed must be a whole number from 0 to 2**64 - 1, got 1.5"), ("3", "got '3'"), (None, "got None")):
+            with self.assertRaises(ValueError) as caught:
+                minimise(sphere, [-1], [1], seed=seed)
+            self.assertIn(said, str(caught.exception))
+        self.assertEqual("done", minimise(sphere, [-1], [1], seed=2**64 - 1, generations=3).status)
+        for limit in (0, -1, numpy.nan, "soon"):
+            with self.assertRaises(ValueError) as caught:
+                minimise(sphere, [-1], [1], time_limit=limit)
+            self.assertIn("time_limit must be a positive number of seconds", str(caught.exception))
+
     def test_options_are_those_of_studies(self):
         self.assertIn("target cost", minimise(sphere, [-1], [1], target_cost=1e-3).stop_reason)
         for options, said in [({"popsize": 3}, "popsize: unknown key"), ({"population": 1}, "population: is 1, must be"),
@@ -75,9 +112,14 @@ class Minimise(unittest.TestCase):
                           lambda x: (sphere(x),), lambda x: (sphere(x), -numpy.ones(len(x)))):
             with self.assertRaises((TypeError, ValueError)):
                 minimise(objective, [-1, -1], [1, 1])
-        for lower, upper in (([0], [1, 2]), ([1], [0]), ([], []), ([0], [numpy.inf])):
-            with self.assertRaises(ValueError):
+        for lower, upper, said in (([0], [1, 2], "as many lower as upper bounds are needed, got 1 and 2"),
+                                   ([1], [0], "the lower one not above the upper one; got 1 and 0"),
+                                   ([], [], "at least one unknown is needed"),
+                                   ([0], [numpy.inf], "bounds of unknown 0 must be finite"),
+                                   ([0, numpy.nan], [1, 1], "bounds of unknown 1 must be finite")):
+            with self.assertRaises(ValueError) as caught:
                 minimise(sphere, lower, upper)
+            self.assertIn(said, str(caught.exception))
 
     def test_what_the_objective_raises_ends_the_run(self):
         with self.assertRaises(ZeroDivisionError):

@@ -70,25 +70,26 @@ void evaluate(const py::object& objective, const optimise::PopulationView& candi
     copy_numbers(answer, "costs", cost);
   }
   for (std::size_t i = 0; i < candidates.size; ++i) {
-    if (violation[i] < 0 || std::isnan(violation[i]))
+    if (violation[i] < 0)
       throw py::value_error(fmt::format("violations are 0 (feasible) or more, got {}", violation[i]));
-    // What has no cost is not feasible.
-    if (std::isnan(cost[i]) || cost[i] == infinity) {
-      cost[i] = infinity;
-      if (violation[i] == 0) violation[i] = 1;
-    }
+    // A candidate without a cost or a violation is worse than any other one. Violations have the units of the
+    // user, so that no finite one would do.
+    if (!std::isfinite(cost[i]) || !std::isfinite(violation[i])) cost[i] = violation[i] = infinity;
   }
 }
 
 optimise::Problem problem_of(const py::object& objective, std::span<const double> lower,
                              std::span<const double> upper) {
-  if (lower.size() != upper.size() || lower.empty())
+  if (lower.size() != upper.size())
     throw py::value_error(
         fmt::format("as many lower as upper bounds are needed, got {} and {}", lower.size(), upper.size()));
+  if (lower.empty()) throw py::value_error("at least one unknown is needed, but there are no bounds");
   optimise::Problem problem;
   for (std::size_t j = 0; j < lower.size(); ++j) {
     if (!(std::isfinite(lower[j]) && std::isfinite(upper[j]) && lower[j] <= upper[j]))
-      throw py::value_error(fmt::format("bounds of unknown {}: from {} to {}", j, lower[j], upper[j]));
+      throw py::value_error(fmt::format(
+          "bounds of unknown {} must be finite, the lower one not above the upper one; got {} and {}", j,
+          lower[j], upper[j]));
     problem.variables.push_back({fmt::format("x{}", j), lower[j], upper[j]});
   }
   problem.evaluate = [&objective](const optimise::PopulationView& candidates, std::span<double> cost,
