@@ -167,5 +167,72 @@ TEST(LinkageAssembly, SeveralInputsAreReachedFromTheDrawing) {
   EXPECT_EQ(m.status, Status::no_assembly);
 }
 
+// Crank and rocker of 0.25 m, coupler of 0.1 m, ground of 0.2 m: crank and coupler are in line where the
+// cosine of the crank angle is (0.25^2 + 0.2^2 - (0.25 -+ 0.1)^2) / (2 0.25 0.2), that is 0.8 and -0.2.
+TEST(AssembledRange, EndsAtTheDeadPoints) {
+  const LinkagePlan p = planned(linkage_sample("chebyshev").linkage);
+  const auto range = assembled_range(p, -full_turn, full_turn);
+  ASSERT_TRUE(range);
+  EXPECT_FALSE(range->full_turn);
+  EXPECT_EQ(range->from.kind, EndKind::limit);
+  EXPECT_EQ(range->to.kind, EndKind::limit);
+  // An angle near a dead point is known to the root of the rounding of the lengths.
+  EXPECT_NEAR(range->from.value, std::acos(0.8), 1e-7);
+  EXPECT_NEAR(range->to.value, std::acos(-0.2), 1e-7);
+  // Of a pin whose linkage turns with it the range is whole, whatever is asked for.
+  const auto narrow = assembled_range(p, 0, 1);
+  ASSERT_TRUE(narrow);
+  EXPECT_NEAR(narrow->to.value, std::acos(-0.2), 1e-7);
+}
+
+TEST(AssembledRange, IsATurnOfAnInputThatRotatesFully) {
+  const auto range = assembled_range(planned(linkage_sample("hoeken").linkage), -full_turn, full_turn);
+  ASSERT_TRUE(range);
+  EXPECT_TRUE(range->full_turn);
+  EXPECT_EQ(range->from.value, 0);
+  EXPECT_EQ(range->to.value, full_turn);
+  const auto triad = assembled_range(planned(linkage_sample("triad").linkage), -full_turn, full_turn);
+  ASSERT_TRUE(triad);
+  EXPECT_EQ(triad->full_turn, triad->to.value - triad->from.value == full_turn);
+}
+
+TEST(AssembledRange, DoesNotExistWhereNothingAssembles) {
+  EXPECT_FALSE(assembled_range(planned(four_bar_linkage(4, 1, 1, 1)), -full_turn, full_turn));
+  const LinkagePlan arm = planned(linkage_sample("arm").linkage);
+  EXPECT_THROW(assembled_range(arm, -1, 1), ContractError);
+  EXPECT_THROW(assembled_range(planned(four_bar_linkage(4, 2, 4, 3)), 1, 1), ContractError);
+}
+
+// Random linkages, with and without closed forms: each place within the range assembles, none right beyond a
+// limit.
+TEST(AssembledRange, HoldsWhatAssemblesOfRandomLinkages) {
+  int limits = 0, general = 0;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    RandomStream random({.seed = 815, .run = i});
+    const SweptLinkage s = swept_linkage(static_cast<SweptKind>(i % swept_kinds), random);
+    const LinkagePlan p = planned(s.linkage);
+    const auto range = assembled_range(p, s.from, s.to);
+    ASSERT_TRUE(range);
+    general += !p.closed_form();
+    LinkageAssembly assembly(p, {{range->from.value - 0.1}, {range->to.value + 0.1}});
+    LinkageMotion motion(p);
+    const auto status_at = [&](double value) {
+      assembly.place(std::vector<InputMotion>{{value, 0, 0}}, motion);
+      return motion.status;
+    };
+    const double width = range->to.value - range->from.value;
+    for (int k = 0; k <= 50; ++k)
+      EXPECT_EQ(status_at(range->from.value + width * (1e-6 + (1 - 2e-6) * k / 50)), Status::done) << k;
+    for (const RangeEnd* end : {&range->from, &range->to})
+      if (end->kind == EndKind::limit) {
+        ++limits;
+        EXPECT_NE(status_at(end->value + (end == &range->from ? -1e-6 : 1e-6)), Status::done) << end->value;
+      }
+  }
+  EXPECT_GT(limits, 20);
+  EXPECT_GT(general, 20);
+}
+
 }  // namespace
 }  // namespace linkwright::planar

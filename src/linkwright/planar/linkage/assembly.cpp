@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -12,11 +13,62 @@ namespace linkwright::planar {
 namespace {
 
 constexpr int places = 64;  // within the reach of the input at which poses of unknown inputs are compared
+constexpr int steps_of_a_range = 720;  // from one end of what is asked for to the other
+constexpr std::size_t most_pairs = 6;  // groups whose modes are all listed
 
 std::vector<InputMotion> standing(std::span<const double> values) {
   std::vector<InputMotion> out;
   for (const double v : values) out.push_back({v, 0, 0});
   return out;
+}
+
+// The value nearest to `start` at which a linkage in closed form assembles in its modes.
+std::optional<double> nearest_assembled(const LinkagePlan& plan, std::span<const double> modes, double start,
+                                        double from, double to) {
+  const auto pairs = std::count_if(plan.groups.begin(), plan.groups.end(),
+                                   [](const Group& g) { return traits_of(g).has_modes; });
+  if (static_cast<std::size_t>(pairs) > most_pairs) return std::nullopt;
+  if (periodic(plan, 0)) from = start - pi, to = start + pi;
+  const InputLimits limits = input_limits(plan, std::span(&start, 1), 0, from, to);
+  std::optional<double> best;
+  double least = infinity;
+  for (const InputRange& r : limits.ranges) {
+    if (!std::equal(modes.begin(), modes.end(), r.modes.begin(), r.modes.end())) continue;
+    for (const double turn : {0.0, limits.closed ? -full_turn : 0.0}) {
+      const double low = r.from.value + turn, high = r.to.value + turn,
+                   apart = std::max({low - start, start - high, 0.0});
+      // Of two as near the one ahead, as a symmetric linkage has them.
+      const bool as_near = std::abs(apart - least) <= 1e-9 * (to - from);
+      if (as_near ? low < start : apart > least) continue;
+      least = apart;
+      best = std::midpoint(low, high);
+    }
+  }
+  return best;
+}
+
+// The last value from the drawing towards `end` that is reached in steps; `step` as large as one is at most.
+RangeEnd reached(const LinkagePlan& plan, LinkageAssembly& assembly, double start, double end, double step) {
+  LinkageMotion motion(plan);
+  const auto assembles = [&](double value) {
+    assembly.place(standing(std::span(&value, 1)), motion);
+    return motion.status == Status::done;
+  };
+  const int steps = static_cast<int>(std::ceil(std::abs(end - start) / step));
+  double good = start;
+  for (int i = 1; i <= steps; ++i) {
+    double bad = start + (end - start) * i / steps;
+    if (assembles(bad)) {
+      good = bad;
+      continue;
+    }
+    for (int halvings = 0; halvings < 52; ++halvings) {
+      const double middle = std::midpoint(good, bad);
+      (assembles(middle) ? good : bad) = middle;
+    }
+    return {good, EndKind::limit, {}};
+  }
+  return {end, EndKind::bound, {}};
 }
 
 }  // namespace
@@ -230,6 +282,42 @@ void LinkageAssembly::place(std::span<const InputMotion> inputs, LinkageMotion& 
   solve_position(plan_, inputs, motion);
   // The curve has a place here: what Newton's method cannot settle is a dead point.
   if (motion.status == Status::not_converged) motion.status = Status::singular;
+}
+
+std::optional<InputRange> assembled_range(const LinkagePlan& plan, double from, double to,
+                                          AtChangePoint policy) {
+  LINKWRIGHT_REQUIRE(plan.inputs() == 1, "the linkage has {} inputs, one is needed", plan.inputs());
+  LINKWRIGHT_REQUIRE(from < to, "no interval: {} to {}", from, to);
+  const std::vector<double> modes = LinkageMotion(plan).modes;
+  if (!plan.closed_form()) {
+    LinkageAssembly assembly(plan, {{from}, {to}}, policy);
+    if (!assembly.found()) return std::nullopt;
+    const double start = assembly.drawn_inputs()[0], step = (to - from) / steps_of_a_range;
+    const double period = assembly.curve() ? assembly.curve()->period() : 0;
+    InputRange out{{start, EndKind::bound, {}}, {start, EndKind::bound, {}}, false, modes, 1};
+    out.to = reached(plan, assembly, start, period > 0 ? start + period : std::max(start, to), step);
+    out.full_turn = period > 0 && out.to.kind == EndKind::bound;
+    if (!out.full_turn)
+      out.from = reached(plan, assembly, start, period > 0 ? start - period : std::min(start, from), step);
+    return out;
+  }
+  double start = plan.drawn_inputs.empty() ? 0 : plan.drawn_inputs[0];
+  if (!(from <= start && start <= to)) start = std::abs(start - from) <= std::abs(start - to) ? from : to;
+  const auto follow = [&] {
+    return branch_path(plan, std::span(&start, 1), 0, modes, std::min(from, start), std::max(to, start),
+                       policy);
+  };
+  BranchPath path = follow();
+  if (path.status != Status::done || !(path.low.value < path.high.value)) {
+    const auto nearest = nearest_assembled(plan, modes, start, from, to);
+    if (!nearest) return std::nullopt;
+    start = *nearest;
+    path = follow();
+    if (path.status != Status::done) return std::nullopt;
+  }
+  if (path.period > 0)
+    return InputRange{{start, EndKind::bound, {}}, {start + path.period, EndKind::bound, {}}, true, modes, 1};
+  return InputRange{path.low, path.high, false, modes, 1};
 }
 
 }  // namespace linkwright::planar

@@ -73,4 +73,12 @@ class LinkageAssembly {
   double gap_ = 0;
 };
 
+/// The range of the only input that holds the position of the drawing, or the one nearest to it, followed
+/// through change points as `policy` says; within [from, to] (rad or m). The drawing stands where the start
+/// poses are, else at input 0, or at the end of [from, to] next to it. A pin that turns fully gives one
+/// period from there on, whatever [from, to]. Nothing when the linkage assembles nowhere in [from, to].
+/// `modes` of the range are those of the plan. Throws ContractError for several inputs and for from >= to.
+std::optional<InputRange> assembled_range(const LinkagePlan& plan, double from, double to,
+                                          AtChangePoint policy = AtChangePoint::smooth);
+
 }  // namespace linkwright::planar

@@ -11,6 +11,7 @@
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/form.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/slider_crank.h"
 #include "linkwright/study/bind_schema.h"
@@ -36,6 +37,8 @@ struct InputSamples {
 /// The rows of a table: all combinations of inputs, the first input slowest; or times.
 struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
+  /// Of one input: that its ends are those of the range in which the linkage assembles.
+  std::optional<InputRange> assembled;
 };
 
 /// `[quality]`: what is asked beyond the table, of linkages with one input.
@@ -152,9 +155,9 @@ void joint_fields(Visitor&& visit, bool rotary, LinkageDrive& d) {
   visit(drive_field(rotary, 2, "acceleration", "acceleration at every position of a grid"), d.acceleration);
 }
 template <class Visitor>
-void joint_fields(Visitor&& visit, bool rotary, InputSamples& a) {
-  visit(drive_field(rotary, 0, "from", "first value", true), a.from);
-  visit(drive_field(rotary, 0, "to", "last value", true), a.to);
+void joint_fields(Visitor&& visit, bool rotary, InputSamples& a, bool required = true) {
+  visit(drive_field(rotary, 0, "from", "first value", required), a.from);
+  visit(drive_field(rotary, 0, "to", "last value", required), a.to);
   visit(Field{.key = "samples",
               .summary = "number of values, both ends included",
               .minimum = 2,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
@@ -38,6 +40,15 @@ constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
   return {{{SweepType::grid, "grid", "all combinations of evenly spaced inputs"},
            {SweepType::time, "time", "evenly spaced times; the drives follow their laws"}}};
 }
+enum class SweepRange { given, assembled };
+constexpr std::array<EnumName<SweepRange>, 2> names(SweepRange) {
+  return {
+      {{SweepRange::given, "given", "from the first to the last value of the input"},
+       {SweepRange::assembled, "assembled",
+        "where the linkage assembles about the drawn position, or nearest to it: of one input, whose first "
+        "and last value then only bound it and may be left out"}}};
+}
+constexpr Field range_field{.key = "range", .summary = "how far a grid over one input goes"};
 constexpr Field change_point_field{
     .key = "at_change_point", .summary = "grid over one input: how the linkage continues at a change point"};
 constexpr Field crank_angle_field{.key = "crank_angle",
@@ -119,7 +130,22 @@ std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType
   return axis ? std::vector{*axis} : std::vector<study::ObjectReader>();
 }
 
-Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point) {
+// The ends of a sweep over the range in which the linkage assembles. At dead points speeds are not
+// determined: it keeps a hundredth of the range off them.
+void take_assembled_range(const LinkagePlan& plan, AtChangePoint policy, InputGrid& grid) {
+  InputSamples& a = grid.inputs[0];
+  const bool falls = a.to < a.from;
+  grid.assembled = assembled_range(plan, std::min(a.from, a.to), std::max(a.from, a.to), policy);
+  if (!grid.assembled) return;
+  const RangeEnd &low = grid.assembled->from, &high = grid.assembled->to;
+  const double off = 0.01 * (high.value - low.value);
+  a.from = low.value + (low.kind == EndKind::bound ? 0 : off);
+  a.to = high.value - (high.kind == EndKind::bound ? 0 : off);
+  if (falls) std::swap(a.from, a.to);
+}
+
+Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point,
+              SweepRange range = SweepRange::given) {
   Value out = Value::object();
   Value::Array axes(l.driven.size(), Value::object());
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
@@ -128,6 +154,7 @@ Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point) {
     joint_fields(writer, input_joint(l, i).type == JointType::revolute, grid.inputs[i]);
   }
   out["type"] = "grid";
+  if (range != SweepRange::given) study::ObjectWriter(out).operator()(range_field, range);
   out["input"] = Value(std::move(axes));
   study::ObjectWriter(out).operator()(change_point_field, at_change_point);
   return out;
@@ -145,18 +172,29 @@ bool turn(study::ObjectReader& document, const Linkage& l, LinkageStudy& s, Valu
   return true;
 }
 
-void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
+void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& plan, LinkageType type,
                const study::DisplayUnits& units, LinkageStudy& s, Value& canonical) {
   InputGrid grid;
   grid.inputs.resize(l.driven.size());
   double rows = 1;
-  for (study::ObjectReader& axis : axes_of(sweep, type)) {
+  SweepRange range = SweepRange::given;
+  sweep(range_field, range);
+  const bool assembled = range == SweepRange::assembled;
+  if (assembled && l.driven.size() != 1) {
+    sweep.error("range", fmt::format("the linkage has {} inputs; this is for one input", l.driven.size()),
+                "give the first and the last value of each input");
+  } else if (assembled) {
+    const double reach = plan.rotary[0] ? full_turn : 4 * plan.size;
+    grid.inputs[0] = {input_joint(l, 0).name, -reach, reach};
+  }
+  const bool no_axis = assembled && !sweep.has("input") && !sweep.has(crank_angle_field.key);
+  for (study::ObjectReader& axis : no_axis ? std::vector<study::ObjectReader>() : axes_of(sweep, type)) {
     const auto input = input_of(axis, l);
     if (!input) continue;
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     InputSamples& a = grid.inputs[*input];
     a.joint = input_joint(l, *input).name;
-    joint_fields(axis, rotary, a);
+    joint_fields(axis, rotary, a, !assembled);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
       axis.error("to",
@@ -176,7 +214,8 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
                 "take fewer samples");
   sweep(change_point_field, s.at_change_point);
-  canonical = written(l, grid, s.at_change_point);
+  canonical = written(l, grid, s.at_change_point, range);
+  if (assembled && !sweep.document().has_errors()) take_assembled_range(plan, s.at_change_point, grid);
   s.sweep = std::move(grid);
 }
 
@@ -240,7 +279,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
         joint_fields(writer, description->plan.rotary[i], s.drives[i]);
       }
   } else if (how == SweepType::grid) {
-    read_grid(*sweep, l, type, common.units, s, canonical_sweep);
+    read_grid(*sweep, l, description->plan, type, common.units, s, canonical_sweep);
     read_drives(document, l, type, false, s, drives);
   } else {
     study::TimeSamples times;
@@ -304,6 +343,7 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
     joint_fields(crank_angle, true, defaults);
     sweep.property(crank_angle_field, std::move(crank_angle).finish());
   }
+  sweep(range_field, SweepRange::given);
   if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
   sweep.property(Field{.key = "time", .summary = "times of the rows"},
                  study::schema_fields<study::TimeSamples>());

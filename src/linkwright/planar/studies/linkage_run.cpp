@@ -394,6 +394,17 @@ class Runner {
     }
   }
 
+  // Of a sweep over the range in which the linkage assembles; empty for others.
+  std::string range_in_words() const {
+    const InputGrid* grid = std::get_if<InputGrid>(&s_.sweep);
+    if (!grid || !grid->assembled) return {};
+    const std::string& joint = grid->inputs[0].joint;
+    if (grid->assembled->full_turn) return fmt::format("{} rotates fully", joint);
+    const auto end = [&](const RangeEnd& e) { return study::angle_or_length(e.value, s_.plan.rotary[0], 4); };
+    return fmt::format("{} moves from {} to {}, where the linkage assembles", joint,
+                       end(grid->assembled->from), end(grid->assembled->to));
+  }
+
   void headline() {
     const auto good = std::count(statuses_.begin(), statuses_.end(), Status::done);
     if (good == 0) {
@@ -417,6 +428,7 @@ class Runner {
       text += fmt::format("{} {:.5g} N at joint {}",
                           text.empty() ? "The joint forces reach" : " and the joint forces",
                           joints_[strongest()].value, s_.linkage.joints[strongest()].name);
+    if (text.empty()) text = range_in_words();
     if (text.empty()) text = fmt::format("{} of {} positions computed", good, statuses_.size());
     result_.headline = text + ".";
     if (good != static_cast<std::ptrdiff_t>(statuses_.size()) && s_.quantities.dynamic())
