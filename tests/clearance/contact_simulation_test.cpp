@@ -324,5 +324,34 @@ TEST(ContactSimulation, RefusesWhatIsNoBush) {
               ::testing::HasSubstr("joint 'guide' must be a revolute joint without drive and friction"));
 }
 
+// Of a long motion only the first contacts are listed, and the totals are those of all.
+TEST(ContactSimulation, ListsNoMoreContactsThanAskedForAndCountsAll) {
+  const ContactRun all = slider_crank(0, 8e-3, {}), few = slider_crank(0, 8e-3, {.max_events = 3});
+  ASSERT_GT(all.events.size(), 10u);
+  ASSERT_EQ(few.events.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(few.events[k].start, all.events[k].start);
+    EXPECT_EQ(few.events[k].end, all.events[k].end);
+    EXPECT_EQ(few.events[k].force, all.events[k].force);
+  }
+  ASSERT_EQ(few.totals.size(), 1u);
+  double touching = 0, force = 0, approach = 0, depth = 0, shortest = infinity;
+  for (const ContactEvent& e : all.events) {
+    touching += (std::isnan(e.end) ? all.time : e.end) - e.start;
+    force = std::max(force, e.force);
+    approach = std::max(approach, e.approach);
+    depth = std::max(depth, e.depth);
+    if (!std::isnan(e.end)) shortest = std::min(shortest, e.end - e.start);
+  }
+  for (const ContactTotals& of : {few.totals[0], all.totals.at(0)}) {
+    EXPECT_EQ(of.contacts, static_cast<long>(all.events.size()));
+    EXPECT_EQ(of.touching, touching);
+    EXPECT_EQ(of.force, force);
+    EXPECT_EQ(of.approach, approach);
+    EXPECT_EQ(of.depth, depth);
+    EXPECT_EQ(of.shortest, shortest);
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::clearance

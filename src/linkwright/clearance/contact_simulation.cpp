@@ -54,7 +54,8 @@ class ContactMotion {
   ContactRun run(std::span<const double> times, const RunContext* context) {
     duration_ = times.back() - times.front();
     pace_ = StepPace(times.front(), times.back(), options_.max_steps);
-    if (!start(times.front())) return std::move(run_);
+    run_.totals.resize(joints_.size());
+    if (!start(times.front())) return ended();
     std::vector<double> y = state();
     const std::vector<double> tolerances = absolute_tolerances();
     // Over the long steps of bdf errors of one sign add up where those of vibrations cancel.
@@ -118,7 +119,7 @@ class ContactMotion {
       settle(t, y);
       remember(t);
     }
-    return std::move(run_);
+    return ended();
   }
 
  private:
@@ -173,8 +174,8 @@ class ContactMotion {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       forces_[k] = {};
       if (!contact_[k].on) continue;
-      forces_[k].normal = normal_force(joints_[k].law, pins_[k].depth, pins_[k].depth_rate,
-                                       run_.events[contact_[k].event].approach);
+      forces_[k].normal =
+          normal_force(joints_[k].law, pins_[k].depth, pins_[k].depth_rate, contact_[k].event.approach);
       forces_[k].friction = friction_force(joints_[k].law, forces_[k].normal, pins_[k].slip);
     }
     pins_.press(forces_);
@@ -214,7 +215,8 @@ class ContactMotion {
 
   struct Contact {
     bool on = false;
-    std::size_t event = 0;                                                  // the last one
+    ContactEvent event;                                                     // the last one
+    std::size_t number = 0;                                                 // its place in the list
     Vec<double> seen{0, 0};                                                 // eccentricity at the last step
     double time = 0, depth = 0, depth_rate = 0, force = 0, force_rate = 0;  // then
     double mass = 0;                                                        // effective, along the normal
@@ -223,21 +225,34 @@ class ContactMotion {
   void begin(std::size_t k, double t, double approach) {
     Contact& c = contact_[k];
     c.on = true;
-    c.event = run_.events.size();
-    run_.events.push_back({.joint = static_cast<int>(k),
-                           .start = t,
-                           .approach = approach,
-                           .angle = planar::angle_of(pins_[k].eccentricity),
-                           .bush_angle = pins_.bush_angle(dynamics_->motion, k)});
+    c.event = {.joint = static_cast<int>(k),
+               .start = t,
+               .approach = approach,
+               .angle = planar::angle_of(pins_[k].eccentricity),
+               .bush_angle = pins_.bush_angle(dynamics_->motion, k)};
+    c.number = run_.events.size();
+    // Its place in the order of the starts; what it was is known at its end.
+    if (c.number < options_.max_events) run_.events.push_back(c.event);
+  }
+  void list(const Contact& c) {
+    if (c.number < run_.events.size()) run_.events[c.number] = c.event;
+    run_.totals[at(c.event.joint)].add(c.event, start_time_, run_.time);
+  }
+  // What there is at the end of the run, contacts that still last included.
+  ContactRun ended() {
+    for (const Contact& c : contact_)
+      if (c.on) list(c);
+    return std::move(run_);
   }
   void change(std::size_t k, double t, std::span<const double> y) {
     place(t, y);
     if (contact_[k].on) {
       note(k, t);
       contact_[k].on = false;
-      ContactEvent& e = run_.events[contact_[k].event];
+      ContactEvent& e = contact_[k].event;
       e.end = t;
       e.separation = -pins_[k].depth_rate;
+      list(contact_[k]);
     } else {
       begin(k, t, pins_[k].depth_rate);
     }
@@ -272,7 +287,7 @@ class ContactMotion {
     planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
     const PinPlace& s = pins_[k];
     const ContactLaw& law = joints_[k].law;
-    ContactEvent& e = run_.events[c.event];
+    ContactEvent& e = c.event;
     const double approach = std::max(e.approach, least_approach), force = forces_[k].normal;
     const double stiff = s.depth > 0 ? law.exponent * elastic_force(law, s.depth) / s.depth : 0;
     const double force_rate =
@@ -310,7 +325,7 @@ class ContactMotion {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const Contact& c = contact_[k];
       if (c.on) {
-        const ContactEvent& e = run_.events[c.event];
+        const ContactEvent& e = c.event;
         const double impact = contact_time(joints_[k].law, c.mass, e.approach);
         longest = std::min(longest, options_.contact_step * std::max(impact, t - e.start - impact));
       } else {
@@ -329,7 +344,7 @@ class ContactMotion {
       const Contact& c = contact_[k];
       if (!c.on || !(c.mass > 0)) continue;
       const ContactLaw& law = joints_[k].law;
-      const double approach = std::max(run_.events[c.event].approach, least_approach);
+      const double approach = std::max(c.event.approach, least_approach);
       most = std::max(most, (elastic_force(law, c.depth) * damping_factor(law) / approach +
                              c.force * law.friction / (law.friction_whole - law.friction_from)) /
                                 c.mass);
@@ -340,7 +355,7 @@ class ContactMotion {
   // ---- start, steps, rows -------------------------------------------------------------------------------
 
   bool start(double t) {
-    run_.time = t;
+    run_.time = start_time_ = t;
     noise_ = 2e-15 * open_.plan.size;
     for (std::size_t k = 0; k < inputs_.size(); ++k)
       if (k >= original_) inputs_[k] = {open_.start[k], 0, 0};
@@ -458,7 +473,7 @@ class ContactMotion {
   std::vector<Contact> contact_;
   std::vector<PinForce> forces_;
   std::vector<ContactState> rows_;
-  double duration_ = 0;  // s
+  double start_time_ = 0, duration_ = 0;  // s
   double start_kinetic_ = 0, start_potential_ = 0, start_elastic_ = 0;
   double noise_ = 0;  // m, rounding of the depth: a contact ends that much behind zero
   Status last_status_ = Status::done;
@@ -468,6 +483,15 @@ class ContactMotion {
 };
 
 }  // namespace
+
+void ContactTotals::add(const ContactEvent& event, double from, double to) {
+  ++contacts;
+  touching += (std::isnan(event.end) ? to : event.end) - std::max(event.start, from);
+  approach = std::max(approach, event.approach);
+  depth = std::max(depth, event.depth);
+  force = std::max(force, event.force);
+  if (!std::isnan(event.end)) shortest = std::min(shortest, event.end - event.start);
+}
 
 ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
                             std::span<const planar::InputDrive> drives, std::span<const double> times,

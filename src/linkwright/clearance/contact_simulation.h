@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@ struct ContactOptions {
   /// errors ask for, what has come to rest takes long ones, by bdf.
   double contact_step = 0.05;
   long max_steps = 10'000'000;
+  /// Contacts that are listed, the first ones; all others count in the totals alone.
+  std::size_t max_events = 100'000;
   /// Ends early, not_converged, when StepPace sees that max_steps will not do.
   bool stop_when_hopeless = false;
 };
@@ -41,6 +44,17 @@ struct ContactEvent {
   double separation = nan;  ///< m/s, rate at which they part, positive
   double depth = 0;         ///< m, largest
   double force = 0;         ///< N, largest normal force
+};
+
+/// All contacts of one joint, listed or not.
+struct ContactTotals {
+  long contacts = 0;
+  double touching = 0;         ///< s in contact
+  double approach = 0;         ///< m/s, largest
+  double depth = 0;            ///< m, largest
+  double force = 0;            ///< N, largest
+  double shortest = infinity;  ///< s, of those that ended
+  void add(const ContactEvent& event, double from, double to);
 };
 
 /// State of one joint in a row.
@@ -71,10 +85,11 @@ struct ContactRun {
   /// done; infeasible, no_assembly, singular: the start does not work; limit_reached, not_converged: the
   /// motion ends; cancelled, deadline. Rows and events so far are kept.
   Status status = Status::done;
-  std::string message;               ///< why it is not `done`; else empty
-  double time = 0;                   ///< reached, s
-  std::vector<ContactEvent> events;  ///< in the order of their starts
-  double largest_drift = 0;          ///< J, over the rows
+  std::string message;                ///< why it is not `done`; else empty
+  double time = 0;                    ///< reached, s
+  std::vector<ContactEvent> events;   ///< in the order of their starts, max_events at most
+  std::vector<ContactTotals> totals;  ///< one a joint
+  double largest_drift = 0;           ///< J, over the rows
   double peak_energy = 0;  ///< J: largest kinetic, elastic or dissipated energy, change of potential, or work
   long steps = 0, evaluations = 0;
 };

@@ -135,9 +135,19 @@ struct ClearanceRecording {
   std::vector<planar::LinkageColumn> columns;  ///< of the linkage without clearance that are known with it
   std::vector<RecordedRow> rows;               ///< of a periodic study the last periods alone
   std::vector<RecordedRow> ideal;              ///< the same without clearance: times, inputs, values
-  std::vector<RecordedRow> sections;           ///< once a period of the drives, from the start
-  std::optional<ClearanceRegime> regime;       ///< of periodic studies
-  std::vector<ContactEvent> events;
+  /// Once a period of the drives, from the start, the first `most_sections` of them: times and pins alone.
+  std::vector<RecordedRow> sections;
+  static constexpr int most_sections = 100'000;
+  std::optional<ClearanceRegime> regime;  ///< of periodic studies
+  std::vector<ContactEvent> events;     ///< of a periodic regime those of its periods; the first ones of many
+  std::vector<ContactTotals> contacts;  ///< of the same, all of them, one a pin
+  long all_contacts() const {
+    long sum = 0;
+    for (const ContactTotals& of : contacts) sum += of.contacts;
+    return sum;
+  }
+  /// Whether more came than are listed.
+  bool more_contacts_than_listed() const { return all_contacts() > static_cast<long>(events.size()); }
   std::vector<ContactValidity> validity;  ///< one a continuous pin
   /// Of every traced point: places on the ideal path, close together.
   std::vector<std::vector<std::complex<double>>> ideal_paths;

@@ -148,28 +148,23 @@ class Facts {
     if (!(duration() > 0)) return;
     double shortest = infinity;
     for (std::size_t k = 0; k < s_.pins(); ++k) {
-      std::size_t count = 0;
-      double touching = r_.went_over() ? std::max(r_.switched - r_.from, 0.0) : 0;
-      double force = 0, approach = 0, depth = 0;
-      for (const ContactEvent& e : r_.events) {
-        if (at(e.joint) != k) continue;
-        ++count;
-        touching += (std::isnan(e.end) ? r_.time : e.end) - std::max(e.start, r_.from);
-        force = std::max(force, e.force);
-        approach = std::max(approach, e.approach);
-        depth = std::max(depth, e.depth);
-        if (!std::isnan(e.end)) shortest = std::min(shortest, e.end - e.start);
-      }
+      const ContactTotals of = k < r_.contacts.size() ? r_.contacts[k] : ContactTotals();
+      const double touching = (r_.went_over() ? std::max(r_.switched - r_.from, 0.0) : 0) + of.touching;
+      shortest = std::min(shortest, of.shortest);
       fact(fmt::format("contacts of {}", name(k)),
-           count == 0
-               ? std::string("none: the pin stays free in its bush")
-               : fmt::format("{}, {:.3g} % of the time in contact; at most {}, {:.3g} um deep, "
-                             "approach of {:.3g} m/s",
-                             count, 100 * touching / duration(), newtons(force), 1e6 * depth, approach));
-      largest_force_ = std::max(largest_force_, force);
-      too_deep(k, depth);
+           of.contacts == 0 ? std::string("none: the pin stays free in its bush")
+                            : fmt::format("{}, {:.3g} % of the time in contact; at most {}, {:.3g} um deep, "
+                                          "approach of {:.3g} m/s",
+                                          of.contacts, 100 * touching / duration(), newtons(of.force),
+                                          1e6 * of.depth, of.approach));
+      largest_force_ = std::max(largest_force_, of.force);
+      too_deep(k, of.depth);
       poor_restitution(k);
     }
+    if (r_.more_contacts_than_listed())
+      warn(fmt::format("of {} contacts the first {} are listed; counts and largest values are those of all",
+                       r_.all_contacts(), r_.events.size()),
+           "a shorter simulation lists all of them");
     if (rows() < 2) return;
     const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
     if (shortest < interval)
@@ -244,10 +239,10 @@ class Facts {
     if (r_.went_over())
       return fmt::format("{} {} separates from its bush at {:.4g} s{}, and {} contacts with up to {} follow",
                          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(),
-                         r_.events.size(), newtons(largest_force_));
+                         r_.all_contacts(), newtons(largest_force_));
     if (real())
       return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {}", begins ? "In" : "in",
-                         duration(), r_.events.size(), newtons(largest_force_));
+                         duration(), r_.all_contacts(), newtons(largest_force_));
     if (lost_)
       return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
                     : "pin and bush do not stay in contact, so it is outside of the model";

@@ -87,7 +87,8 @@ class Recorder {
     const double to = s_.to();
     for (int i = 0; i < s_.samples; ++i)
       rows.push_back(i + 1 == s_.samples ? to : s_.from + (to - s_.from) * i / (s_.samples - 1));
-    for (int k = 0; s_.period > 0 && s_.from + k * s_.period <= to; ++k)
+    for (int k = 0; k < ClearanceRecording::most_sections && s_.period > 0 && s_.from + k * s_.period <= to;
+         ++k)
       sections.push_back(s_.from + k * s_.period);
     for (std::size_t i = 0, k = 0; i < rows.size() || k < sections.size();) {
       const double row = i < rows.size() ? rows[i] : infinity;
@@ -117,7 +118,7 @@ class Recorder {
   bool keep(RecordedRow&& row) {
     const auto found = std::lower_bound(times_.begin(), times_.end(), row.time - same_);
     const auto now = static_cast<std::size_t>(std::min(found, times_.end() - 1) - times_.begin());
-    if (is_section_[now]) out_.sections.push_back(row);
+    if (is_section_[now]) out_.sections.push_back({.time = row.time, .status = row.status, .pins = row.pins});
     if (is_row_[now]) out_.rows.push_back(std::move(row));
     return !is_section_[now] || !searching_ || !repeats();
   }
@@ -207,6 +208,7 @@ class Recorder {
     fail(run.status, run.message);
     take(run);
     out_.events = run.events;
+    out_.contacts = run.totals;
   }
   void with_continuous_contact() {
     const JointClearanceRun run = simulate_joint_clearance(
@@ -232,6 +234,7 @@ class Recorder {
     fail(run.status, run.message);
     take(run);
     out_.events = run.contact.events;
+    out_.contacts = run.contact.totals;
     out_.validity = run.continuous.joints;
     out_.switched = run.switched;
     out_.parted = run.pin;
@@ -248,6 +251,7 @@ class Recorder {
     out_.rows.clear();
     out_.sections.clear();
     out_.events.clear();
+    out_.contacts.clear();
     out_.switched = nan;
     out_.parted = -1;
   }
@@ -278,6 +282,8 @@ class Recorder {
     if (regime.turns > 0 && !out_.rows.empty()) {
       out_.from = out_.rows.front().time;
       std::erase_if(out_.events, [&](const ContactEvent& e) { return e.end <= out_.from + same_; });
+      out_.contacts.assign(s_.pins(), {});
+      for (const ContactEvent& e : out_.events) out_.contacts[at(e.joint)].add(e, out_.from, out_.time);
     }
   }
   // false: there is no such motion, or pins part on it.
