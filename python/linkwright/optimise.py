@@ -23,7 +23,8 @@ class Minimum(NamedTuple):
     generations: int
     status: str  # "done", "infeasible", "deadline" or "cancelled"
     stop_reason: str  # for people
-    history: numpy.ndarray  # (generations, 2): evaluations so far, and the best cost by then
+    history: numpy.ndarray  # (generations, 2): evaluations so far, and the best cost by then; every second, fourth, ...
+    # generation of more than 65 536
 
 
 def methods() -> dict[str, str]:

@@ -417,6 +417,31 @@ TEST(Minimise, KeepsALongLogInParts) {
   expect_same_bits(minimise(problem, method, options, {}, last), whole);
 }
 
+TEST(Minimise, KeepsFewerGenerationsOfAVeryLongRun) {
+  const Problem problem = test::sphere(1);
+  const OptimiserOptions method = {.differential_evolution = {.population = 4}};
+  MinimiseOptions options = {.checkpoint = "here"};
+  options.stop.generations = 140'000;  // 65 536 entries of each, 35 000 of every fourth in the end
+  RunContext plain;
+  const Report whole = minimise(problem, method, options, {}, plain);
+  ASSERT_EQ(whole.log.size(), 35'000u);
+  for (std::size_t k = 0; k < whole.log.size(); ++k)
+    ASSERT_EQ(whole.log[k].evaluations, static_cast<std::int64_t>(16 * (k + 1)));
+  linkwright::test::MemoryCheckpoint checkpoint;
+  checkpoint.pause = std::chrono::hours(1);
+  for (const int stop_at : {65'536, 65'537, 131'075}) {
+    RunContext context;
+    context.set_checkpoint(&checkpoint);
+    context.set_progress([&](const Progress& p) {
+      if (p.fraction * 140'000 >= stop_at - 0.5) context.cancel();
+    });
+    EXPECT_EQ(minimise(problem, method, options, {}, context).status, Status::cancelled);
+  }
+  RunContext last;
+  last.set_checkpoint(&checkpoint);
+  expect_same_bits(minimise(problem, method, options, {}, last), whole);
+}
+
 TEST(Minimise, RefusesWhatItDidNotKeep) {
   const Problem problem = test::sphere(2);
   MinimiseOptions options = {.checkpoint = "here"};

@@ -14,12 +14,13 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/combine.h"
+#include "linkwright/optimise/detail/generation_log.h"
 #include "linkwright/optimise/evaluate.h"
 
 namespace linkwright::optimise {
 namespace {
 
-constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
+constexpr std::size_t longest_reserved_generation = 1 << 16;
 constexpr std::chrono::milliseconds between_looks(50);
 
 /// The one number that several objectives are reported by.
@@ -178,9 +179,12 @@ class StateKeeper {
       throw CheckpointError(fmt::format("{}: is not a state of this method and problem", name_));
     report.stop_reason = reason.as_string();
     set_best(report, optimiser.best(), best[0], std::span(best).subspan(2), best[1]);
-    if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);
+    if (log) restore_log(report.generations, report.log);
     kept_once_ = true;
   }
+
+  /// The entries of the log are no longer those that were kept.
+  void log_thinned() { kept_log_ = 0; }
 
   /// Keeps the state if that is due.
   void generation_done(const Optimiser& optimiser, const Report& report, int unimproved,
@@ -230,7 +234,7 @@ class StateKeeper {
         numbers.insert(numbers.end(), {static_cast<double>(g.evaluations), g.best_cost, g.best_violation,
                                        g.median, g.mean, g.violated});
       }
-      checkpoint_->keep(log_name(kept_log_), pack_numbers(numbers));
+      checkpoint_->keep(log_name(kept_log_, report.generations), pack_numbers(numbers));
     }
     Value value;
     value["generations"] = report.generations;
@@ -274,17 +278,19 @@ class StateKeeper {
     return good && front.size() == numbers.size() / one;
   }
 
-  void restore_log(std::size_t generations, std::vector<GenerationLog>& log) {
-    for (std::size_t first = 0; first < generations; first += log_part) {
-      const std::vector<double> v = unpack_numbers(checkpoint_->find(log_name(first)), log_name(first));
-      const std::size_t count = std::min(log_part, generations - first);
+  void restore_log(int generations, std::vector<GenerationLog>& log) {
+    const auto entries = static_cast<std::size_t>(generations / log_interval(generations));
+    for (std::size_t first = 0; first < entries; first += log_part) {
+      const std::string part = log_name(first, generations);
+      const std::vector<double> v = unpack_numbers(checkpoint_->find(part), part);
+      const std::size_t count = std::min(log_part, entries - first);
       if (v.size() < log_numbers * count)
         throw CheckpointError(
-            fmt::format("{}: has {} numbers, must be {}", log_name(first), v.size(), log_numbers * count));
+            fmt::format("{}: has {} numbers, must be {}", part, v.size(), log_numbers * count));
       for (std::size_t k = 0; k < count; ++k) {
         const double* g = &v[log_numbers * k];
         if (!(g[0] >= 0 && g[0] <= static_cast<double>(most_evaluations)))
-          throw CheckpointError(fmt::format("{}: {} evaluations", log_name(first), g[0]));
+          throw CheckpointError(fmt::format("{}: {} evaluations", part, g[0]));
         log.push_back({.evaluations = static_cast<std::int64_t>(g[0]),
                        .best_cost = g[1],
                        .best_violation = g[2],
@@ -293,10 +299,16 @@ class StateKeeper {
                        .violated = g[5]});
       }
     }
-    kept_log_ = generations - generations % log_part;
+    kept_log_ = entries - entries % log_part;
   }
 
-  std::string log_name(std::size_t first) const { return fmt::format("{}/log {}", name_, first / log_part); }
+  /// Parts of a log with another interval have names of their own: the state that was kept with the old ones
+  /// stays whole until the new ones are there.
+  std::string log_name(std::size_t first, int generations) const {
+    const int interval = log_interval(generations);
+    return fmt::format("{}/log {}{}", name_, first / log_part,
+                       interval > 1 ? fmt::format(" of every {} generations", interval) : std::string());
+  }
 
   Checkpoint* checkpoint_;
   std::string name_;
@@ -346,8 +358,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     optimiser.start_from(known.x, combination ? std::span(&cost_of_known, 1) : std::span(known.costs));
     set_best(report, known.x, cost_of_known, known.costs, 0);
   }
-  if (options.log)
-    report.log.reserve(std::min<std::size_t>(static_cast<std::size_t>(generations), longest_reserved_log));
+  if (options.log) report.log.reserve(static_cast<std::size_t>(std::min(generations, most_logged)) + 1);
 
   int unimproved = 0;
   StateKeeper keeper(context.checkpoint(), options.checkpoint);
@@ -405,13 +416,14 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     if (cut) break;
     ++report.generations;
     unimproved = improved ? 0 : unimproved + 1;
-    if (options.log) {
-      GenerationLog entry = summarise(of_generation);
-      entry.evaluations = report.evaluations;
-      entry.best_cost = report.cost;
-      entry.best_violation = report.violation;
-      report.log.push_back(entry);
-    }
+    if (options.log && log_generation(report.log, report.generations, [&] {
+          GenerationLog entry = summarise(of_generation);
+          entry.evaluations = report.evaluations;
+          entry.best_cost = report.cost;
+          entry.best_violation = report.violation;
+          return entry;
+        }))
+      keeper.log_thinned();
     if (options.progress)
       context.report({.stage = name,
                       .fraction = static_cast<double>(report.generations) / generations,

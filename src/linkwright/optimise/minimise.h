@@ -78,7 +78,8 @@ struct MinimiseOptions {
   /// Keep up to so many feasible designs that no other one dominates in the objectives, see ParetoArchive;
   /// 0 = none.
   std::size_t front = 0;
-  bool log = true;       ///< keep one GenerationLog a generation
+  /// Keep one GenerationLog a generation; of more than 65 536 those of every second, fourth, ... one.
+  bool log = true;
   bool progress = true;  ///< report to the run context
   /// Name under which the state is kept in the checkpoint of the run context, of its own for every
   /// minimisation of a run; empty = not kept.

@@ -22,6 +22,7 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/optimise/detail/generation_log.h"
 #include "linkwright/optimise/evaluate.h"
 
 namespace linkwright::optimise {
@@ -198,7 +199,9 @@ class FrontKeeper {
     const std::vector<double> x = numbers("x"), f = numbers("f"), best = numbers("least_violated"),
                               logged = numbers("log");
     const std::size_t all = evaluator.design({}, {}).x.size(), entry = 3 + m,
-                      entries = log ? static_cast<std::size_t>(report.generations) : 0;
+                      entries = log ? static_cast<std::size_t>(report.generations /
+                                                               log_interval(report.generations))
+                                    : 0;
     bool good = reason.is_string() && x.size() == population * n && f.size() == population * m &&
                 best.size() == 1 + all + m && best[0] >= 0 && logged.size() == entries * entry &&
                 std::none_of(f.begin(), f.end(), [](double v) { return std::isnan(v); });
@@ -315,14 +318,15 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
       break;
     }
     ++report.generations;
-    if (options.log) {
-      const std::vector<ParetoPoint> front = non_dominated(feasible(members, evaluator));
-      report.log.push_back({.evaluations = evaluator.evaluations,
-                            .violated = static_cast<double>(evaluator.violated) /
-                                        static_cast<double>(evaluator.evaluations - before),
-                            .front = static_cast<int>(front.size()),
-                            .least = least_costs(front, problem.objectives)});
-    }
+    if (options.log)
+      log_generation(report.log, report.generations, [&] {
+        const std::vector<ParetoPoint> front = non_dominated(feasible(members, evaluator));
+        return FrontLog{.evaluations = evaluator.evaluations,
+                        .violated = static_cast<double>(evaluator.violated) /
+                                    static_cast<double>(evaluator.evaluations - before),
+                        .front = static_cast<int>(front.size()),
+                        .least = least_costs(front, problem.objectives)};
+      });
     if (options.progress)
       context.report({.stage = name, .fraction = static_cast<double>(report.generations) / generations});
 

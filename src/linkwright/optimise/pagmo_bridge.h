@@ -103,7 +103,7 @@ void fields(Visitor&& visit, PagmoOptions& o) {
 struct FrontOptions {
   std::int64_t evaluations =
       0;            ///< a generation that would exceed this is not started, except the first; 0 = no limit
-  bool log = true;  ///< keep one FrontLog a generation
+  bool log = true;  ///< keep one FrontLog a generation; of many as MinimiseOptions::log
   bool progress = true;  ///< report to the run context
   /// Name under which the state is kept in the checkpoint of the run context, of its own for every
   /// minimisation of a run; empty = not kept.
