@@ -3,11 +3,12 @@
 own.
 
     tools/mutate_studies.py LINKWRIGHT [--cases N] [--seed S] [--case K] [--keep FOLDER] [--shrink] [--jobs J]
-                            [--memory MB] [--cpu SECONDS] [--time-limit SECONDS]
+                            [--memory MB] [--cpu SECONDS] [--time-limit SECONDS] [--large]
 
 Each case takes an example or a template of `linkwright new` and damages it one to four times: bytes, lines, keys, numbers,
 types, nesting, lengths, characters. The case (seed, number) is always the same one; --case runs it alone, --keep leaves its
-files, --shrink drops the damages that are not needed for the fault.
+files, --shrink drops the damages that are not needed for the fault. With --large the only damage is that one or two numbers are
+multiplied by 1e3 to 1e9: what is then kept of a run must still fit into the memory.
 Exit code 1 when a case broke a rule, and 2 when the program could not be tried at all.
 """
 
@@ -91,6 +92,16 @@ class Damage:
             value = float(old)
             new = repr(rng.choice([value / 2, 2 * value, value * 1.01, -value, 0.0, 10 * value, value / 10, 1e-6 * value, 1e4 * value]))
         lines[i] = lines[i][:spot.start()] + (rng.choice(others) if rng.random() < 0.1 else new) + lines[i][spot.end():]
+
+    def large_number(self, rng, lines):
+        found = lines_with(NUMBER, lines)
+        if not found:
+            return
+        i = rng.choice(found)
+        spot = rng.choice(list(NUMBER.finditer(lines[i])))
+        old, factor = spot.group().replace("_", ""), 10 ** rng.randint(3, 9)
+        new = str(int(old) * factor) if re.fullmatch(r"[-+]?\d+", old) else repr(float(old) * factor)
+        lines[i] = lines[i][:spot.start()] + new + lines[i][spot.end():]
 
     def other_word(self, rng, lines):
         """A text in the place of one that stands at the same key of some study; true for false."""
@@ -216,6 +227,7 @@ def flip_bytes(rng, data):
 WEIGHTS = {"number": 10, "near_number": 5, "other_word": 2, "wrong_type": 3, "delete_line": 4, "double_line": 1, "swap_lines": 1, "swap_keys": 4,
            "value_of_another": 5, "line_of_another": 2, "block": 5, "nesting": 1, "long_list": 1, "text": 4, "truncate": 1,
            "bytes": 2}
+LARGE = {"large_number": 1}
 GENTLE = {"near_number": 12, "other_word": 3, "delete_line": 2, "block": 1, "value_of_another": 1}
 
 
@@ -242,7 +254,7 @@ def pool_of(corpus):
 
 
 class Case:
-    def __init__(self, seed, number, corpus, names, damage):
+    def __init__(self, seed, number, corpus, names, damage, large=False):
         self.seed, self.number = seed, number
         rng = random.Random(f"{seed} {number}")
         self.name = rng.choice(names)
@@ -250,6 +262,8 @@ class Case:
         self.damage = damage
         weights = GENTLE if rng.random() < 0.5 else WEIGHTS
         kinds = rng.choices(list(weights), list(weights.values()), k=rng.choice([1, 1, 2, 3, 4]))
+        if large:
+            kinds = rng.choices(list(LARGE), k=rng.choice([1, 1, 2]))
         self.steps = [(kind, rng.randrange(1 << 30)) for kind in kinds]
         # Now and then the table beside the study is damaged, too.
         self.beside = rng.random() < 0.5
@@ -361,6 +375,7 @@ def main():
     parser.add_argument("--memory", type=int, default=2048, help="MB of address space, 0 = any (for sanitizers)")
     parser.add_argument("--cpu", type=int, default=30, help="s of processor time that a case may take")
     parser.add_argument("--time-limit", type=float, default=0.5, help="s, given to the program")
+    parser.add_argument("--large", action="store_true", help="multiply numbers alone")
     options = parser.parse_args()
     options.program = str(Path(options.program).resolve())
     corpus = read_corpus(options.program)
@@ -374,7 +389,7 @@ def main():
     codes = collections.Counter()
 
     def judge(number):
-        case = Case(options.seed, number, corpus, names, damage)
+        case = Case(options.seed, number, corpus, names, damage, options.large)
         fault, data, code = fault_of(case, options)
         steps = case.steps
         if fault and options.shrink:
