@@ -33,7 +33,7 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> out;
-  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::given})
+  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::increments, Timing::given})
     for (std::size_t points : {3, 5, 8, 11, 18})
       for (bool closed : {true, false})
         for (bool turning : {true, false})
@@ -78,9 +78,7 @@ PathProblem problem_of(const Case& c) {
 // most have their angles in order.
 Population candidates(const PathProblem& p, double sense, std::size_t count, std::uint64_t seed) {
   const std::size_t points = p.x.size();
-  const std::size_t dimension = p.timing == Timing::equal_steps ? 10
-                                : p.timing == Timing::given     ? 9
-                                                                : 9 + points;
+  const std::size_t dimension = starts_anywhere(p.timing) ? 10 : p.timing == Timing::given ? 9 : 9 + points;
   Population out(dimension, count);
   for (std::size_t i = 0; i < count; ++i) {
     RandomStream r({.seed = seed, .individual = static_cast<std::uint32_t>(i)});
@@ -93,7 +91,7 @@ Population candidates(const PathProblem& p, double sense, std::size_t count, std
     for (std::size_t j = 0; j < 4; ++j) out(j, i) = l[j];
     for (std::size_t j = 4; j < 8; ++j) out(j, i) = r.uniform(-2, 2);
     out(8, i) = r.uniform(0, 2 * pi);
-    if (p.timing == Timing::equal_steps) out(9, i) = r.uniform(0, 2 * pi);
+    if (starts_anywhere(p.timing)) out(9, i) = r.uniform(0, 2 * pi);
     if (p.timing == Timing::free) {
       const bool ordered = r.bits() % 4 != 0;
       const double first = r.uniform(0, 2 * pi), span = r.uniform(0.2, 0.95) * 2 * pi;

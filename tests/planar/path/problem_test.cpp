@@ -63,7 +63,7 @@ PathProblem traced_problem(Timing timing = Timing::free) {
   }
   problem.timing = timing;
   problem.step = pi / 6;
-  problem.angles = stepped(0.2, pi / 6, 12);
+  problem.angles = stepped(timing == Timing::increments ? 0 : 0.2, pi / 6, 12);
   problem.bounds = derive_bounds(problem.x, problem.y);
   return problem;
 }
@@ -214,7 +214,7 @@ TEST(PathMeasure, OppositeSenseBeatsTheStoredFreeTimingDesigns) {
 // ---- What measure() finds
 
 TEST(PathMeasure, NothingToReportForAnExactDesign) {
-  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::given}) {
+  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::increments, Timing::given}) {
     const PathDesign found = measure(traced_problem(timing), traced, 1, stepped(0.2, pi / 6, 12));
     EXPECT_LT(found.error, 1e-28);
     EXPECT_THAT(reasons(found), IsEmpty());
@@ -377,6 +377,7 @@ TEST(PathProblem, RejectsWhatCannotBeSolved) {
 TEST(PathProblem, PointAnglesByTiming) {
   EXPECT_EQ(point_angle(traced_problem(Timing::free), 3), 0);
   EXPECT_DOUBLE_EQ(point_angle(traced_problem(Timing::equal_steps), 3), pi / 2);
+  EXPECT_DOUBLE_EQ(point_angle(traced_problem(Timing::increments), 3), pi / 2);
   EXPECT_DOUBLE_EQ(point_angle(traced_problem(Timing::given), 3), 0.2 + pi / 2);
 }
 
@@ -386,6 +387,8 @@ TEST(PathPopulationProblem, VariablesByTiming) {
   EXPECT_EQ(problem.variables[0].name, "ground_m");
   EXPECT_EQ(problem.variables[9].name, "start_angle_rad");
   EXPECT_EQ(problem.variables[9].upper, 2 * pi);
+  EXPECT_EQ(path_population_problem(traced_problem(Timing::increments), Branch::open, 1).variables.size(),
+            10u);
   EXPECT_EQ(path_population_problem(traced_problem(Timing::given), Branch::open, 1).variables.size(), 9u);
   const auto free = path_population_problem(traced_problem(Timing::free), Branch::open, 1);
   ASSERT_EQ(free.variables.size(), 21u);
@@ -403,7 +406,7 @@ TEST(PathPopulationProblem, ExplainsWhatIsViolated) {
 }
 
 TEST(PathDesign, IsWhatMeasureSays) {
-  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::given})
+  for (Timing timing : {Timing::free, Timing::equal_steps, Timing::increments, Timing::given})
     for (double sense : {1.0, -1.0}) {
       const PathProblem problem = traced_problem(timing);
       std::vector<double> x = {2.2, 0.75, 1.9, 1.6, 1.35, -1.05, 1, 2, 0.3};
@@ -418,7 +421,7 @@ TEST(PathDesign, IsWhatMeasureSays) {
           angles.push_back(timing == Timing::given ? sense * (0.2 + step) : 0.2 + sense * step);
         }
       }
-      if (timing == Timing::equal_steps) x.push_back(0.2);
+      if (starts_anywhere(timing)) x.push_back(0.2);
       const PathDesign design = path_design(problem, Branch::open, sense, x);
       const PathDesign expected = measure(problem, traced, sense, angles);
       EXPECT_NEAR(design.error, expected.error, 1e-12);

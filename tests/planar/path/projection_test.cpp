@@ -33,7 +33,7 @@ struct LinkProjectionCase {
 
 std::vector<LinkProjectionCase> link_projection_cases() {
   std::vector<LinkProjectionCase> out;
-  for (Timing timing : {Timing::equal_steps, Timing::given})
+  for (Timing timing : {Timing::equal_steps, Timing::increments, Timing::given})
     for (bool pivot : {false, true})
       for (bool frame : {false, true})
         for (RatioKind kind : kinds)

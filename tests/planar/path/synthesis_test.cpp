@@ -84,6 +84,38 @@ TEST(SynthesisePath, SuiteTimedArc) {
   EXPECT_LE(answer.designs[0].error, best * (1 + 1e-3));
 }
 
+// Points of a known four-bar at uneven rotations from a start angle that the search does not know.
+TEST(SynthesisePath, FindsTheStartAngleOfUnevenIncrements) {
+  const FourBar known{.ground = 0.9,
+                      .crank = 0.3,
+                      .coupler = 0.8,
+                      .rocker = 0.7,
+                      .coupler_u = 0.5,
+                      .coupler_v = 0.4,
+                      .pivot_x = 0.2,
+                      .pivot_y = -0.1,
+                      .frame_angle = 0.4};
+  PathProblem problem;
+  problem.closed = false;
+  problem.timing = Timing::increments;
+  for (const double degrees : {0.0, 11.0, 40.0, 48.0, 95.0, 130.0, 171.0, 205.0, 260.0, 283.0, 331.0}) {
+    problem.angles.push_back(math::radians(degrees));
+    const auto point = position(known, 1.1 + problem.angles.back()).coupler_point;
+    problem.x.push_back(point.real());
+    problem.y.push_back(point.imag());
+  }
+  problem.bounds = derive_bounds(problem.x, problem.y);
+  const PathSynthesis answer = solve(problem);
+  ASSERT_EQ(answer.status, Status::done);
+  EXPECT_LT(answer.designs[0].error, 1e-18);
+  // Equal increments are equal steps, to the last bit.
+  PathProblem steps = printed_eighteen_points(), increments = steps;
+  increments.timing = Timing::increments;
+  for (std::size_t k = 0; k < increments.x.size(); ++k)
+    increments.angles.push_back(steps.step * static_cast<double>(k));
+  EXPECT_EQ(solve(steps).designs.at(0).error, solve(increments).designs.at(0).error);
+}
+
 TEST(SynthesisePath, SuiteTimedSemicircle) {
   PathProblem problem;
   const Value& entry = path_case("BM-semicircle6-timed");

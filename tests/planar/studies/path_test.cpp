@@ -57,6 +57,19 @@ TEST(PathStudyRead, NamesWhatIsWrongWithThePoints) {
 }
 
 TEST(PathStudyRead, TimingMustFit) {
+  EXPECT_THAT(problems_of(target(std::string(square) + "timing = { mode = \"increments\" }\n")),
+              HasSubstr("increments needs increments_deg, one from each point to the next"));
+  EXPECT_THAT(problems_of(target(std::string(square) +
+                                 "timing = { mode = \"increments\", increments_deg = [1, 2, 3, 4] }\n")),
+              HasSubstr("4 increments for 4 points; give 3: the crank rotation from each point to the next"));
+  EXPECT_THAT(problems_of(target(std::string(square) +
+                                 "timing = { mode = \"given\", increments_deg = [1, 2, 3] }\n")),
+              HasSubstr("increments go with mode increments, the mode is given"));
+  std::string messages;
+  EXPECT_TRUE(prepare(
+      target(std::string(square) + "timing = { mode = \"increments\", increments_deg = [80, 90, 100] }\n"),
+      messages))
+      << messages;
   EXPECT_THAT(problems_of(target(std::string(square) + "timing = { mode = \"equal_steps\" }\n")),
               HasSubstr("equal_steps needs step_deg"));
   EXPECT_THAT(

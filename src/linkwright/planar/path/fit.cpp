@@ -63,7 +63,7 @@ PathFitter::PathFitter(const PathProblem& problem, double sense)
   require_valid(problem);
   for (std::size_t j = 0; j < shared; ++j) {
     variable_[j] =
-        !problem.bounds[j].fixed() && !(j == index(P::start_angle) && problem.timing != Timing::equal_steps);
+        !problem.bounds[j].fixed() && !(j == index(P::start_angle) && !starts_anywhere(problem.timing));
     lower_[j] = problem.bounds[j].lower;
     upper_[j] = problem.bounds[j].upper;
     // An angle that may take any direction has no bounds.
@@ -480,14 +480,14 @@ PathFit PathFitter::fit(const FourBar& start, const std::vector<double>& angles,
         start.coupler,     start.rocker,
         start.coupler_u,   start.coupler_v,
         start.pivot_x,     start.pivot_y,
-        start.frame_angle, problem_.timing == Timing::equal_steps ? angles[0] : 0.0};
+        start.frame_angle, starts_anywhere(problem_.timing) ? angles[0] : 0.0};
   for (std::size_t i = 0; i < shared; ++i) {
     if (i >= index(P::frame_angle) && std::isfinite(lower_[i]) && variable_[i])
       q_[i] -= 2 * pi * std::floor((q_[i] - lower_[i]) / (2 * pi));
     if (!variable_[i] && i != index(P::start_angle)) q_[i] = problem_.bounds[i].lower;
     if (variable_[i]) q_[i] = std::clamp(q_[i], lower_[i], upper_[i]);
   }
-  if (problem_.timing == Timing::equal_steps && !variable_[9]) q_[9] = problem_.bounds[9].lower;
+  if (starts_anywhere(problem_.timing) && !variable_[9]) q_[9] = problem_.bounds[9].lower;
   angles_ = angles;
   penalty_ = options.penalty;
 

@@ -16,7 +16,7 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
   o.x = problem.x;
   o.y = problem.y;
   o.free_timing = problem.timing == Timing::free;
-  o.start_is_variable = problem.timing == Timing::equal_steps;
+  o.start_is_variable = starts_anywhere(problem.timing);
   o.closed = problem.closed;
   o.branch = sign(branch);
   o.sense = sense;

@@ -50,7 +50,7 @@ void require_valid(const PathProblem& p) {
   for (std::size_t k = 0; k < p.x.size(); ++k)
     LINKWRIGHT_REQUIRE(std::isfinite(p.x[k]) && std::isfinite(p.y[k]), "point {} is ({}, {})", k + 1, p.x[k],
                        p.y[k]);
-  if (p.timing == Timing::given) {
+  if (p.timing == Timing::given || p.timing == Timing::increments) {
     LINKWRIGHT_REQUIRE(p.angles.size() == p.x.size(), "{} angles for {} points", p.angles.size(), p.x.size());
     for (std::size_t k = 0; k < p.angles.size(); ++k)
       LINKWRIGHT_REQUIRE(std::isfinite(p.angles[k]), "angle {} is {}", k + 1, p.angles[k]);
@@ -112,6 +112,7 @@ double point_angle(const PathProblem& p, std::size_t k) {
       return 0;
     case Timing::equal_steps:
       return p.step * static_cast<double>(k);
+    case Timing::increments:
     case Timing::given:
       return p.angles[k];
   }
@@ -172,9 +173,9 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
   if (problem.rocker_pivot)
     add_violation(d, "rocker_pivot", outside(*problem.rocker_pivot, rocker_pivot(linkage)));
 
-  const auto values = parameters(linkage, problem.timing == Timing::equal_steps ? d.angles[0] : 0.0);
+  const auto values = parameters(linkage, starts_anywhere(problem.timing) ? d.angles[0] : 0.0);
   double out_of_bounds = 0;
-  const std::size_t count = problem.timing == Timing::equal_steps ? four_bar_parameter_count : start_index;
+  const std::size_t count = starts_anywhere(problem.timing) ? four_bar_parameter_count : start_index;
   for (std::size_t j = 0; j < count; ++j) {
     const Range& range = problem.bounds[j];
     const double value = is_angle(j) ? math::into_range(values[j], range.lower, range.upper) : values[j];
@@ -237,7 +238,7 @@ PathErrors path_errors(const PathProblem& problem, const PathDesign& design) {
 optimise::Problem path_population_problem(const PathProblem& problem, Branch branch, double sense) {
   require_valid(problem);
   optimise::Problem out;
-  const std::size_t count = problem.timing == Timing::equal_steps ? four_bar_parameter_count : start_index;
+  const std::size_t count = starts_anywhere(problem.timing) ? four_bar_parameter_count : start_index;
   for (std::size_t j = 0; j < count; ++j)
     out.variables.push_back({std::string(name(FourBarParameter(j))) + (is_angle(j) ? "_rad" : "_m"),
                              problem.bounds[j].lower, problem.bounds[j].upper});
@@ -257,9 +258,9 @@ optimise::Problem path_population_problem(const PathProblem& problem, Branch bra
 
 PathDesign path_design(const PathProblem& problem, Branch branch, double sense, std::span<const double> x) {
   const std::size_t points = problem.x.size();
-  const std::size_t expected = problem.timing == Timing::equal_steps ? four_bar_parameter_count
-                               : problem.timing == Timing::given     ? start_index
-                                                                     : start_index + points;
+  const std::size_t expected = starts_anywhere(problem.timing)   ? four_bar_parameter_count
+                               : problem.timing == Timing::given ? start_index
+                                                                 : start_index + points;
   LINKWRIGHT_REQUIRE(x.size() == expected, "{} values for {} variables", x.size(), expected);
   // A link of length zero is allowed by the published bounds; it is no linkage, so it becomes the smallest
   // one.
@@ -278,8 +279,7 @@ PathDesign path_design(const PathProblem& problem, Branch branch, double sense, 
   std::vector<double> angles(points);
   for (std::size_t k = 0; k < points; ++k) {
     if (problem.timing != Timing::free) {
-      angles[k] =
-          (problem.timing == Timing::equal_steps ? x[start_index] : 0.0) + sense * point_angle(problem, k);
+      angles[k] = (starts_anywhere(problem.timing) ? x[start_index] : 0.0) + sense * point_angle(problem, k);
     } else {
       // Unwrapped: each angle is the next one in the sense of rotation.
       const double step = k == 0 ? 0 : sense * (x[start_index + k] - x[start_index + k - 1]);

@@ -17,13 +17,18 @@ namespace linkwright::planar {
 enum class Timing {
   free,         ///< each point is met at any crank angle, in the order of the points
   equal_steps,  ///< crank angle of point i = start angle + i step
+  increments,   ///< crank angle of a point = that of the one before + its increment, from the start angle
   given,        ///< crank angle of each point is given
 };
-constexpr std::array<EnumName<Timing>, 3> names(Timing) {
+constexpr std::array<EnumName<Timing>, 4> names(Timing) {
   return {{{Timing::free, "free", "each point is met at any crank angle, in order"},
            {Timing::equal_steps, "equal_steps", "crank angle of point i = start angle + i step"},
+           {Timing::increments, "increments",
+            "crank angle of a point = that of the one before + its increment, from the start angle"},
            {Timing::given, "given", "the crank angle of each point is given"}}};
 }
+/// Whether the crank angles are known but for the start angle, which is then a design variable.
+constexpr bool starts_anywhere(Timing t) { return t == Timing::equal_steps || t == Timing::increments; }
 
 /// The design variables, in the order of the variables of the ten-unknown problem.
 enum class FourBarParameter : std::size_t {
@@ -58,10 +63,11 @@ struct PathProblem {
   std::vector<double> tolerance;  ///< a target is met as near as this (m, >= 0), at no cost; empty = exactly
   double least_step = 1e-4;       ///< crank rotation that free timing keeps between two points (rad, > 0)
   double step = 0;                ///< rad, equal_steps
-  std::vector<double> angles;     ///< rad, given: one a point, relative to the ground link
+  /// rad, one a point; given: relative to the ground link, increments: from the first point, 0 there
+  std::vector<double> angles;
 
-  /// Bounds (or fixed values) of the ten parameters; start_angle is used by equal_steps only. See
-  /// derive_bounds.
+  /// Bounds (or fixed values) of the ten parameters; start_angle is used by equal_steps and increments only.
+  /// See derive_bounds.
   std::array<Range, four_bar_parameter_count> bounds{};
 
   bool search_open = true, search_crossed = true;  ///< branches to search

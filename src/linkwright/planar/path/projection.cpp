@@ -47,8 +47,7 @@ bool PathProjection::applies(const PathProblem& p) {
   if (p.timing == Timing::free || fixed(P::ground) || fixed(P::crank) || fixed(P::coupler) ||
       fixed(P::rocker) || fixed(P::coupler_u) || fixed(P::coupler_v))
     return false;
-  return fixed(P::pivot_x) == fixed(P::pivot_y) &&
-         !(p.timing == Timing::equal_steps && fixed(P::start_angle));
+  return fixed(P::pivot_x) == fixed(P::pivot_y) && !(starts_anywhere(p.timing) && fixed(P::start_angle));
 }
 
 PathProjection::PathProjection(const PathProblem& p, RatioKind kind, Branch branch, double sense)
@@ -56,7 +55,7 @@ PathProjection::PathProjection(const PathProblem& p, RatioKind kind, Branch bran
   require_valid(p);
   LINKWRIGHT_REQUIRE(applies(p), "the linear unknowns of this problem are not free");
   const auto& bounds = p.bounds;
-  start_is_variable_ = p.timing == Timing::equal_steps;
+  start_is_variable_ = starts_anywhere(p.timing);
   pivot_fixed_ = bounds[index(FourBarParameter::pivot_x)].fixed();
   frame_fixed_ = bounds[index(FourBarParameter::frame_angle)].fixed();
   frame_ = std::polar(1.0, frame_fixed_ ? bounds[index(FourBarParameter::frame_angle)].lower : 0.0);

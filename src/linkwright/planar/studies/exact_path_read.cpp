@@ -147,8 +147,7 @@ void read_exact_path(study::ObjectReader& document, study::ObjectReader& target,
                    "remove the method");
   const std::optional<int> pivots = read_pivots(document, s);
   if (pivots) check_count(target, s, *pivots);
-  if (p.timing != Timing::free && s.target.timing.mode == Timing::given && p.angles.size() == p.x.size())
-    check_rotations(target, p);
+  if (p.timing != Timing::free && p.angles.size() == p.x.size()) check_rotations(target, p);
   if (pivots && p.timing == Timing::free && p.x.size() == exact_points[at(*pivots)] &&
       p.x.size() == p.y.size())
     check_exact_points(target, points_key(s.target), p.x, p.y);

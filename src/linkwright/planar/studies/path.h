@@ -80,25 +80,6 @@ void fields(Visitor&& visit, PathMechanism& m) {
         m.parameters);
 }
 
-struct PathTiming {
-  Timing mode = Timing::free;
-  std::optional<double> step;
-  std::optional<std::vector<double>> angles;
-};
-template <class Visitor>
-void fields(Visitor&& visit, PathTiming& t) {
-  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
-  visit(Field{.key = "step",
-              .summary = "crank rotation from point to point (equal_steps)",
-              .dimension = Dimension::angle},
-        t.step);
-  visit(Field{.key = "angles",
-              .summary = "crank angle of each point, from O->B0 (given); fit = \"exact\" takes the rotations "
-                         "between them",
-              .dimension = Dimension::angle},
-        t.angles);
-}
-
 /// How points are met.
 enum class PathFit { least_squares, exact };
 constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -178,45 +179,60 @@ bool repeats_first_point(const std::vector<double>& x, const std::vector<double>
   return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
 }
 
-bool check_timing_step(study::ObjectReader& target, const study::DisplayUnits& units,
-                       const std::optional<double>& step, bool asked, std::string_view mode) {
-  if (!asked) {
-    if (step)
-      target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", mode),
-                   "remove the step");
-    return false;
+std::vector<double> timed_angles(study::ObjectReader& target, const study::DisplayUnits& units,
+                                 const PathTiming& t, std::size_t points) {
+  const auto only_for = [&](bool there, const char* what, Timing mode) {
+    if (there && t.mode != mode)
+      target.error("timing", fmt::format("{} mode {}, the mode is {}", what, name_of(mode), name_of(t.mode)),
+                   "keep only what the mode needs");
+  };
+  only_for(t.step.has_value(), "step is for", Timing::equal_steps);
+  only_for(t.increments.has_value(), "increments go with", Timing::increments);
+  only_for(t.angles.has_value(), "angles go with", Timing::given);
+  std::vector<double> out;
+  if (t.mode == Timing::equal_steps) {
+    if (!t.step)
+      target.error("timing", "equal_steps needs step_deg",
+                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
+    else if (*t.step == 0 || std::abs(*t.step) > 2 * pi)
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
+    else
+      for (std::size_t k = 0; k < points; ++k) out.push_back(*t.step * static_cast<double>(k));
+  } else if (t.mode == Timing::increments) {
+    if (!t.increments) {
+      target.error("timing", "increments needs increments_deg, one from each point to the next");
+    } else if (points >= 3 && t.increments->size() + 1 != points) {
+      target.error("timing", fmt::format("{} increments for {} points", t.increments->size(), points),
+                   fmt::format("give {}: the crank rotation from each point to the next", points - 1));
+    } else {
+      out.push_back(0);
+      for (const double increment : *t.increments) out.push_back(out.back() + increment);
+    }
+  } else if (t.mode == Timing::given) {
+    if (!t.angles)
+      target.error("timing", "given needs angles_deg, one for each point");
+    else if (points >= 3 && t.angles->size() != points)
+      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), points),
+                   "give one crank angle for each point");
+    else
+      out = *t.angles;
   }
-  if (!step) {
-    target.error("timing", "equal_steps needs step_deg",
-                 "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
-    return false;
-  }
-  if (*step == 0 || std::abs(*step) > 2 * pi) {
-    target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
-                                       units.text(*step, Dimension::angle, 6)));
-    return false;
-  }
-  return true;
+  return out;
 }
 
-bool check_timing_angles(study::ObjectReader& target, const std::optional<std::vector<double>>& angles,
-                         bool asked, std::string_view mode, std::size_t points) {
-  if (!asked) {
-    if (angles)
-      target.error("timing", fmt::format("angles go with mode given, the mode is {}", mode),
-                   "remove the angles");
-    return false;
-  }
-  if (!angles) {
-    target.error("timing", "given needs angles_deg, one for each point");
-    return false;
-  }
-  if (points >= 3 && angles->size() != points) {
-    target.error("timing", fmt::format("{} angles for {} points", angles->size(), points),
-                 "give one crank angle for each point");
-    return false;
-  }
-  return true;
+std::optional<double> turned(const PathTiming& t, std::size_t points) {
+  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == Timing::increments && t.increments && t.increments->size() + 1 == points)
+    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
+  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+void leave_out_closing_angle(PathTiming& t) {
+  if (t.mode == Timing::increments) t.increments->pop_back();
+  if (t.mode == Timing::given) t.angles->pop_back();
 }
 
 bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/planar/path/problem.h"
 #include "linkwright/study/kind.h"
 
 // The targets of a path as studies give them, in the file or beside it.
@@ -54,14 +55,41 @@ void check_path_targets(study::ObjectReader& target, const char* key, const Path
 bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
                               std::optional<double> turned, PathPoints& targets);
 
-/// Whether a step of the crank from point to point (rad) is what its timing needs; `asked`: the mode has one.
-/// Problems are reported at the timing of the target.
-bool check_timing_step(study::ObjectReader& target, const study::DisplayUnits& units,
-                       const std::optional<double>& step, bool asked, std::string_view mode);
+/// `timing` of a `[target]`.
+struct PathTiming {
+  Timing mode = Timing::free;
+  std::optional<double> step;
+  std::optional<std::vector<double>> increments, angles;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathTiming& t) {
+  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
+  visit(Field{.key = "step",
+              .summary = "crank rotation from point to point (equal_steps)",
+              .dimension = Dimension::angle},
+        t.step);
+  visit(Field{.key = "increments",
+              .summary = "crank rotation from each point to the next, one less than points (increments)",
+              .dimension = Dimension::angle},
+        t.increments);
+  visit(
+      Field{.key = "angles",
+            .summary = "crank angle of each point (given): of a four-bar from O->B0, of a slider-crank from "
+                       "the x axis; fit = \"exact\" takes the rotations between them",
+            .dimension = Dimension::angle},
+      t.angles);
+}
 
-/// Likewise for the crank angles of so many points (rad).
-bool check_timing_angles(study::ObjectReader& target, const std::optional<std::vector<double>>& angles,
-                         bool asked, std::string_view mode, std::size_t points);
+/// What the timing says of so many points (rad): given angles, else the crank rotation from the first point
+/// to each. Empty for free timing, and where a problem was reported, at the timing of the target.
+std::vector<double> timed_angles(study::ObjectReader& target, const study::DisplayUnits& units,
+                                 const PathTiming& timing, std::size_t points);
+
+/// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const PathTiming& timing, std::size_t points);
+
+/// Leaves out what the timing says of the last point alone.
+void leave_out_closing_angle(PathTiming& timing);
 
 /// Whether a crank rotation is one turn, in either sense, to rounding (rad).
 bool is_one_turn(double turned);

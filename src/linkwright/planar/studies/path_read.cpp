@@ -17,10 +17,10 @@ namespace {
 void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, PathStudy& s) {
   const PathTiming& t = s.target.timing;
   s.problem.timing = t.mode;
-  if (check_timing_step(target, units, t.step, t.mode == Timing::equal_steps, name_of(t.mode)))
-    s.problem.step = *t.step;
-  if (check_timing_angles(target, t.angles, t.mode == Timing::given, name_of(t.mode), s.problem.x.size()))
-    s.problem.angles = *t.angles;
+  s.problem.angles = timed_angles(target, units, t, s.problem.x.size());
+  if (t.mode != Timing::equal_steps) return;
+  if (!s.problem.angles.empty()) s.problem.step = *t.step;
+  s.problem.angles.clear();
 }
 
 // The key that the targets stand at.
@@ -74,14 +74,6 @@ void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPo
   targets.tolerance = *form.tolerances;
 }
 
-// Crank rotation that the timing gives from the first to the last of so many points.
-std::optional<double> turned(const PathTiming& t, std::size_t points) {
-  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
-  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
-    return t.angles->back() - t.angles->front();
-  return std::nullopt;
-}
-
 // Targets with their tolerances; what the study gives for a closing target goes with it.
 void set_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
   PathPoints targets = read_targets(target, common, s);
@@ -90,9 +82,9 @@ void set_targets(study::ObjectReader& target, const study::Common& common, PathS
   if (n > 0) {
     PathTiming& t = s.target.timing;
     const std::optional<double> rotation = turned(t, n);
-    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) &&
-        t.mode == Timing::given && rotation && is_one_turn(*rotation))
-      t.angles->pop_back();
+    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) && rotation &&
+        is_one_turn(*rotation))
+      leave_out_closing_angle(t);
   }
   PathProblem& p = s.problem;
   p.x = std::move(targets.x), p.y = std::move(targets.y);
@@ -147,7 +139,7 @@ void set_bounds(study::ObjectReader& mechanism, const study::DisplayUnits& units
                       fmt::format("{} must be able to be longer than 0", name(FourBarParameter(j))));
   }
   if (s.mechanism.parameters.ranges[index(FourBarParameter::start_angle)] &&
-      s.problem.timing != Timing::equal_steps)
+      !starts_anywhere(s.problem.timing))
     mechanism.warning("parameters",
                       fmt::format("start_angle is ignored: the timing is {}", name_of(s.problem.timing)));
   require_closing(mechanism, units, s.problem);
@@ -246,7 +238,7 @@ study::Kind path_kind() {
     PathStudy resolved = s;
     const bool exact = s.target.fit == PathFit::exact;
     for (std::size_t j = 0; j < four_bar_parameter_count && !exact; ++j)
-      if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
+      if (j != index(FourBarParameter::start_angle) || starts_anywhere(s.problem.timing))
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
     resolve_targets(s.problem, resolved.target);
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();

@@ -46,7 +46,7 @@ study::Solution path_solution(const PathProblem& p, const PathDesign& d, std::si
   const FourBarClass type = classify(d.linkage);
   study::Solution out;
   out.label = fmt::format("{}, {}", in_words(type.type), name_of(d.linkage.branch));
-  const bool with_start = p.timing == Timing::equal_steps;
+  const bool with_start = starts_anywhere(p.timing);
   const auto values = values_of(d, with_start);
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
     const bool angle = j >= index(FourBarParameter::frame_angle);

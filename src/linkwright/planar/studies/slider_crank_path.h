@@ -65,37 +65,6 @@ void fields(Visitor&& visit, SliderPathMechanism& m) {
         m.parameters);
 }
 
-/// How crank angles are tied to the points.
-enum class SliderTiming { free, equal_steps, increments, given };
-constexpr std::array<EnumName<SliderTiming>, 4> names(SliderTiming) {
-  return {{{SliderTiming::free, "free", "each point is met at any crank angle, in order"},
-           {SliderTiming::equal_steps, "equal_steps", "crank angle of point i = start angle + i step"},
-           {SliderTiming::increments, "increments",
-            "crank angle of a point = that of the one before + its increment, from the start angle"},
-           {SliderTiming::given, "given", "the crank angle of each point is given"}}};
-}
-struct SliderPathTiming {
-  SliderTiming mode = SliderTiming::free;
-  std::optional<double> step;
-  std::optional<std::vector<double>> increments, angles;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderPathTiming& t) {
-  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
-  visit(Field{.key = "step",
-              .summary = "crank rotation from point to point (equal_steps)",
-              .dimension = Dimension::angle},
-        t.step);
-  visit(Field{.key = "increments",
-              .summary = "crank rotation from each point to the next, one less than points (increments)",
-              .dimension = Dimension::angle},
-        t.increments);
-  visit(Field{.key = "angles",
-              .summary = "crank angle of each point, from the x axis (given)",
-              .dimension = Dimension::angle},
-        t.angles);
-}
-
 /// The point that traces.
 enum class SliderTracingPoint { rod };
 constexpr std::array<EnumName<SliderTracingPoint>, 1> names(SliderTracingPoint) {
@@ -114,7 +83,7 @@ struct SliderPathTarget : PathPointsForm {
   SliderTracingPoint point = SliderTracingPoint::rod;
   SliderPathFit fit = SliderPathFit::least_squares;
   bool closed = false;
-  SliderPathTiming timing;
+  PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathTarget& t) {

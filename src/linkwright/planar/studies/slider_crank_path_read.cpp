@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -19,43 +18,8 @@ namespace {
 using P = SliderParameter;
 
 void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, SliderPathStudy& s) {
-  const SliderPathTiming& t = s.target.timing;
-  const std::size_t n = s.problem.x.size();
-  s.problem.free_timing = t.mode == SliderTiming::free;
-  std::vector<double>& offsets = s.problem.offsets;
-  if (check_timing_step(target, units, t.step, t.mode == SliderTiming::equal_steps, name_of(t.mode)))
-    for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
-  if (t.mode == SliderTiming::increments) {
-    if (!t.increments) {
-      target.error("timing", "increments needs increments_deg, one from each point to the next");
-    } else if (n >= 3 && t.increments->size() + 1 != n) {
-      target.error("timing", fmt::format("{} increments for {} points", t.increments->size(), n),
-                   fmt::format("give {}: the crank rotation from each point to the next", n - 1));
-    } else {
-      offsets.push_back(0);
-      for (const double increment : *t.increments) offsets.push_back(offsets.back() + increment);
-    }
-  } else if (t.increments) {
-    target.error("timing", fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
-                 "remove the increments");
-  }
-  if (check_timing_angles(target, t.angles, t.mode == SliderTiming::given, name_of(t.mode), n))
-    offsets = *t.angles;
-}
-
-bool starts_anywhere(const SliderPathStudy& s) {
-  const SliderTiming mode = s.target.timing.mode;
-  return mode == SliderTiming::equal_steps || mode == SliderTiming::increments;
-}
-
-// Crank rotation that the timing gives from the first to the last of so many points.
-std::optional<double> turned(const SliderPathTiming& t, std::size_t points) {
-  if (t.mode == SliderTiming::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
-  if (t.mode == SliderTiming::increments && t.increments && t.increments->size() + 1 == points)
-    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
-  if (t.mode == SliderTiming::given && t.angles && t.angles->size() == points)
-    return t.angles->back() - t.angles->front();
-  return std::nullopt;
+  s.problem.free_timing = s.target.timing.mode == Timing::free;
+  s.problem.offsets = timed_angles(target, units, s.target.timing, s.problem.x.size());
 }
 
 // The points; what the timing gives for a closing point goes with it.
@@ -64,14 +28,12 @@ void set_points(study::ObjectReader& target, const study::Common& common, Slider
   read_path_points(target, common, s.target, points.x, points.y);
   const std::size_t n = points.x.size();
   if (n > 0) {
-    SliderPathTiming& t = s.target.timing;
+    PathTiming& t = s.target.timing;
     const std::optional<double> rotation = turned(t, n);
     if (leave_out_closing_target(target, s.target.points_file ? "points_file" : "points", s.target.closed,
                                  rotation, points) &&
-        rotation && is_one_turn(*rotation)) {
-      if (t.mode == SliderTiming::increments) t.increments->pop_back();
-      if (t.mode == SliderTiming::given) t.angles->pop_back();
-    }
+        rotation && is_one_turn(*rotation))
+      leave_out_closing_angle(t);
   }
   s.problem.x = std::move(points.x);
   s.problem.y = std::move(points.y);
@@ -87,7 +49,7 @@ void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
     if ((P(j) == P::crank || P(j) == P::rod) && range->upper <= 0)
       mechanism.error("parameters", fmt::format("{} must be able to be longer than 0", name(P(j))));
   }
-  if (starts_anywhere(s)) return;
+  if (starts_anywhere(s.target.timing.mode)) return;
   if (s.mechanism.parameters.ranges[index(P::start_angle)])
     mechanism.warning("parameters",
                       fmt::format("start_angle is ignored: the timing is {}", name_of(s.target.timing.mode)));
@@ -217,7 +179,7 @@ study::Kind slider_path_kind() {
     SliderPathStudy resolved = s;
     const bool exact = s.target.fit == SliderPathFit::exact;
     for (std::size_t j = 0; j < slider_parameter_count && !exact; ++j)
-      if (P(j) != P::start_angle || starts_anywhere(s))
+      if (P(j) != P::start_angle || starts_anywhere(s.target.timing.mode))
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
     resolved.target.points_file.reset();
     resolved.target.points.emplace();
