@@ -25,7 +25,7 @@ TEST(StudyMemory, SaysAtTheKeyWhatIsTooMuch) {
             "taken; take "
             "fewer samples, or allow more with the environment variable LINKWRIGHT_MEMORY_MB");
   EXPECT_EQ(table_bytes(1e5, 44), 5.72e8);
-  EXPECT_EQ(population_bytes(1e6, 10), 5.12e8);
+  EXPECT_EQ(population_bytes(1e6, 10), 2.304e9);
 }
 
 }  // namespace

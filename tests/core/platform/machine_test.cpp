@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,19 @@ TEST(Machine, RandomNumbersDiffer) {
   EXPECT_GT(std::count_if(one.begin(), one.end(), [](unsigned char byte) { return byte != 0; }), 16);
   std::vector<unsigned char> many(257);
   EXPECT_THROW(fill_random(many), std::system_error);
+}
+
+TEST(Machine, MemoryIsNoMoreThanTheProcessMayTake) {
+  const double all = memory();
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  rlimit less = before;
+  less.rlim_cur = 123'456'789;
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &less), 0);
+  const double allowed = memory();
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(allowed, 123'456'789);
+  EXPECT_EQ(memory(), all);
 }
 
 }  // namespace

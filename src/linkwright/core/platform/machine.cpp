@@ -1,5 +1,6 @@
 #include "linkwright/core/platform/machine.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sched.h>
@@ -17,7 +18,12 @@ namespace linkwright::platform {
 
 double memory() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
-  return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0;
+  const double machine = pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0;
+  // A shell or a batch system may give less (ulimit -v).
+  rlimit process{};
+  if (::getrlimit(RLIMIT_AS, &process) != 0 || process.rlim_cur == RLIM_INFINITY) return machine;
+  const auto allowed = static_cast<double>(process.rlim_cur);
+  return machine > 0 ? std::min(machine, allowed) : allowed;
 }
 
 int processors() { return std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN))); }

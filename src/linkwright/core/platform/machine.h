@@ -7,7 +7,7 @@
 /// only one that includes its headers.
 namespace linkwright::platform {
 
-/// Memory of the machine (bytes); 0 where it does not say.
+/// Memory of the machine, or what of it a limit of the process allows (bytes); 0 where it does not say.
 double memory();
 
 /// Processors of the machine that are switched on, and how many of them this process may use; each at
