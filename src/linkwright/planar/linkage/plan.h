@@ -162,6 +162,16 @@ struct PartMass {
   double inertia = 0;        ///< about the origin of the part, kg m2
 };
 
+/// A pin of several links: of n links it is n - 1 joints of the model, and which two links each of them names
+/// does not matter for the motion. Where the plan needs other pairs than the model has, to find its dyads,
+/// the forces in the joints of the model follow from those in the pairs of the plan.
+struct SharedPin {
+  std::vector<int> joints;  ///< of the model
+  /// The force in joint i of the model is the sum over k of share[i][k] (-1, 0 or 1) times the force in the
+  /// pair of the plan that has the number joints[k].
+  std::vector<std::vector<double>> share;
+};
+
 /// A linkage made ready: parts (rigid clusters of bodies; part 0 is the ground), and the groups in order.
 struct LinkagePlan {
   std::vector<BodyOnPart> bodies;  ///< one a body
@@ -170,9 +180,10 @@ struct LinkagePlan {
   bool has_masses = false;         ///< every moving body has its mass given
   std::vector<std::string> massless;  ///< bodies without mass given
   std::vector<Group> groups;
-  std::vector<int> group_of_part;  ///< -1 of the ground
-  std::vector<bool> rotary;        ///< one an input: whether its joint turns
-  double size = 1;                 ///< characteristic length, m
+  std::vector<int> group_of_part;      ///< -1 of the ground
+  std::vector<SharedPin> shared_pins;  ///< those with other pairs than in the model
+  std::vector<bool> rotary;            ///< one an input: whether its joint turns
+  double size = 1;                     ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
   /// Angles are in (-pi, pi].
   std::vector<double> drawn_inputs;

@@ -95,7 +95,8 @@ void merge_groups(PlanDraft& d) {
   LINKWRIGHT_REQUIRE(d.gears.empty(), "a linkage with {} gear(s) cannot be solved all at once",
                      d.gears.size());
   d.plan().groups.clear();
-  for (PartJoint& joint : d.joints) joint.used = false;
+  d.joints = d.written;
+  d.plan().shared_pins.clear();
   std::vector<bool> chosen(d.parts(), true);
   chosen[0] = false;
   d.known.assign(d.parts(), false);

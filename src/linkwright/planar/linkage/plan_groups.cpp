@@ -91,20 +91,6 @@ bool find_gear(PlanDraft& d) {
   return false;
 }
 
-// The first free joint of a part to a known one; drives and gears stay out of dyads.
-PartJoint* to_known(PlanDraft& d, int part) {
-  for (PartJoint& joint : d.joints) {
-    if (joint.used || joint.input >= 0) continue;
-    if (joint.first.part == part && d.known[at(joint.second.part)]) return &joint;
-    if (joint.second.part == part && d.known[at(joint.first.part)]) return &joint;
-  }
-  return nullptr;
-}
-bool geared(const PlanDraft& d, int part) {
-  return std::any_of(d.gears.begin(), d.gears.end(),
-                     [&](const PartGear& g) { return !g.used && (g.turned == part || g.turning == part); });
-}
-
 bool find_dyad(PlanDraft& d) {
   for (PartJoint& inner : d.joints) {
     if (inner.used || inner.input >= 0) continue;
@@ -163,6 +149,19 @@ bool find_triangle(PlanDraft& d) {
 
 }  // namespace
 
+PartJoint* to_known(PlanDraft& d, int part) {
+  for (PartJoint& joint : d.joints) {
+    if (joint.used || joint.input >= 0) continue;
+    if (joint.first.part == part && d.known[at(joint.second.part)]) return &joint;
+    if (joint.second.part == part && d.known[at(joint.first.part)]) return &joint;
+  }
+  return nullptr;
+}
+bool geared(const PlanDraft& d, int part) {
+  return std::any_of(d.gears.begin(), d.gears.end(),
+                     [&](const PartGear& g) { return !g.used && (g.turned == part || g.turning == part); });
+}
+
 PlanJoint chained(const PartJoint& joint, int before) {
   const bool reversed = joint.first.part != before;
   return {joint.slide,
@@ -190,8 +189,11 @@ void find_groups(PlanDraft& d) {
   d.plan().group_of_part.assign(d.parts(), -1);
   d.angles.assign(d.parts(), std::nullopt);
   d.angles[0] = DrivenAngle{0, std::vector<double>(d.linkage.driven.size(), 0.0)};
-  while (find_driver(d) || find_gear(d) || find_dyad(d) || find_triangle(d) || find_general_group(d)) {
+  d.written = d.joints;
+  while (find_driver(d) || find_gear(d) || find_dyad(d) || pair_otherwise(d) || find_triangle(d) ||
+         find_general_group(d)) {
   }
+  find_shared_pins(d);
 }
 
 }  // namespace linkwright::planar

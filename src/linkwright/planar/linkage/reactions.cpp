@@ -66,6 +66,20 @@ double along_drive(const PlanJoint& j, const LinkageMotion& motion, const Wrench
   return side * dot(rotate(motion.parts[at(j.before.part)].direction, j.before.direction), w.force);
 }
 
+// From the pairs of the plan to the joints of the model.
+void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
+  for (const SharedPin& pin : plan.shared_pins) {
+    for (std::size_t k = 0; k < pin.joints.size(); ++k)
+      f.group_joints[k].force = f.joints[at(pin.joints[k])].force;
+    for (std::size_t i = 0; i < pin.joints.size(); ++i) {
+      Vec<double> sum{0, 0};
+      for (std::size_t k = 0; k < pin.joints.size(); ++k)
+        sum = sum + pin.share[i][k] * f.group_joints[k].force;
+      f.joints[at(pin.joints[i])].force = sum;
+    }
+  }
+}
+
 // One pass over the groups, last first, with the loads as they are.
 void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
   const Vec<double> gravity = vec(linkage.gravity);
@@ -116,6 +130,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
         },
         [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
+  divide_shared_pins(plan, f);
 }
 
 // A weld carries what the bodies on the side of its second body need beyond their other joints and loads.
@@ -267,6 +282,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.needed.resize(plan.parts.size());
   std::size_t most = 3;
   for (const Group& g : plan.groups) most = std::max(most, g.joints.size());
+  for (const SharedPin& pin : plan.shared_pins) most = std::max(most, pin.joints.size());
   f.group_joints.resize(most);
   f.group_drives.resize(most);
   f.loads.clear();

@@ -269,7 +269,11 @@ class Builder {
       return -1;
     const Group& group = plan.groups[at(plan.group_of_part[at(part)])];
     if (!group.as<Dyad>()) return -1;
-    return group.joints[group.parts[0] == part ? 0 : 2].joint;
+    const int joint = group.joints[group.parts[0] == part ? 0 : 2].joint;
+    // Of a pin of several links the plan may pair others than the model.
+    const bool of_model = joint >= 0 && (rigid_.joints[at(joint)].first.body == beam.body ||
+                                         rigid_.joints[at(joint)].second.body == beam.body);
+    return of_model ? joint : -1;
   }
   void drive(const ElasticPieces& p, const LinkagePlan& plan, const LinkageMotion& motion) {
     std::size_t first = 0, last = p.joints.size();

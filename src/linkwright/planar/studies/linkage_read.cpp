@@ -219,6 +219,30 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
   s.sweep = std::move(grid);
 }
 
+// What only dyads tell, of a linkage with groups that have no closed form.
+void say_what_is_not_known(study::ObjectReader& document, const LinkagePlan& plan,
+                           const std::vector<std::string>& listed, const LinkageQuality& quality) {
+  std::string groups;
+  bool dyads = false;
+  for (const Group& g : plan.groups) {
+    const GroupTraits traits = traits_of(g);
+    if (!traits.closed_form) groups += fmt::format("{}'{}'", groups.empty() ? "" : ", ", g.name);
+    dyads = dyads || (traits.closes_loop && traits.closed_form);
+  }
+  if (groups.empty()) return;
+  if (!quality.output_joint.empty())
+    document.warning(
+        "quality",
+        fmt::format("dead centres of '{}' are left out: {} has no closed form, in which they are found",
+                    quality.output_joint, groups),
+        "where the rate ratio in the table 'advantage' changes its sign, the joint reverses");
+  if (std::find(listed.begin(), listed.end(), "transmission_angle") != listed.end())
+    document.warning("output",
+                     fmt::format("there is no transmission angle of {}, which is not a dyad{}", groups,
+                                 dyads ? "; those of the dyads are given" : ""),
+                     "the joint forces show where it transmits badly");
+}
+
 void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQuality& quality) {
   auto table = document.table("quality");
   if (!table) return;
@@ -294,6 +318,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     read_drives(document, l, type, true, s, drives);
   }
   read_quality(document, l, s.quality);
+  if (canonical) say_what_is_not_known(document, description->plan, common.output.quantities, s.quality);
   if (canonical) {
     write_linkage(*description, *canonical);
     if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);

@@ -36,6 +36,7 @@ struct PlanDraft {
   const Linkage& linkage;
   PlanResult result;
   std::vector<PartJoint> joints;
+  std::vector<PartJoint> written;  // the joints before pins of several links were paired otherwise
   std::vector<PartGear> gears;
   // One a part.
   std::vector<std::optional<math::Pose>> start;    // where the model shows it
@@ -61,6 +62,15 @@ void find_parts(PlanDraft& d);
 void find_groups(PlanDraft& d);
 PlanJoint chained(const PartJoint& joint, int before);
 void place_group(PlanDraft& d, Group group);
+
+// plan_pins.cpp: pairs the links of a pin of several so that another one can be placed or a dyad closes;
+// false where no other pairs would help. `find_shared_pins` says at the end what the pairs of the model
+// carry.
+bool pair_otherwise(PlanDraft& d);
+void find_shared_pins(PlanDraft& d);
+// The first free joint of a part to a known one; drives stay out of dyads.
+PartJoint* to_known(PlanDraft& d, int part);
+bool geared(const PlanDraft& d, int part);
 
 // plan_general.cpp: the smallest group without closed form, or all parts as one in the place of all groups.
 bool find_general_group(PlanDraft& d);

@@ -102,6 +102,22 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
           }
         });
   }
+  for (const SharedPin& pin : plan.shared_pins)
+    for (std::size_t b = 0; b < sweep_together; ++b) {
+      if (b > 0 && block.data[b] == block.data[b - 1]) continue;  // the last register once more
+      const SweepRows<Batch> rows = block.rows(b);
+      const auto row = [&](std::size_t k) {
+        return task.joints + 3 * static_cast<std::size_t>(pin.joints[k]);
+      };
+      Vec<Batch> pairs[most_sweep_parts];
+      for (std::size_t k = 0; k < pin.joints.size(); ++k)
+        pairs[k] = {rows.load(row(k)), rows.load(row(k) + 1)};
+      for (std::size_t i = 0; i < pin.joints.size(); ++i) {
+        Vec<Batch> sum{none, none};
+        for (std::size_t k = 0; k < pin.joints.size(); ++k) sum = sum + Batch(pin.share[i][k]) * pairs[k];
+        rows.store(row(i), sum);
+      }
+    }
   for (std::size_t b = 0; b < sweep_together; ++b) {
     const Wrench<Batch>& on_linkage = block.registers[b].needed[0];
     const Vec<Batch> centre{Batch(task.moment_centre.x), Batch(task.moment_centre.y)};

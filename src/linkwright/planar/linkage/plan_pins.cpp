@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/detail/plan_draft.h"
+
+namespace linkwright::planar {
+namespace {
+
+// Points of a body that are closer, as a share of the size of the linkage, are one.
+constexpr double same_point = 1e-12;
+
+// The links at a pin, and the joints between them, a tree.
+struct LinksAtPin {
+  std::vector<PartPoint> links;
+  std::vector<std::size_t> joints;  // numbers in PlanDraft::joints
+
+  int place_of(int part) const {
+    for (std::size_t k = 0; k < links.size(); ++k)
+      if (links[k].part == part) return static_cast<int>(k);
+    return -1;
+  }
+};
+
+bool passive_pin(const PartJoint& j) { return !j.slide && j.input < 0 && j.joint >= 0; }
+
+bool same_place(const PlanDraft& d, const PartPoint& a, const PartPoint& b) {
+  return a.part == b.part && norm(a.at - b.at) <= same_point * d.plan().size;
+}
+
+// Pins of three links or more.
+std::vector<LinksAtPin> pins_of_several(const PlanDraft& d) {
+  std::vector<LinksAtPin> pins;
+  for (std::size_t k = 0; k < d.joints.size(); ++k) {
+    const PartJoint& j = d.joints[k];
+    // A block in a slot is a body of one point: no other joint can be there.
+    if (!passive_pin(j) || d.model(j.joint).type != JointType::revolute) continue;
+    LinksAtPin now{{j.first, j.second}, {k}};
+    for (std::size_t p = pins.size(); p-- > 0;) {
+      LinksAtPin& pin = pins[p];
+      const bool here = std::any_of(pin.links.begin(), pin.links.end(), [&](const PartPoint& link) {
+        return same_place(d, link, j.first) || same_place(d, link, j.second);
+      });
+      if (!here) continue;
+      for (const PartPoint& link : pin.links)
+        if (now.place_of(link.part) < 0) now.links.push_back(link);
+      now.joints.insert(now.joints.end(), pin.joints.begin(), pin.joints.end());
+      pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+    std::sort(now.joints.begin(), now.joints.end());
+    pins.push_back(std::move(now));
+  }
+  std::erase_if(pins, [](const LinksAtPin& pin) {
+    return pin.links.size() < 3 || pin.joints.size() + 1 != pin.links.size();  // joined twice: redundant
+  });
+  return pins;
+}
+
+// Whether each link, by its place at the pin, is on the side of `from` when joint number `without` is taken
+// out.
+std::vector<bool> side_of(const LinksAtPin& pin, const std::vector<PartJoint>& joints, std::size_t without,
+                          int from) {
+  std::vector<bool> side(pin.links.size(), false);
+  side[at(pin.place_of(from))] = true;
+  for (bool grown = true; std::exchange(grown, false);)
+    for (const std::size_t k : pin.joints) {
+      if (k == without) continue;
+      const std::size_t a = at(pin.place_of(joints[k].first.part)),
+                        b = at(pin.place_of(joints[k].second.part));
+      if (side[a] != side[b]) side[a] = side[b] = grown = true;
+    }
+  return side;
+}
+
+// Pins a link to one that has its place, in the place of a joint that joins two without.
+bool pair_with_known(PlanDraft& d, const LinksAtPin& pin) {
+  const auto known = std::find_if(pin.links.begin(), pin.links.end(),
+                                  [&](const PartPoint& link) { return d.known[at(link.part)]; });
+  if (known == pin.links.end()) return false;
+  for (const std::size_t k : pin.joints) {
+    PartJoint& j = d.joints[k];
+    if (j.used || d.known[at(j.first.part)] || d.known[at(j.second.part)]) continue;
+    const bool first_side = side_of(pin, d.joints, k, j.first.part)[at(pin.place_of(known->part))];
+    (first_side ? j.first : j.second) = *known;
+    return true;
+  }
+  return false;
+}
+
+// Pairs two links of which each is held by another joint, so that they make a dyad.
+bool pair_for_dyad(PlanDraft& d, const LinksAtPin& pin) {
+  const auto held = [&](const PartPoint& link) {
+    return !d.known[at(link.part)] && !geared(d, link.part) && to_known(d, link.part) != nullptr;
+  };
+  for (std::size_t a = 0; a < pin.links.size(); ++a)
+    for (std::size_t b = a + 1; b < pin.links.size(); ++b) {
+      if (!held(pin.links[a]) || !held(pin.links[b])) continue;
+      // Any free joint on the way from one to the other may give way; joined directly they were a dyad
+      // already.
+      for (const std::size_t k : pin.joints) {
+        PartJoint& j = d.joints[k];
+        if (j.used || side_of(pin, d.joints, k, pin.links[a].part)[b]) continue;
+        j.first = pin.links[a];
+        j.second = pin.links[b];
+        return true;
+      }
+    }
+  return false;
+}
+
+}  // namespace
+
+bool pair_otherwise(PlanDraft& d) {
+  for (const LinksAtPin& pin : pins_of_several(d))
+    if (pair_with_known(d, pin) || pair_for_dyad(d, pin)) return true;
+  return false;
+}
+
+void find_shared_pins(PlanDraft& d) {
+  for (const LinksAtPin& pin : pins_of_several(d)) {
+    const auto other_pair = [&](std::size_t k) {
+      return d.joints[k].first.part != d.written[k].first.part ||
+             d.joints[k].second.part != d.written[k].second.part;
+    };
+    if (std::none_of(pin.joints.begin(), pin.joints.end(), other_pair)) continue;
+    SharedPin out;
+    for (const std::size_t i : pin.joints) {
+      out.joints.push_back(d.written[i].joint);
+      // A joint of the model carries what the links on the side of its second one need of the others.
+      const std::vector<bool> side = side_of(pin, d.written, i, d.written[i].second.part);
+      std::vector<double>& share = out.share.emplace_back();
+      for (const std::size_t k : pin.joints)
+        share.push_back(static_cast<double>(side[at(pin.place_of(d.joints[k].second.part))]) -
+                        static_cast<double>(side[at(pin.place_of(d.joints[k].first.part))]));
+    }
+    d.plan().shared_pins.push_back(std::move(out));
+  }
+}
+
+}  // namespace linkwright::planar
