@@ -54,7 +54,6 @@ REASONS = {
     "planar/mode_text": LIBRARY,
     "planar/path_curvature": LIBRARY,
     "planar/pole_geometry": LIBRARY,
-    "planar/range_at": LIBRARY,
     "planar/reactions_newton_euler": ROUTE,
     "planar/reactions_redundant": ROUTE,
     "planar/slider_path_kernel_name": KERNEL,

@@ -203,6 +203,7 @@ int exit_code(const study::Result& result) {
     case Status::not_converged:
     case Status::branch_lost:
     case Status::limit_reached:
+    case Status::other_circuit:
     case Status::self_locking:
     case Status::infeasible:
       return 3;

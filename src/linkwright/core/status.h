@@ -16,6 +16,7 @@ enum class Status {
   not_converged,  ///< iteration stopped before its tolerance
   branch_lost,    ///< continuation could not stay on the branch it followed
   limit_reached,  ///< motion stopped at a limit
+  other_circuit,  ///< the links reach each other, but the motion does not come there from where it starts
   at_rest,        ///< friction brought the motion to rest and holds it: an answer, complete up to there
   self_locking,   ///< friction blocks: no finite force of the drives keeps the motion going
   infeasible,     ///< no candidate met every constraint; the least violated one is returned
@@ -23,13 +24,14 @@ enum class Status {
   cancelled,      ///< asked to stop: best so far
 };
 
-constexpr std::array<EnumName<Status>, 11> names(Status) {
+constexpr std::array<EnumName<Status>, 12> names(Status) {
   return {{{Status::done, "done"},
            {Status::no_assembly, "no_assembly"},
            {Status::singular, "singular"},
            {Status::not_converged, "not_converged"},
            {Status::branch_lost, "branch_lost"},
            {Status::limit_reached, "limit_reached"},
+           {Status::other_circuit, "other_circuit"},
            {Status::at_rest, "at_rest"},
            {Status::self_locking, "self_locking"},
            {Status::infeasible, "infeasible"},

@@ -182,5 +182,36 @@ TEST(SteadyCycle, TellsWhyThereIsNone) {
               ::testing::HasSubstr("one of which goes by time"));
 }
 
+// A torque that grows over one turn and falls over the next: the energy swings by pi / 2, twice as far as
+// over the first turn alone.
+TEST(SpeedFluctuation, GoesOverAsManyTurnsAsTheLoadsTakeToRepeat) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_body(l, "disc", {{"O", {0, 0}}, {"P", {0.1, 0}}});
+  add_pin(l, "O", "ground.O", "disc.O");
+  add_drive(l, "O");
+  l.gravity = 0;
+  l.bodies[1].mass = BodyMass{.mass = 1, .inertia = 2, .centre = 0};
+  l.torques.push_back({.name = "load",
+                       .body = 1,
+                       .from = 0,
+                       .torque = -1,
+                       .factor = {LoadArgument::input, {0, full_turn, 2 * full_turn}, {0, 1, 0}}});
+  const SpeedFluctuation cycle = speed_fluctuation(l, planned(l), {.mean_speed = 20, .fluctuation = 0.001});
+  ASSERT_EQ(cycle.status, Status::done) << cycle.message;
+  EXPECT_EQ(cycle.turns, 2);
+  EXPECT_EQ(cycle.input.size(), 1440u);
+  EXPECT_NEAR(cycle.motor_torque, 0.5, 1e-12);
+  EXPECT_NEAR(cycle.energy_fluctuation, pi / 2, 1e-5);
+  // To first order the flywheel is E / (delta w^2) less the inertia that is there.
+  EXPECT_NEAR(cycle.flywheel, pi / 2 / (0.001 * 400) - 2, 1e-2);
+  // Periods that fit into no whole number of turns make no cycle.
+  l.torques[0].factor.period = std::sqrt(200);
+  const SpeedFluctuation none = speed_fluctuation(l, planned(l), {.mean_speed = 20});
+  EXPECT_EQ(none.status, Status::infeasible);
+  EXPECT_EQ(
+      none.message,
+      "the loads do not repeat after whole turns of the input: their periods do not divide up to 64 turns");
+}
+
 }  // namespace
 }  // namespace linkwright::planar

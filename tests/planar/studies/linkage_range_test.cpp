@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -179,6 +180,74 @@ TEST(LinkageRange, IsOfOneInput) {
                           "sample = \"arm\"\n[sweep]\nrange = \"assembled\"\n"),
               HasSubstr("sweep.range: the linkage has 3 inputs; this is for one input"));
   EXPECT_THAT(problems_of(replaced(drawn_text, "\"assembled\"", "\"all\"")), HasSubstr("assembled"));
+}
+
+// Driven at C, the drawing reaches -19.7 to 54.1 deg; the same lengths assemble on another circuit, too.
+std::string driven_at_c(const std::string& sweep) {
+  std::string text = replaced(
+      drawn_text, "B = [3.064177772475912, 2.571150438746157] }\n[[mechanism.body]]\nname = \"coupler\"",
+      "B = [1, 1.7320508] }\n[[mechanism.body]]\nname = \"coupler\"");
+  text = replaced(text,
+                  "B = [3.064177772475912, 2.571150438746157], C = [5.707813854586756, 3.9893141335859417]",
+                  "B = [1, 1.7320508], C = [5.4735891, 3.9652102]");
+  text = replaced(text, "C = [5.707813854586756, 3.9893141335859417], D", "C = [5.4735891, 3.9652102], D");
+  text = replaced(text, "joint = \"A\"\nspeed_rpm", "joint = \"C\"\nspeed_rpm");
+  return replaced(text, "range = \"assembled\"", sweep);
+}
+
+TEST(LinkageRange, RowsOnAnotherCircuitDoNotCount) {
+  const std::string turn = "[[sweep.input]]\nfrom_deg = -180\nto_deg = 180\nsamples = 361";
+  const study::Result r = run_text(driven_at_c(turn));
+  const Table& table = r.tables.at(0);
+  EXPECT_EQ(std::count(table.status.begin(), table.status.end(), "done"), 74);
+  EXPECT_EQ(std::count(table.status.begin(), table.status.end(), "other_circuit"), 75);
+  for (std::size_t i = 0; i < table.status.size(); ++i) {
+    const double degrees = -180 + static_cast<double>(i);
+    EXPECT_EQ(table.status[i] == "done", degrees >= -19 && degrees <= 54) << degrees;
+    EXPECT_EQ(std::isnan(table.find("crank_angle_rad")->values[i]), table.status[i] != "done") << degrees;
+  }
+  std::string messages;
+  for (const Diagnostic& d : r.diagnostics) messages += d.message + "; " + d.hint + "\n";
+  EXPECT_THAT(messages,
+              HasSubstr("75 of 361 positions, the first at -180° are on another circuit: the linkage does "
+                        "not come there from the drawn position without being taken apart"));
+  const study::Result all = run_text(driven_at_c("circuits = \"all\"\n" + turn));
+  EXPECT_EQ(std::count(all.tables[0].status.begin(), all.tables[0].status.end(), "done"), 149);
+}
+
+// Rates of a row do not depend on the row before it: the sweep there and the sweep back have the same.
+TEST(LinkageRange, RatesGoOnBehindAKink) {
+  const std::string lengths[] = {"ground_m = 4\ncrank_m = 1\ncoupler_m = 3\nrocker_m = 2\n",
+                                 "ground_m = 3\ncrank_m = 1\ncoupler_m = 3\nrocker_m = 1\n"};
+  for (const std::string& parameters : lengths) {
+    const auto swept = [&](const std::string& from, const std::string& to) {
+      return run_text(
+          "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.four_bar\"\n"
+          "[mechanism.parameters]\n" +
+          parameters +
+          "[drive]\nspeed_rpm = 60\n[output]\nquantities = "
+          "[\"position\", \"rates\"]\n[sweep]\nat_change_point = \"keep_sign\"\ncrank_angle = { from_deg = " +
+          from + ", to_deg = " + to + ", samples = 73 }\n");
+    };
+    const study::Result there = swept("10", "370"), back = swept("370", "10");
+    const Table &a = there.tables.at(0), &b = back.tables.at(0);
+    int kinks = 0;
+    for (std::size_t i = 0; i < 73; ++i) {
+      if (a.status[i] == "singular") {
+        ++kinks;
+        continue;
+      }
+      ASSERT_EQ(a.status[i], "done") << i;
+      for (const char* key :
+           {"rocker_speed_rad_per_s", "rocker_acceleration_rad_per_s2", "coupler_O3_speed_x_m_per_s"}) {
+        const double here = a.find(key)->values[i];
+        EXPECT_TRUE(std::isfinite(here)) << key << i;
+        EXPECT_NEAR(here, b.find(key)->values[72 - i], 1e-7 * std::abs(here) + 1e-9)
+            << key << i;  // 5 deg off the kink
+      }
+    }
+    EXPECT_EQ(kinks, parameters == lengths[0] ? 1 : 2);
+  }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ class SimulationReporter {
   void add_values(Table& table, const std::vector<RecordedRow>& rows) {
     for (std::size_t c = 0; c < r_.columns.size(); ++c) {
       std::vector<double> values = column(rows, [c](const RecordedRow& r) { return r.values[c]; });
-      if (r_.columns[c].angle) math::unwrap_angles(values);
+      planar::unwrap(r_.columns[c], values);
       table.add(r_.columns[c].key, r_.columns[c].label, std::move(values));
     }
   }

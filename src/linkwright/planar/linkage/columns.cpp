@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 std::string group_key(std::string name) {
@@ -38,6 +39,10 @@ LinkageQuantities chosen_quantities(const std::vector<std::string>& listed) {
           .power = has("power")};
 }
 
+void unwrap(const LinkageColumn& column, std::span<double> rows) {
+  if (column.angle && !column.counted) math::unwrap_angles(rows);
+}
+
 double value_of(const LinkageColumn& column, const LinkageInstant& instant) {
   using Needs = LinkageColumn::Needs;
   const Status status = instant.motion->status;
@@ -67,6 +72,22 @@ std::string moment_centre_name(const Linkage& l) {
     if (p.at == l.moment_centre) return p.name;
   return fmt::format("({:.6g}, {:.6g}) m", l.moment_centre.real(), l.moment_centre.imag());
 }
+
+namespace {
+
+// The angle of a body, in the turn that its joints count where drives and gears alone turn it.
+double angle_with_turns(const LinkagePlan& plan, const LinkageInstant& instant, int body) {
+  const double angle = angle_of(body_state(plan, *instant.motion, body).direction);
+  const BodyOnPart& on = plan.bodies[at(body)];
+  const auto& driven = plan.turned[at(on.part)];
+  if (!driven) return angle;
+  double counted = math::wrap_angle(driven->angle + angle_of(on.turn));
+  for (std::size_t k = 0; k < driven->gains.size(); ++k)
+    counted += driven->gains[k] * instant.inputs[k].value;
+  return angle + full_turn * std::round((counted - angle) / full_turn);
+}
+
+}  // namespace
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
                                            const LinkageQuantities& q, const std::vector<BodyPoint>& traces) {
@@ -108,8 +129,9 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
   if (q.position) {
     moving([&](int b, const std::string& key, const std::string& name) {
       add(key + "_angle_rad", name + " angle (rad)",
-          [&plan, b](const LinkageInstant& i) { return angle_of(body_state(plan, *i.motion, b).direction); });
+          [&plan, b](const LinkageInstant& i) { return angle_with_turns(plan, i, b); });
       out.back().angle = true;
+      out.back().counted = plan.turned[at(plan.bodies[at(b)].part)].has_value();
       add(key + "_x_m", name + " origin x (m)",
           [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).origin.x; });
       add(key + "_y_m", name + " origin y (m)",

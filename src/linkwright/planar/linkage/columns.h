@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,13 @@ struct LinkageInstant {
 struct LinkageColumn {
   std::string key, label;
   std::function<double(const LinkageInstant&)> value;
-  bool angle = false;                                                ///< to be unwrapped
+  bool angle = false;
+  bool counted = false;  ///< an angle whose turns the joints count; others are unwrapped
   enum class Needs { nothing, pose, motion } needs = Needs::motion;  ///< at dead points there is no motion
 };
+
+/// Unwraps the rows of an angle whose turns are not counted.
+void unwrap(const LinkageColumn& column, std::span<double> rows);
 
 /// The value of a column, NaN where the status of the motion leaves it unknown.
 double value_of(const LinkageColumn& column, const LinkageInstant& instant);

@@ -5,7 +5,6 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 namespace {
@@ -27,10 +26,11 @@ Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
   if (length == 0) return {0, 0};  // as applied_loads has it
   return {length - s.free_length, dot(way, b.velocity - a.velocity) / length};
 }
-Springy state_of(const LinkagePlan& plan, const LinkageMotion& motion, const TorsionSpring& s) {
-  const PartState<double> a = body_state(plan, motion, s.first), b = body_state(plan, motion, s.second);
-  return {math::wrap_angle(angle_of(rotate_inverse(a.direction, b.direction)) - s.free_angle),
-          b.speed - a.speed};
+Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                 const TorsionSpring& s) {
+  const auto k = static_cast<std::size_t>(&s - l.torsion_springs.data());
+  return {motion.twists[k] - s.free_angle,
+          body_state(plan, motion, s.second).speed - body_state(plan, motion, s.first).speed};
 }
 
 double power_of(const LinkagePlan& plan, const LinkageMotion& motion, const AppliedLoad& load) {
@@ -64,7 +64,7 @@ double potential_energy(const Linkage& l, const LinkagePlan& plan, const Linkage
     sum += s.stiffness * stretch * stretch / 2;
   }
   for (const TorsionSpring& s : l.torsion_springs) {
-    const double angle = state_of(plan, motion, s).stretch;
+    const double angle = state_of(l, plan, motion, s).stretch;
     sum += s.stiffness * angle * angle / 2;
   }
   return sum;
@@ -79,7 +79,7 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
     sum += s.stiffness * now.stretch * now.rate;
   }
   for (const TorsionSpring& s : l.torsion_springs) {
-    const Springy now = state_of(plan, motion, s);
+    const Springy now = state_of(l, plan, motion, s);
     sum += s.stiffness * now.stretch * now.rate;
   }
   return sum;

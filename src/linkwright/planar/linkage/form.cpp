@@ -64,8 +64,8 @@ class Names {
   std::size_t index_ = 0;
 };
 
-LoadFactor factor_of(const FactorForm& f) { return {f.against, f.argument, f.factor}; }
-FactorForm form_of(const LoadFactor& f) { return {f.against, f.argument, f.factor}; }
+LoadFactor factor_of(const FactorForm& f) { return {f.against, f.argument, f.factor, f.period}; }
+FactorForm form_of(const LoadFactor& f) { return {f.against, f.argument, f.factor, f.period}; }
 
 LinkageBody body_of(const BodyForm& form, bool drawn) {
   LinkageBody body{.name = form.name};

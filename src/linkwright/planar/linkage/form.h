@@ -58,6 +58,7 @@ struct TorsionSpringForm {
 struct FactorForm {
   LoadArgument against = LoadArgument::constant;
   std::vector<double> argument, factor;
+  std::optional<double> period = {};
 };
 struct ForceForm {
   std::string name, point;
@@ -223,6 +224,12 @@ void fields(Visitor&& visit, FactorForm& f) {
   visit(Field{.key = "argument", .summary = "rising values of it, in rad, m, s or rad/s"}, f.argument);
   visit(Field{.key = "factor", .summary = "factor of the load at each of them, straight lines between"},
         f.factor);
+  visit(
+      Field{.key = "period",
+            .summary = "change of the argument after which the table repeats, 0 = never; default: a table of "
+                       "whole turns of the input repeats after them",
+            .minimum = 0},
+      f.period);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ForceForm& f) {

@@ -123,6 +123,10 @@ class Checker {
     else if (std::adjacent_find(f.argument.begin(), f.argument.end(), std::greater_equal<>()) !=
              f.argument.end())
       error(key, "the arguments of its table do not rise", "sort them, each once");
+    if (f.period && !(*f.period == 0 || (std::isfinite(*f.period) && !f.argument.empty() &&
+                                         *f.period >= (1 - 1e-9) * (f.argument.back() - f.argument.front()))))
+      error(key, fmt::format("its period {} is shorter than its table", *f.period),
+            "give the change of the argument after which the table repeats, or 0 for never");
     for (std::size_t i = 0; i < std::min(f.argument.size(), f.factor.size()); ++i)
       if (!std::isfinite(f.argument[i] + f.factor[i])) {
         error(key, "its table holds numbers that are not finite", {});
@@ -231,5 +235,29 @@ double size_of(const Linkage& linkage) {
 }
 
 Diagnostics check(const Linkage& linkage) { return Checker(linkage).run(); }
+
+double period_of(const LoadFactor& f, bool turns) {
+  if (f.period) return *f.period;
+  if (f.against != LoadArgument::input || !turns || f.argument.size() < 2) return 0;
+  // Tables are typed with a few digits.
+  constexpr double same_turn = 1e-3;
+  const double held = f.argument.back() - f.argument.front(),
+               whole = full_turn * std::round(held / full_turn);
+  return whole > 0 && std::abs(held - whole) <= same_turn * full_turn ? whole : 0;
+}
+
+std::vector<std::string> loads_held(const Linkage& l, bool turns, double low, double high) {
+  const double rounding = 1e-9 * std::max({1.0, std::abs(low), std::abs(high)});
+  std::vector<std::string> out;
+  const auto look = [&](const auto& load) {
+    const LoadFactor& f = load.factor;
+    if (f.against == LoadArgument::input && !f.argument.empty() && period_of(f, turns) == 0 &&
+        (low < f.argument.front() - rounding || high > f.argument.back() + rounding))
+      out.push_back(load.name);
+  };
+  std::for_each(l.forces.begin(), l.forces.end(), look);
+  std::for_each(l.torques.begin(), l.torques.end(), look);
+  return out;
+}
 
 }  // namespace linkwright::planar

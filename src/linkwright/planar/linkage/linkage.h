@@ -138,12 +138,22 @@ constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
             "of a torque: angular speed of its body against the body it comes from, as of a motor"}}};
 }
 
-/// How strong a load is: a factor that is 1, or interpolated linearly in a table and held at its ends.
+/// How strong a load is: a factor that is 1, or interpolated linearly in a table and held at its ends, or
+/// repeated.
 struct LoadFactor {
   LoadArgument against = LoadArgument::constant;
   std::vector<double> argument;  ///< rising; rad, m, s or rad/s
   std::vector<double> factor;
+  /// After which change of the argument the table repeats; 0: never. Not given: a table of whole turns of a
+  /// first input that turns repeats after these turns, any other never.
+  std::optional<double> period = {};
 };
+/// The period of a factor (0: none); `turns`: whether the first input turns.
+double period_of(const LoadFactor& factor, bool turns);
+struct Linkage;
+/// Names of the forces and torques that go by the first input and keep the last value of their tables
+/// somewhere from `low` to `high` of it.
+std::vector<std::string> loads_held(const Linkage& linkage, bool turns, double low, double high);
 
 /// A force on a point of a body, in the global frame or turning with the body.
 struct PointForce {

@@ -7,6 +7,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/triangle.h"
 #include "linkwright/planar/loop_gap.h"
@@ -95,7 +96,8 @@ std::size_t solved(const LinkagePlan& plan, const LinkageMotion& motion) {
 
 }  // namespace
 
-LinkageMotion::LinkageMotion(const LinkagePlan& plan) : parts(plan.parts.size()), groups(plan.groups.size()) {
+LinkageMotion::LinkageMotion(const LinkagePlan& plan)
+    : parts(plan.parts.size()), groups(plan.groups.size()), twists(plan.twists.size(), nan) {
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   for (const Group& g : plan.groups) {
     modes.push_back(g.mode);
@@ -185,6 +187,24 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
           return placed;
         });
     if (status != Status::done) return mark_failed(plan, motion, k, status);
+  }
+  if (!plan.twists.empty()) count_turns(plan, inputs, motion);
+}
+
+void count_turns(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  for (std::size_t k = 0; k < plan.twists.size(); ++k) {
+    const PlanTwist& t = plan.twists[k];
+    if (t.counted) {
+      motion.twists[k] = t.angle;
+      for (std::size_t i = 0; i < t.gains.size(); ++i) motion.twists[k] += t.gains[i] * inputs[i].value;
+      continue;
+    }
+    const Vec<double>&a = motion.parts[at(t.first)].direction, &b = motion.parts[at(t.second)].direction;
+    const double now = angle_of(rotate_inverse(a, rotate(b, t.turn)));
+    if (std::isnan(now)) continue;
+    const double last =
+        std::isnan(motion.twists[k]) ? t.free - full_turn * std::round(t.free / full_turn) : motion.twists[k];
+    motion.twists[k] = last + math::wrap_angle(now - last);
   }
 }
 

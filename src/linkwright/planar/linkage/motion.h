@@ -38,6 +38,7 @@ class LinkageMotion {
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;
   std::vector<GeneralGroupPointer> general;  ///< of groups with a matrix, else null
+  std::vector<double> twists;  ///< rad, one a torsion spring, see PlanTwist; NaN before the first position
 };
 
 /// A point of a body in the global frame: where it is and how it moves.
@@ -54,6 +55,9 @@ PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motio
 /// is searched by Newton's method from the positions in `motion`, or from its start poses at first.
 /// Throws ContractError when the number of inputs is not the plan's or one is not finite.
 void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
+
+/// The twists of the torsion springs at the places of the parts; solve_position does it as well.
+void count_turns(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
 /// Velocities for the given rates of the inputs, after solve_position.
 void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);

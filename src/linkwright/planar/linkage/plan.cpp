@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/detail/plan_draft.h"
 
 namespace linkwright::planar {
@@ -40,6 +41,22 @@ int mobility(const Linkage& linkage) {
   return freedoms;
 }
 
+void find_twists(PlanDraft& d) {
+  for (const TorsionSpring& s : d.linkage.torsion_springs) {
+    const BodyOnPart &a = d.plan().bodies[at(s.first)], &b = d.plan().bodies[at(s.second)];
+    PlanTwist twist{a.part, b.part, rotate_inverse(a.turn, b.turn)};
+    twist.free = s.free_angle;
+    const auto &first = d.angles[at(a.part)], &second = d.angles[at(b.part)];
+    if (first && second) {
+      twist.counted = true;
+      twist.angle = math::wrap_angle(second->angle - first->angle + angle_of(twist.turn));
+      for (std::size_t i = 0; i < first->gains.size(); ++i)
+        twist.gains.push_back(second->gains[i] - first->gains[i]);
+    }
+    d.plan().twists.push_back(std::move(twist));
+  }
+}
+
 PlanResult plan_linkage(const Linkage& linkage, PlanRoute route) {
   PlanDraft d{.linkage = linkage};
   d.result.problems = check(linkage);
@@ -51,6 +68,8 @@ PlanResult plan_linkage(const Linkage& linkage, PlanRoute route) {
   find_problems(d);
   if (d.good()) find_modes(d);
   if (d.good()) find_drawn_inputs(d);
+  if (d.good()) find_twists(d);
+  d.plan().turned = d.angles;
   if (d.good() && route == PlanRoute::all_at_once) merge_groups(d);
   return std::move(d.result);
 }

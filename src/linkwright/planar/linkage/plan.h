@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -162,6 +163,24 @@ struct PartMass {
   double inertia = 0;        ///< about the origin of the part, kg m2
 };
 
+/// Angle of a part that drives and gears alone turn (rad): `angle` + the sum of `gains` times the inputs.
+struct DrivenAngle {
+  double angle = 0;
+  std::vector<double> gains;
+};
+
+/// The twist of a torsion spring: the angle of its second body from its first, with its turns.
+struct PlanTwist {
+  int first = 0, second = 0;  ///< parts
+  Vec<double> turn{1, 0};     ///< of the second body on its part, less that of the first on its
+  /// Where drives and gears alone turn both, their joints count the turns: the twist is `angle` + the sum of
+  /// `gains` times the inputs. Else it goes on from the last position by less than half a turn, from the
+  /// first one to the angle that is nearest to `free` but for its whole turns.
+  bool counted = false;
+  double angle = 0, free = 0;
+  std::vector<double> gains;
+};
+
 /// A pin of several links: of n links it is n - 1 joints of the model, and which two links each of them names
 /// does not matter for the motion. Where the plan needs other pairs than the model has, to find its dyads,
 /// the forces in the joints of the model follow from those in the pairs of the plan.
@@ -180,10 +199,12 @@ struct LinkagePlan {
   bool has_masses = false;         ///< every moving body has its mass given
   std::vector<std::string> massless;  ///< bodies without mass given
   std::vector<Group> groups;
-  std::vector<int> group_of_part;      ///< -1 of the ground
-  std::vector<SharedPin> shared_pins;  ///< those with other pairs than in the model
-  std::vector<bool> rotary;            ///< one an input: whether its joint turns
-  double size = 1;                     ///< characteristic length, m
+  std::vector<int> group_of_part;                  ///< -1 of the ground
+  std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
+  std::vector<PlanTwist> twists;                   ///< one a torsion spring
+  std::vector<SharedPin> shared_pins;              ///< those with other pairs than in the model
+  std::vector<bool> rotary;                        ///< one an input: whether its joint turns
+  double size = 1;                                 ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
   /// Angles are in (-pi, pi].
   std::vector<double> drawn_inputs;

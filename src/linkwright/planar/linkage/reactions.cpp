@@ -5,14 +5,15 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
 
 namespace linkwright::planar {
 namespace {
 
-double factor_at(const LoadFactor& f, double argument) {
+double factor_at(const LoadFactor& f, double argument, bool turns) {
+  if (const double period = period_of(f, turns); period > 0)
+    argument -= period * std::floor((argument - f.argument.front()) / period);
   const auto above = std::upper_bound(f.argument.begin(), f.argument.end(), argument);
   if (above == f.argument.begin()) return f.factor.front();
   if (above == f.argument.end()) return f.factor.back();
@@ -20,20 +21,21 @@ double factor_at(const LoadFactor& f, double argument) {
   const double share = (argument - f.argument[i - 1]) / (f.argument[i] - f.argument[i - 1]);
   return f.factor[i - 1] + share * (f.factor[i] - f.factor[i - 1]);
 }
-double strength(const LoadFactor& f, double time, double input, const Vec<double>& point, double speed) {
+double strength(const LoadFactor& f, bool turns, double time, double input, const Vec<double>& point,
+                double speed) {
   switch (f.against) {
     case LoadArgument::constant:
       return 1;
     case LoadArgument::input:
-      return factor_at(f, input);
+      return factor_at(f, input, turns);
     case LoadArgument::time:
-      return factor_at(f, time);
+      return factor_at(f, time, turns);
     case LoadArgument::x:
-      return factor_at(f, point.x);
+      return factor_at(f, point.x, turns);
     case LoadArgument::y:
-      return factor_at(f, point.y);
+      return factor_at(f, point.y, turns);
     case LoadArgument::speed:
-      return factor_at(f, speed);
+      return factor_at(f, speed, turns);
   }
   return 1;
 }
@@ -254,20 +256,22 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   }
   for (const TorsionSpring& s : l.torsion_springs) {
     const PartState<double> a = body_state(plan, motion, s.first), b = body_state(plan, motion, s.second);
-    const double angle = math::wrap_angle(angle_of(rotate_inverse(a.direction, b.direction)) - s.free_angle);
-    const double torque = -s.stiffness * angle - s.damping * (b.speed - a.speed);
+    const double twist =
+        motion.twists[static_cast<std::size_t>(&s - l.torsion_springs.data())] - s.free_angle;
+    const double torque = -s.stiffness * twist - s.damping * (b.speed - a.speed);
     loads.push_back({s.second, b.origin, {0, 0}, torque});
     loads.push_back({s.first, a.origin, {0, 0}, -torque});
   }
+  const bool turns = !plan.rotary.empty() && plan.rotary[0];
   for (const PointForce& p : l.forces) {
     const Vec<double> there = point_of(l, plan, motion, p.point).position;
-    Vec<double> force = strength(p.factor, time, input, there, 0) * vec(p.force);
+    Vec<double> force = strength(p.factor, turns, time, input, there, 0) * vec(p.force);
     if (p.turns_with_body) force = rotate(body_state(plan, motion, p.point.body).direction, force);
     loads.push_back({p.point.body, there, force, 0});
   }
   for (const BodyTorque& t : l.torques) {
     const double speed = part_of(plan, motion, t.body).speed - part_of(plan, motion, t.from).speed;
-    const double torque = t.torque * strength(t.factor, time, input, {0, 0}, speed);
+    const double torque = t.torque * strength(t.factor, turns, time, input, {0, 0}, speed);
     loads.push_back({t.body, part_of(plan, motion, t.body).origin, {0, 0}, torque});
     loads.push_back({t.from, part_of(plan, motion, t.from).origin, {0, 0}, -torque});
   }

@@ -150,6 +150,7 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
     s = {{v[0], v[1]}, (1 / norm(direction)) * direction, {v[4], v[5]}, v[6], {v[7], v[8]}, v[9]};
   }
   for (GroupState<double>& g : motion.groups) g.sine = 0;
+  count_turns(plan, std::span(&input, 1), motion);
   motion.status = Status::done;
   motion.failed_group = -1;
   if (!linkage) return true;

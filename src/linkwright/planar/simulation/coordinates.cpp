@@ -82,6 +82,8 @@ class Coordinates {
     }
     equations(y);
     put(y);
+    twists_ = motion_.twists;
+    for (std::size_t k = 0; k < twists_.size(); ++k) twists_[k] -= turned(k);
     start_kinetic_ = kinetic_energy(plan_, motion_);
     start_potential_ = potential_energy(l_, plan_, motion_);
     std::vector<double> tolerances;
@@ -192,6 +194,12 @@ class Coordinates {
       s = {{place[0], place[1]}, unit(place[2]), {place[n], place[n + 1]}, place[n + 2], {0, 0}, 0};
     }
     angles_ = y;
+    for (std::size_t k = 0; k < twists_.size(); ++k) motion_.twists[k] = twists_[k] + turned(k);
+  }
+  // The angles of the state count their turns by themselves.
+  double turned(std::size_t spring) const {
+    const PlanTwist& t = plan_.twists[spring];
+    return angle(t.second) - angle(t.first);
   }
   double angle(int part) const { return part == 0 ? 0.0 : angles_[at(column_[at(part)]) + 2]; }
   const PartState<double>& part(int p) const { return motion_.parts[at(p)]; }
@@ -416,6 +424,7 @@ class Coordinates {
   std::vector<int> parts_, column_;  // parts that carry bodies; first coordinate of a part, -1 of others
   std::vector<Equation> equations_, coordinate_;
   std::span<const double> angles_;
+  std::vector<double> twists_;  // of the torsion springs, less the angles between their bodies in the state
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_, solution_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

@@ -35,6 +35,22 @@ void require(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSe
                      l.forces.size() + l.torques.size());
 }
 
+// Turns after which all loads that go by the input repeat; 0 when there are none up to so many.
+int turns_of_cycle(const Linkage& l) {
+  constexpr int most_turns = 64;
+  constexpr double same = 1e-9;
+  const auto repeats = [](const auto& load, int turns) {
+    if (load.factor.against != LoadArgument::input) return true;
+    const double period = period_of(load.factor, true), count = full_turn * turns / period;
+    return period == 0 || std::abs(count - std::round(count)) <= same * count;
+  };
+  for (int turns = 1; turns <= most_turns; ++turns)
+    if (std::all_of(l.forces.begin(), l.forces.end(), [&](const auto& f) { return repeats(f, turns); }) &&
+        std::all_of(l.torques.begin(), l.torques.end(), [&](const auto& t) { return repeats(t, turns); }))
+      return turns;
+  return 0;
+}
+
 // Whether the input rotates fully; else why not.
 template <class Answer>
 bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answer& out) {
@@ -54,6 +70,17 @@ bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answ
                               math::degrees(path.change_points.front().value));
   }
   return out.status == Status::done;
+}
+
+// Whether the loads repeat after whole turns, and after how many.
+template <class Answer>
+bool has_cycle(const Linkage& l, Answer& out) {
+  out.turns = turns_of_cycle(l);
+  if (out.turns > 0) return true;
+  out.status = Status::infeasible;
+  out.message =
+      "the loads do not repeat after whole turns of the input: their periods do not divide up to 64 turns";
+  return false;
 }
 
 // Running integral over the cycle, by the cubic through four neighbours; periodic.
@@ -99,7 +126,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
   constexpr int between_looks = 1024;
   require(linkage, plan, setup);
   SpeedFluctuation out;
-  if (!rotates_fully(plan, setup, out)) return out;
+  if (!rotates_fully(plan, setup, out) || !has_cycle(linkage, out)) return out;
   Linkage l = linkage;
   std::erase_if(l.torques, [](const BodyTorque& t) { return t.factor.against == LoadArgument::speed; });
   const double speed = setup.mean_speed, sense = speed > 0 ? 1 : -1, mean = std::abs(speed);
@@ -107,7 +134,8 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
   LinkageMotion motion(plan);
   LinkageForces forces;
   double sum = 0;
-  for (int i = 0; i < setup.samples; ++i) {
+  const int samples = out.turns * setup.samples;
+  for (int i = 0; i < samples; ++i) {
     if (context && i % between_looks == 0 && (out.status = context->interruption()) != Status::done) {
       out.message = "interrupted before the cycle was known";
       return out;
@@ -125,7 +153,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
     out.torque.push_back((forces.weight_power + forces.load_power) / speed);
     sum += out.torque.back();
   }
-  out.motor_torque = -sum / setup.samples;
+  out.motor_torque = -sum / samples;
   std::vector<double> excess;
   for (const double q : out.torque) excess.push_back(sense * (q + out.motor_torque));
   out.energy = integral(excess, step);
@@ -160,12 +188,12 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const SpeedF
                          const RunContext* context) {
   require(l, plan, setup);
   SteadyCycle out;
-  if (!rotates_fully(plan, setup, out)) return out;
+  if (!rotates_fully(plan, setup, out) || !has_cycle(l, out)) return out;
   const double sense = setup.mean_speed > 0 ? 1 : -1;
   LinkageDynamics dynamics(l, plan, {true});
   math::OdeWorkspace workspace;
   std::vector<double> angles;
-  for (int i = 0; i <= setup.samples; ++i)
+  for (int i = 0; i <= out.turns * setup.samples; ++i)
     angles.push_back(setup.start + sense * full_turn * i / setup.samples);
   // Squared speed, which goes through zero evenly where the machine stops, and time over the angle.
   const auto slope = [&](double angle, std::span<const double> y, std::span<double> rate) {
@@ -210,7 +238,7 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const SpeedF
     const double gain = turn(speed) - speed;
     if (out.status != Status::done) return out;
     if (std::abs(gain) <= 1e-9 * std::abs(speed)) {
-      out.mean_speed = sense * full_turn / out.period;
+      out.mean_speed = sense * out.turns * full_turn / out.period;
       out.fluctuation = spread(out.speed, out.mean_speed) * sense;
       return out;
     }

@@ -6,14 +6,15 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/linkage/plan.h"
 
-// Speed fluctuation of a machine: a linkage with one turning input over its cycle, one turn.
+// Speed fluctuation of a machine: a linkage with one turning input over its cycle: one turn, or as many as
+// its loads take to repeat.
 namespace linkwright::planar {
 
 struct SpeedFluctuationSetup {
   double start = 0;           ///< rad: input where the cycle begins
   double mean_speed = 1;      ///< rad/s, a turn over its time; not 0; negative: backwards
   double fluctuation = 0.02;  ///< wanted (largest - least) / mean speed, > 0
-  int samples = 720;          ///< of the cycle, at least 16
+  int samples = 720;          ///< of a turn, at least 16
 };
 
 /// A driven cycle seen from the input: everything that moves as one inertia J that changes with the angle,
@@ -21,6 +22,7 @@ struct SpeedFluctuationSetup {
 struct SpeedFluctuation {
   Status status = Status::done;
   std::string message;          ///< why it is not `done`, in plain words
+  int turns = 1;                ///< of the cycle: after so many the loads repeat
   std::vector<double> input;    ///< rad, evenly from the start in the sense of turning, end excluded
   std::vector<double> inertia;  ///< kg m2: twice the kinetic energy over the squared speed
   std::vector<double> torque;   ///< N m: of weight, springs, loads and friction at the mean speed
@@ -49,7 +51,8 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
 struct SteadyCycle {
   Status status = Status::done;
   std::string message;
-  std::vector<double> input;  ///< rad, evenly from the start, one turn with both ends
+  int turns = 1;              ///< of the cycle
+  std::vector<double> input;  ///< rad, evenly from the start, the cycle with both ends
   std::vector<double> speed;  ///< rad/s
   double period = 0;          ///< s
   double mean_speed = 0;      ///< rad/s, a turn over its time

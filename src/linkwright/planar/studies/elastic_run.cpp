@@ -306,7 +306,7 @@ class ElasticRecorder {
     const auto add_all = [](Table& to, const std::vector<LinkageColumn>& columns,
                             std::vector<std::vector<double>>& values) {
       for (std::size_t c = 0; c < columns.size(); ++c) {
-        if (columns[c].angle) math::unwrap_angles(values[c]);
+        unwrap(columns[c], values[c]);
         to.add(columns[c].key, columns[c].label, std::move(values[c]));
       }
     };

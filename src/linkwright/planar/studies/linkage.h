@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,17 @@ struct InputGrid {
   std::optional<InputRange> assembled;
 };
 
+/// Which rows of a grid over one input count.
+enum class CircuitRows {
+  reached,  ///< those on the circuit of the drawing, or of the first row that assembles
+  all       ///< those of all circuits in the assembly modes of the study
+};
+constexpr std::array<EnumName<CircuitRows>, 2> names(CircuitRows) {
+  return {{{CircuitRows::reached, "reached",
+            "those that the linkage comes to from the drawn position, or else from the first that assembles"},
+           {CircuitRows::all, "all", "those of other circuits as well, for which it is taken apart"}}};
+}
+
 /// `[quality]`: what is asked beyond the table, of linkages with one input.
 struct LinkageQuality {
   std::string
@@ -58,6 +70,7 @@ struct LinkageStudy {
   std::vector<LinkageDrive> drives;  ///< one an input
   std::variant<InputGrid, study::TimeSamples> sweep;
   AtChangePoint at_change_point = AtChangePoint::smooth;  ///< of a grid over one input
+  CircuitRows circuits = CircuitRows::reached;            ///< likewise
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
   LinkageQuantities quantities;

@@ -48,6 +48,8 @@ constexpr std::array<EnumName<SweepRange>, 2> names(SweepRange) {
         "where the linkage assembles about the drawn position, or nearest to it: of one input, whose first "
         "and last value then only bound it and may be left out"}}};
 }
+constexpr Field circuits_field{.key = "circuits",
+                               .summary = "which positions of a grid over one input count"};
 constexpr Field range_field{.key = "range", .summary = "how far a grid over one input goes"};
 constexpr Field change_point_field{
     .key = "at_change_point", .summary = "grid over one input: how the linkage continues at a change point"};
@@ -214,7 +216,10 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
                 "take fewer samples");
   sweep(change_point_field, s.at_change_point);
+  sweep(circuits_field, s.circuits);
   canonical = written(l, grid, s.at_change_point, range);
+  if (s.circuits != CircuitRows::reached)
+    study::ObjectWriter(canonical).operator()(circuits_field, s.circuits);
   if (assembled && !sweep.document().has_errors()) take_assembled_range(plan, s.at_change_point, grid);
   s.sweep = std::move(grid);
 }
@@ -369,6 +374,7 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
     sweep.property(crank_angle_field, std::move(crank_angle).finish());
   }
   sweep(range_field, SweepRange::given);
+  sweep(circuits_field, CircuitRows::reached);
   if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
   sweep.property(Field{.key = "time", .summary = "times of the rows"},
                  study::schema_fields<study::TimeSamples>());

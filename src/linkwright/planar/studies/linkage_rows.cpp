@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 
@@ -88,7 +87,36 @@ RowSolver::RowSolver(const LinkageStudy& s, const LinkageRows& rows)
   const bool choice = std::any_of(limits->ranges.begin(), limits->ranges.end(), [](const InputRange& r) {
     return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
   });
-  if (choice) branch = branch_path(s.plan, inputs, 0, motion.modes, low, high, s.at_change_point);
+  if (choice)
+    branch = branch_path(s.plan, inputs, 0, motion.modes, low, high, s.at_change_point);
+  else if (s.circuits == CircuitRows::reached)
+    find_circuit(low, high);
+}
+
+// The circuit of the drawing, or of the first row that assembles. Circuits may meet beyond the rows.
+void RowSolver::find_circuit(double low, double high) {
+  const std::vector<double>& drawn = s_.plan.drawn_inputs;
+  if (!limits->closed) {
+    const double beyond = s_.plan.rotary[0] ? full_turn : 4 * s_.plan.size;
+    const double start = drawn.empty() ? low : drawn[0];
+    circuits_ = input_limits(s_.plan, std::vector<double>{low}, 0, std::min(low, start) - beyond,
+                             std::max(high, start) + beyond);
+  } else {
+    circuits_ = limits;
+  }
+  const InputRange* range = drawn.empty() ? nullptr : range_at(*circuits_, motion.modes, drawn[0]);
+  for (std::size_t r = 0; r < rows_.inputs.size() && !range; ++r)
+    range = range_at(*circuits_, motion.modes, rows_.inputs[r][0].value);
+  if (range)
+    circuit_ = range->circuit;
+  else
+    circuits_.reset();
+}
+
+bool RowSolver::on_other_circuit(double value) const {
+  if (!circuits_) return false;
+  const InputRange* range = range_at(*circuits_, motion.modes, value);
+  return range && range->circuit != circuit_;
 }
 
 Status RowSolver::solve(std::size_t r) {
@@ -98,6 +126,10 @@ Status RowSolver::solve(std::size_t r) {
   if (branch && branch->status == Status::done)
     there = modes_at(*branch, now.inputs[0].value, motion.modes) == Status::done;
   if (!there) motion.status = Status::limit_reached;
+  if (there && on_other_circuit(now.inputs[0].value)) {
+    there = false;
+    motion.status = Status::other_circuit;
+  }
   if (there) {
     assembly_.place(now.inputs, motion);
     solve_velocity(s_.plan, now.inputs, motion);
@@ -129,8 +161,9 @@ bool RowSolver::at_change() const {
          std::any_of(branch->change_points.begin(), branch->change_points.end(), here);
 }
 
+// Of the moving parts: the ground stands still, and nothing else would set its rates for the next row.
 void RowSolver::forget_rates() {
-  for (PartState<double>& s : motion.parts)
+  for (PartState<double>& s : std::span(motion.parts).subspan(1))
     s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
 }
 
@@ -150,8 +183,7 @@ Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) 
     for (std::size_t c = 0; c < columns.size(); ++c)
       table.columns[c].values[r] = value_of(columns[c], solver.now);
   }
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    if (columns[c].angle) math::unwrap_angles(table.columns[c].values);
+  for (std::size_t c = 0; c < columns.size(); ++c) unwrap(columns[c], table.columns[c].values);
   return table;
 }
 

@@ -37,10 +37,14 @@ class RowSolver {
  private:
   bool at_change() const;
   void forget_rates();
+  void find_circuit(double low, double high);
+  bool on_other_circuit(double value) const;
 
   const LinkageStudy& s_;
   const LinkageRows& rows_;
   LinkageAssembly assembly_;
+  std::optional<InputLimits> circuits_;  ///< where rows may be on another circuit than `circuit_`
+  int circuit_ = 0;
 };
 
 }  // namespace linkwright::planar

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,40 @@ namespace {
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
 constexpr double work_rounding = 1e-12;  // of the absolute work
+
+// Rows without an answer, by why they have none and by the group that stops there.
+class Failures {
+ public:
+  struct One {
+    Status status = Status::done;
+    int group = -1;
+    long rows = 0;
+    std::size_t first = 0;
+    double gap = 0;  // m, largest
+  };
+  void add(Status status, const LinkageMotion& motion, std::size_t row) {
+    if (status == Status::done) return;
+    const int group =
+        status == Status::no_assembly || status == Status::singular ? std::max(motion.failed_group, -1) : -1;
+    auto one = std::find_if(all_.begin(), all_.end(),
+                            [&](const One& f) { return f.status == status && f.group == group; });
+    if (one == all_.end()) one = all_.insert(all_.end(), {.status = status, .group = group, .first = row});
+    ++one->rows;
+    if (status == Status::no_assembly) one->gap = std::max(one->gap, motion.gap);
+  }
+  // In the order in which they are told.
+  std::vector<One> sorted() const {
+    std::vector<One> out;
+    for (const Status s : {Status::singular, Status::no_assembly, Status::other_circuit,
+                           Status::limit_reached, Status::self_locking, Status::not_converged})
+      std::copy_if(all_.begin(), all_.end(), std::back_inserter(out),
+                   [&](const One& f) { return f.status == s; });
+    return out;
+  }
+
+ private:
+  std::vector<One> all_;
+};
 
 class Runner {
  public:
@@ -110,14 +145,10 @@ class Runner {
   }
 
   void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
-    if (motion.status == Status::no_assembly) {
-      gap_.largest(motion.gap, r);
-      nearest_.least(motion.gap, r);
-    }
-    if (motion.status != Status::done || passed_.back()) {
-      if (!passed_.back() && failed_group_ < 0) failed_group_ = motion.failed_group;
-      return;
-    }
+    if (motion.status == Status::no_assembly && nearest_.least(motion.gap, r))
+      nearest_group_ = motion.failed_group;
+    if (!passed_.back()) failures_.add(statuses_.back(), motion, r);
+    if (motion.status != Status::done || passed_.back()) return;
     closure_.largest(motion.closure_residual, r);
     for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
       const GroupTraits traits = traits_of(s_.plan.groups[g]);
@@ -139,7 +170,7 @@ class Runner {
   void finish_table() {
     Table table{.name = "sweep"};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (columns_[c].angle) math::unwrap_angles(values_[c]);
+      unwrap(columns_[c], values_[c]);
       table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
     }
     for (Status s : statuses_) table.status.emplace_back(to_string(s));
@@ -310,30 +341,27 @@ class Runner {
   void warnings() {
     const study::AddWarning warn{result_.diagnostics};
     // Change points have messages of their own.
-    std::size_t first_row = 0;
-    const auto count = [&](Status s) {
-      long n = 0;
-      for (std::size_t r = statuses_.size(); r-- > 0;)
-        if (statuses_[r] == s && !passed_[r]) ++n, first_row = r;
-      return n;
-    };
-    const std::string group = failed_group_ >= 0 ? s_.plan.groups[at(failed_group_)].name : std::string();
-    for (Status s : {Status::singular, Status::no_assembly, Status::limit_reached, Status::self_locking,
-                     Status::not_converged}) {
-      const auto n = count(s);
-      if (n == 0) continue;
+    for (const Failures::One& f : failures_.sorted()) {
+      const Status s = f.status;
+      const std::string group = f.group >= 0 ? s_.plan.groups[at(f.group)].name : std::string();
       const std::string place =
-          fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first_row));
+          fmt::format("{} of {} positions, the first at {}", f.rows, statuses_.size(), where(f.first));
       if (s == Status::singular)
         warn(fmt::format("{} are at a dead point of {}: speeds and forces are not determined there", place,
                          group),
              {});
       else if (s == Status::no_assembly)
-        warn(gap_.any() && gap_.value > 0
-                 ? fmt::format("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
-                               s_.units.text(gap_.value, Dimension::length))
-                 : fmt::format("{} do not assemble", place),
+        warn(f.gap > 0 ? fmt::format("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
+                                     s_.units.text(f.gap, Dimension::length))
+                       : fmt::format("{} do not assemble", place),
              assembled_ranges());
+      else if (s == Status::other_circuit)
+        warn(fmt::format(
+                 "{} are on another circuit: the linkage does not come there from {} without being taken "
+                 "apart",
+                 place, s_.plan.drawn_inputs.empty() ? "the first position" : "the drawn position"),
+             "sweep.range = \"assembled\" sweeps what it comes to; sweep.circuits = \"all\" counts these "
+             "positions as well");
       else if (s == Status::self_locking)
         warn(
             fmt::format("{} lock by friction: no force of the drive, however large, keeps the linkage moving",
@@ -344,6 +372,12 @@ class Runner {
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
     }
     change_points(warn);
+    if (s_.quantities.dynamic() && s_.plan.inputs() > 0) {
+      const auto [low, high] =
+          std::minmax_element(rows_.inputs.begin(), rows_.inputs.end(),
+                              [](const auto& a, const auto& b) { return a[0].value < b[0].value; });
+      warn_of_held_loads(s_.linkage, s_.plan, (*low)[0].value, (*high)[0].value, warn);
+    }
     if (transmission_.any() && transmission_.value < poor_transmission)
       warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
                        "without bound",
@@ -353,7 +387,26 @@ class Runner {
   }
   // Where the linkage assembles: exactly for one input in closed form, else nothing.
   std::string assembled_ranges() const {
-    return limits_ ? "it " + assembly_range_text(*limits_, modes_) : std::string();
+    return limits_ ? "it " + assembly_range_text(*limits_, modes_) + ends_of_ranges() : std::string();
+  }
+  // Which group stops the motion at which end; of several that could.
+  std::string ends_of_ranges() const {
+    const auto loops = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
+                                     [](const Group& g) { return traits_of(g).closes_loop; });
+    if (loops < 2) return {};
+    std::string out;
+    for (const InputRange& r : limits_->ranges) {
+      if (!std::equal(modes_.begin(), modes_.end(), r.modes.begin(), r.modes.end()) || r.full_turn) continue;
+      for (const RangeEnd* end : {&r.from, &r.to}) {
+        if (end->kind != EndKind::limit) continue;
+        std::string groups;
+        for (const int g : end->groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
+        const double value = limits_->rotary ? math::wrap_angle(end->value) : end->value;
+        out += fmt::format("{}at {} by {}", out.empty() ? "; stopped " : ", ",
+                           study::angle_or_length(value, limits_->rotary, 4), groups);
+      }
+    }
+    return out;
   }
   // Whether the rows come to that input, of an angle in any of its turns.
   bool passes(double value) const {
@@ -411,10 +464,10 @@ class Runner {
       const bool open =
           std::all_of(statuses_.begin(), statuses_.end(), [](Status s) { return s == Status::no_assembly; });
       result_.headline =
-          open && failed_group_ >= 0 && nearest_.any() && nearest_.value > 0
+          open && nearest_group_ >= 0 && nearest_.any() && nearest_.value > 0
               ? fmt::format(
                     "The linkage assembles nowhere in the sweep: {} cannot close, a gap of {} is left at {}.",
-                    s_.plan.groups[at(failed_group_)].name, s_.units.text(nearest_.value, Dimension::length),
+                    s_.plan.groups[at(nearest_group_)].name, s_.units.text(nearest_.value, Dimension::length),
                     where(nearest_.row))
               : "No position of the sweep has an answer: the linkage does not assemble or is at "
                 "dead points.";
@@ -448,10 +501,11 @@ class Runner {
   std::vector<bool> passed_;  // rows at change points that hold what is known there
   std::vector<LinkageRecord> recorded_;
   Status interruption_ = Status::done;
-  study::Extreme gap_, nearest_, closure_, transmission_, shaking_, power_, balance_;
+  Failures failures_;
+  study::Extreme nearest_, closure_, transmission_, shaking_, power_, balance_;
   std::vector<study::Extreme> drives_, joints_;
   std::size_t weakest_ = 0;
-  int failed_group_ = -1;
+  int nearest_group_ = -1;
   std::vector<double> modes_;
   study::Result result_;
 };

@@ -482,4 +482,16 @@ study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
   return Artist(linkage, plan, records).draw(traces, std::move(input_key), std::move(input_label));
 }
 
+void warn_of_held_loads(const Linkage& l, const LinkagePlan& plan, double low, double high,
+                        const study::AddWarning& warn) {
+  if (plan.rotary.empty()) return;
+  for (const std::string& name : loads_held(l, plan.rotary[0], low, high))
+    warn(fmt::format(
+             "the table of '{}' ends within the motion, from {} to {} of {}: beyond it the load keeps its "
+             "last value",
+             name, study::angle_or_length(low, plan.rotary[0], 6),
+             study::angle_or_length(high, plan.rotary[0], 6), input_joint(l, 0).name),
+         "period repeats a table; one of whole turns repeats by itself");
+}
+
 }  // namespace linkwright::planar

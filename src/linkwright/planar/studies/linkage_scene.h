@@ -7,6 +7,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/scene.h"
 
 namespace linkwright::planar {
@@ -45,5 +46,9 @@ study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
 /// drawn_radius).
 void add_mass_centres(study::Scene& scene, const Linkage& linkage, const LinkagePlan& plan,
                       const std::vector<LinkageRecord>& records);
+
+/// Says which loads keep the last value of their tables while the first input goes from `low` to `high`.
+void warn_of_held_loads(const Linkage& linkage, const LinkagePlan& plan, double low, double high,
+                        const study::AddWarning& warn);
 
 }  // namespace linkwright::planar

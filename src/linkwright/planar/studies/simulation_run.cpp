@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/simulation.h"
@@ -80,7 +79,7 @@ class SimulationRunner {
     table.add("work_J", "work of drives and loads (J)", work_);
     table.add("energy_drift_J", "energy drift (J)", drift_);
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (columns_[c].angle) math::unwrap_angles(values_[c]);
+      unwrap(columns_[c], values_[c]);
       table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
     }
     for (const Status s : statuses_) table.status.emplace_back(to_string(s));
@@ -162,6 +161,10 @@ class SimulationRunner {
                          "on smoothly",
                          report_.passages.size()),
              "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise");
+    }
+    if (!times_.empty()) {
+      const auto [low, high] = std::minmax_element(inputs_[0].begin(), inputs_[0].end());
+      warn_of_held_loads(s_.linkage, s_.plan, *low, *high, warn);
     }
     if (report_.status == Status::at_rest) {
       fact("at rest", report_.message, Verdict::plain);

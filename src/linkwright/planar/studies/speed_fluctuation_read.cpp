@@ -27,7 +27,7 @@ void fields(Visitor&& visit, SpeedFluctuationSetup& s) {
               .minimum = 1e-6,
               .maximum = 1},
         s.fluctuation);
-  visit(Field{.key = "samples", .summary = "of the cycle", .minimum = 16, .maximum = 100000}, s.samples);
+  visit(Field{.key = "samples", .summary = "of a turn", .minimum = 16, .maximum = 100000}, s.samples);
 }
 
 namespace {

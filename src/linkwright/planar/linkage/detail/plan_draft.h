@@ -25,11 +25,6 @@ struct PartGear {
   double phase = 0;
   bool used = false;
 };
-// Angle of a part that drives and gears alone turn: angle + sum of gains times inputs.
-struct DrivenAngle {
-  double angle = 0;
-  std::vector<double> gains;
-};
 
 // A plan under way.
 struct PlanDraft {
@@ -80,6 +75,9 @@ std::vector<int> unknown_parts(const PlanDraft& d);
 bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen);
 // Equations of these joints, or -1 when a gear is among them.
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen);
+
+// plan.cpp: the twists of the torsion springs.
+void find_twists(PlanDraft& d);
 
 // plan_problems.cpp: why parts stay without a place, or joints without a use.
 void find_problems(PlanDraft& d);
