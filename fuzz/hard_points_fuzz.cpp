@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/guide/hard_point_list.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

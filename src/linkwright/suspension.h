@@ -16,6 +16,7 @@
 #include "linkwright/suspension/guide/constraints.h"
 #include "linkwright/suspension/guide/constructions.h"
 #include "linkwright/suspension/guide/design_numbers.h"
+#include "linkwright/suspension/guide/hard_point_list.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/limits.h"
 #include "linkwright/suspension/guide/plausibility.h"

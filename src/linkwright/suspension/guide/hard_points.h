@@ -1,12 +1,10 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"
 #include "linkwright/core/table.h"
 #include "linkwright/suspension/guide/suspension.h"
@@ -52,18 +50,6 @@ enum class PointUnit { mm, cm, m, in };
 constexpr std::array<EnumName<PointUnit>, 4> names(PointUnit) {
   return {{{PointUnit::mm, "mm"}, {PointUnit::cm, "cm"}, {PointUnit::m, "m"}, {PointUnit::in, "in"}}};
 }
-
-/// Reads a list of points, in the list's own frame but in metres. Two forms are known by their first line:
-/// - CSV with the columns name, x_mm, y_mm, z_mm (any unit of length; further columns are passed over);
-/// - plain text, one point a line: its name, of one or several words, quoted or not, with or without a number
-///   before it, then x, y, z, separated by blanks, tabs, commas or semicolons, as suspension programs print
-///   them. Lines that do not end in three numbers are headings and passed over, and so are comments (# $ !
-///   %). Commas may stand for decimal points where blanks or semicolons separate.
-/// Names are made plain: "Lower wishbone, front pivot" becomes lower_wishbone_front_pivot.
-/// Problems are appended with their line under the name `file`; nothing is returned if there is an error,
-/// such as two points of one name at different places, or no point at all.
-std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, const std::string& file,
-                                                       PointUnit unit, Diagnostics& diagnostics);
 
 /// The points as a table with names and columns x_m, y_m, z_m, which read_hard_points reads back.
 Table hard_point_table(const std::vector<HardPoint>& points);

@@ -10,6 +10,7 @@
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/trade_words.h"
+#include "linkwright/suspension/guide/hard_point_list.h"
 #include "linkwright/suspension/guide/plausibility.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/guide/structure.h"
