@@ -108,6 +108,30 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
               HasSubstr("the joints at the body lie outboard of the wheel centre"));
 }
 
+TEST(Plausibility, EndsThatChangePlacesAreTold) {
+  WheelGuide guide = guide_sample("2RS-US").guide;
+  std::swap(guide.links[2].body, guide.links[2].carrier);
+  EXPECT_THAT(
+      lines_of(implausible(guide)),
+      AllOf(HasSubstr("warning: link.tie rod: its end at the body lies 3"),
+            HasSubstr(" outboard of its end at the carrier: are the ends swapped?; body is the end at the "
+                      "vehicle's body")));
+  EXPECT_THAT(lines_of(implausible(mirrored(guide))),
+              HasSubstr("warning: link.tie rod: its end at the body"));
+  // The points of a wishbone from the ball joint on.
+  guide = guide_sample("2RS-US").guide;
+  std::swap(guide.links[0].body[0], guide.links[0].carrier[0]);
+  EXPECT_THAT(lines_of(implausible(guide)),
+              HasSubstr("warning: link.lower wishbone: its end at the body lies"));
+  // As a link of the other type.
+  guide = guide_sample("2RS-US").guide;
+  std::swap(guide.links[0].body, guide.links[0].carrier);
+  guide.links[0].type = LinkType::SR;
+  EXPECT_THAT(
+      lines_of(implausible(guide)),
+      HasSubstr(" outboard of its end at the carrier, and its ball joint is at the body: are the ends"));
+}
+
 TEST(Plausibility, PositionsOfAnotherUnitOrAxisAreTold) {
   const test::Example e = test::published_example("ex1-forward");
   const auto changed = [&](auto&& change) {

@@ -20,6 +20,9 @@ constexpr double unlikely = 8, absurd = 50;
 constexpr double smallest = 0.02, largest = 10;
 /// A wheel centre nearer to the middle plane than this share of the distance of its joints has no track.
 constexpr double no_half_track = 3e-3;
+/// A link whose end at the body lies further outboard than the other by this share of the distance of the
+/// joints has its ends swapped; trailing arms stand within it.
+constexpr double swapped_ends = 0.1;
 constexpr const char* units = "check the unit in the key: _mm, _cm, _m or _in";
 
 class Findings {
@@ -106,6 +109,31 @@ void check_side(const WheelGuide& guide, double typical, Findings& found) {
         "[x, y, z]");
 }
 
+/// Links whose ends have changed places: the end at the body lies outboard of the end at the carrier.
+void check_ends(const WheelGuide& guide, double typical, Findings& found) {
+  const double side = guide.wheel.centre.y < 0 ? -1 : 1;
+  if (std::abs(guide.wheel.centre.y) < no_half_track * typical) return;
+  const auto outboard = [&](const std::vector<Vec3>& points) {
+    double sum = 0;
+    for (const Vec3& p : points) sum += side * p.y;
+    return sum / static_cast<double>(points.size());
+  };
+  for (int i = 0; i < static_cast<int>(guide.links.size()); ++i) {
+    const GuideLink& link = guide.links[static_cast<std::size_t>(i)];
+    if (link.body.empty() || link.carrier.empty()) continue;
+    const double body = outboard(link.body), carrier = outboard(link.carrier);
+    if (!(body - carrier > swapped_ends * typical)) continue;
+    found.add(
+        false, "link." + link_label(guide, i),
+        fmt::format(
+            "its end at the body lies {} outboard of its end at the carrier{}: are the ends swapped?",
+            length(body - carrier),
+            link.body.size() == 1 && link.carrier.size() == 2 ? ", and its ball joint is at the body" : ""),
+        "body is the end at the vehicle's body, carrier the end at the wheel; names of hard points go in "
+        "the same order");
+  }
+}
+
 }  // namespace
 
 Diagnostics implausible(const WheelGuide& guide) {
@@ -141,6 +169,7 @@ Diagnostics implausible(const WheelGuide& guide) {
     }
   }
   check_side(guide, typical, found);
+  if (!strays) check_ends(guide, typical, found);
 
   const double farthest = *std::max_element(away.begin(), away.end()), radius = guide.wheel.tyre_diameter / 2;
   if (!strays && (farthest < smallest || farthest > largest))
