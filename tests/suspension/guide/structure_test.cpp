@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "linkwright/suspension/guide/samples.h"
+#include "support/message.h"
 #include "suspension/guides.h"
 
 namespace linkwright::suspension {
@@ -84,8 +85,47 @@ TEST(Structure, EqualLinksLoseRank) {
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::error);
   EXPECT_THAT(found[0].message,
               ::testing::StartsWith(
+                  "the ball joints of 'tie rod' and 'double' at the carrier are in one place: "
                   "the count is right, yet the links do not constrain the carrier when the height of "
                   "the wheel centre is fixed: turning about y"));
+}
+
+TEST(Structure, NamesTheGeometricCauseBeforeTheFreedom) {
+  const auto found = [](const WheelGuide& guide) {
+    return linkwright::test::lines_of(check_structure(guide));
+  };
+  WheelGuide guide = guide_sample("2RS-US").guide;
+  guide.links[1].carrier = guide.links[0].carrier;
+  EXPECT_THAT(
+      found(guide),
+      ::testing::HasSubstr("the ball joints of 'lower wishbone' and 'upper wishbone' at the carrier are in "
+                           "one place: the count is right, yet"));
+  EXPECT_THAT(found(guide),
+              ::testing::HasSubstr("; set them apart, so that one of them resists this motion"));
+  // Ball joints apart, rods in one line.
+  guide = guide_sample("5US").guide;
+  const Vec3 along = guide.links[3].carrier[0] - guide.links[3].body[0];
+  guide.links[4].body[0] = guide.links[3].body[0] - 0.1 * along;
+  guide.links[4].carrier[0] = guide.links[3].carrier[0] - 0.1 * along;
+  EXPECT_THAT(found(guide),
+              ::testing::ContainsRegex("error: links: the rods of '[^']+' and '[^']+' lie in one line: "));
+  // Both wishbones and the tie rod in the plane z = 0.
+  guide = guide_sample("2RS-US").guide;
+  for (GuideLink& link : guide.links)
+    for (auto* points : {&link.body, &link.carrier})
+      for (Vec3& p : *points) p.z = 0;
+  guide.spring.reset();
+  EXPECT_THAT(found(guide),
+              ::testing::HasSubstr("the links 'lower wishbone', 'upper wishbone', 'tie rod' lie in "
+                                   "one plane: the count is right, yet"));
+  // A rod of no length, a spring of no length.
+  guide = guide_sample("2RS-US").guide;
+  guide.links[2].body = guide.links[2].carrier;
+  EXPECT_THAT(found(guide),
+              ::testing::HasSubstr("body and carrier point are the same: a link needs a length"));
+  guide = guide_sample("2RS-US").guide;
+  guide.spring->body = guide.spring->moving;
+  EXPECT_THAT(found(guide), ::testing::HasSubstr("spring: both ends are the same point"));
 }
 
 TEST(Structure, TrailingLinkWithALateralHingeHardlyHoldsPitch) {

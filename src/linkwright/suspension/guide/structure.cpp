@@ -49,6 +49,93 @@ std::string count_of(const Structure& structure, int couplers) {
   return out;
 }
 
+/// A line that a joint or a link stands for.
+struct GeometricLine {
+  std::string name;
+  Vec3 at, along;  ///< unit
+};
+
+double off(const GeometricLine& line, const Vec3& point) { return norm(cross(point - line.at, line.along)); }
+
+/// Why links do not constrain the carrier as their count would, as far as their points show it: what is one
+/// point, one line or one plane within `near` (m). Empty if none is found.
+std::string geometric_cause(const WheelGuide& guide, double near) {
+  struct BallJoint {
+    std::string name;
+    Vec3 at;
+  };
+  std::vector<BallJoint> joints;
+  std::vector<GeometricLine> hinges, rods;
+  std::vector<std::pair<std::string, std::vector<Vec3>>> links;
+  const auto line = [](const std::string& name, const Vec3& from, const Vec3& to) {
+    return GeometricLine{name, from, unit(to - from)};
+  };
+  for (int i = 0; i < static_cast<int>(guide.links.size()); ++i) {
+    const GuideLink& link = guide.links[static_cast<std::size_t>(i)];
+    const std::string name = fmt::format("'{}'", link_label(guide, i));
+    // The ball joint that the carrier turns about: that of an SR link or a strut is at the body.
+    if (link.type == LinkType::S)
+      joints.push_back({name, link.body[0]});
+    else if (link.carrier.size() == 1 && link.type != LinkType::SP)
+      joints.push_back({name, link.carrier[0]});
+    if (link.body.size() == 2) hinges.push_back(line(name, link.body[0], link.body[1]));
+    if (link.carrier.size() == 2) hinges.push_back(line(name, link.carrier[0], link.carrier[1]));
+    if (link.type == LinkType::US || link.type == LinkType::SS)
+      rods.push_back(line(name, link.body[0], link.carrier[0]));
+    if (link.type == LinkType::US || link.type == LinkType::SS || link.type == LinkType::RS ||
+        link.type == LinkType::SR) {
+      std::vector<Vec3> points = link.body;
+      points.insert(points.end(), link.carrier.begin(), link.carrier.end());
+      links.emplace_back(name, std::move(points));
+    }
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    for (std::size_t j = i + 1; j < joints.size(); ++j)
+      if (norm(joints[i].at - joints[j].at) < near)
+        return fmt::format("the ball joints of {} and {} at the carrier are in one place", joints[i].name,
+                           joints[j].name);
+  const auto in_line = [&](const std::vector<GeometricLine>& lines, const char* what) -> std::string {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (std::size_t j = i + 1; j < lines.size(); ++j)
+        if (lines[i].name != lines[j].name && off(lines[i], lines[j].at) < near &&
+            norm(cross(lines[i].along, lines[j].along)) < poor_rank)
+          return fmt::format("the {} of {} and {} lie in one line", what, lines[i].name, lines[j].name);
+    return {};
+  };
+  if (const std::string found = in_line(rods, "rods"); !found.empty()) return found;
+  if (const std::string found = in_line(hinges, "hinges"); !found.empty()) return found;
+  // Ball joints of all links in one line let the carrier turn about it.
+  if (joints.size() >= 3 && joints.size() == guide.links.size()) {
+    const GeometricLine through = line({}, joints[0].at, joints[1].at);
+    if (std::all_of(joints.begin(), joints.end(),
+                    [&](const BallJoint& j) { return off(through, j.at) < near; }))
+      return "the ball joints of all links at the carrier lie in one line";
+  }
+  // Three links in a plane.
+  for (std::size_t i = 0; i < links.size(); ++i)
+    for (std::size_t j = i + 1; j < links.size(); ++j) {
+      std::vector<Vec3> points = links[i].second;
+      points.insert(points.end(), links[j].second.begin(), links[j].second.end());
+      Vec3 normal;
+      for (std::size_t a = 1; a < points.size(); ++a)
+        for (std::size_t b = a + 1; b < points.size(); ++b)
+          if (const Vec3 n = cross(points[a] - points[0], points[b] - points[0]); norm(n) > norm(normal))
+            normal = n;
+      if (!(norm(normal) > near * near)) continue;
+      const auto in_plane = [&](const std::vector<Vec3>& of) {
+        return std::all_of(of.begin(), of.end(),
+                           [&](const Vec3& p) { return std::abs(dot(unit(normal), p - points[0])) < near; });
+      };
+      if (!in_plane(points)) continue;
+      std::string all = links[i].first + ", " + links[j].first;
+      int count = 2;
+      for (std::size_t k = j + 1; k < links.size(); ++k)
+        if (in_plane(links[k].second)) all += ", " + links[k].first, ++count;
+      if (count >= 3) return fmt::format("the links {} lie in one plane", all);
+    }
+  return {};
+}
+
 void check_rank(const WheelGuide& guide, Diagnostics& found) {
   const WeakMotion weakest =
       weakest_motion(prepare_guide(guide), {{guide.wheel.centre, {}}, 0}, 0, Driver::wheel_centre_z);
@@ -57,18 +144,21 @@ void check_rank(const WheelGuide& guide, Diagnostics& found) {
   const std::string motion = in_words(weakest.shift, weakest.turn, guide.wheel.tyre_diameter / 2);
   Diagnostic& out = found.emplace_back();
   out.key = "links";
-  out.hint = "turn or move a link so that it resists this motion";
+  const std::string cause = geometric_cause(guide, poor_rank * guide.wheel.tyre_diameter / 2);
+  out.hint = cause.empty() ? "turn or move a link so that it resists this motion"
+                           : "set them apart, so that one of them resists this motion";
+  const std::string because = cause.empty() ? std::string() : cause + ": ";
   if (least < no_rank) {
     out.message = fmt::format(
-        "the count is right, yet the links do not constrain the carrier when the height of the wheel "
+        "{}the count is right, yet the links do not constrain the carrier when the height of the wheel "
         "centre is fixed: {}",
-        motion);
+        because, motion);
   } else {
     out.severity = Diagnostic::Severity::warning;
     out.message = fmt::format(
-        "the links hardly constrain the carrier when the height of the wheel centre is fixed: {} (smallest "
+        "{}the links hardly constrain the carrier when the height of the wheel centre is fixed: {} (smallest "
         "singular value {:.2g}, good ones are above {})",
-        motion, least, poor_rank);
+        because, motion, least, poor_rank);
   }
 }
 
