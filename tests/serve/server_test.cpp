@@ -153,6 +153,10 @@ TEST_F(ServerTest, HostAndOriginAreItsOwn) {
     for (const std::string& origin : {std::string("null"), std::string("http://example.org"),
                                       "http://localhost:" + port, "https://127.0.0.1:" + port})
       EXPECT_EQ(client().Get(path, with("Origin", origin))->status, 403) << origin;
+    EXPECT_THAT(exchange(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\n"
+                                     "Origin:\r\nConnection: close\r\n\r\n",
+                                     path, port, server_->token())),
+                HasSubstr(" 200 "));
   }
   EXPECT_THAT(
       exchange(fmt::format("GET / HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nHost: example.org\r\n\r\n", port)),

@@ -89,6 +89,10 @@ void number_circuits(InputLimits& l) {
 std::string place(bool rotary, double value) {
   return rotary ? fmt::format("{:.1f}", math::degrees(value)) : fmt::format("{:.4g}", 1e3 * value);
 }
+/// Two digits, and all before the point: a hundred is 100, not 1e+02.
+std::string two_digits(double value) {
+  return std::abs(value) < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
 const char* unit_name(bool rotary) { return rotary ? "deg" : "mm"; }
 
 }  // namespace
@@ -185,7 +189,7 @@ std::string assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& moti
   const std::string group =
       motion.failed_group >= 0 ? fmt::format(" ('{}')", plan.groups[at(motion.failed_group)].name) : "";
   if (motion.status == Status::no_assembly && motion.gap > 0)
-    return fmt::format("{} short by {:.2g} mm{}", where, 1e3 * motion.gap, group);
+    return fmt::format("{} short by {} mm{}", where, two_digits(1e3 * motion.gap), group);
   if (motion.status == Status::singular) return where + " at a dead point" + group;
   return fmt::format("{} {}{}", where, to_string(motion.status), group);
 }

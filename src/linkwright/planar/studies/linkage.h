@@ -140,10 +140,13 @@ struct LinkageDescription {
   std::vector<double> sample_from;           ///< and the inputs where its motion begins
 };
 /// Reads and plans; nothing when there are problems, which go to the reader in the given units.
+/// `lists_quantities`: the study may list quantities that need no masses.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
-                                               bool needs_masses, const study::DisplayUnits& units);
+                                               bool needs_masses, const study::DisplayUnits& units,
+                                               bool lists_quantities = false);
 /// Whether every body has its mass; says which do not.
-bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan);
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan,
+                    bool lists_quantities = false);
 /// The tables of `read_linkage` as a canonical study holds them.
 void write_linkage(const LinkageDescription& description, Value& canonical);
 void describe_linkage(study::SchemaWriter& document, LinkageType type);

@@ -141,7 +141,8 @@ bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
-                                               bool needs_masses, const study::DisplayUnits& units) {
+                                               bool needs_masses, const study::DisplayUnits& units,
+                                               bool lists_quantities) {
   LinkageDescription out;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
   LinkageEnvironment environment;
@@ -252,24 +253,26 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   }
   out.plan = std::move(planned.plan);
   if (!require_own_columns(*mechanism, l, out.plan, out.traces)) return std::nullopt;
-  if (needs_masses && !require_masses(document, type, out.plan)) return std::nullopt;
+  if (needs_masses && !require_masses(document, type, out.plan, lists_quantities)) return std::nullopt;
   return out;
 }
 
-bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan) {
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan,
+                    bool lists_quantities) {
   if (plan.has_masses) return true;
   std::string bodies;
   for (const std::string& b : plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
   const char* key = type == LinkageType::linkage ? "body" : "mass";
   auto mechanism = document.table("mechanism");
   (mechanism ? *mechanism : document)
-      .error(
-          key,
-          fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
-                      plan.massless.size() == 1 ? "has" : "have"),
-          fmt::format("{}, or list quantities that need no masses: output.quantities = [\"position\", "
-                      "\"rates\", \"transmission_angle\"]",
-                      type == LinkageType::linkage ? "give mass_kg" : "give the masses of its links there"));
+      .error(key,
+             fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
+                         plan.massless.size() == 1 ? "has" : "have"),
+             fmt::format("{}{}",
+                         type == LinkageType::linkage ? "give mass_kg" : "give the masses of its links there",
+                         lists_quantities ? ", or list quantities that need no masses: output.quantities = "
+                                            "[\"position\", \"rates\", \"transmission_angle\"]"
+                                          : ""));
   return false;
 }
 

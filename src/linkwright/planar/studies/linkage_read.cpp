@@ -110,7 +110,7 @@ bool leave_out_forces(study::ObjectReader& document, LinkageType type, const Lin
   const auto massive = [](const LinkageBody& body) { return body.mass.has_value(); };
   if (described.plan.has_masses || std::any_of(l.bodies.begin(), l.bodies.end(), massive) ||
       !l.springs.empty() || !l.torsion_springs.empty() || !l.forces.empty() || !l.torques.empty())
-    return require_masses(document, type, described.plan);
+    return require_masses(document, type, described.plan, true);
   std::string left_out = "forces and torques";
   std::string give = type == LinkageType::linkage ? "mass_kg of every body" : "[mechanism.mass]";
   quantities.reactions = quantities.drive = quantities.shaking = quantities.power = false;
@@ -272,7 +272,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   s.quantities = chosen_quantities(common.output.quantities);
   s.units = common.units;
   const bool optional = without_masses == WithoutMasses::motion_alone && common.output.quantities.empty();
-  auto description = read_linkage(document, type, s.quantities.dynamic() && !optional, common.units);
+  auto description = read_linkage(document, type, s.quantities.dynamic() && !optional, common.units, true);
   if (description && optional && !leave_out_forces(document, type, *description, s.quantities))
     description = {};
   auto sweep = document.table("sweep");
