@@ -39,6 +39,26 @@ TEST(AxleStudy, TellsTheAntiFeaturesOfFrontAndRear) {
   EXPECT_NEAR(at(rear.tables[0], "anti_squat_percent", 0), -18.31591156279213, 1e-7);
 }
 
+TEST(AxleStudy, TellsTheAntiDiveByTheArmPlanesBesideThatOfTheMotion) {
+  const study::Result result = run_text(study("2RS-US", vehicle));
+  const Table& sweep = result.tables[0];
+  // The contact point turns about the side centre of the arms: forward per upward velocity is the slope of
+  // the line to it, taken the other way.
+  const double slope = (at(sweep, "arm_side_centre_z_m", 0) - at(sweep, "contact_z_m", 0)) /
+                       (at(sweep, "arm_side_centre_x_m", 0) - at(sweep, "contact_x_m", 0));
+  const double by_arms = at(sweep, "arm_anti_dive_outboard_percent", 0);
+  EXPECT_NEAR(by_arms, -100 * 0.65 * 2.7 / 0.55 * slope, 1e-9);
+  // The tie rod of this suspension agrees with the arms within a few percent of the load transfer.
+  EXPECT_NEAR(by_arms, at(sweep, "anti_dive_outboard_percent", 0), 3);
+  std::string facts;
+  for (const auto& fact : result.facts) facts += fact.label + " = " + fact.text + "\n";
+  EXPECT_THAT(facts, HasSubstr("anti-dive, outboard brake = 22.45 %\n"));
+  EXPECT_THAT(facts,
+              HasSubstr(fmt::format("anti-dive, outboard brake, by arm planes = {:.2f} %\n", by_arms)));
+  // A hinged arm has no arm planes.
+  EXPECT_FALSE(run_text(study("R", vehicle)).tables[0].find("arm_anti_dive_outboard_percent"));
+}
+
 TEST(AxleStudy, RollsASymmetricAxleAlikeBothWays) {
   const study::Result result =
       run_text(study("2RS-US", "[axle.roll]\nfrom_deg = -4\nto_deg = 4\nstep_deg = 2\n"));

@@ -164,24 +164,41 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
 }
 
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
-                       std::span<const WheelParameters> wheels) {
+                       std::span<const WheelParameters> wheels, std::size_t stated,
+                       const std::string& position) {
   const bool front = vehicle.axle == AxlePlace::front;
-  std::array<std::vector<double>, 3> columns;
+  std::array<std::vector<double>, 4> columns;
   for (const WheelParameters& w : wheels) {
-    AntiFeatures a{WheelParameters::missing, WheelParameters::missing, WheelParameters::missing};
+    AntiFeatures a{WheelParameters::missing, WheelParameters::missing, WheelParameters::missing,
+                   WheelParameters::missing};
     if (w.status == Status::done) a = anti_features(w, vehicle.axle, vehicle.layout);
     columns[0].push_back(a.outboard_brake);
     columns[1].push_back(a.inboard_brake);
     columns[2].push_back(a.inboard_drive);
+    columns[3].push_back(a.outboard_brake_by_arms);
   }
   Table& sweep = result.tables.front();
   const std::string brake = front ? "anti_dive" : "anti_lift",
                     drive = front ? "anti_lift_drive" : "anti_squat";
   const std::string brake_label = front ? "anti-dive" : "anti-lift",
                     drive_label = front ? "anti-lift under drive" : "anti-squat";
+  const study::AddFact fact{result.facts};
+  const auto state = [&](const std::string& name, const std::vector<double>& values) {
+    if (stated < values.size() && std::isfinite(values[stated]))
+      fact(name + position, fmt::format("{:.2f} %", values[stated]));
+  };
+  state(brake_label + ", outboard brake", columns[0]);
+  state(brake_label + ", outboard brake, by arm planes", columns[3]);
+  state(brake_label + ", inboard brake", columns[1]);
+  state(drive_label + ", inboard drive", columns[2]);
+  const bool planes =
+      std::any_of(columns[3].begin(), columns[3].end(), [](double v) { return std::isfinite(v); });
   sweep.add(brake + "_outboard_percent", brake_label + ", outboard brake (%)", std::move(columns[0]));
   sweep.add(brake + "_inboard_percent", brake_label + ", inboard brake (%)", std::move(columns[1]));
   sweep.add(drive + "_percent", drive_label + ", inboard drive (%)", std::move(columns[2]));
+  if (planes)
+    sweep.add("arm_" + brake + "_outboard_percent", brake_label + ", outboard brake, by arm planes (%)",
+              std::move(columns[3]));
   study::AddPlot plot{result, {.table = sweep.name, .x = "travel_m"}};
   if (sweep.find("rack_m")) {
     const auto& racks = sweep.find("rack_m")->values;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "linkwright/study/kind.h"
@@ -63,9 +64,10 @@ void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGui
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 
 /// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a
-/// diagram.
+/// diagram. Facts tell those of the row `stated`, whose position their names end with.
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
-                       std::span<const WheelParameters> wheels);
+                       std::span<const WheelParameters> wheels, std::size_t stated,
+                       const std::string& position);
 /// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
 /// stop.
 void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& axle,

@@ -301,7 +301,7 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
            fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
     }
     if (const auto& axis = w.geometric_axis)
-      fact("the same by the line through the ball joints" + here,
+      fact("caster, kingpin inclination, trail, scrub radius by the line through the ball joints" + here,
            fmt::format("{}, {}, {}, {}", degrees(axis->caster), degrees(axis->inclination),
                        millimetres(axis->trail), millimetres(axis->scrub)));
   }
@@ -436,7 +436,13 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   if (s.baseline) add_baseline(result, s, context);
   add_facts(result, s, grid, centred);
   tell_missing(result, s);
-  if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
+  if (s.vehicle) {
+    const std::size_t middle = next_to_zero(s.racks) * s.travels.size() + next_to_zero(s.travels);
+    add_anti_features(result, *s.vehicle, grid.solved.wheels, middle,
+                      s.travels[next_to_zero(s.travels)] == 0 || middle >= grid.solved.wheels.size()
+                          ? std::string()
+                          : fmt::format(" (travel {})", millimetres(grid.travel(middle))));
+  }
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
   if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);

@@ -5,6 +5,16 @@
 #include "linkwright/core/check.h"
 
 namespace linkwright::suspension {
+namespace {
+
+/// Forward per upward velocity of the contact point, as the carrier turns about the side centre of the arm
+/// planes. The angle still tells it of parallel arms, whose centre lies at infinity.
+double tangent_by_arms(const WheelParameters& wheel) {
+  const double slope = std::tan(wheel.arms.side_swing_angle);
+  return wheel.arms.side[0] < wheel.contact.x ? slope : -slope;
+}
+
+}  // namespace
 
 std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, const WheelParameters& right) {
   const Vec3 &p = left.contact, &q = right.contact;
@@ -32,7 +42,8 @@ AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const 
   const double gain = (front ? 100 : -100) * layout.wheelbase / layout.centre_height;
   const double braking = front ? layout.front_brake_share : 1 - layout.front_brake_share;
   return {gain * braking * wheel.anti_pitch_tangent, gain * braking * wheel.anti_pitch_tangent_free,
-          gain * layout.axle_drive_share * wheel.anti_pitch_tangent_free};
+          gain * layout.axle_drive_share * wheel.anti_pitch_tangent_free,
+          gain * braking * tangent_by_arms(wheel)};
 }
 
 Ackermann ackermann(double inner, double outer, double wheelbase, double track) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 /// Two wheels of an axle, and the axle in its vehicle.
@@ -41,6 +42,9 @@ struct AntiFeatures {
   double outboard_brake = 0;  ///< brake torque taken by the carrier
   double inboard_brake = 0;   ///< brake torque taken by the body
   double inboard_drive = 0;   ///< driving torque taken by the body
+  /// The first as drawn: by the line from the contact point to the side centre of the arm planes. NaN without
+  /// arm planes.
+  double outboard_brake_by_arms = nan;
 };
 AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const VehicleLayout& layout);
 
