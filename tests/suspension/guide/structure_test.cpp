@@ -85,7 +85,7 @@ TEST(Structure, EqualLinksLoseRank) {
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::error);
   EXPECT_THAT(found[0].message,
               ::testing::StartsWith(
-                  "the ball joints of 'tie rod' and 'double' at the carrier are in one place: "
+                  "the ball joints of 'upper front rod' and 'double' at the carrier are in one place: "
                   "the count is right, yet the links do not constrain the carrier when the height of "
                   "the wheel centre is fixed: turning about y"));
 }

@@ -55,8 +55,13 @@ TEST(AxleStudy, TellsTheAntiDiveByTheArmPlanesBesideThatOfTheMotion) {
   EXPECT_THAT(facts, HasSubstr("anti-dive, outboard brake = 22.45 %\n"));
   EXPECT_THAT(facts,
               HasSubstr(fmt::format("anti-dive, outboard brake, by arm planes = {:.2f} %\n", by_arms)));
-  // A hinged arm has no arm planes.
-  EXPECT_FALSE(run_text(study("R", vehicle)).tables[0].find("arm_anti_dive_outboard_percent"));
+  // An arm on a hinge turns about it: motion and drawing agree, but for the camber, which puts the contact
+  // point some millimetres beside the plane of the side centre (0.2 % here).
+  const Table hinged = run_text(study("R", vehicle)).tables[0];
+  EXPECT_NEAR(at(hinged, "arm_anti_dive_outboard_percent", 0) / at(hinged, "anti_dive_outboard_percent", 0),
+              1, 5e-3);
+  // Five rods have no arm planes.
+  EXPECT_FALSE(run_text(study("5US", vehicle)).tables[0].find("arm_anti_dive_outboard_percent"));
 }
 
 TEST(AxleStudy, RollsASymmetricAxleAlikeBothWays) {

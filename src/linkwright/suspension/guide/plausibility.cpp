@@ -111,8 +111,9 @@ void check_side(const WheelGuide& guide, double typical, Findings& found) {
 
 /// Links whose ends have changed places: the end at the body lies outboard of the end at the carrier.
 void check_ends(const WheelGuide& guide, double typical, Findings& found) {
-  const double side = guide.wheel.centre.y < 0 ? -1 : 1;
-  if (std::abs(guide.wheel.centre.y) < no_half_track * typical) return;
+  const double side = guide.side == Side::right ? -1 : 1;
+  // On the other side everything is the wrong way round, which is told of the wheel.
+  if (side * guide.wheel.centre.y < no_half_track * typical) return;
   const auto outboard = [&](const std::vector<Vec3>& points) {
     double sum = 0;
     for (const Vec3& p : points) sum += side * p.y;
