@@ -74,11 +74,11 @@ TEST(WriteNew, NeverOverAnotherFile) {
   EXPECT_TRUE(diagnostics.empty());
   EXPECT_EQ(write_new(file, "two", diagnostics), Copied::refused);
   EXPECT_EQ(text_of(file), "one");
-  EXPECT_EQ(write_new((folder / "none/a.toml").string(), "one", diagnostics), Copied::refused);
+  EXPECT_EQ(write_new((folder / "none/a.toml").string(), "one", diagnostics), Copied::unwritten);
   ASSERT_EQ(diagnostics.size(), 2u);
   EXPECT_EQ(to_string(diagnostics[0]), file + ": error: already exists and is left unchanged");
   EXPECT_EQ(to_string(diagnostics[1]),
-            (folder / "none/a.toml").string() + ": error: No such file or directory");
+            (folder / "none/a.toml").string() + ": error: cannot be written: No such file or directory");
   std::filesystem::remove_all(folder);
 }
 

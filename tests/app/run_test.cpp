@@ -78,6 +78,36 @@ TEST_F(Run, FolderOfTheResults) {
   EXPECT_EQ(output_folder(*study, "a/lever.toml", {}), fs::path("c"));
 }
 
+TEST_F(Run, StudiesOfOneNameInTwoFoldersDoNotShareTheirResults) {
+  const auto study = load({});
+  const fs::path here = fs::current_path();
+  fs::create_directories(folder_ / "a");
+  fs::create_directories(folder_ / "b");
+  fs::current_path(folder_);
+  write("a/lever.toml", "");
+  write("b/lever.toml", "");
+  std::vector<std::string> folders;
+  for (const char* file : {"a/lever.toml", "b/lever.toml", "a/lever.toml", "b/lever.toml", "lever.toml"}) {
+    const fs::path folder = output_folder(*study, file, {});
+    folders.push_back(folder.generic_string());
+    EXPECT_TRUE(prepare_folder(folder, diagnostics_));
+    EXPECT_EQ(note_owner(folder, file, {}, *study), "");
+    std::ofstream(folder / "sweep.csv") << file;
+  }
+  // A study beside `out` has its folder by its name.
+  fs::remove_all("out");
+  write("lever.toml", "");
+  fs::create_directories("out/lever");
+  std::ofstream("out/lever/sweep.csv") << "lever.toml";
+  folders.push_back(output_folder(*study, "lever.toml", {}).generic_string());
+  folders.push_back(output_folder(*study, "./a/../lever.toml", {}).generic_string());
+  folders.push_back(output_folder(*study, "a/lever.toml", {}).generic_string());
+  fs::current_path(here);
+  EXPECT_THAT(folders, ::testing::ElementsAre("out/lever", "out/b-lever", "out/lever", "out/b-lever",
+                                              "out/" + folder_.filename().string() + "-lever", "out/lever",
+                                              "out/lever", "out/a-lever"));
+}
+
 TEST_F(Run, WritesWhatTheStudyAsksFor) {
   const auto study = load({.out = {}, .seed = {}, .set = {"output.formats=['csv']"}});
   ASSERT_TRUE(study) << message();

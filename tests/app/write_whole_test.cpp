@@ -51,6 +51,27 @@ TEST_F(WriteWhole, KeepsThePermissionsOfWhatItReplaces) {
   }
 }
 
+TEST_F(WriteWhole, LeavesWhatNobodyMayWrite) {
+  std::ofstream(folder_ / "a") << "x";
+  ASSERT_EQ(::chmod((folder_ / "a").c_str(), 0444), 0);
+  EXPECT_EQ(write_whole(folder_ / "a", "y"), "Permission denied");
+  std::ostringstream found;
+  found << std::ifstream(folder_ / "a").rdbuf();
+  EXPECT_EQ(found.str(), "x");
+  EXPECT_EQ(names(), std::set<std::string>{"a"});
+}
+
+TEST_F(WriteWhole, KeepsTheOwner) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+  std::ofstream(folder_ / "a") << "x";
+  ASSERT_EQ(::chown((folder_ / "a").c_str(), 1234, 4321), 0);
+  EXPECT_EQ(write_whole(folder_ / "a", "y"), "");
+  struct stat now = {};
+  ASSERT_EQ(::stat((folder_ / "a").c_str(), &now), 0);
+  EXPECT_EQ(now.st_uid, 1234U);
+  EXPECT_EQ(now.st_gid, 4321U);
+}
+
 TEST_F(WriteWhole, SaysWhyNot) {
   EXPECT_EQ(write_whole(folder_ / "none" / "a", "x"), "No such file or directory");
   fs::create_directories(folder_ / "a" / "b");  // a folder with something in it is not replaced

@@ -82,6 +82,18 @@ TEST_F(Lists, NewWritesAStudyOnce) {
   EXPECT_THAT(err_, HasSubstr("did you mean 'analysis/sample.wheel'?"));
 }
 
+TEST_F(Lists, TheCatalogueSaysWhatThereIsUnderAnotherName) {
+  for (const auto& [word, answer] : {std::pair{"cam", "cam: cams are not modelled. Nearest: "},
+                                     {"gear", "is a joint of type \"gear\""},
+                                     {"Rack", "is moved_by = \"rack\" of a link"},
+                                     {"stewart", "are not modelled. Nearest: analysis/parallel.hexa"},
+                                     {"scara", "is analysis/planar.serial_arm with two revolute links"}}) {
+    EXPECT_EQ(run({"catalogue", word}), 0) << word;
+    EXPECT_THAT(out_, ::testing::HasSubstr(answer));
+    EXPECT_THAT(out_, ::testing::Not(::testing::HasSubstr("camber")));
+  }
+}
+
 TEST_F(Lists, SchemasAreWhereStudiesLookForThem) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"schema"}, {"schema", "analysis"}}) {
     EXPECT_EQ(run(words), 0);
@@ -92,7 +104,7 @@ TEST_F(Lists, SchemasAreWhereStudiesLookForThem) {
   EXPECT_EQ(run({"schema", "analysis", "-o", "a.schema.json"}), 0);
   EXPECT_EQ(out_, "a.schema.json written\n");
   EXPECT_EQ(text_of(folder_ / "a.schema.json"), printed);
-  EXPECT_EQ(run({"schema", "analysis", "-o", "none/a.json"}), 2);
+  EXPECT_EQ(run({"schema", "analysis", "-o", "none/a.json"}), 3);
   EXPECT_EQ(err_, "none/a.json: error: cannot be written: No such file or directory\n");
   // A study beside its schema says no more about it.
   EXPECT_EQ(run({"schema", "analysis", "-o", "analysis-sample.wheel.schema.json"}), 0);

@@ -1,6 +1,7 @@
 #include "linkwright/cli/program.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -46,6 +47,53 @@ TEST_F(Program, RunWritesAndSummarises) {
             "  report.html\n"
             "open out/s/report.html\n");
   EXPECT_EQ(result("out/s/result.json").find("status")->as_string(), "done");
+}
+
+TEST_F(Program, EveryWriteIsCheckedToItsEnd) {
+  ::setenv("L", program_.c_str(), 1);
+  const auto shell = [&](const std::string& command) {
+    const int status = std::system(("cd '" + folder_.string() + "' && (" + command + ") 2> stderr").c_str());
+    err_ = text_of(folder_ / "stderr");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  // A full device behind standard output.
+  for (const std::string command : {"new analysis/sample.wheel -", "check s.toml", "run s.toml --json",
+                                    "run s.toml", "schema", "catalogue", "schema result", "--help"}) {
+    EXPECT_EQ(shell("$L " + command + " > /dev/full"), 3) << command;
+    EXPECT_EQ(err_, "standard output: error: cannot be written: No space left on device\n") << command;
+  }
+  EXPECT_EQ(shell("$L check none.toml 2> /dev/full"), 2);
+  // A limit of the size of files: what is not written is named, and not half there.
+  EXPECT_EQ(shell("ulimit -f 1; $L run s.toml --out limited > stdout"), 3);
+  EXPECT_THAT(err_, HasSubstr("limited/report.html: error: cannot be written: File too large\n"));
+  EXPECT_FALSE(fs::exists(folder_ / "limited/report.html"));
+  // A folder that is no more.
+  const std::string gone = "mkdir gone; cd gone; rmdir ../gone; ",
+                    study = "'" + (folder_ / "s.toml").string() + "'";
+  EXPECT_EQ(shell(gone + "$L run " + study + " > ../stdout"), 2);
+  EXPECT_THAT(err_, HasSubstr("out/s: error: the folder cannot be made: No such file or directory\n"));
+  EXPECT_EQ(shell(gone + "timeout 20 $L serve " + study + " > ../stdout"), 3);
+  EXPECT_THAT(err_, HasSubstr("cannot be reached: No such file or directory\n"));
+}
+
+TEST_F(Program, OnlyPlainFilesAreRead) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.toml").c_str(), 0600), 0);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "pipe.toml"}, {"check", "pipe.toml"}, {"serve", "pipe.toml"}}) {
+    EXPECT_EQ(run(words), 2) << words[0];
+    EXPECT_EQ(
+        err_,
+        "pipe.toml: error: is not a plain file, but a pipe or a device; write the study to a file, or give - "
+        "and the study as standard input\n");
+  }
+}
+
+TEST_F(Program, AReadOnlyResultIsLeftAsItIs) {
+  EXPECT_EQ(run({"run", "s.toml"}), 0);
+  fs::permissions(folder_ / "out/s/sweep.csv", static_cast<fs::perms>(0444));
+  write("out/s/other", "");
+  EXPECT_EQ(run({"run", "s.toml", "--set", "mechanism.length_m=0.5"}), 3);
+  EXPECT_THAT(err_, HasSubstr("out/s/sweep.csv: error: cannot be written: Permission denied\n"));
 }
 
 TEST_F(Program, JsonIsTheResultFileAndNothingElse) {

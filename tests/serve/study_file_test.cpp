@@ -53,6 +53,24 @@ TEST_F(StudyFileTest, SavesWhatWasReadHereAndNothingElse) {
   EXPECT_EQ(file.save("three\n", "").outcome, StudyFile::Outcome::changed);
 }
 
+TEST_F(StudyFileTest, APipeIsNotWaitedFor) {
+  StudyFile file(folder_ / "s.toml");
+  const std::string version = file.read().version;
+  fs::remove(folder_ / "s.toml");
+  ASSERT_EQ(::mkfifo((folder_ / "s.toml").c_str(), 0600), 0);
+  EXPECT_EQ(file.read().problem, "is not a plain file");
+  EXPECT_EQ(file.save("two\n", version).outcome, StudyFile::Outcome::changed);
+}
+
+TEST_F(StudyFileTest, AReadOnlyFileIsNotReplaced) {
+  StudyFile file(folder_ / "s.toml");
+  ASSERT_EQ(::chmod((folder_ / "s.toml").c_str(), 0444), 0);
+  const StudyFile::Saved saved = file.save("two\n", file.read().version);
+  EXPECT_EQ(saved.outcome, StudyFile::Outcome::failed);
+  EXPECT_EQ(saved.problem, "cannot be written: Permission denied");
+  EXPECT_EQ(text(), "one\n");
+}
+
 TEST_F(StudyFileTest, AFileThatIsGoneIsNotWrittenAgain) {
   StudyFile file(folder_ / "s.toml");
   const std::string version = file.read().version;

@@ -166,7 +166,8 @@ bool CheckpointFile::load(Diagnostics& diagnostics) {
     return false;
   }
   std::string text(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file_, std::ios::binary);
+  std::ifstream stream;
+  if (size > 0) stream.open(file_, std::ios::binary);
   if (size == 0 || !stream.read(text.data(), static_cast<std::streamsize>(size))) {
     refuse(diagnostics, file_.string(), "cannot be read, or is empty");
     return false;

@@ -80,15 +80,24 @@ Copied write_new(const std::string& file, std::string_view text, Diagnostics& di
   // "x": the file must not exist; asked and made in one step.
   std::FILE* stream = std::fopen(file.c_str(), "wbx");
   if (!stream && errno == EEXIST) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      return refuse("already exists, is not a plain file and is left unchanged");
     std::ifstream there(file, std::ios::binary);
     const std::string old((std::istreambuf_iterator<char>(there)), {});
     return there && old == text ? Copied::unchanged : refuse("already exists and is left unchanged");
   }
-  if (!stream) return refuse(std::strerror(errno));
+  const auto failed = [&](int error) {
+    refuse(std::string("cannot be written: ") + std::strerror(error));
+    return Copied::unwritten;
+  };
+  if (!stream) return failed(errno);
   const bool whole = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-  if (std::fclose(stream) != 0 || !whole)
-    return refuse(std::string("cannot be written: ") + std::strerror(errno));
-  return Copied::written;
+  const int error = whole ? 0 : errno;
+  if (std::fclose(stream) == 0 && whole) return Copied::written;
+  const int reason = whole ? errno : error;
+  std::remove(file.c_str());  // half a study is none
+  return failed(reason);
 }
 
 }  // namespace linkwright::app

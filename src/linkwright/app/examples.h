@@ -32,11 +32,11 @@ std::span<const Example> examples();
 /// The example of that name, or those whose name or title holds it, whatever its case; all for an empty text.
 std::vector<const Example*> find_examples(std::string_view text);
 
-/// What writing a file for somebody came to.
-enum class Copied { written, unchanged, refused };
+/// What writing a file for somebody came to; unwritten: the system would not.
+enum class Copied { written, unchanged, refused, unwritten };
 
 /// Writes a new file and never over another one: one with the same text counts as written already. Refusals
-/// are appended to `diagnostics`.
+/// and failures are appended to `diagnostics`.
 Copied write_new(const std::string& file, std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace linkwright::app

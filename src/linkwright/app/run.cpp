@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -57,6 +55,26 @@ Diagnostic long_table_warning(const Table& table, std::size_t most_rows) {
           "numpy.load(file) reads it in Python"};
 }
 
+/// Which study a folder of results belongs to, if it is another than the one beside `out`.
+constexpr const char* owner_file = ".study";
+
+/// The study as a note of its owner names it: from the folder in which `out` is.
+std::string owner_of(const fs::path& file) {
+  std::error_code error;
+  const fs::path near = fs::proximate(file, error);
+  return (error ? file : near).generic_string();
+}
+
+/// Whether results of this study may go into a folder: it is new, or its own.
+bool may_take(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return true;
+  std::string owner;
+  if (std::getline(std::ifstream(folder / owner_file), owner)) return owner == owner_of(file);
+  const fs::path beside = file.filename();
+  return !fs::is_regular_file(beside, error) || fs::equivalent(beside, file, error);
+}
+
 /// A study file as a document; of standard input, its messages have a name that people know.
 Value read_document(const fs::path& file, Diagnostics& diagnostics) {
   if (file != standard_input) return study::read_file(file, diagnostics);
@@ -101,7 +119,26 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
 fs::path output_folder(const study::Study& study, const fs::path& file, const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   if (!study.common.output.dir.empty()) return study.common.output.dir;
-  return fs::path("out") / (file == standard_input ? fs::path("standard-input") : file.stem());
+  if (file == standard_input) return fs::path("out") / "standard-input";
+  const fs::path folder = fs::path("out") / file.stem();
+  if (may_take(folder, file)) return folder;
+  // The study of another folder has left its results there.
+  std::error_code error;
+  const std::string parent = fs::absolute(file, error).lexically_normal().parent_path().filename().string();
+  const std::string name = (parent.empty() ? "other" : parent) + "-" + file.stem().string();
+  for (int i = 1;; ++i) {
+    const fs::path other = fs::path("out") / (i == 1 ? name : fmt::format("{}-{}", name, i));
+    if (may_take(other, file) || i == 1000) return other;
+  }
+}
+
+std::string note_owner(const fs::path& folder, const fs::path& file, const RunOptions& options,
+                       const study::Study& study) {
+  if (!options.out.empty() || !study.common.output.dir.empty() || file == standard_input) return {};
+  const std::string owner = owner_of(file);
+  // The study beside `out` needs no note: it is looked for there.
+  if (owner == file.filename().string() && folder == fs::path("out") / file.stem()) return {};
+  return write_whole(folder / owner_file, owner + "\n");
 }
 
 bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
@@ -112,13 +149,10 @@ bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
     return false;
   }
   const fs::path probe = folder / fmt::format(".{}.part", platform::process_id());
-  errno = 0;
-  if (!std::ofstream(probe).put('\n')) {
-    refuse(diagnostics, folder, fmt::format("the folder cannot be written: {}", std::strerror(errno)));
-    return false;
-  }
+  const std::string problem = write_whole(probe, "\n");
   fs::remove(probe, error);
-  return true;
+  if (!problem.empty()) refuse(diagnostics, folder, fmt::format("the folder cannot be written: {}", problem));
+  return problem.empty();
 }
 
 RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t most_rows) {

@@ -33,9 +33,15 @@ std::optional<study::Study> load_study(const std::filesystem::path& file, const 
                                        Value* as_written = nullptr);
 
 /// Folder for the results of a study: options.out, output.dir of the study, or "out/" and the name of its
-/// file ("out/standard-input" without one).
+/// file ("out/standard-input" without one). Where that holds the results of a study of the same name in
+/// another folder, the name of the study's folder stands before it: "out/b-lever".
 std::filesystem::path output_folder(const study::Study& study, const std::filesystem::path& file,
                                     const RunOptions& options);
+
+/// Notes in the folder which study it belongs to, where that is not told by its name: a study of the same
+/// name in another folder then takes another one. Returns what went wrong, empty if nothing did.
+std::string note_owner(const std::filesystem::path& folder, const std::filesystem::path& file,
+                       const RunOptions& options, const study::Study& study);
 
 /// Makes the folder and tries to write in it, so that an hour's run does not end at a locked door.
 bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostics);

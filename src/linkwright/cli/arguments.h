@@ -91,6 +91,7 @@ inline constexpr const char* about =
     "Linkwright analyses, balances and synthesises mechanisms from study files.";
 
 inline constexpr int bad_input = 2;
+inline constexpr int not_written = 3;
 inline constexpr int cancelled = 4;
 inline constexpr int internal_error = 70;
 /// What the program's exit codes mean.
@@ -98,11 +99,12 @@ struct ExitCode {
   int code;
   std::string_view meaning;
 };
-inline constexpr ExitCode exit_codes[] = {{0, "done"},
-                                          {1, "a check failed"},
-                                          {bad_input, "bad input or usage"},
-                                          {3, "numeric failure"},
-                                          {cancelled, "cancelled"},
-                                          {internal_error, "internal error"}};
+inline constexpr ExitCode exit_codes[] = {
+    {0, "done"},
+    {1, "a check failed"},
+    {bad_input, "bad input or usage"},
+    {not_written, "numeric failure, too little memory, or a file that cannot be written"},
+    {cancelled, "cancelled"},
+    {internal_error, "internal error"}};
 
 }  // namespace linkwright::cli

@@ -75,6 +75,62 @@ int nothing_holds(const std::vector<std::string>& words, std::string_view comman
   return bad_input;
 }
 
+/// What people look for under another name, or in vain.
+struct Concept {
+  std::string_view words;  ///< separated by blanks
+  std::string_view answer;
+};
+constexpr std::array concepts{
+    Concept{
+        "cam cams nocken",
+        "cams are not modelled. Nearest: a motion law of a joint ([[drive]] law = ... in simulations and "
+        "serial "
+        "arms), a dwell (synthesis/planar.six_bar/dwell), a pin in a straight slot (joint type pin_in_slot)"},
+    Concept{"geneva maltese ratchet",
+            "step mechanisms are not modelled. Nearest: a dwell (synthesis/planar.six_bar/dwell)"},
+    Concept{"gear gears gearing gearbox",
+            "a pair of gears is a joint of type \"gear\" in analysis/planar.linkage and "
+            "simulation/planar.linkage, "
+            "with the ratio of its pitch circles; teeth are not modelled"},
+    Concept{"rack pinion rackandpinion",
+            "the steering rack of a suspension is moved_by = \"rack\" of a link, with [sweep.rack] "
+            "(analysis/suspension.corner). A rack with its pinion in a linkage is not modelled; nearest: a "
+            "slide and a "
+            "crank with drives of their own"},
+    Concept{"belt chain",
+            "belts and chains are not modelled. Nearest: a joint of type \"gear\" with a negative ratio "
+            "(analysis/planar.linkage)"},
+    Concept{"cylinder actuator ram hydraulic",
+            "a cylinder is two bodies with a joint of type \"prismatic\" that is driven "
+            "(analysis/planar.linkage)"},
+    Concept{"stewart gough hexapod",
+            "platforms on six legs of variable length are not modelled. Nearest: analysis/parallel.hexa, six "
+            "arms with "
+            "rods"},
+    Concept{"scara",
+            "a SCARA is analysis/planar.serial_arm with two revolute links; its vertical axis is not "
+            "modelled. With "
+            "Pi-joints: analysis/parallel.serial_pi_arm"},
+};
+
+std::string_view answer_for(const std::vector<std::string>& words) {
+  if (words.size() != 1) return {};
+  std::string word;
+  for (const char c : words[0]) {
+    if (c >= 'A' && c <= 'Z')
+      word += static_cast<char>(c - 'A' + 'a');
+    else if (c != '-' && c != '_' && c != ' ')
+      word += c;
+  }
+  for (const Concept& known : concepts)
+    for (std::size_t from = 0; from < known.words.size();) {
+      const std::size_t end = std::min(known.words.find(' ', from), known.words.size());
+      if (known.words.substr(from, end - from) == word) return known.answer;
+      from = end + 1;
+    }
+  return {};
+}
+
 int renamed(bool json) {
   if (json) {
     Value::Array all;
@@ -118,14 +174,18 @@ int copy_example(const Arguments& arguments) {
   Diagnostics diagnostics;
   std::error_code error;
   if (!arguments.folder.empty()) fs::create_directories(arguments.folder, error);
-  if (error) return refuse(fmt::format("'{}' cannot be made: {}", arguments.folder, error.message()), {});
+  if (error) {
+    print_diagnostics({unwritten(arguments.folder, error.message())});
+    return not_written;
+  }
   const app::Example& example = *found.front();
   std::vector<app::EmbeddedFile> files = example.beside;
   const std::string study = example.name + ".toml";
   files.push_back({study, example.text});
   for (const app::EmbeddedFile& file : files) {
     const std::string path = (fs::path(arguments.folder) / file.path).string();
-    switch (app::write_new(path, file.text, diagnostics)) {
+    const app::Copied copied = app::write_new(path, file.text, diagnostics);
+    switch (copied) {
       case app::Copied::written:
         fmt::print("{} written\n", path);
         break;
@@ -133,8 +193,9 @@ int copy_example(const Arguments& arguments) {
         fmt::print("{} is here already\n", path);
         break;
       case app::Copied::refused:
+      case app::Copied::unwritten:
         print_diagnostics(diagnostics);
-        return bad_input;
+        return copied == app::Copied::unwritten ? not_written : bad_input;
     }
   }
   fmt::print("run it with: linkwright run {}\n", (fs::path(arguments.folder) / study).string());
@@ -178,6 +239,11 @@ int list_catalogue(const Arguments& arguments, std::span<const study::Kind> kind
   }
   if (arguments.json) {
     fmt::print("{}", study::to_json_readable(Value(std::move(json))));
+    return 0;
+  }
+  // The letters of such a word are found in other words, which would mislead: cam in camber.
+  if (const std::string_view known = answer_for(arguments.words); !known.empty()) {
+    fmt::print("{}: {}\n", arguments.words[0], known);
     return 0;
   }
   if (entries.empty()) return nothing_holds(arguments.words, "catalogue");
@@ -251,6 +317,7 @@ int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const app::Copied copied = app::write_new(file, text, diagnostics);
   print_diagnostics(diagnostics);
   if (copied == app::Copied::refused) return bad_input;
+  if (copied == app::Copied::unwritten) return not_written;
   fmt::print("{} {}; run it with: linkwright run {}\n", file,
              copied == app::Copied::written ? "written" : "is here already", file);
   const fs::path beside = fs::path(file).parent_path() / schema;
@@ -283,9 +350,8 @@ int print_schema(const Arguments& arguments, std::span<const study::Kind> kinds)
     fmt::print("{} written\n", arguments.out);
     return 0;
   }
-  print_diagnostics(
-      {{Diagnostic::Severity::error, arguments.out, {}, {}, "cannot be written: " + problem, {}}});
-  return bad_input;
+  print_diagnostics({unwritten(arguments.out, problem)});
+  return not_written;
 }
 
 int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all) {
@@ -315,7 +381,7 @@ int reproduce(const Arguments& arguments, std::span<const study::Reproduction> a
     fmt::print("{}: {}\n  {}\n\n{}", r.id, r.title, r.source, aligned(rows));
     for (const std::string& note : r.notes) fmt::print("\n  {}\n", note);
     fmt::print("\n");
-    std::fflush(stdout);
+    flush_output();
   };
   // Several at once, but shown in their order, each as soon as those before it are.
   std::mutex showing;

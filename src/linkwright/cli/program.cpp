@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "linkwright/app/checkpoint_file.h"
@@ -27,12 +29,19 @@
 #include "linkwright/cli/summary.h"
 #include "linkwright/cli/terminal.h"
 #include "linkwright/cli/workbench.h"
+#include "linkwright/core/platform/files.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::cli {
 namespace fs = std::filesystem;
 namespace {
+
+/// The exit code where results cannot go: a folder that is none was asked for, another one cannot be written.
+int unusable(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder, error) ? not_written : bad_input;
+}
 
 /// The command line, without what does not change the result.
 std::string command_of(const Arguments& arguments) {
@@ -83,7 +92,7 @@ void print_outcome(const Arguments& arguments, const study::Study& study, const 
                          app::result_json(study, app::presented(study, outcome.result), outcome.record)));
   else if (!arguments.quiet)
     fmt::print("{}", summary(study.common.title, outcome.result, written, wants_colours(Stream::out)));
-  std::fflush(stdout);  // the answer stands before what is said about it
+  flush_output();  // the answer stands before what is said about it
   print_diagnostics(problems);
   if (arguments.open) open_report(written);
 }
@@ -181,7 +190,12 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const fs::path folder = study ? app::output_folder(*study, arguments.study, options) : fs::path();
   if (!study || !app::prepare_folder(folder, diagnostics)) {
     print_diagnostics(diagnostics);
-    return bad_input;
+    return study ? unusable(folder) : bad_input;
+  }
+  if (const std::string problem = app::note_owner(folder, arguments.study, options, *study);
+      !problem.empty()) {
+    print_diagnostics({unwritten(folder.string(), problem)});
+    return not_written;
   }
   const bool whole = arguments.shards == 0;
   const app::Shard shard = whole ? app::Shard{}
@@ -220,7 +234,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
   print_outcome(arguments, *study, outcome, written, problems);
   if (!arguments.quiet) offer_to_resume(outcome.result, checkpoint, folder);
-  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 /// What the run of a result that is computed again finds in its folder; nothing is kept there.
@@ -271,9 +285,13 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
                        paths[0].string(), name_of(*inputs[0].study.kind)),
            "only studies of one kind are compared"});
   const fs::path folder = arguments.out.empty() ? fs::path("compare") : fs::path(arguments.out);
-  if (!read || has_errors(diagnostics) || !app::prepare_folder(folder, diagnostics)) {
+  if (!read || has_errors(diagnostics)) {
     print_diagnostics(diagnostics);
     return bad_input;
+  }
+  if (!app::prepare_folder(folder, diagnostics)) {
+    print_diagnostics(diagnostics);
+    return unusable(folder);
   }
   print_diagnostics(diagnostics);
 
@@ -298,7 +316,7 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const study::Study study = app::comparison_study(all);
   const std::vector<fs::path> written = app::write_results(study, outcome, folder, problems);
   print_outcome(arguments, study, outcome, written, problems);
-  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 /// The result of a study from what its shards have kept.
@@ -312,7 +330,7 @@ int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const auto merged = app::read_shards(folders, kinds, diagnostics);
   if (!merged || !app::prepare_folder(folder, diagnostics)) {
     print_diagnostics(diagnostics);
-    return bad_input;
+    return merged ? unusable(folder) : bad_input;
   }
   context.set_checkpoint(merged->kept.get());
   app::RunOutcome outcome;
@@ -330,7 +348,7 @@ int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics problems;
   const std::vector<fs::path> written = app::write_results(merged->study, outcome, folder, problems);
   print_outcome(arguments, merged->study, outcome, written, problems);
-  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
@@ -345,10 +363,28 @@ int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
   return 0;
 }
 
-}  // namespace
+int failed(const std::exception& error) {
+  std::fputs(
+      fmt::format("linkwright: internal error: {}\nThis is a fault of the program, not of the study.\n",
+                  error.what())
+          .c_str(),
+      stderr);
+  return internal_error;
+}
 
-int program(int argc, const char* const* argv, std::span<const study::Kind> kinds,
-            std::span<const study::Reproduction> reproductions) try {
+/// What the system says of a folder or file that is not there any more, or not to be reached.
+Diagnostic unreachable(const fs::filesystem_error& error) {
+  return {Diagnostic::Severity::error,
+          error.path1().empty() ? "the current folder" : error.path1().string(),
+          {},
+          {},
+          "cannot be reached: " + error.code().message(),
+          {}};
+}
+
+/// Does what the command line asks for.
+int answer(int argc, const char* const* argv, std::span<const study::Kind> kinds,
+           std::span<const study::Reproduction> reproductions) {
   const Arguments arguments = parse_arguments(argc, argv);
   using Command = Arguments::Command;
   switch (arguments.command) {
@@ -385,13 +421,40 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
       return 0;
   }
   return internal_error;
+}
+
+}  // namespace
+
+int program(int argc, const char* const* argv, std::span<const study::Kind> kinds,
+            std::span<const study::Reproduction> reproductions) try {
+  platform::report_size_limits();
+  const int code = answer(argc, argv, kinds, reproductions);
+  // What is printed is the answer: a full disk behind it is no success.
+  const std::string problem = output_problem();
+  if (problem.empty()) return code;
+  print_diagnostics({unwritten("standard output", problem)});
+  return not_written;
 } catch (const PartMissing& error) {
   fmt::print(stderr, "linkwright: {}\nInstall the program again; the study is not to blame.\n", error.what());
   return internal_error;
+} catch (const fs::filesystem_error& error) {
+  print_diagnostics({unreachable(error)});
+  return not_written;
+} catch (const std::system_error& error) {
+  // Printing throws where a stream takes no more.
+  if (std::ferror(stderr) != 0) return not_written;
+  if (std::ferror(stdout) == 0) return failed(error);
+  print_diagnostics({unwritten("standard output", error.code().message())});
+  return not_written;
+} catch (const std::bad_alloc&) {
+  std::fputs(
+      "linkwright: error: the memory that may be used is not enough for this study; ask it for less: a "
+      "shorter "
+      "time, fewer samples, points, runs or candidates\n",
+      stderr);
+  return not_written;
 } catch (const std::exception& error) {
-  fmt::print(stderr, "linkwright: internal error: {}\nThis is a fault of the program, not of the study.\n",
-             error.what());
-  return internal_error;
+  return failed(error);
 }
 
 }  // namespace linkwright::cli

@@ -3,9 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace linkwright::cli {
 namespace {
@@ -59,13 +63,39 @@ std::string painted(const Diagnostic& diagnostic, bool on) {
   return text;
 }
 
+namespace {
+std::atomic<int> output_error = 0;  ///< the first of standard output
+}  // namespace
+
+void flush_output() {
+  int none = 0;
+  if (std::fflush(stdout) != 0) output_error.compare_exchange_strong(none, errno != 0 ? errno : EIO);
+}
+
+std::string output_problem() {
+  flush_output();
+  if (const int error = output_error) return std::strerror(error);
+  return std::ferror(stdout) != 0 ? std::strerror(EIO) : std::string();
+}
+
+Diagnostic unwritten(std::string file, std::string_view problem) {
+  return {Diagnostic::Severity::error,
+          std::move(file),
+          {},
+          {},
+          fmt::format("cannot be written: {}", problem),
+          {}};
+}
+
 void print_diagnostics(const Diagnostics& diagnostics) {
   const bool colours = wants_colours(Stream::err);
-  for (const Diagnostic& diagnostic : diagnostics) fmt::print(stderr, "{}\n", painted(diagnostic, colours));
+  // A stream that takes no more is no reason to throw here, where errors are told.
+  for (const Diagnostic& diagnostic : diagnostics)
+    std::fputs((painted(diagnostic, colours) + "\n").c_str(), stderr);
   const auto errors = std::count_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
     return d.severity == Diagnostic::Severity::error;
   });
-  if (errors > 1) fmt::print(stderr, "{} errors\n", errors);
+  if (errors > 1) std::fputs(fmt::format("{} errors\n", errors).c_str(), stderr);
 }
 
 std::string open_on_desktop(const std::string& what) {

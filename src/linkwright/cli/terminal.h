@@ -26,6 +26,14 @@ std::string paint(std::string_view text, Colour colour, bool on);
 /// to_string(diagnostic) with the word "error" or "warning" in its colour.
 std::string painted(const Diagnostic& diagnostic, bool on);
 
+/// Why a file is not written.
+Diagnostic unwritten(std::string file, std::string_view problem);
+
+/// Passes on what was printed so far; why that failed is kept for output_problem().
+void flush_output();
+/// Why standard output did not take all that was printed; empty if it did.
+std::string output_problem();
+
 /// Writes diagnostics to standard error, with their number if there are several errors.
 void print_diagnostics(const Diagnostics& diagnostics);
 

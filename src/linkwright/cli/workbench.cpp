@@ -39,6 +39,10 @@ class Door {
         "<!doctype html><meta charset=\"utf-8\"><title>Linkwright</title>"
         "<meta http-equiv=\"refresh\" content=\"0;url={0}\"><a href=\"{0}\">the workbench</a>\n",
         address);
+    if (page.close(); !page) {
+      fs::remove_all(folder_, error);
+      folder_.clear();
+    }
   }
   ~Door() {
     std::error_code error;
@@ -73,7 +77,7 @@ int serve_workbench(const Arguments& arguments) {
     return bad_input;
   }
   fmt::print("open {}\nCtrl-C ends the workbench; the address is for you alone\n", server->address());
-  std::fflush(stdout);
+  flush_output();
   std::optional<Door> door;
   if (arguments.open) {
     door.emplace(server->address());

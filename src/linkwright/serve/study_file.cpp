@@ -24,6 +24,9 @@ StudyFile::StudyFile(fs::path file) : path_(std::move(file)) {
 StudyFile::Text StudyFile::read() const {
   Diagnostics diagnostics;
   Text read;
+  // A pipe that the shell gives can be read once, and not be saved to.
+  if (std::error_code error; fs::exists(path_, error) && !fs::is_regular_file(path_, error))
+    return {{}, {}, "is not a plain file"};
   read.text = study::load_file(path_, diagnostics);
   if (has_errors(diagnostics))
     read.problem = diagnostics.front().message;

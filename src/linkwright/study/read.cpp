@@ -97,6 +97,14 @@ std::string load_file(const fs::path& file, Diagnostics& diagnostics) {
     refuse(diagnostics, name, "is a folder, expected a file");
     return {};
   }
+  // A pipe or a device may never come to an end; what the shell gives as a file does.
+  const bool from_shell = name == "/dev/stdin" || name == "/dev/null" || name.starts_with("/dev/fd/") ||
+                          name.starts_with("/proc/self/fd/");
+  if (!fs::is_regular_file(status) && !from_shell) {
+    refuse(diagnostics, name, "is not a plain file, but a pipe or a device",
+           "write the study to a file, or give - and the study as standard input");
+    return {};
+  }
   // The size is asked before reading so that a huge file is refused at once; what has no size (a pipe) is
   // read up to the limit.
   if (fs::is_regular_file(status)) {

@@ -8,10 +8,14 @@
 namespace linkwright::platform {
 
 /// Writes a file, whose pieces `next` gives until it gives an empty one, and waits until it is on the disk.
-/// Who may read and write `like`, if that is a file, may do so with it too.
+/// It gets the owner and the permissions of `like`, if that is a file; an error where it cannot, and where
+/// nobody may write `like`.
 std::error_code write_to_disk(const std::filesystem::path& file,
                               const std::function<std::string_view()>& next,
                               const std::filesystem::path& like);
+
+/// From now on a write beyond the limit of a file's size is an error of that write; it would end the program.
+void report_size_limits();
 
 /// Makes renamings in a folder last; does nothing where the system cannot.
 void sync_folder(const std::filesystem::path& folder);

@@ -63,7 +63,11 @@ void fill_random(std::span<unsigned char> bytes) {
 // --- Files -----------------------------------------------------------------------------------------------
 
 std::error_code write_to_disk(const fs::path& file, const std::function<std::string_view()>& next,
-                              const fs::path&) {
+                              const fs::path& like) {
+  std::error_code unknown;
+  const fs::file_status before = fs::status(like, unknown);
+  if (fs::is_regular_file(before) && (before.permissions() & fs::perms::owner_write) == fs::perms::none)
+    return std::make_error_code(std::errc::permission_denied);
   const auto failed = [] { return std::error_code(errno, std::generic_category()); };
   const int descriptor = ::_wopen(file.c_str(), _O_WRONLY | _O_CREAT | _O_TRUNC | _O_BINARY | _O_NOINHERIT,
                                   _S_IREAD | _S_IWRITE);
@@ -82,6 +86,8 @@ std::error_code write_to_disk(const fs::path& file, const std::function<std::str
   if (::_close(descriptor) != 0 && !error) error = failed();
   return error;
 }
+
+void report_size_limits() {}
 
 void sync_folder(const fs::path&) {}
 
