@@ -122,8 +122,8 @@ std::vector<Row> keys_and_values() {
        four_bar,
        {{"speed_rpm = 300.0", "speed_hz = 5"}},
        {},
-       "s.toml:35:1: error: drive.speed_hz: unknown key; allowed here: joint, input, speed_rad_per_s, "
-       "acceleration_rad_per_s2\n"},
+       "s.toml:35:1: error: drive.speed_hz: unknown key; 'hz' is not a unit of an angular speed here; write "
+       "speed_rad_per_s, speed_deg_per_s or speed_rpm\n"},
   };
 }
 

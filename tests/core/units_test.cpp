@@ -24,6 +24,9 @@ TEST(Units, DecimalUnitsRoundOnce) {
     EXPECT_EQ(find_unit(Dimension::length, "mm")->from_si(mm / 1000.0), mm);
   }
   EXPECT_EQ(si(Dimension::length, "in", 1), 0.0254);
+  // By definition: 0.45359237 kg and 1 kg under 9.80665 m/s2.
+  EXPECT_DOUBLE_EQ(si(Dimension::force, "lbf", 1), 0.45359237 * 9.80665);
+  EXPECT_EQ(si(Dimension::force, "kgf", 1), 9.80665);
   EXPECT_EQ(si(Dimension::inertia, "g_mm2", 1), 1e-9);
 }
 

@@ -192,6 +192,11 @@ TEST(Bind, UnknownKeysComeWithASuggestion) {
               HasSubstr("s.toml:2:1: error: xyzzy: unknown key; allowed here: crank_m, angle_rad, limit_kg"));
   EXPECT_THAT(messages("crank_m = 1\n[[link]]\nname = 'x'\nbdy_m = {}\n"),
               HasSubstr("s.toml:4:1: error: link[0].bdy_m: unknown key; did you mean 'body_m'?"));
+  // Another unit would change the size, so none is proposed.
+  EXPECT_EQ(messages("crank_ft = 100\n"),
+            "s.toml:1:1: error: crank_ft: unknown key; 'ft' is not a unit of a length here; write crank_m, "
+            "crank_mm, "
+            "crank_cm, crank_um or crank_in\n");
   // In another language.
   EXPECT_EQ(messages("kurbel_mm = 100\n"),
             "s.toml:1:1: error: kurbel_mm: unknown key; did you mean 'crank_mm'?\n");

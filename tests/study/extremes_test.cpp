@@ -23,6 +23,24 @@ TEST(Extremes, TheFirstOfEqualOnesCounts) {
   EXPECT_EQ(large.row, 1u);
 }
 
+TEST(Extremes, TheFirstOfThoseThatTieByRoundingCounts) {
+  // A chain of roundings does not carry the row along.
+  Extreme greatest, least, large;
+  const double unit = 2.220446049250313e-16;
+  for (std::size_t row = 0; row < 10; ++row) {
+    greatest.greatest(1 + static_cast<double>(row) * unit, row);
+    least.least(-1 - static_cast<double>(row) * unit, row);
+    large.largest((row % 2 == 0 ? 1 : -1) * (1 + static_cast<double>(row) * unit), row);
+  }
+  EXPECT_EQ(greatest.row, 0u);
+  EXPECT_EQ(greatest.value, 1 + 9 * unit);
+  EXPECT_EQ(least.row, 0u);
+  EXPECT_EQ(large.row, 0u);
+  EXPECT_GT(large.value, 0);
+  EXPECT_TRUE(greatest.greatest(1 + 1e-9, 10));
+  EXPECT_EQ(greatest.row, 10u);
+}
+
 TEST(Extremes, SayWhetherAValueIsTheExtremeOneSoFar) {
   Extreme out;
   EXPECT_FALSE(out.greatest(nan, 0));

@@ -31,7 +31,10 @@ constexpr DimensionRow dimension_rows[] = {
     {Dimension::area, "an area", {{"m2"}, {"cm2", 1, 1e4}, {"mm2", 1, 1e6}}},
     {Dimension::speed, "a speed", {{"m_per_s"}, {"mm_per_s", 1, 1e3}}},
     {Dimension::acceleration_angular, "an angular acceleration", {{"rad_per_s2"}, {"deg_per_s2", pi, 180}}},
-    {Dimension::force, "a force", {{"N"}, {"kN", 1e3, 1}}},
+    // Both follow from definitions: 0.45359237 kg and 9.80665 m/s2.
+    {Dimension::force,
+     "a force",
+     {{"N"}, {"kN", 1e3, 1}, {"lbf", 44482216152605, 1e13}, {"kgf", 980665, 1e5}}},
     {Dimension::torque, "a torque", {{"N_m"}, {"N_mm", 1, 1e3}}},
     {Dimension::frequency, "a frequency", {{"Hz"}, {"per_min", 1, 60}}},
     {Dimension::jerk, "a jerk", {{"m_per_s3"}, {"mm_per_s3", 1, 1e3}}},

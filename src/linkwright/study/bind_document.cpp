@@ -195,6 +195,11 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     // is more likely than one that may be left out.
     const auto parts = split_unit(member.key);
     std::string base;
+    // A key with a unit that there is not.
+    for (const Known& k : record.known)
+      if (!parts && k.dimension != Dimension::none && goes_on(member.key, k.base) &&
+          k.base.size() > base.size())
+        base = k.base;
     for (const auto* among : {&missing_bases, &bases}) {
       if (parts && base.empty()) base = meant_word(parts->base, *among);
       if (base.empty()) base = meant_word(member.key, *among);
@@ -240,7 +245,12 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
       const std::string key = parts && parts->dimension == meant->dimension
                                   ? meant->base + "_" + std::string(parts->unit->suffix)
                                   : si_key(meant->base, meant->dimension);
-      hint = fmt::format("did you mean '{}'?", key);
+      // Another unit would change the size: which one is meant is not ours to say.
+      hint = !parts && meant->dimension != Dimension::none && goes_on(member->key, meant->base)
+                 ? fmt::format("'{}' is not a unit of {} here; write {}",
+                               member->key.substr(meant->base.size() + 1), describe(meant->dimension),
+                               keys_with_units(meant->base, meant->dimension))
+                 : fmt::format("did you mean '{}'?", key);
       misspelt_.push_back(join_path(record.path, key));
       misspelt_.push_back(join_path(record.path, meant->base));
     }

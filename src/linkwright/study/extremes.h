@@ -9,10 +9,14 @@
 // The largest of what a study reports, and where it is.
 namespace linkwright::study {
 
-/// The extreme value of some rows and the row that has it, the first of equal ones. Rows without a finite
+/// The extreme value of some rows and the row that has it, the first of those that
+/// are equal but for rounding. Rows without a finite
 /// value are passed over. Values are offered by one of `greatest`, `least` and `largest`, which say whether
 /// it is the extreme one so far.
 struct Extreme {
+  /// Values that differ by less than this share of their size are one but for rounding.
+  static constexpr double tie = 1e-12;
+
   double value = nan;  ///< NaN = there is none
   std::size_t row = 0;
 
@@ -21,14 +25,22 @@ struct Extreme {
   bool least(double v, std::size_t of) { return std::isfinite(v) && !(v >= value) && take(v, of); }
   /// Of the greatest size.
   bool largest(double v, std::size_t of) {
-    return std::isfinite(v) && !(std::abs(v) <= std::abs(value)) && take(v, of);
+    if (!std::isfinite(v) || std::abs(v) <= std::abs(value)) return false;
+    // One of the other sign that ties leaves the first with its sign.
+    return std::abs(std::abs(v) - std::abs(at_row_)) <= tie * std::abs(v) && v * at_row_ < 0 ? false
+                                                                                             : take(v, of);
   }
 
  private:
+  /// Of values that tie by rounding, the first keeps its row.
   bool take(double v, std::size_t of) {
-    value = v, row = of;
+    value = v;
+    if (std::abs(v - at_row_) <= tie * std::abs(v)) return false;
+    row = of, at_row_ = v;
     return true;
   }
+
+  double at_row_ = nan;  ///< the value in the row
 };
 
 /// The value of greatest size.
