@@ -95,6 +95,24 @@ TEST(FunctionStudy, SaysWhenNoGeneratorCoversTheRange) {
   EXPECT_THAT(result.headline, HasSubstr("stays on one branch over the whole range"));
 }
 
+TEST(FunctionStudy, TheRowsOfATableAreItsPrecisionPoints) {
+  const std::string table = "table = [[0, 0], [0.5, 0.3], [1, 0.8], [2, 2.1], [3, 4]]\n";
+  const auto points_of = [](const std::string& text) {
+    const study::Result result = run_text(function_study(text));
+    std::string all;
+    for (const study::Fact& fact : result.facts) all += fact.label + ": " + fact.text + "\n";
+    return all;
+  };
+  EXPECT_EQ(points_of(table), points_of(table + "at = [0, 0.5, 1, 2, 3]\n"));
+  EXPECT_NE(points_of(table), points_of(table + "fit = \"points\"\n"));
+  std::string said;
+  EXPECT_TRUE(test::prepare(function_study("table = [[0, 0], [1, 0.8], [2, 2.1], [3, 4]]\n"), said));
+  EXPECT_THAT(
+      said,
+      HasSubstr("its 4 rows are not precision points: with 0 start angles the linkage meets 5; the curve "
+                "through them is met at 5 places of Chebyshev's; give 5 rows, or write fit"));
+}
+
 TEST(FunctionStudy, ATableIsAFunctionToo) {
   const study::Result result =
       run_text(function_study("table = [[0, 0], [1, 0.8], [2, 2.1], [3, 4]]\nfit = \"least_squares\"\n"));

@@ -197,6 +197,10 @@ class Finder {
       design.driver = turned ? b : a;
       design.other = turned ? a : b;
       design.passage = passage(reached, design.driver, design.other);
+      if (p_.drive_turns && !design.passage.drive_turns) {
+        ++out_.swinging;
+        continue;
+      }
       ++out_.tried;
       ++out_.defects[static_cast<std::size_t>(design.passage.defect)];
       if (design.passage.defect == PoseDefect::none) ++out_.free;

@@ -22,6 +22,7 @@ struct PoseProblem {
   std::vector<PoseDemand> demands;  ///< one for each pose, or none (not exact)
   double angle_length = 0;  ///< m: what a rotation of a radian counts as (not exact); 0 = size of the motion
   int most_designs = 12;
+  bool drive_turns = false;  ///< only linkages whose driven dyad can turn round
 };
 /// How many conditions a dyad lacks for a finite number of solutions; up to most_open_numbers are swept.
 int freedoms(const PoseProblem& problem, std::size_t dyad);
@@ -56,6 +57,7 @@ struct PoseAnswer {
   bool swept = false;
   int pairs = -1;  ///< real pairs of dyads of poses mixed with points, then of so many `solutions`; else -1
   int tried = 0, free = 0;         ///< linkages with a drive, and those without defect
+  int swinging = 0;                ///< left out because the driven dyad cannot turn round
   std::array<int, 4> defects{};    ///< of the tried, by PoseDefect
   std::array<double, 8> misfit{};  ///< of fit_dyads (not exact)
   int starts = 0;                  ///< pairs that were fitted (not exact)

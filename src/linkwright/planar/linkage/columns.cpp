@@ -58,11 +58,21 @@ std::string identifier(std::string_view name) {
   return out;
 }
 const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
+namespace {
+/// Whether a body has the name of a driven joint: the columns of both would be called alike.
+bool shares_name(const Linkage& l, std::size_t input) {
+  const std::string name = identifier(input_joint(l, input).name);
+  return std::any_of(l.bodies.begin(), l.bodies.end(),
+                     [&](const LinkageBody& body) { return identifier(body.name) == name; });
+}
+}  // namespace
+
 std::string input_key(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
-  return identifier(input_joint(l, input).name) + (plan.rotary[input] ? "_angle_rad" : "_displacement_m");
+  return identifier(input_joint(l, input).name) + (shares_name(l, input) ? "_joint" : "") +
+         (plan.rotary[input] ? "_angle_rad" : "_displacement_m");
 }
 std::string input_label(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
-  return fmt::format("{} {}", input_joint(l, input).name,
+  return fmt::format("{}{} {}", shares_name(l, input) ? "joint " : "", input_joint(l, input).name,
                      plan.rotary[input] ? "angle (rad)" : "displacement (m)");
 }
 

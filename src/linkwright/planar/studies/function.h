@@ -53,7 +53,9 @@ void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact
   visit(Field{.key = "function", .summary = "what is to be generated; or a table"}, t.function);
   visit(Field{.key = "exponent", .summary = "of power"}, t.exponent);
   visit(Field{.key = "coefficients", .summary = "of polynomial, the constant first"}, t.coefficients);
-  visit(Field{.key = "table", .summary = "points [x, y] by rising x, joined by a natural cubic spline"},
+  visit(Field{.key = "table",
+              .summary = "points [x, y] by rising x, joined by a natural cubic spline; as many rows as the "
+                         "linkage meets are its precision points, unless at, points or fit is given"},
         t.table);
   visit(Field{.key = "x", .summary = "range of x; default: that of the table"}, t.x);
   visit(Field{.key = "input_range",

@@ -126,7 +126,28 @@ void set_points(study::ObjectReader& target, FunctionStudy& s) {
     target.error("at", "both points and at are given", "keep one of them");
     return;
   }
-  const int count = t.at ? static_cast<int>(t.at->size()) : t.points.value_or(5 - given);
+  // The rows of a table are what is to be met, unless something else is said.
+  std::optional<std::vector<double>> rows;
+  if (t.table && !t.at && !t.points && !target.has("fit")) {
+    rows.emplace();
+    for (const auto& row : *t.table)
+      if (row[0] >= std::min(s.x_from, s.x_to) && row[0] <= std::max(s.x_from, s.x_to))
+        rows->push_back(row[0]);
+    if (static_cast<int>(rows->size()) + given != 5) {
+      target.warning(
+          "table",
+          fmt::format("its {} rows are not precision points: with {} start angle{} the linkage meets {}; the "
+                      "curve through them is met at {} places of Chebyshev's",
+                      rows->size(), given, given == 1 ? "" : "s", 5 - given, 5 - given),
+          fmt::format("give {} rows, or write fit = \"points\" or at = [x, ...] to say which are met",
+                      5 - given));
+      rows.reset();
+    } else if (s.x_to < s.x_from) {
+      std::reverse(rows->begin(), rows->end());
+    }
+  }
+  const std::optional<std::vector<double>>& at = t.at ? t.at : rows;
+  const int count = at ? static_cast<int>(at->size()) : t.points.value_or(5 - given);
   if (count + given != 5) {
     target.error(
         t.at ? "at" : "points",
@@ -136,11 +157,11 @@ void set_points(study::ObjectReader& target, FunctionStudy& s) {
                  : "5 points, or 4 with input_start_deg, or 3 with output_start_deg as well");
     return;
   }
-  if (!t.at) {
+  if (!at) {
     p.at = chebyshev_shares(count);
     return;
   }
-  for (const double x : *t.at) {
+  for (const double x : *at) {
     const double share = (x - s.x_from) / (s.x_to - s.x_from);
     if (!(share >= 0 && share <= 1)) {
       target.error("at", fmt::format("x = {} is not in the range {} to {}", x, s.x_from, s.x_to),

@@ -138,6 +138,37 @@ bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const
   return false;
 }
 
+/// Whether the points are those of a drawing though nothing says so: every pin has one place, some of them
+/// away from the origin, and neither starts nor assembly modes are given.
+bool looks_drawn(const LinkageForm& form) {
+  if (form.drawn || !form.assembly.empty() || form.joints.size() < 3) return false;
+  const auto started = [](const BodyForm& b) { return b.start.has_value(); };
+  if (std::any_of(form.bodies.begin(), form.bodies.end(), started)) return false;
+  const auto place = [&](const std::string& name) -> const Place* {
+    const std::size_t dot = name.find('.');
+    for (const BodyForm& b : form.bodies)
+      if (dot != std::string::npos && b.name == name.substr(0, dot))
+        for (const auto& [point, at] : b.points)
+          if (point == name.substr(dot + 1)) return &at;
+    return nullptr;
+  };
+  double size = 0;
+  for (const BodyForm& b : form.bodies)
+    for (const auto& [name, at] : b.points) size = std::max(size, std::hypot(at[0], at[1]));
+  int away = 0;  // pins of two moving bodies that lie away from the origin
+  for (const JointForm& j : form.joints) {
+    if (j.type != JointType::revolute) return false;
+    const Place *first = place(j.first), *second = place(j.second);
+    if (!first || !second || std::hypot((*first)[0] - (*second)[0], (*first)[1] - (*second)[1]) > 1e-6 * size)
+      return false;
+    const std::string ground = form.bodies.front().name + ".";
+    if (!j.first.starts_with(ground) && !j.second.starts_with(ground) &&
+        std::hypot((*first)[0], (*first)[1]) > 1e-6 * size)
+      ++away;
+  }
+  return away > 0;
+}
+
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
@@ -186,6 +217,12 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     require_own_names(*mechanism, "body", form.bodies);
     require_own_names(*mechanism, "joint", form.joints);
     if (document.document().has_errors()) return std::nullopt;
+    if (looks_drawn(form))
+      mechanism->warning(
+          "body",
+          "the two points of every joint coincide as they are written, as in a drawing, but without "
+          "drawn = true they count in the frames of their bodies, which may assemble another way",
+          "write drawn = true in [mechanism]; or give [[mechanism.assembly]] for frames that lie so");
     std::vector<FormProblem> problems;
     l = linkage_of(form, problems);
     for (const FormProblem& p : problems) {

@@ -106,12 +106,16 @@ void fields(Visitor&& visit, PivotForm& p) {
 struct PoseMechanism {
   std::vector<GuidingDyadType> dyads = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
   std::vector<PivotForm> pivots;
+  std::optional<bool> crank_rotates_fully;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseMechanism& m) {
   visit(Field{.key = "dyads", .summary = "what may join the body to the ground"}, m.dyads);
   visit(Field{.key = "pivot", .summary = "pivots that are given, or lie on given lines or in regions"},
         m.pivots);
+  visit(Field{.key = "crank_rotates_fully",
+              .summary = "true leaves out linkages whose driven link does not turn round"},
+        m.crank_rotates_fully);
 }
 
 /// How the poses are met.

@@ -330,6 +330,7 @@ PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& co
   }
   if (auto search = document.table("optimiser")) search->read(s.search);
   s.problem.types = s.mechanism.dyads;
+  s.problem.drive_turns = s.mechanism.crank_rotates_fully.value_or(false);
   s.problem.angle_length = s.target.angle_length.value_or(0);
   s.problem.most_designs = s.search.max_solutions;
   return s;

@@ -435,6 +435,9 @@ class PoseReport {
                                            answer_.solutions)
                              : fmt::format("{} next to the poses", answer_.dyads.size()));
     if (answer_.outside > 0) fact("with a pivot outside its region", fmt::format("{}", answer_.outside));
+    if (p_.drive_turns)
+      fact("left out, the crank does not rotate fully", fmt::format("{}", answer_.swinging),
+           answer_.tried > 0 ? Verdict::plain : Verdict::bad);
     fact("linkages with a drive", fmt::format("{}", answer_.tried));
     fact("free of defects", fmt::format("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
     if (answer_.tried > answer_.free) fact("defects", why());
