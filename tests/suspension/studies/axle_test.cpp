@@ -53,6 +53,7 @@ TEST(AxleStudy, TellsTheAntiDiveByTheArmPlanesBesideThatOfTheMotion) {
   std::string facts;
   for (const auto& fact : result.facts) facts += fact.label + " = " + fact.text + "\n";
   EXPECT_THAT(facts, HasSubstr("anti-dive, outboard brake = 22.45 %\n"));
+  EXPECT_THAT(facts, HasSubstr("caster, kingpin inclination by ball joints = 4.970°, "));
   EXPECT_THAT(facts,
               HasSubstr(fmt::format("anti-dive, outboard brake, by arm planes = {:.2f} %\n", by_arms)));
   // An arm on a hinge turns about it: motion and drawing agree, but for the camber, which puts the contact

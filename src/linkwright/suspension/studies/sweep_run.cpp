@@ -300,10 +300,12 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
       fact("trail, scrub radius" + here,
            fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
     }
-    if (const auto& axis = w.geometric_axis)
-      fact("caster, kingpin inclination, trail, scrub radius by the line through the ball joints" + here,
-           fmt::format("{}, {}, {}, {}", degrees(axis->caster), degrees(axis->inclination),
-                       millimetres(axis->trail), millimetres(axis->scrub)));
+    if (const auto& axis = w.geometric_axis) {
+      fact("caster, kingpin inclination by ball joints" + here,
+           fmt::format("{}, {}", degrees(axis->caster), degrees(axis->inclination)));
+      fact("trail, scrub radius by ball joints" + here,
+           fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
+    }
   }
   if (const std::string why = why_no_axis(guide); !why.empty())
     fact("geometric steering axis", "none: " + why);
