@@ -189,5 +189,28 @@ TEST(OutputAt, SlopesAreThoseOfDifferences) {
   EXPECT_FALSE(output_at({true, 3, {0, 5}, 1, 1}, 0.5));
 }
 
+TEST(FunctionGenerator, BelongsToBothBranchesWhereTheyMeet) {
+  // Stretched: crank pin at 0.5, coupler 1, rocker 0.5 to the left; folded: coupler 2 over a rocker of 1.5.
+  for (const FunctionGenerator& g :
+       {FunctionGenerator{false, {0.5, 0}, {-0.2, 0}, 0.3, 1},
+        FunctionGenerator{false, {0.5, 0}, {1.5, 0}, 2, 1}, FunctionGenerator{false, {3, 0}, {-1, 0}, 3, 1},
+        FunctionGenerator{false, {3, 0}, {0.5, 0}, 1.5, 1},
+        FunctionGenerator{true, {0, 1}, {0, 1.75}, 0.75, 1}}) {
+    for (const double longer : {1.0, 1 + 1e-12, 1 - 1e-12}) {
+      FunctionGenerator near = g;
+      near.c *= longer;
+      const auto place = place_at(near, 0);
+      ASSERT_TRUE(place);
+      EXPECT_TRUE(place->on_both_branches);
+      // A root of what the coupler is too long by.
+      EXPECT_NEAR(g.slider ? place->output : std::remainder(place->output, 2 * pi), 0, 1e-5);
+      EXPECT_LE(place->sine, 1e-5);
+    }
+    FunctionGenerator apart = g;
+    apart.c *= g.slider || g.c == 0.3 || g.c == 1.5 ? 1 - 1e-6 : 1 + 1e-6;
+    EXPECT_FALSE(place_at(apart, 0));
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -118,5 +118,28 @@ TEST(FindGenerators, EndWhenTheyAreAskedTo) {
   EXPECT_EQ(find_generators(stored_function("exp 0..1"), context).status, Status::cancelled);
 }
 
+// Crank and rocker lie in line with the ground at the start: coupler and rocker then lie in line as well, and
+// both branches meet. Lengths by Freudenstein's equation at the three pairs: ground / crank cos(psi) - ground
+// / rocker cos(phi) + k3 = cos(phi - psi).
+TEST(FindGenerators, AGeneratorMayStartWhereItsBranchesMeet) {
+  FunctionProblem p;
+  p.input_range = 0.6;
+  p.output = [](double share) { return 0.4 * share; };
+  p.at = {0, 0.5, 1};
+  p.given = {.input = 0, .output = 0};
+  RunContext context;
+  const FunctionAnswer answer = find_generators(p, context);
+  ASSERT_EQ(answer.designs.size(), 1u);
+  const FunctionDesign& d = answer.designs[0];
+  EXPECT_TRUE(d.assembles);
+  EXPECT_EQ(d.other_branch, 0);
+  EXPECT_EQ(d.generator.branch, 1);
+  EXPECT_NEAR(4 * std::abs(d.generator.a), 9.949991485, 1e-8);
+  EXPECT_NEAR(4 * d.generator.c, 53.253865640, 1e-8);
+  EXPECT_NEAR(4 * std::abs(d.generator.b), 59.203857125, 1e-8);
+  EXPECT_NEAR(d.greatest_error * 180 / pi, 3.895e-5, 5e-8);
+  EXPECT_LT(d.pair_angle, 1e-4);  // a root of the rounding of the lengths
+}
+
 }  // namespace
 }  // namespace linkwright::planar

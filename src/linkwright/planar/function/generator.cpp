@@ -20,6 +20,9 @@ Complex coupler(const FunctionGenerator& g, double input, double output) {
   return g.slider ? output + g.b - pin : 1.0 + g.b * std::polar(1.0, output) - pin;
 }
 
+// The squared sine that the pair angle has where the branches count as one.
+constexpr double least_square = 2 * branches_meet;
+
 // Sine of the angle between coupler and output link, signed by the branch.
 double side(const FunctionGenerator& g, double input, double output) {
   const Complex u = coupler(g, input, output);
@@ -77,6 +80,22 @@ PairCosine pair_cosine(const FunctionGenerator& g, double input) {
   return out;
 }
 
+std::optional<GeneratorPlace> place_at(const FunctionGenerator& g, double input) {
+  const double beyond = std::abs(pair_cosine(g, input).value) - 1;
+  if (const std::optional<GeneratorOutput> out = output_at(g, input))
+    return GeneratorPlace{out->output, out->sine, beyond > -branches_meet};
+  if (!(beyond < branches_meet)) return std::nullopt;
+  const Complex pin = g.a * std::polar(1.0, input);
+  if (g.slider) return GeneratorPlace{pin.real() - g.b.real(), 0, true};
+  // Coupler and rocker lie on the line from the crank pin to the rocker pivot: the rocker points back along
+  // it unless the coupler is the longer one and reaches over the pivot, or the pin lies inside.
+  const Complex d = pin - 1.0;
+  const double r = std::abs(d), arm = std::abs(g.b);
+  if (!(r > 0)) return std::nullopt;
+  const double towards = r * r + arm * arm < g.c * g.c ? -1 : 1;
+  return GeneratorPlace{std::arg(towards * (d / r) / g.b), 0, true};
+}
+
 std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pairs, bool slider,
                                                 const StartAngles& given) {
   LINKWRIGHT_REQUIRE(pairs.size() + given.input.has_value() + given.output.has_value() == 5, "{} pairs",
@@ -101,7 +120,13 @@ std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pa
       continue;
     if (std::abs(dyad.fixed) < trivial || std::abs(dyad.moving) < (slider ? 0 : trivial)) continue;
     FunctionGenerator g{slider, dyad.fixed, dyad.moving, dyad.length, 1};
-    g.branch = side(g, pairs[0].input, pairs[0].output) < 0 ? -1 : 1;
+    // Where the branches meet, the side is rounding.
+    for (const FunctionPair& p : pairs) {
+      const double here = side(g, p.input, p.output);
+      if (!(here * here > least_square)) continue;
+      g.branch = here < 0 ? -1 : 1;
+      break;
+    }
     out.push_back(g);
   }
   return out;

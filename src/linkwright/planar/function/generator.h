@@ -32,6 +32,19 @@ struct GeneratorOutput {
 };
 std::optional<GeneratorOutput> output_at(const FunctionGenerator& generator, double input);
 
+/// The cosine of the pair angle may pass +-1 by so much, the rounding of the numbers of a generator that was
+/// computed, and the generator still assembles; within as much of +-1 both branches meet, and a place there
+/// belongs to both.
+inline constexpr double branches_meet = 1e-9;
+
+/// Output at an input and the sine of the pair angle, as output_at has them, and where the branches meet as
+/// well: the sine is 0 there, and the output, which has no derivatives, is that of both branches.
+struct GeneratorPlace {
+  double output = 0, sine = 0;
+  bool on_both_branches = false;
+};
+std::optional<GeneratorPlace> place_at(const FunctionGenerator& generator, double input);
+
 /// Cosine of the angle between coupler and rocker (rod and normal of the guide), whether or not it assembles,
 /// with its derivatives by the numbers in the order of GeneratorOutput, and by the input.
 struct PairCosine {
@@ -54,7 +67,7 @@ struct StartAngles {
 
 /// All generators through five pairs, less one for each start angle that is given: at most three of a
 /// four-bar (Burmester pairs of the rocker seen from the crank, of which the ground itself is one), or of a
-/// slider-crank. The branch is that of the first pair.
+/// slider-crank. The branch is that of the first pair at which the two branches are apart.
 ///
 /// Throws ContractError for another number of pairs, or a start angle of the output of a slider-crank.
 std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pairs, bool slider,

@@ -293,7 +293,7 @@ std::vector<double> chebyshev_shares(int count) {
 
 std::optional<double> structural_error(const FunctionProblem& problem, const FunctionGenerator& generator,
                                        double share) {
-  const std::optional<GeneratorOutput> out = output_at(generator, problem.input_range * share);
+  const std::optional<GeneratorPlace> out = place_at(generator, problem.input_range * share);
   if (!out) return std::nullopt;
   const double error = out->output - problem.output(share);
   return problem.slider ? error : math::wrap_angle(error);
@@ -323,7 +323,7 @@ RangeErrors range_errors(const std::function<std::optional<PlaceError>(double sh
 FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& generator, int samples) {
   const RangeErrors errors = range_errors(
       [&](double share) -> std::optional<PlaceError> {
-        const std::optional<GeneratorOutput> at = output_at(generator, problem.input_range * share);
+        const std::optional<GeneratorPlace> at = place_at(generator, problem.input_range * share);
         if (!at) return std::nullopt;
         return PlaceError{*structural_error(problem, generator, share), at->sine};
       },
@@ -334,12 +334,13 @@ FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& g
   out.greatest_error = errors.greatest_error;
   out.rms_error = errors.rms_error;
   out.pair_angle = errors.pair_angle;
-  // An exact point that is missed was met on the other branch.
+  // An exact point that is missed was met on the other branch, unless both meet there.
   const double rounding = 1e-6 * (problem.slider ? std::abs(problem.output(1)) : 1);
   if (problem.fit == FunctionFit::points)
     for (const double share : problem.at) {
-      const std::optional<double> error = structural_error(problem, generator, share);
-      if (error && std::abs(*error) > rounding) ++out.other_branch;
+      const std::optional<GeneratorPlace> place = place_at(generator, problem.input_range * share);
+      if (!place || place->on_both_branches) continue;
+      if (std::abs(*structural_error(problem, generator, share)) > rounding) ++out.other_branch;
     }
   return out;
 }
