@@ -6,6 +6,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/tolerance.h"
 
 namespace linkwright::optimise {
 
@@ -17,6 +18,20 @@ bool dominates(std::span<const double> a, std::span<const double> b) {
     less |= a[k] < b[k];
   }
   return less;
+}
+
+// Share of a cost that a limit met within tolerance leaves open.
+constexpr double settled = 100 * tolerance::feasibility;
+
+bool less_by_more_than_rounding(double a, double b) {
+  return b - a > settled * std::max(std::abs(a), std::abs(b));
+}
+
+bool no_cost_more(std::span<const double> a, std::span<const double> b) {
+  LINKWRIGHT_REQUIRE(a.size() == b.size(), "{} and {} objectives", a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (less_by_more_than_rounding(b[k], a[k])) return false;
+  return true;
 }
 
 std::vector<std::size_t> non_dominated(std::span<const double> costs, std::size_t objectives) {

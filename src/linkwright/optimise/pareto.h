@@ -10,6 +10,14 @@ namespace linkwright::optimise {
 /// Whether costs a dominate costs b, as many: none is more, and one at least is less.
 bool dominates(std::span<const double> a, std::span<const double> b);
 
+/// Whether cost a is less than b by more than searches settle it: a limit that holds a cost is met within
+/// `tolerance::feasibility` of the size of its constraint, which may be some tens of times the cost.
+bool less_by_more_than_rounding(double a, double b);
+
+/// Whether none of costs a, as many as b, is more than that of b by more than rounding: a dominates b, or
+/// they are equal as far as searches can tell. Not transitive: for a list that is shown.
+bool no_cost_more(std::span<const double> a, std::span<const double> b);
+
 /// A design and its costs.
 struct ParetoPoint {
   std::vector<double> x, costs;

@@ -253,6 +253,12 @@ TEST(SliderPathSynthesis, AFrontKeepsWhatNoneDominates) {
   EXPECT_EQ(front[0].stroke, 3);
   EXPECT_EQ(front[1].stroke, 2);
   EXPECT_EQ(front[2].stroke, 1);
+  // Strokes, and errors, that differ by what a limit is met to are the same.
+  const auto rounded = slider_front_of({design(1, 3), design(2, 2), design(2.0001, 2 * (1 - 1e-9)),
+                                        design(4, 1), design(4 * (1 + 1e-9), 0.5)});
+  ASSERT_EQ(rounded.size(), 3u);
+  EXPECT_EQ(rounded[1].stroke, 2);
+  EXPECT_EQ(rounded[2].stroke, 0.5);
 }
 
 }  // namespace

@@ -362,11 +362,15 @@ std::vector<BalancedDesign> front_of(std::vector<BalancedDesign> designs) {
   std::stable_sort(designs.begin(), designs.end(),
                    [](const BalancedDesign& a, const BalancedDesign& b) { return a.ratios < b.ratios; });
   std::vector<BalancedDesign> out;
-  for (const BalancedDesign& d : designs) {
-    const bool worse = std::any_of(designs.begin(), designs.end(), [&](const BalancedDesign& o) {
-      return optimise::dominates(o.ratios, d.ratios);
+  // Compared with those that are kept alone: what is equal within rounding goes without taking all of a chain
+  // of such along.
+  for (BalancedDesign& d : designs) {
+    const bool no_better = std::any_of(out.begin(), out.end(), [&](const BalancedDesign& o) {
+      return optimise::no_cost_more(o.ratios, d.ratios);
     });
-    if (!worse && (out.empty() || out.back().ratios != d.ratios)) out.push_back(d);
+    if (no_better) continue;
+    std::erase_if(out, [&](const BalancedDesign& o) { return optimise::no_cost_more(d.ratios, o.ratios); });
+    out.push_back(std::move(d));
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/least_squares.h"
+#include "linkwright/optimise/pareto.h"
 #include "linkwright/planar/path/slider_crank_fit.h"
 #include "linkwright/planar/path/slider_crank_projection.h"
 #include "linkwright/planar/path/slider_crank_starts.h"
@@ -462,8 +463,12 @@ std::vector<SliderPathDesign> slider_front_of(std::vector<SliderPathDesign> desi
     return a.error != b.error ? a.error < b.error : a.stroke < b.stroke;
   });
   std::vector<SliderPathDesign> out;
-  for (SliderPathDesign& d : designs)
-    if (out.empty() || d.stroke < out.back().stroke) out.push_back(std::move(d));
+  // A stroke, or an error, that is less by rounding alone is the same.
+  for (SliderPathDesign& d : designs) {
+    if (!out.empty() && !optimise::less_by_more_than_rounding(d.stroke, out.back().stroke)) continue;
+    while (!out.empty() && !optimise::less_by_more_than_rounding(out.back().error, d.error)) out.pop_back();
+    out.push_back(std::move(d));
+  }
   return out;
 }
 
