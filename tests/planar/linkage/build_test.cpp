@@ -65,8 +65,8 @@ TEST(LinkageBuild, GivesUniformMasses) {
   set_uniform(l, "bar", 3);
   EXPECT_EQ(l.bodies[1].mass->centre, std::complex<double>(1, 0));
   EXPECT_DOUBLE_EQ(l.bodies[1].mass->inertia, 3 * 2 * 2 / 12.0);
-  set_uniform(l, "plate", 3);  // 1 kg at each corner: distances^2 from (1, 1) are 2, 5, 5
-  EXPECT_DOUBLE_EQ(l.bodies[2].mass->inertia, 12);
+  set_uniform(l, "plate", 3);  // its joints A and B hold a bar; C has none
+  EXPECT_DOUBLE_EQ(l.bodies[2].mass->inertia, 3 * 3 * 3 / 12.0);
   EXPECT_THAT(test::message([&] { set_uniform(l, "nothing", 1); }),
               HasSubstr("body 'nothing' has no points"));
   l.bodies.pop_back();
@@ -76,6 +76,31 @@ TEST(LinkageBuild, GivesUniformMasses) {
   EXPECT_DOUBLE_EQ(l.bodies[2].mass->mass, 5 * std::sqrt(18.0));
   EXPECT_DOUBLE_EQ(l.bodies[3].mass->mass, 5 * 0.1 * 3);  // the largest distance of joints is 3 m
   EXPECT_EQ(l.bodies[3].mass->inertia, 0);
+}
+// About O, in closed form: a bar m l^2 / 3, a triangle m / 36 of the sum of its squared sides about its
+// centre.
+TEST(LinkageBuild, UniformMassesDoNotDependOnNamedPoints) {
+  const auto about_origin = [](std::vector<LinkagePoint> points, const std::vector<std::string>& pinned) {
+    Linkage l = grounded({{"P", {0, 0}}});
+    add_body(l, "body", std::move(points));
+    for (const std::string& p : pinned) {
+      add_bar(l, "bar " + p, "P", "Q", 1);
+      add_pin(l, p, "body." + p, "bar " + p + ".P");
+    }
+    set_uniform(l, "body", 1);
+    return l.bodies[1].mass->inertia + std::norm(l.bodies[1].mass->centre);
+  };
+  EXPECT_NEAR(about_origin({{"O", {0, 0}}, {"M", {1, 0}}, {"A", {2, 0}}}, {"O"}), 4 / 3.0, 1e-15);
+  EXPECT_NEAR(about_origin({{"O", {0, 0}}, {"M", {1, 0}}, {"A", {2, 0}}}, {"O", "M", "A"}), 4 / 3.0, 1e-15);
+  EXPECT_NEAR(about_origin({{"O", {0, 0}}, {"T", {1, 9}}, {"A", {2, 0}}}, {"O", "A"}), 4 / 3.0, 1e-15);
+  EXPECT_NEAR(about_origin({{"O", {0, 0}}, {"A", {2, 0}}, {"C", {1, 1}}}, {"O", "A", "C"}), 4 / 3.0, 1e-15);
+  EXPECT_NEAR(about_origin({{"O", {0, 0}}, {"A", {2, 0}}, {"C", {1, 1}}, {"N", {1, 0.5}}, {"H", {1, 0}}},
+                           {"O", "A", "C", "N", "H"}),
+              4 / 3.0, 1e-15);
+  // A rectangle of 2 by 1: (4 + 1) / 12 about its centre, (1, 0.5).
+  EXPECT_NEAR(
+      about_origin({{"O", {0, 0}}, {"C", {2, 1}}, {"A", {2, 0}}, {"D", {0, 1}}}, {"O", "A", "C", "D"}),
+      5 / 12.0 + 1.25, 1e-15);
 }
 TEST(LinkageBuild, TellsWhereBodiesStart) {
   Linkage l = bar();

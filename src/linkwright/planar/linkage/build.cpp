@@ -1,8 +1,12 @@
 #include "linkwright/planar/linkage/build.h"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/tolerance.h"
 
 namespace linkwright::planar {
 namespace {
@@ -16,6 +20,77 @@ int body_named(const Linkage& linkage, std::string_view name) {
 int add_joint(Linkage& linkage, LinkageJoint joint) {
   linkage.joints.push_back(std::move(joint));
   return static_cast<int>(linkage.joints.size()) - 1;
+}
+
+// Corners of the smallest convex polygon around the points, counter-clockwise from the lowest of the
+// leftmost; its two ends when they lie on a line to rounding, one when they coincide.
+std::vector<std::complex<double>> hull(std::vector<std::complex<double>> points) {
+  double size = 0;
+  for (const auto& p : points) size = std::max(size, std::abs(p - points[0]));
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
+  });
+  const auto turns_left = [&](const auto& a, const auto& b, const auto& c) {
+    return std::imag(std::conj(b - a) * (c - a)) > tolerance::closure * size * size;
+  };
+  std::vector<std::complex<double>> out;
+  for (const bool back : {false, true}) {
+    const std::size_t first = out.size();
+    for (const auto& p : points) {
+      while (out.size() >= first + 2 && !turns_left(out[out.size() - 2], out.back(), p)) out.pop_back();
+      out.push_back(p);
+    }
+    out.pop_back();  // the first of the way back
+    if (!back) std::reverse(points.begin(), points.end());
+  }
+  if (size == 0) out.assign(1, points[0]);
+  return out;
+}
+
+// Of a body with its mass spread evenly over a bar or plate: its centre, and the mean square of the distances
+// from it.
+struct UniformShape {
+  std::complex<double> centre;
+  double square = 0;
+};
+UniformShape uniform_shape(const std::vector<std::complex<double>>& corners) {
+  const std::complex<double> first = corners[0];
+  if (corners.size() == 1) return {first, 0};
+  if (corners.size() == 2) return {(first + corners[1]) / 2.0, std::norm(corners[1] - first) / 12};
+  // Triangles from the first corner: a third of the sum of their corners, a sixth of the sum of products.
+  double area = 0, square = 0;
+  std::complex<double> moment = 0;
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+    const std::complex<double> u = corners[k] - first, v = corners[k + 1] - first;
+    const double twice = std::imag(std::conj(u) * v);
+    area += twice / 2;
+    moment += twice / 6 * (u + v);
+    square += twice / 12 * (std::norm(u) + std::norm(v) + std::real(std::conj(u) * v));
+  }
+  const std::complex<double> arm = moment / area;
+  return {first + arm, square / area - std::norm(arm)};
+}
+
+// Points that carry a body without a shape of its own: its joints; when these are one place, what else holds
+// or loads it; else all its points.
+std::vector<std::complex<double>> outline_points(const Linkage& linkage, int body) {
+  const std::vector<LinkagePoint>& points = linkage.bodies[static_cast<std::size_t>(body)].points;
+  std::vector<std::complex<double>> out;
+  const auto add = [&](const BodyPoint& p) {
+    if (p.body == body && p.point >= 0 && static_cast<std::size_t>(p.point) < points.size())
+      out.push_back(points[static_cast<std::size_t>(p.point)].at);
+  };
+  const auto one_place = [&] {
+    return std::all_of(out.begin(), out.end(), [&](const auto& p) { return p == out[0]; });
+  };
+  for (const LinkageJoint& j : linkage.joints)
+    if (j.type != JointType::gear) add(j.first), add(j.second);
+  if (!one_place()) return out;
+  for (const LinearSpring& s : linkage.springs) add(s.first), add(s.second);
+  for (const PointForce& f : linkage.forces) add(f.point);
+  if (!one_place()) return out;
+  for (const LinkagePoint& p : points) out.push_back(p.at);
+  return out;
 }
 
 double reach(const LinkageBody& body) {
@@ -121,15 +196,12 @@ void set_mode(Linkage& linkage, std::string_view first, std::string_view second,
 }
 
 void set_uniform(Linkage& linkage, std::string_view name, double mass) {
-  LinkageBody& body = linkage.bodies[static_cast<std::size_t>(body_named(linkage, name))];
+  const int b = body_named(linkage, name);
+  LinkageBody& body = linkage.bodies[static_cast<std::size_t>(b)];
   LINKWRIGHT_REQUIRE(!body.points.empty(), "body '{}' has no points", name);
-  const auto n = static_cast<double>(body.points.size());
-  std::complex<double> centre = 0;
-  for (const LinkagePoint& p : body.points) centre += p.at / n;
-  double spread = 0;
-  for (const LinkagePoint& p : body.points) spread += std::norm(p.at - centre) / n;
-  // Two equal masses at the ends of a bar have three times the inertia of the bar.
-  body.mass = BodyMass{mass, mass * (body.points.size() == 2 ? spread / 3 : spread), centre};
+  const std::vector<std::complex<double>> outline = hull(outline_points(linkage, b));
+  const UniformShape shape = uniform_shape(outline);
+  body.mass = BodyMass{mass, mass * shape.square, shape.centre};
 }
 
 void set_uniform_all(Linkage& linkage, double mass_per_metre) {

@@ -53,8 +53,9 @@ void add_drive(Linkage& linkage, std::string_view joint);
 /// The assembly mode of a dyad; see AssemblyMode.
 void set_mode(Linkage& linkage, std::string_view first, std::string_view second, AssemblyMode mode);
 
-/// A slender uniform bar along two points of the body: mass centre in the middle, inertia m l^2 / 12. For
-/// more points (a plate) the mean of the points, and the inertia of equal masses at them.
+/// Mass centre and inertia of a body whose mass is spread evenly: of a slender bar between its outermost
+/// joints when these lie on a line, else of a plate over the convex hull of its joints. Points without a
+/// joint count only when all its joints are in one place: first those of springs and forces, then all.
 void set_uniform(Linkage& linkage, std::string_view body, double mass);
 /// ... for every body but the ground, with a mass per metre between its outermost points; points of no length
 /// (sliders) get `mass_per_metre` times the size of the linkage over ten.

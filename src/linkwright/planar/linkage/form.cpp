@@ -77,15 +77,23 @@ LinkageBody body_of(const BodyForm& form, bool drawn) {
     body.start = math::Pose{form.start->x, form.start->y, form.start->angle};
   else if (drawn)
     body.start = math::Pose{};
-  if (form.mass) {
-    Linkage alone;
-    alone.bodies = {body};
-    if (!body.points.empty()) set_uniform(alone, body.name, *form.mass);
-    body.mass = alone.bodies[0].mass.value_or(BodyMass{*form.mass, 0, 0});
-    if (form.inertia) body.mass->inertia = *form.inertia;
-    if (form.centre) body.mass->centre = number(*form.centre);
-  }
+  if (form.mass) body.mass = BodyMass{*form.mass, 0, 0};
   return body;
+}
+
+// What is left out of a mass follows from where the body is jointed.
+void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
+  LinkageBody& body = l.bodies[b];
+  if (!form.mass) return;
+  if (!body.points.empty() && (!form.inertia || !form.centre)) {
+    Linkage alone = l;  // bodies may share a name, which is told elsewhere
+    alone.bodies[b].name = "\n";
+    set_uniform(alone, "\n", *form.mass);
+    body.mass = alone.bodies[b].mass;
+    body.mass->assumed = true;
+  }
+  if (form.inertia) body.mass->inertia = *form.inertia;
+  if (form.centre) body.mass->centre = number(*form.centre);
 }
 
 }  // namespace
@@ -154,6 +162,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     l.torques.push_back(
         {t.name, names.body("body", t.body), names.body("from", t.from), t.torque, factor_of(t.factor)});
   }
+  for (std::size_t b = 0; b < form.bodies.size(); ++b) complete_mass(l, b, form.bodies[b]);
   return l;
 }
 

@@ -94,7 +94,7 @@ struct FormProblem {
 };
 
 /// The model; names that do not exist become problems. Masses: a missing `inertia` or `centre` is that of a
-/// uniform bar or plate over the points. Drives and gravity are not part of the form.
+/// uniform bar or plate over the joints (see set_uniform). Drives and gravity are not part of the form.
 Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems);
 
 /// The form of a model.
@@ -151,11 +151,13 @@ void fields(Visitor&& visit, BodyForm& b) {
   visit(text("name", "its name; the first body is the ground"), b.name);
   visit(place("points", "named points in the frame of the body", true), b.points);
   visit(positive("mass", "mass; only forces, torques and dynamics need it", Dimension::mass), b.mass);
-  visit(
-      positive("inertia", "moment of inertia about the mass centre; if absent that of a uniform bar or plate",
-               Dimension::inertia),
-      b.inertia);
-  visit(place("centre", "mass centre in the frame of the body; if absent the mean of the points"), b.centre);
+  visit(positive("inertia",
+                 "moment of inertia about the mass centre; if absent that of a uniform bar between its "
+                 "outermost joints, or plate over them",
+                 Dimension::inertia),
+        b.inertia);
+  visit(place("centre", "mass centre in the frame of the body; if absent that of the bar or plate"),
+        b.centre);
   visit(Field{.key = "attached", .summary = "masses that sit on the body: counterweights, payloads"},
         b.attached);
   visit(Field{.key = "start", .summary = "approximate position of the body at the start"}, b.start);

@@ -31,6 +31,7 @@ struct BodyMass {
   double mass = 0;              ///< kg, >= 0
   double inertia = 0;           ///< kg m2 about the mass centre, >= 0
   std::complex<double> centre;  ///< mass centre in the frame of the body, m
+  bool assumed = false;         ///< inertia or centre was left out and is that of a uniform body
 };
 
 /// A rigid body. Where its frame lies is the user's choice; body 0 of a linkage is the ground, whose frame is

@@ -294,6 +294,24 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   return out;
 }
 
+void tell_assumed_masses(const Linkage& l, study::Result& result) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  std::size_t told = 0, more = 0;
+  for (const LinkageBody& b : l.bodies) {
+    if (!b.mass || !b.mass->assumed) continue;
+    if (told == most) {
+      ++more;
+      continue;
+    }
+    ++told;
+    text += fmt::format("{}{} {:.5g} kg m² about ({:.5g}, {:.5g}) m", text.empty() ? "" : "; ", b.name,
+                        b.mass->inertia, b.mass->centre.real() + 0.0, b.mass->centre.imag() + 0.0);
+  }
+  if (more > 0) text += fmt::format("; {} more in the study as it was read", more);
+  if (!text.empty()) result.facts.push_back({"inertia of uniform bars and plates, where left out", text});
+}
+
 bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan,
                     bool lists_quantities) {
   if (plan.has_masses) return true;

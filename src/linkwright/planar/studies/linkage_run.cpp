@@ -286,6 +286,11 @@ class Runner {
       if (s_.plan.closed_form())
         fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
     }
+    std::string general;
+    for (const Group& g : s_.plan.groups)
+      if (!traits_of(g).closed_form) general += (general.empty() ? "" : ", ") + g.name;
+    if (!general.empty() && s_.quantities.transmission_angle)
+      fact("transmission angle", fmt::format("not given of {}: only a dyad has one", general));
     for (std::size_t k = 0; k < drives_.size(); ++k)
       if (s_.quantities.drive && drives_[k].any())
         fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
@@ -293,6 +298,7 @@ class Runner {
              fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
                          where(drives_[k].row)));
     facts_of_turn(fact);
+    if (s_.quantities.dynamic()) tell_assumed_masses(s_.linkage, result_);
     if (s_.quantities.reactions && strongest() < joints_.size())
       fact("largest joint force",
            fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,

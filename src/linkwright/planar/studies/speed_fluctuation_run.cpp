@@ -63,6 +63,7 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   fact("constant motor torque",
        fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
                    cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
+  tell_assumed_masses(s.linkage, result);
   fact("fluctuation of energy", fmt::format("{:.6g} J", cycle.energy_fluctuation));
   fact("coefficient of fluctuation without flywheel", fmt::format("{:.5g}", cycle.fluctuation));
   const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel
