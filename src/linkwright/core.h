@@ -4,6 +4,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/closing_row.h"
 #include "linkwright/core/csv.h"
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"

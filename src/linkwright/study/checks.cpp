@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "linkwright/core/closing_row.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
@@ -116,7 +117,7 @@ Resolved of_row(const Table& table, const Column& column, const CheckRequest& re
   return {column.values[row], {}};
 }
 
-Resolved statistic(const Column& column, std::string_view what) {
+Resolved statistic(const Column& column, std::string_view what, bool closes) {
   constexpr std::array<std::string_view, 7> all{"max", "min", "max_abs", "mean", "rms", "first", "last"};
   if (std::find(all.begin(), all.end(), what) == all.end())
     return unknown("statistic", what, {all.begin(), all.end()});
@@ -129,10 +130,11 @@ Resolved statistic(const Column& column, std::string_view what) {
   if (what == "first") return {values.front(), {}};
   if (what == "last") return {values.back(), {}};
   double sum = 0, squares = 0, largest = 0;
+  for (double v : values) largest = std::max(largest, std::abs(v));
+  if (closes) values.pop_back();
   for (double v : values) {
     sum += v;
     squares += v * v;
-    largest = std::max(largest, std::abs(v));
   }
   const auto n = static_cast<double>(values.size());
   if (what == "max_abs") return {largest, {}};
@@ -149,9 +151,9 @@ Resolved of_table(const Table& table, std::string_view rest, const CheckRequest&
   if (!request.at.empty() && dot == std::string_view::npos)
     answer = of_row(table, *column, request);
   else if (request.at.empty() && dot != std::string_view::npos)
-    answer = statistic(*column, rest.substr(dot + 1));
+    answer = statistic(*column, rest.substr(dot + 1), has_closing_row(table));
   else if (request.at.empty() && table.rows() == 1)
-    answer = statistic(*column, "last");
+    answer = statistic(*column, "last", false);
   else if (request.at.empty())
     answer.message =
         "a column has many values: add a statistic (.max, .min, .max_abs, .mean, .rms, .first, .last) or "

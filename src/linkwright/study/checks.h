@@ -46,7 +46,7 @@ Value write_checks(const std::vector<CheckRequest>& checks);
 ///   statistics.<key>           number of the statistics
 ///   <table>.<column>           with `at`: the row whose columns have these values (to 1e-6 of the column's
 ///   span) <table>.<column>.<what>    max, min, max_abs, mean, rms, first or last of the rows that have a
-///   value
+///   value; mean and rms count one of the two ends of a period (see has_closing_row)
 ///   <table>.<column>           of a table with one row
 /// Keys match in any unit of their dimension: sweep.toe_deg is found in the column toe_rad and converted. A
 /// quantity that cannot be found is a failed check whose message says why.

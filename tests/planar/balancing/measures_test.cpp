@@ -60,5 +60,16 @@ TEST(Measures, NeedSamples) {
     EXPECT_THAT(test::message([&] { of({}); }), HasSubstr("needs a sample"));
 }
 
+// A cosine over a turn: root mean square 1 / sqrt(2), mean size 2 (1 + 2 cos 30 + 2 cos 60) / 12, by hand.
+TEST(Measures, MeansCountOneEndOfAPeriod) {
+  std::vector<double> turn;
+  for (int i = 0; i <= 12; ++i) turn.push_back(std::cos(i * std::acos(-1.0) / 6));
+  EXPECT_NEAR(measure(Measure::rms, turn, true), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(measure(Measure::mean_abs, turn, true), (2 + std::sqrt(3)) / 6, 1e-15);
+  EXPECT_EQ(measure(Measure::rss_over_n, turn, true), rss_over_n(turn));
+  EXPECT_EQ(measure(Measure::range, turn, true), measure(Measure::range, turn));
+  EXPECT_EQ(measure(Measure::rms, turn, false), rms(turn));
+}
+
 }  // namespace
 }  // namespace linkwright::planar

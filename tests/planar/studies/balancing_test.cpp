@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/looks.h"
 #include "planar/balancing_studies.h"
@@ -90,8 +91,9 @@ TEST(BalancingStudyRun, OverlaysJoinBothDesigns) {
   const Table& overlay = r.tables[2];
   const Column *now = overlay.find("shaking_force_N"), *before = overlay.find("initial_shaking_force_N");
   ASSERT_TRUE(now && before);
-  EXPECT_NEAR(r.changes[0].before, rms(before->values), 1e-12);
-  EXPECT_NEAR(r.changes[0].after, rms(now->values), 1e-12);
+  // A full turn: its closing row counts once.
+  EXPECT_NEAR(r.changes[0].before, rms(std::span(before->values).first(before->values.size() - 1)), 1e-12);
+  EXPECT_NEAR(r.changes[0].after, rms(std::span(now->values).first(now->values.size() - 1)), 1e-12);
   std::vector<std::string> plots;
   for (const study::Plot& p : r.plots) plots.push_back(p.name);
   EXPECT_THAT(plots, Contains("overlay-shaking_force_N"));
@@ -101,11 +103,11 @@ TEST(BalancingStudyRun, OverlaysJoinBothDesigns) {
 
 TEST(BalancingStudyRun, AFrontIsATableAPlotAndSolutions) {
   const study::Result r =
-      run_text(test::linkage_weights + "[optimiser]\nmethod = \"convex\"\ncombine = \"front\"\nfront = 5\n");
-  // Five questions; ends of the front may be the same design.
+      run_text(test::linkage_weights + "[optimiser]\nmethod = \"convex\"\ncombine = \"front\"\nfront = 9\n");
+  // Nine questions; some have the same design as their answer.
   const std::size_t n = r.solutions.size();
   ASSERT_GE(n, 3u);
-  ASSERT_LE(n, 5u);
+  ASSERT_LE(n, 9u);
   EXPECT_THAT(names_of(r), Contains("front"));
   const Table& front =
       *std::find_if(r.tables.begin(), r.tables.end(), [](const Table& t) { return t.name == "front"; });

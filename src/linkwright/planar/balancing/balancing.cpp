@@ -16,14 +16,14 @@ const std::vector<double>& values_of(const Table& table, const std::string& quan
   return column->values;
 }
 
-double value_of(const BalancingLimit& c, const Table& table, const Table& initial) {
+double value_of(const BalancingLimit& c, const Table& table, const Table& initial, bool closes) {
   const std::vector<double>& values = values_of(table, c.quantity);
-  if (!c.change) return measure(c.measure, values);
+  if (!c.change) return measure(c.measure, values, closes);
   const std::vector<double>& before = values_of(initial, c.quantity);
   std::vector<double> difference(values.size(), nan);
   if (values.size() == before.size())
     std::transform(values.begin(), values.end(), before.begin(), difference.begin(), std::minus<>());
-  return measure(c.measure, difference);
+  return measure(c.measure, difference, closes);
 }
 
 double missing_rows(const Table& table) {
@@ -55,11 +55,12 @@ struct Evaluator {
     }
     for (std::size_t k = 0; k < task.objectives.size(); ++k)
       *out++ =
-          measure(task.objectives[k].measure, values_of(table, task.objectives[k].quantity)) / references[k];
+          measure(task.objectives[k].measure, values_of(table, task.objectives[k].quantity), task.closes) /
+          references[k];
     *out++ = -1;
     for (std::size_t k = 0; k < task.constraints.size(); ++k) {
       const BalancingLimit& c = task.constraints[k];
-      const double value = value_of(c, table, initial);
+      const double value = value_of(c, table, initial, task.closes);
       if (c.at_least) *out++ = (*c.at_least - value) / scales[k];
       if (c.at_most) *out++ = (value - *c.at_most) / scales[k];
     }
@@ -71,7 +72,7 @@ struct Evaluator {
 std::vector<double> goal_values(const BalancingTask& task, const Table& table) {
   std::vector<double> out;
   for (const BalancingGoal& o : task.objectives)
-    out.push_back(table.rows() == 0 ? nan : measure(o.measure, values_of(table, o.quantity)));
+    out.push_back(table.rows() == 0 ? nan : measure(o.measure, values_of(table, o.quantity), task.closes));
   return out;
 }
 
@@ -92,7 +93,7 @@ BalancingProblem balancing_problem(BalancingTask task) {
     evaluator.references.push_back(reference);
   }
   for (const BalancingLimit& c : t.constraints) {
-    const double initial = value_of(c, evaluator.initial, evaluator.initial);
+    const double initial = value_of(c, evaluator.initial, evaluator.initial, t.closes);
     const double scale =
         std::max({std::abs(initial), std::abs(c.at_least.value_or(0)), std::abs(c.at_most.value_or(0))});
     evaluator.scales.push_back(scale > 0 ? scale : 1);

@@ -55,6 +55,7 @@ struct BalancingTask {
   /// The columns that objectives and constraints name, of the design x; rows without an answer have NaN. Must
   /// be pure; called from several threads at once.
   std::function<Table(std::span<const double> x)> table;
+  bool closes = false;  ///< the last row of a table is the first one again
 };
 
 /// A task with the numbers of its initial design.

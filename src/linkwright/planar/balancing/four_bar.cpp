@@ -172,7 +172,8 @@ void evaluate(const FourBarBalancing& b, const Layout& layout, double softening,
               {layout.angles, {&b.crank_speed, 1}, {&b.crank_acceleration, 1}});
     for (std::size_t k = 0; k < objectives; ++k) {
       const BalancingObjective& o = b.objectives[k];
-      of[k] = measure(o, softening, sweep.row(row_of(o.component))) / o.reference;
+      const std::span<const double> row = sweep.row(row_of(o.component));
+      of[k] = measure(o, softening, row.first(counted(o.measure, row.size(), b.closes))) / o.reference;
     }
   }
 }

@@ -97,6 +97,8 @@ struct FourBarBalancing {
 
   double crank_from = 0, crank_to = 2 * pi;  ///< rad, both ends sampled
   int samples = 201;
+  /// The last sample is the first one again, a turn later: means count it once. Boskovic's tables count both.
+  bool closes = false;
   double crank_speed = 1;         ///< rad/s, at every sample
   double crank_acceleration = 0;  ///< rad/s2, at every sample
   double gravity = 9.81;          ///< m/s2 along -y

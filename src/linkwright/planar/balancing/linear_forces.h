@@ -35,6 +35,7 @@ struct LinearForces {
   Status status = Status::done;
   std::size_t failed_sample = 0;
   std::size_t samples = 0;
+  bool closes = false;             ///< the last sample is the first one again: means count it once
   std::vector<std::string> links;  ///< whose masses are open
   std::vector<LinkMass> initial;   ///< their masses as they are, one a link
   std::vector<LinearComponent> components;

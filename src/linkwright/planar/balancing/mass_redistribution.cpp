@@ -281,19 +281,21 @@ void Balancer::add_objective(std::size_t k, std::size_t t) {
   const ForceObjective& o = b_.objectives[k];
   const auto parts = quantity(b_.forces, o.quantity);
   const std::size_t n = b_.forces.samples;
-  const auto rows = static_cast<Index>(parts.size() * n), columns = static_cast<Index>(unknowns_);
+  const auto columns = static_cast<Index>(unknowns_);
   double over = 1 / references_[k];
   if (o.measure == Measure::rss_over_n) over /= static_cast<double>(n - 1);
-  if (o.measure == Measure::rms) over /= std::sqrt(static_cast<double>(n));
-  if (o.measure == Measure::mean_abs) over /= static_cast<double>(n);
+  const std::size_t used = counted(o.measure, n, b_.forces.closes);
+  if (o.measure == Measure::rms) over /= std::sqrt(static_cast<double>(used));
+  if (o.measure == Measure::mean_abs) over /= static_cast<double>(used);
 
-  // All samples over the unknowns; the constants in the last column.
+  // All samples that count over the unknowns; the constants in the last column.
+  const auto rows = static_cast<Index>(parts.size() * used);
   Matrix all = Matrix::Zero(rows, columns + 1);
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const auto block = [&](const std::vector<double>& list, std::size_t first) {
-      return Eigen::Map<const Eigen::VectorXd>(list.data() + first, static_cast<Index>(n));
+      return Eigen::Map<const Eigen::VectorXd>(list.data() + first, static_cast<Index>(used));
     };
-    auto out = all.middleRows(static_cast<Index>(c * n), static_cast<Index>(n));
+    auto out = all.middleRows(static_cast<Index>(c * used), static_cast<Index>(used));
     out.col(columns) = over * block(parts[c]->constant, 0);
     for (std::size_t p = 0; p < base_parameter_count * links_.size(); ++p) {
       const Affine& form = links_[p / base_parameter_count][p % base_parameter_count];
@@ -324,15 +326,15 @@ void Balancer::add_objective(std::size_t k, std::size_t t) {
   }
   // One cone a sample: below t, or below the difference of two partial sums, the last of which is t.
   Affine before = constant(0);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < used; ++i) {
     Cone cone{.bound = variable(t), .parts = {}};
     if (o.measure == Measure::mean_abs) {
-      const Affine after = variable(i + 1 == n ? t : add_unknown());
+      const Affine after = variable(i + 1 == used ? t : add_unknown());
       cone.bound = sum(after, -1, before);
       before = after;
     }
     for (std::size_t c = 0; c < parts.size(); ++c)
-      cone.parts.push_back(row(all, static_cast<Index>(c * n + i)));
+      cone.parts.push_back(row(all, static_cast<Index>(c * used + i)));
     add(std::move(cone));
   }
 }
@@ -506,7 +508,7 @@ BalancedMasses Balancer::run(RunContext& context) {
 std::vector<double> force_measures(const MassBalancing& balancing, std::span<const BaseParameters> links) {
   std::vector<double> out;
   for (const ForceObjective& o : balancing.objectives)
-    out.push_back(measure(o.measure, values(balancing.forces, o.quantity, links)));
+    out.push_back(measure(o.measure, values(balancing.forces, o.quantity, links), balancing.forces.closes));
   return out;
 }
 

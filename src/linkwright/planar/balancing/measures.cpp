@@ -68,4 +68,8 @@ double measure(Measure measure, std::span<const double> samples) {
   return measure == Measure::maximum ? most : measure == Measure::minimum ? least : most - least;
 }
 
+double measure(Measure kind, std::span<const double> samples, bool closes) {
+  return measure(kind, samples.first(counted(kind, samples.size(), closes)));
+}
+
 }  // namespace linkwright::planar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "linkwright/core/field.h"
@@ -35,6 +36,13 @@ constexpr std::array<EnumName<Measure>, 7> names(Measure) {
            {Measure::range, "range", "from the smallest to the largest value"}}};
 }
 double measure(Measure measure, std::span<const double> samples);
+/// ... of a period: when it `closes`, the last sample is the first one again, and means count one of the two.
+/// rss_over_n keeps both, as it is defined.
+double measure(Measure measure, std::span<const double> samples, bool closes);
+/// How many of the n samples of a period count, the first ones.
+constexpr std::size_t counted(Measure measure, std::size_t n, bool closes) {
+  return closes && n > 1 && (measure == Measure::rms || measure == Measure::mean_abs) ? n - 1 : n;
+}
 
 /// What searches may build on.
 struct MeasureProperties {

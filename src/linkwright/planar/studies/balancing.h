@@ -92,6 +92,9 @@ Value design_tables(const BalancingStudy& study, std::span<const double> x);
 /// mechanism.
 Table design_table(const BalancingStudy& study, std::span<const double> x,
                    std::span<const std::string> columns);
+/// Whether the rows of the initial design are those of a period with both its ends: means count one of them,
+/// for all designs alike.
+bool closes(const BalancingStudy& study);
 /// The whole analysis of one design.
 study::Result design_analysis(const BalancingStudy& study, const study::Common& common,
                               std::span<const double> x, RunContext& context);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/closing_row.h"
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/serial_arm.h"
@@ -188,10 +189,10 @@ void check_initial(study::ObjectReader& document, const study::Common& common, B
   for (std::size_t k = 0; k < s.objectives.size() && k < entries.size(); ++k) {
     const BalancingGoal& o = s.objectives[k];
     const Column* column = table.find(o.quantity);
-    if (column && !o.reference && !(measure(o.measure, column->values) > 0))
+    if (column && !o.reference && !(measure(o.measure, column->values, has_closing_row(table)) > 0))
       entries[k].error("quantity",
                        fmt::format("'{}' of the initial design is {:.3g}, which cannot be what counts as 1",
-                                   o.quantity, measure(o.measure, column->values)),
+                                   o.quantity, measure(o.measure, column->values, has_closing_row(table))),
                        "give reference = a value in the unit of the column");
   }
 }
@@ -294,6 +295,12 @@ std::vector<study::Kind> balancing_kinds() {
   std::vector<study::Kind> out;
   for (const BalancedMechanism& mechanism : mechanisms) out.push_back(kind_of(mechanism));
   return out;
+}
+
+bool closes(const BalancingStudy& s) {
+  std::vector<double> x;
+  for (const study::DesignVariable& n : s.designed.numbers) x.push_back(n.initial);
+  return has_closing_row(design_table(s, x, {}));
 }
 
 Value design_tables(const BalancingStudy& s, std::span<const double> x) {

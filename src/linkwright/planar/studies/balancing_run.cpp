@@ -41,6 +41,7 @@ BalancingTask task_of(const BalancingStudy& s, const std::shared_ptr<const MassS
   }
   task.objectives = s.objectives;
   task.constraints = s.constraints;
+  task.closes = closes(s);
   std::vector<std::string> columns;
   for (const BalancingGoal& o : s.objectives) columns.push_back(o.quantity);
   for (const BalancingLimit& c : s.constraints) columns.push_back(c.quantity);
@@ -302,8 +303,8 @@ class Report {
       result_.changes.push_back({.quantity = key,
                                  .label = now->label,
                                  .measure = std::string(name_of(m)),
-                                 .before = measure(m, old->values),
-                                 .after = measure(m, now->values),
+                                 .before = measure(m, old->values, p_.task.closes),
+                                 .after = measure(m, now->values, p_.task.closes),
                                  .wanted = wanted});
     };
     for (const BalancingGoal& o : p_.task.objectives) add(o.quantity, o.measure, true);

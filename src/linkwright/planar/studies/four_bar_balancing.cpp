@@ -85,6 +85,7 @@ std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s,
   b.crank_from = angles.from;
   b.crank_to = angles.to;
   b.samples = angles.samples;
+  b.closes = p.task.closes;
   b.crank_speed = initial->drives[0].rate;
   b.crank_acceleration = initial->drives[0].acceleration;
   b.gravity = *gravity;

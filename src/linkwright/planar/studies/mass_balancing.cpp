@@ -142,6 +142,7 @@ class Maker {
       good = arm(read_serial_arm_study(root, {}));
     else
       good = linkage(root);
+    out_->forces.closes = closes(s_);
     if (good && out_->forces.status != Status::done) {
       why_ = "the motion has no answer everywhere";
       good = false;
