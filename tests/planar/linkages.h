@@ -105,6 +105,11 @@ inline double unbalance(const Linkage& l, const LinkagePlan& plan, const Linkage
     for (std::size_t k = 0; k < l.joints.size(); ++k) {
       const LinkageJoint& j = l.joints[k];
       const JointReaction& r = f.joints[k];
+      if (j.type == JointType::gear && std::isfinite(r.tangential)) {
+        if (j.second.body == body) add(r.point, r.force, 0);
+        if (j.first.body == body) add(r.point, -r.force, 0);
+        continue;
+      }
       if (j.type == JointType::gear) {
         if (j.second.body == body) moment += r.moment;
         if (j.first.body == body) moment -= j.ratio * r.moment;

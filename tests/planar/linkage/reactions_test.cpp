@@ -232,11 +232,13 @@ TEST(LinkageReactions, DoNotFeelTheInertiaOfASteadyCrank) {
   EXPECT_EQ(f.shaking_force.x, g.shaking_force.x);
 }
 
-// Forces are linear in mass, first moment and inertia about the origin of each body.
+// Forces are linear in mass, first moment and inertia about the origin of each body; of gears without a
+// pressure angle, by which teeth press apart whichever way they push.
 TEST(LinkageReactions, AreLinearInTheBaseParameters) {
   for (const char* name : {"jansen_leg", "triad", "whitworth", "geared_five_bar", "inverted_slider_crank"}) {
     SCOPED_TRACE(name);
-    const LinkageSample& s = linkage_sample(name);
+    LinkageSample s = linkage_sample(name);
+    for (LinkageJoint& j : s.linkage.joints) j.pressure_angle = 0;
     LinkagePlan p = planned(s.linkage);
     LinkageMotion m(p);
     ASSERT_NO_FATAL_FAILURE(go_to(s, p, 0, 0.3, m));
@@ -410,6 +412,92 @@ TEST(LinkageReactions, OfAPlanetGear) {
   solve_forces(l, p, m, 0, 0, f);
   EXPECT_LE(unbalance(l, p, m, f), 1e-12);
   EXPECT_NEAR(f.drive_power + f.weight_power, f.kinetic_power, 1e-11);
+}
+
+// A sun of 20, planet of 30 and ring of 80 teeth, module 2 mm, 10 N m on the sun, nothing has mass: the teeth
+// carry 10 N m / 20 mm = 500 N, the planet's pin both meshes, the sun's bearing one tooth force.
+Linkage epicyclic(double pressure_angle) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_body(l, "sun", {{"O", {0, 0}}});
+  add_bar(l, "arm", "O", "C", 0.050);
+  add_body(l, "planet", {{"C", {0, 0}}});
+  add_pin(l, "sun bearing", "ground.O", "sun.O");
+  add_pin(l, "O", "ground.O", "arm.O");
+  add_pin(l, "C", "arm.C", "planet.C");
+  // ring -> planet: 80 / 30, internal; planet -> sun: -30 / 20.
+  add_gear(l, "ring mesh", "ground", "planet", 80.0 / 30, 0, "arm");
+  add_gear(l, "sun mesh", "planet", "sun", -1.5, 0, "arm");
+  add_drive(l, "O");
+  for (LinkageBody& b : l.bodies) b.mass = BodyMass{};
+  for (LinkageJoint& j : l.joints) j.pressure_angle = pressure_angle;
+  l.gravity = 0;
+  l.torques.push_back({.name = "motor", .body = 1, .torque = 10});
+  return l;
+}
+TEST(LinkageReactions, TeethLoadTheBearings) {
+  for (const double angle : {0.0, 0.7}) {
+    SCOPED_TRACE(angle);
+    const Linkage l = epicyclic(20 * pi / 180);
+    const LinkagePlan p = planned(l);
+    LinkageMotion m(p);
+    LinkageForces f;
+    solve_motion(p, std::vector<InputMotion>{{angle, 1, 0}}, m);
+    EXPECT_NEAR(body_state(p, m, 1).speed, 5, 1e-14);
+    EXPECT_NEAR(body_state(p, m, 3).speed, -5 / 3.0, 1e-14);
+    solve_forces(l, p, m, 0, 0, f);
+    const auto force = [&](const char* joint) { return f.joints[index(joint_index(l, joint))]; };
+    EXPECT_NEAR(f.drives[0], -50, 1e-12);
+    EXPECT_NEAR(std::abs(force("sun mesh").tangential), 500, 1e-11);
+    EXPECT_NEAR(std::abs(force("ring mesh").tangential), 500, 1e-11);
+    EXPECT_NEAR(norm(force("sun mesh").force), 532.088886, 1e-6);  // 500 / cos 20 deg
+    EXPECT_NEAR(norm(force("sun bearing").force), 532.088886, 1e-6);
+    EXPECT_NEAR(norm(force("C").force), 1000, 1e-11);  // what presses it outwards and inwards cancels
+    EXPECT_LE(unbalance(l, p, m, f), 1e-11);
+  }
+  const Linkage l = epicyclic(0);
+  const LinkagePlan p = planned(l);
+  LinkageMotion m(p);
+  LinkageForces f;
+  solve_motion(p, std::vector<InputMotion>{{0, 1, 0}}, m);
+  solve_forces(l, p, m, 0, 0, f);
+  EXPECT_NEAR(norm(f.joints[0].force), 500, 1e-11);
+  EXPECT_NEAR(f.joints[index(joint_index(l, "sun mesh"))].separating, 0, 0);
+}
+// A planet that rolls about a wheel at rest, arm 2 m, 4/3 N m on the planet of 2 m: 2/3 N at its pin.
+TEST(LinkageReactions, APlanetPinCarriesTheToothForce) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_bar(l, "arm", "O", "C", 3);
+  add_body(l, "planet", {{"C", {0, 0}}});
+  add_pin(l, "O", "ground.O", "arm.O");
+  add_pin(l, "C", "arm.C", "planet.C");
+  add_gear(l, "gear", "ground", "planet", -0.5, 0, "arm");  // radii 1 m and 2 m
+  add_drive(l, "O");
+  for (LinkageBody& b : l.bodies) b.mass = BodyMass{};
+  l.joints.back().pressure_angle = 0;
+  l.gravity = 0;
+  l.torques.push_back({.name = "load", .body = 2, .torque = 4.0 / 3});
+  const LinkagePlan p = planned(l);
+  LinkageMotion m(p);
+  LinkageForces f;
+  solve_motion(p, std::vector<InputMotion>{{0.4, 1, 0}}, m);
+  solve_forces(l, p, m, 0, 0, f);
+  EXPECT_NEAR(norm(f.joints[1].force), 2 / 3.0, 1e-15);
+  EXPECT_LE(unbalance(l, p, m, f), 1e-14);
+}
+TEST(LinkageReactions, GearsWithoutRadiiAreNamed) {
+  Linkage l = grounded({{"O", {0, 0}}, {"P", {1, 0}}});
+  add_bar(l, "crank", "O", "A", 0.3);
+  add_bar(l, "wheel", "P", "B", 0.3);
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "P", "ground.P", "wheel.P");
+  add_gear(l, "belt", "crank", "wheel", 1);
+  add_drive(l, "O");
+  EXPECT_EQ(
+      planned(l).torque_gears,
+      std::vector<std::string>{"'belt': a ratio of 1 is that of no two wheels that mesh; a belt has it, or "
+                               "an idler between them"});
+  l.joints.back().ratio = -2;
+  EXPECT_TRUE(planned(l).torque_gears.empty());
 }
 
 // The same gear between bodies that are welded to others, at angles of their own.

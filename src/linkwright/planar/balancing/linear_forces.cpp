@@ -188,6 +188,12 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
     LINKWRIGHT_REQUIRE(j.friction == 0,
                        "joint '{}' has friction, with which forces are not linear in the masses", j.name);
 
+  for (const Group& g : plan.groups)
+    if (const Gear* gear = g.as<Gear>())
+      LINKWRIGHT_REQUIRE(!gear->mesh || gear->mesh->tangent == 0,
+                         "gear '{}' has a pressure angle, with which forces are not linear in the masses",
+                         linkage.joints[static_cast<std::size_t>(gear->joint)].name);
+
   // What stays when the open masses are taken away, and the linkage without any mass or load.
   Linkage rest = linkage, bare = linkage;
   for (const int b : bodies) {

@@ -66,9 +66,9 @@ LinearForces linear_forces(const SerialArm& arm, std::span<const math::Motion> m
 /// constants. `inputs` holds the motion of all inputs at the first sample, then at the second; `times` (s)
 /// one a sample, or is empty for 0. Own joint of a body is the origin of its frame, its link line the x axis.
 ///
-/// Throws ContractError for a body without mass that is not among the open ones, friction (which is not
-/// linear), the ground or a body given twice, spans of wrong length, and a linkage that does not fit the
-/// plan.
+/// Throws ContractError for a body without mass that is not among the open ones, friction and pressure
+/// angles of gears (which are not linear), the ground or a body given twice, spans of wrong length, and a
+/// linkage that does not fit the plan.
 LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std::span<const int> bodies,
                            std::span<const InputMotion> inputs, std::span<const double> times = {});
 

@@ -204,6 +204,18 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
         add(key + "_N", fmt::format("{} (N)", joint.name),
             [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
       }
+      const auto meshes = [j](const Group& g) {
+        const Gear* gear = g.as<Gear>();
+        return gear && gear->joint == static_cast<int>(j) && gear->mesh;
+      };
+      if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) {
+        add(key + "_tangential_N", fmt::format("{} along the teeth, {} (N)", joint.name, pair),
+            [j](const LinkageInstant& i) { return i.forces->joints[j].tangential; });
+        add(key + "_separating_N", fmt::format("{} that presses the wheels apart (N)", joint.name),
+            [j](const LinkageInstant& i) { return i.forces->joints[j].separating; });
+        add(key + "_tooth_N", fmt::format("{} of the teeth (N)", joint.name),
+            [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
+      }
       if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
           joint.type == JointType::gear)
         add(key + "_moment_N_m", fmt::format("{} moment, {} (N m)", joint.name, pair),

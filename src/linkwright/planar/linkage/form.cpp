@@ -116,6 +116,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
       j.first = {names.body("first", f.first), 0};
       j.second = {names.body("second", f.second), 0};
       j.carrier = names.body("carrier", f.carrier);
+      if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
     } else {
       j.first = names.point("first", f.first);
       j.second = names.point("second", f.second);
@@ -190,6 +191,7 @@ LinkageForm form_of(const Linkage& l) {
     f.direction = j.slide_first;
     if (j.type == JointType::prismatic || j.type == JointType::fixed) f.direction_second = j.slide_second;
     f.ratio = j.ratio, f.phase = j.phase, f.carrier = body(j.carrier);
+    if (gear) f.pressure_angle = j.pressure_angle;
     f.friction = j.friction, f.pin_radius = j.pin_radius, f.guide_length = j.guide_length;
     form.joints.push_back(std::move(f));
   }

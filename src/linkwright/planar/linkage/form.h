@@ -41,6 +41,7 @@ struct JointForm {
   std::optional<double> direction_second;
   double ratio = 1, phase = 0;
   std::string carrier = "ground";
+  std::optional<double> pressure_angle;
   double friction = 0, pin_radius = 0, guide_length = 0;
 };
 struct AssemblyForm {
@@ -184,6 +185,12 @@ void fields(Visitor&& visit, JointForm& j) {
         j.ratio);
   visit(angle("phase", "gear: angle of the second body when that of the first is 0"), j.phase);
   visit(text("carrier", "gear: body that carries both axes", false), j.carrier);
+  visit(Field{.key = "pressure_angle",
+              .summary = "gear: of its teeth, which press their wheels apart; if absent 20 deg",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 0.8},
+        j.pressure_angle);
   visit(Field{.key = "friction", .summary = "coefficient of Coulomb friction", .minimum = 0, .maximum = 10},
         j.friction);
   visit(positive("pin_radius", "radius of the pin, for its friction", Dimension::length), j.pin_radius);

@@ -95,6 +95,9 @@ class Checker {
       error(key, fmt::format("a {} joint has no friction", words_[static_cast<std::size_t>(j.type)]), {});
     else if (j.friction > 0 && j.type == JointType::revolute && j.pin_radius == 0)
       error(key, "has friction but no pin radius: its torque would be zero", "give the radius of the pin");
+    if (gear && !(j.pressure_angle >= 0 && j.pressure_angle < 1.5))
+      error(key, fmt::format("a pressure angle of {} rad is none of teeth", j.pressure_angle),
+            "write 20 deg, as most gears have, or 0 for the tangential force alone");
     if (gear && j.ratio == 0)
       error(key, "its ratio is 0", "a gear at rest is a `fixed` joint to its carrier");
   }

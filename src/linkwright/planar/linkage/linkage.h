@@ -9,6 +9,7 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/pose.h"
 
 namespace linkwright::planar {
@@ -77,6 +78,9 @@ struct LinkageJoint {
   double ratio = 1;
   double phase = 0;  ///< rad
   int carrier = 0;   ///< body that carries both axes
+  /// gear: of its teeth (rad), 0 to less than pi/2. Radii follow from the distance of the two pins on the
+  /// carrier and the ratio.
+  double pressure_angle = pi / 9;
   /// Coulomb friction: of a pin, coefficient times pin radius times force; of a slide or slot, coefficient
   /// times normal force, which a guide of length > 0 takes as two forces at its ends.
   double friction = 0;      ///< coefficient, >= 0

@@ -49,6 +49,15 @@ struct GroupTraits {
 struct Driver {};
 constexpr GroupTraits traits_of(const Driver&) { return {.name = "driver"}; }
 
+/// Where the teeth of two wheels meet. Radii are signed, so that for external and internal teeth alike the
+/// pitch point lies by its radius from a centre towards the other one.
+struct GearMesh {
+  PartPoint first, second;   ///< centres of the wheels
+  double first_radius = 0;   ///< m, from the first centre towards the second
+  double second_radius = 0;  ///< m, from the second centre towards the first
+  double tangent = 0;        ///< of the pressure angle
+};
+
 /// A part on a known pin, turned by a gear `ratio` times as fast as part `turning`, both seen from part
 /// `carrier`.
 struct Gear {
@@ -56,6 +65,8 @@ struct Gear {
   int turning = 0, carrier = 0;
   int joint = -1;          ///< of the linkage
   bool backwards = false;  ///< turns the first body of its joint from the second
+  /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
+  std::optional<GearMesh> mesh;
   /// Angle of the part = angle + sum of gains times inputs (rad).
   double angle = 0;
   std::vector<double> gains;
@@ -203,6 +214,7 @@ struct LinkagePlan {
   std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
   std::vector<PlanTwist> twists;                   ///< one a torsion spring
   std::vector<SharedPin> shared_pins;              ///< those with other pairs than in the model
+  std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<bool> rotary;                        ///< one an input: whether its joint turns
   double size = 1;                                 ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.

@@ -1,9 +1,14 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/tolerance.h"
 #include "linkwright/planar/linkage/detail/plan_draft.h"
 
 namespace linkwright::planar {
@@ -24,19 +29,18 @@ struct LinksAtPin {
   }
 };
 
-bool passive_pin(const PartJoint& j) { return !j.slide && j.input < 0 && j.joint >= 0; }
-
 bool same_place(const PlanDraft& d, const PartPoint& a, const PartPoint& b) {
   return a.part == b.part && norm(a.at - b.at) <= same_point * d.plan().size;
 }
 
-// Pins of three links or more.
-std::vector<LinksAtPin> pins_of_several(const PlanDraft& d) {
+// All pins with the links that they hold. A driven pin is one only where that is asked for.
+std::vector<LinksAtPin> pins_of(const PlanDraft& d, const std::vector<PartJoint>& joints, bool driven) {
   std::vector<LinksAtPin> pins;
-  for (std::size_t k = 0; k < d.joints.size(); ++k) {
-    const PartJoint& j = d.joints[k];
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const PartJoint& j = joints[k];
     // A block in a slot is a body of one point: no other joint can be there.
-    if (!passive_pin(j) || d.model(j.joint).type != JointType::revolute) continue;
+    if (j.slide || j.joint < 0 || d.model(j.joint).type != JointType::revolute || (j.input >= 0 && !driven))
+      continue;
     LinksAtPin now{{j.first, j.second}, {k}};
     for (std::size_t p = pins.size(); p-- > 0;) {
       LinksAtPin& pin = pins[p];
@@ -52,6 +56,12 @@ std::vector<LinksAtPin> pins_of_several(const PlanDraft& d) {
     std::sort(now.joints.begin(), now.joints.end());
     pins.push_back(std::move(now));
   }
+  return pins;
+}
+
+// Passive pins of three links or more.
+std::vector<LinksAtPin> pins_of_several(const PlanDraft& d) {
+  std::vector<LinksAtPin> pins = pins_of(d, d.joints, false);
   std::erase_if(pins, [](const LinksAtPin& pin) {
     return pin.links.size() < 3 || pin.joints.size() + 1 != pin.links.size();  // joined twice: redundant
   });
@@ -110,6 +120,17 @@ bool pair_for_dyad(PlanDraft& d, const LinksAtPin& pin) {
   return false;
 }
 
+// The one pin that holds a wheel and its carrier; null when there is none or several.
+const LinksAtPin* axis_of(const std::vector<LinksAtPin>& pins, int wheel, int carrier) {
+  const LinksAtPin* found = nullptr;
+  for (const LinksAtPin& pin : pins) {
+    if (pin.place_of(wheel) < 0 || pin.place_of(carrier) < 0) continue;
+    if (found) return nullptr;
+    found = &pin;
+  }
+  return found;
+}
+
 }  // namespace
 
 bool pair_otherwise(PlanDraft& d) {
@@ -136,6 +157,48 @@ void find_shared_pins(PlanDraft& d) {
                         static_cast<double>(side[at(pin.place_of(d.joints[k].first.part))]));
     }
     d.plan().shared_pins.push_back(std::move(out));
+  }
+}
+
+void find_meshes(PlanDraft& d) {
+  constexpr double same_axis = 10 * tolerance::closure;  // in sizes of the linkage
+  const std::vector<LinksAtPin> pins = pins_of(d, d.written, true);
+  const auto at_pin = [](const LinksAtPin& pin, int part) { return pin.links[at(pin.place_of(part))]; };
+  for (Group& g : d.plan().groups) {
+    Gear* gear = std::get_if<Gear>(&g.kind);
+    if (!gear) continue;
+    const LinkageJoint& j = d.model(gear->joint);
+    const auto torque_alone = [&](const std::string& why) {
+      d.plan().torque_gears.push_back(fmt::format("'{}': {}", j.name, why));
+    };
+    const int first = d.plan().bodies[at(j.first.body)].part,
+              second = d.plan().bodies[at(j.second.body)].part;
+    const LinksAtPin *a = axis_of(pins, first, gear->carrier), *b = axis_of(pins, second, gear->carrier);
+    if (!a || !b) {
+      torque_alone(fmt::format("'{}' has no single pin on '{}'",
+                               d.body_name(a ? j.second.body : j.first.body), d.body_name(j.carrier)));
+      continue;
+    }
+    const double distance = norm(at_pin(*b, gear->carrier).at - at_pin(*a, gear->carrier).at);
+    if (!(distance > same_axis * d.plan().size)) {
+      torque_alone("both wheels turn about one axis");
+      continue;
+    }
+    if (std::abs(1 - j.ratio) < tolerance::feasibility) {
+      torque_alone(
+          "a ratio of 1 is that of no two wheels that mesh; a belt has it, or an idler between them");
+      continue;
+    }
+    GearMesh mesh{.first = at_pin(*a, first), .second = at_pin(*b, second)};
+    mesh.first_radius = -j.ratio / (1 - j.ratio) * distance;
+    mesh.second_radius = distance / (1 - j.ratio);
+    mesh.tangent = std::tan(j.pressure_angle);
+    const PartPoint& turned = gear->backwards ? mesh.first : mesh.second;
+    if (norm(turned.at - g.joints[0].after.at) > same_axis * d.plan().size)
+      torque_alone(
+          fmt::format("'{}' is placed by another pin than the one on '{}'", g.name, d.body_name(j.carrier)));
+    else
+      gear->mesh = mesh;
   }
 }
 

@@ -82,6 +82,23 @@ void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
   }
 }
 
+// Force of the teeth that turns the second wheel with `torque`: along the tangent of the pitch circles, and
+// away from the teeth of the other wheel by the pressure angle.
+JointReaction mesh_force(const GearMesh& mesh, const LinkageMotion& motion, double torque) {
+  const Vec<double> first = point_on(motion.parts[at(mesh.first.part)], mesh.first.at),
+                    second = point_on(motion.parts[at(mesh.second.part)], mesh.second.at);
+  const Vec<double> way = second - first;
+  const Vec<double> along = (1 / norm(way)) * way, left{-along.y, along.x};
+  JointReaction out;
+  out.point = first + mesh.first_radius * along;
+  out.moment = torque;
+  out.tangential = -torque / mesh.second_radius;
+  out.separating = std::abs(out.tangential) * mesh.tangent;
+  const bool external = mesh.first_radius > 0 && mesh.second_radius > 0;
+  out.force = out.tangential * left + (external ? out.separating : -out.separating) * along;
+  return out;
+}
+
 // One pass over the groups, last first, with the loads as they are.
 void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
   const Vec<double> gravity = vec(linkage.gravity);
@@ -116,10 +133,22 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
           Wrench<double> w = shifted(f.needed[at(g.parts[0])], motion.parts[at(g.parts[0])].origin - pin);
           const double torque = w.moment;
           w.moment = 0;
+          const double on_second = gear.backwards ? -gear.ratio * torque : torque;
+          if (gear.mesh) {
+            const JointReaction teeth = mesh_force(*gear.mesh, motion, on_second);
+            const Vec<double> on_turned = gear.backwards ? -teeth.force : teeth.force;
+            f.joints[at(gear.joint)] = teeth;
+            w.force = w.force - on_turned;
+            Wrench<double>& other = f.needed[at(gear.turning)];
+            other = other + shifted(Wrench<double>{on_turned, 0},
+                                    teeth.point - motion.parts[at(gear.turning)].origin);
+          } else {
+            f.joints[at(gear.joint)] = {pin, {0, 0}, on_second, nan, nan};
+          }
           report(j, motion, w, pin, f);
-          f.joints[at(gear.joint)] = {pin, {0, 0}, gear.backwards ? -gear.ratio * torque : torque};
           Wrench<double>& base = f.needed[at(j.before.part)];
           base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
+          if (gear.mesh) return;
           f.needed[at(gear.turning)].moment += gear.ratio * torque;
           f.needed[at(gear.carrier)].moment += (1 - gear.ratio) * torque;
         },
@@ -160,7 +189,10 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
     const LinkageJoint& j = l.joints[k];
     const JointReaction& r = f.joints[k];
     if (j.type == JointType::fixed) continue;
-    if (j.type == JointType::gear) {
+    if (j.type == JointType::gear && std::isfinite(r.tangential)) {
+      take(j.second.body, {r.force, 0}, r.point);
+      take(j.first.body, {-r.force, 0}, r.point);
+    } else if (j.type == JointType::gear) {
       take(j.second.body, {{0, 0}, r.moment}, r.point);
       take(j.first.body, {{0, 0}, -j.ratio * r.moment}, r.point);
       take(j.carrier, {{0, 0}, -(1 - j.ratio) * r.moment}, r.point);

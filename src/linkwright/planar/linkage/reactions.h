@@ -11,11 +11,15 @@ namespace linkwright::planar {
 /// What a joint carries: force (N, global frame) and moment (N m) of its first body on its second, at
 /// `point`: where the point of the second body is. Revolute joints and pins in slots have no moment; of a
 /// driven joint the drive's torque or force is included. A gear's moment is what it turns its second body
-/// with. Friction of the joint is not in it: it is among the loads.
+/// with; its force is that of the teeth at the pitch point, where that is known (Gear::mesh). Friction of the
+/// joint is not in it: it is among the loads.
 struct JointReaction {
   Vec<double> point{0, 0};
   Vec<double> force{0, 0};
   double moment = 0;
+  /// gear: force along the teeth on its second body, positive to the left of the line from the first centre
+  /// to the second, and how strongly the wheels are pressed apart; NaN where the mesh is not known.
+  double tangential = 0, separating = 0;
 };
 
 /// A load on a body: a force at a point of the global frame and a torque.

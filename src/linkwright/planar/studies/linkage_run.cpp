@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -346,6 +346,10 @@ class Runner {
 
   void warnings() {
     const study::AddWarning warn{result_.diagnostics};
+    if (s_.quantities.reactions && !s_.plan.torque_gears.empty())
+      warn(fmt::format("joint forces leave out the forces of the teeth of {}",
+                       fmt::join(s_.plan.torque_gears, ", of ")),
+           "give each wheel one pin on the carrier, at the centres of the wheels");
     // Change points have messages of their own.
     for (const Failures::One& f : failures_.sorted()) {
       const Status s = f.status;

@@ -66,6 +66,8 @@ void find_shared_pins(PlanDraft& d);
 // The first free joint of a part to a known one; drives stay out of dyads.
 PartJoint* to_known(PlanDraft& d, int part);
 bool geared(const PlanDraft& d, int part);
+// Where the teeth of the gears meet, as far as their wheels have one pin each on the carrier.
+void find_meshes(PlanDraft& d);
 
 // plan_general.cpp: the smallest group without closed form, or all parts as one in the place of all groups.
 bool find_general_group(PlanDraft& d);
