@@ -214,6 +214,7 @@ inline BalancingStudy balancing_study(const std::string& text) {
 /// Its task, evaluated the general way.
 inline BalancingTask task_of(const BalancingStudy& s) {
   BalancingTask task;
+  task.closes = closes(s);
   std::vector<std::string> columns;
   for (const study::DesignVariable& n : s.designed.numbers) {
     task.variables.push_back({n.key, n.lower, n.upper});
