@@ -51,6 +51,40 @@ TEST(LinkageSimulationStudy, ReportsMotionForcesAndTheEnergyAudit) {
   EXPECT_TRUE(audit);
 }
 
+TEST(LinkageSimulationStudy, HeadlineGivesTimeAndValuesOfOneInstant) {
+  const study::Result r = run_text(R"(
+schema = 1
+kind = "simulation"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name = "ground"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name = "block"
+points_mm = { B = [0, 0] }
+mass_kg = 1
+inertia_kg_m2 = 1
+centre_mm = [0, 0]
+[[mechanism.joint]]
+name = "guide"
+type = "prismatic"
+first = "ground.O"
+second = "block.B"
+friction = 0.2
+[[drive]]
+joint = "guide"
+free = true
+start_speed_m_per_s = 2.0
+[simulation]
+to_s = 3
+samples = 11
+)");
+  ASSERT_EQ(r.status, Status::at_rest) << r.headline;
+  EXPECT_THAT(r.headline, HasSubstr("In 0.9 s guide goes from 0 mm to 1005.39 mm"));
+  EXPECT_THAT(r.headline, HasSubstr("at rest from 1.01937 s with guide at 1019.4 mm on"));
+}
+
 // Both routes, from the file.
 TEST(LinkageSimulationStudy, TakesEitherRoute) {
   const std::string text =

@@ -182,6 +182,7 @@ class SimulationRunner {
       result_.headline = "The linkage does not start: " + report_.message + ".";
       return;
     }
+    // Time and values are those of the last row, which may be before the instant at which the motion ends.
     std::string text;
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
       if (is_free(k))
@@ -189,7 +190,7 @@ class SimulationRunner {
             fmt::format("{}{} goes from {} to {}", text.empty() ? "" : ", ", input_joint(s_.linkage, k).name,
                         shown(k, inputs_[3 * k].front()), shown(k, inputs_[3 * k].back()));
     result_.headline =
-        fmt::format("In {:.4g} s {}; energies balance {}.", report_.time - s_.from, text, balance().text());
+        fmt::format("In {:.4g} s {}; energies balance {}.", times_.back() - s_.from, text, balance().text());
     if (report_.status == Status::at_rest)
       result_.headline += fmt::format(" Then {}.", report_.message);
     else if (report_.status != Status::done)
