@@ -58,7 +58,8 @@ const keys: Record<string, (event: KeyboardEvent) => void> = {
 
 function onKey(event: KeyboardEvent) {
   const target = event.target as HTMLElement;
-  if (event.ctrlKey || event.metaKey || event.altKey || target.closest("select, textarea, summary, a, pre")) return;
+  // In a dialog keys are those of the dialog: Escape closes it, and letters are typed.
+  if (event.ctrlKey || event.metaKey || event.altKey || target.closest("select, textarea, summary, a, pre, dialog")) return;
   if (target.closest("button") && (event.key === " " || event.key === "Enter")) return;
   const act = keys[event.key];
   // Home and End belong to the page unless the drawing or its controls have the focus.

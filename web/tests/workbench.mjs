@@ -620,6 +620,42 @@ test("a number of a search is fixed and set free", async () => {
   await close();
 });
 
+test("the gallery is walked by keyboard alone", async () => {
+  const { page, errors, close } = await open({});
+  const focused = () => page.evaluate(() => document.activeElement?.dataset?.example ?? document.activeElement?.id ?? "");
+  const isOpen = () => page.locator(".gallery").evaluate((e) => e.open);
+  await page.locator("#examples").focus();
+  await page.keyboard.press("Enter");
+  await until(isOpen);
+  // Letters are typed, though elsewhere on the page they are keys of the player.
+  await page.keyboard.type("suspension");
+  assert.equal(await page.locator(".gallery input").inputValue(), "suspension");
+  await page.keyboard.press("ArrowDown");
+  const first = await focused();
+  assert.ok(first, "the first card has the focus");
+  await page.keyboard.press("ArrowRight");
+  const second = await focused();
+  assert.notEqual(second, first);
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await focused(), first);
+  await page.keyboard.press("ArrowUp");
+  assert.equal(await page.evaluate(() => document.activeElement.type), "search");
+  await page.keyboard.press("Escape");
+  await until(async () => !(await isOpen()));
+  assert.equal(await focused(), "examples");
+  // Enter opens the first that is found.
+  await page.keyboard.press("Enter");
+  await until(isOpen);
+  assert.equal(await page.locator(".gallery input").inputValue(), "");
+  await page.keyboard.type("hoeken");
+  await page.keyboard.press("Enter");
+  await until(async () => (await page.locator(".bar .name").innerText()) === "hoeken.toml");
+  assert.equal(await isOpen(), false);
+  await settled(page);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("a slider-crank with offset is drawn from nothing, and moves as computed", async () => {
   const { page, errors, close } = await open({ example: "hoeken" });
   const before = await studyText(page);

@@ -50,13 +50,39 @@ function Card({ example }: { example: Example }) {
     <button type="button" class="example" ref={box} data-example={example.name} onClick={() => {
       open({ name: `${example.name}.toml`, text: example.text, files: example.beside });
       showGallery.value = false;
-      words.value = "";
     }}>
       <span class="picture">{scene ? <Thumbnail scene={scene} /> : null}</span>
       <b>{example.title}</b>
       <small>{example.name}</small>
     </button>
   );
+}
+
+/** The card next to this one in a direction: along the row, or the nearest one of the row above or below. */
+function neighbour(cards: HTMLElement[], from: HTMLElement, key: string): HTMLElement | undefined {
+  const at = cards.indexOf(from);
+  if (key === "ArrowLeft" || key === "ArrowRight") return cards[at + (key === "ArrowRight" ? 1 : -1)];
+  const box = from.getBoundingClientRect();
+  const rows = cards.map((card) => ({ card, box: card.getBoundingClientRect() }))
+    .filter((c) => (key === "ArrowDown" ? c.box.top >= box.bottom : c.box.bottom <= box.top));
+  const row = key === "ArrowDown" ? Math.min(...rows.map((c) => c.box.top)) : Math.max(...rows.map((c) => c.box.top));
+  return rows.filter((c) => c.box.top === row).sort((a, b) => Math.abs(a.box.left - box.left) - Math.abs(b.box.left - box.left))[0]?.card;
+}
+
+/** Arrows go from card to card, down from the search to the first one and up to it again; Enter in the search opens the first. */
+function onGalleryKey(event: KeyboardEvent): void {
+  const dialog = event.currentTarget as HTMLElement;
+  const target = event.target as HTMLElement;
+  const cards = [...dialog.querySelectorAll<HTMLElement>(".example")];
+  if (target instanceof HTMLInputElement) {
+    if (event.key === "ArrowDown") cards[0]?.focus();
+    else if (event.key === "Enter") cards[0]?.click();
+    else return;
+  } else {
+    if (!event.key.startsWith("Arrow") || !target.classList.contains("example")) return;
+    (neighbour(cards, target, event.key) ?? (event.key === "ArrowUp" ? dialog.querySelector("input") : null))?.focus();
+  }
+  event.preventDefault();
 }
 
 export function Gallery() {
@@ -70,7 +96,10 @@ export function Gallery() {
   const found = all.filter((e) => asked.every((w) => `${e.name} ${e.title} ${e.group}`.toLowerCase().includes(w)));
   const groups = [...new Set(found.map((e) => e.group))];
   return (
-    <dialog class="gallery" ref={box} aria-label="Examples" onClose={() => (showGallery.value = false)}>
+    <dialog class="gallery" ref={box} aria-label="Examples" onClose={() => {
+      showGallery.value = false;
+      words.value = "";
+    }} onKeyDown={onGalleryKey}>
       <header>
         <h2>Begin with</h2>
         <input type="search" placeholder="leg, suspension, quick return" aria-label="Search the examples" value={words.value} onInput={(e) => (words.value = e.currentTarget.value)} />

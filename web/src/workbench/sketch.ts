@@ -82,11 +82,10 @@ export function studyOf(sketch: Sketch, title = "My linkage"): string {
     const on = links.findIndex((l) => l.includes(i));
     return pins[i].traced && on >= 0 ? [`[[trace]]\npoint = "${linkName(on)}.${pinName(i)}"\n`] : [];
   });
-  // From the drawn position on: once round, or as far as the longest link reaches to both sides.
-  const reach = Math.ceil(Math.max(0, ...links.flatMap((on) => on.map((i) => Math.hypot(pins[i].x - pins[on[0]].x, pins[i].y - pins[on[0]].y)))));
+  // From the drawn position on: once round, or as far as it assembles to both sides.
   const guided = drive !== null && pins[drive].guide !== null;
   const driven = drive === null ? [] : [guided ? `[[drive]]\njoint          = "guide ${pinName(drive)}"\nspeed_mm_per_s = 100.0\n` : `[[drive]]\njoint     = "${pinName(drive)}"\nspeed_rpm = 60.0\n`,
-    `[sweep]\ntype = "grid"\n\n[[sweep.input]]\n${guided ? `from_mm = ${-reach}\nto_mm   = ${reach}` : "from_deg = 0\nto_deg   = 360"}\nsamples = 361\n`];
+    `[sweep]\ntype  = "grid"\nrange = "assembled"\n`];
   return [`schema = 1\nkind   = "analysis"\ntitle  = "${title}"\n\n[mechanism]\ntype  = "planar.linkage"\ndrawn = true\n`, ...parts, ...driven, ...traces,
     // Nothing that is drawn has a mass.
     `[output]\nquantities = ["position", "rates", "transmission_angle"]\n`].join("\n");
