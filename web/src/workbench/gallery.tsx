@@ -74,7 +74,9 @@ function onGalleryKey(event: KeyboardEvent): void {
   const dialog = event.currentTarget as HTMLElement;
   const target = event.target as HTMLElement;
   const cards = [...dialog.querySelectorAll<HTMLElement>(".example")];
-  if (target instanceof HTMLInputElement) {
+  // A browser would only empty the search at the first Escape.
+  if (event.key === "Escape") showGallery.value = false;
+  else if (target instanceof HTMLInputElement) {
     if (event.key === "ArrowDown") cards[0]?.focus();
     else if (event.key === "Enter") cards[0]?.click();
     else return;
