@@ -121,8 +121,8 @@ struct LinearSpring {
 };
 
 /// Turns two bodies towards `free_angle` between their frames (second from first): torque on the second
-/// -stiffness (angle - free_angle) - damping (speed difference). The angle is taken in (-pi, pi] about the
-/// free angle.
+/// -stiffness (angle - free_angle) - damping (speed difference). The angle has its turns, see PlanTwist, and
+/// so may the free angle.
 struct TorsionSpring {
   std::string name;
   int first = 0, second = 0;
