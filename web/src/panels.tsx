@@ -51,13 +51,18 @@ export function Banner() {
   );
 }
 
+/** Words of a narrow card, where a number with its unit is never broken: "0.52°/100 mm". */
+const longest = 24;
+const whole = (text: string) =>
+  text.split(" ").flatMap((word, i) => [i ? " " : "", /[\d°%]/.test(word) && word.length <= longest ? <span class="whole">{word}</span> : word]);
+
 /** A figure, and its explanation for those who ask. */
 function FactText({ fact }: { fact: Fact }) {
   const [open, setOpen] = useState(false);
-  if (!fact.rest) return <>{fact.text}</>;
+  if (!fact.rest) return <>{whole(fact.text)}</>;
   return (
     <>
-      {fact.text}<small class={open ? "" : "print-only"}>{fact.rest}</small>{" "}
+      {whole(fact.text)}<small class={open ? "" : "print-only"}>{fact.rest}</small>{" "}
       <button type="button" class="link screen-only" aria-expanded={open} aria-label={`${open ? "less" : "more"} about ${fact.label}`} onClick={() => setOpen(!open)}>{open ? "less" : "more"}</button>
     </>
   );
