@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linkwright/app/catalogue.h"
+#include "linkwright/core/closing_row.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
@@ -165,7 +166,8 @@ void balanced(const Designed& d) {
   const Table& sweep = d.again.tables.front();
   int compared = 0;
   for (const study::Change& change : d.found.changes) {
-    const std::vector<double>& values = column(sweep, change.quantity);
+    std::vector<double> values = column(sweep, change.quantity);
+    if (has_closing_row(sweep)) values.pop_back();  // the first row once more
     double sum = 0, largest = 0;
     for (const double v : values) sum += v * v, largest = std::max(largest, std::abs(v));
     const double scale = exact * (largest + 1);

@@ -39,6 +39,8 @@ export const units = [
   { suffix: "_rpm", symbol: "rpm", factor: 1, key: "_rpm", steps: [1, 1, 1, 1], by_size: false },
   { suffix: "_cm2", symbol: "cm²", factor: 1, key: "_cm2", steps: [1, 1, 1, 1], by_size: false },
   { suffix: "_mm2", symbol: "mm²", factor: 1, key: "_mm2", steps: [1, 1, 1, 1], by_size: false },
+  { suffix: "_lbf", symbol: "lbf", factor: 1, key: "_lbf", steps: [1, 1, 1, 1], by_size: false },
+  { suffix: "_kgf", symbol: "kgf", factor: 1, key: "_kgf", steps: [1, 1, 1, 1], by_size: false },
   { suffix: "_N_m", symbol: "N m", factor: 1, key: "_N_m", steps: [1, 1, 1, 1], by_size: false },
   { suffix: "_kPa", symbol: "kPa", factor: 1, key: "_kPa", steps: [1, 1, 1, 1], by_size: false },
   { suffix: "_MPa", symbol: "MPa", factor: 1, key: "_MPa", steps: [1, 1, 1, 1], by_size: false },

@@ -148,5 +148,19 @@ TEST(SharedPins, AreTheSameInSweepsOfManySamples) {
   }
 }
 
+// Two links hang on a pin of a link that has its place, and nothing else holds them: the plan says so and
+// ends.
+TEST(SharedPins, OfLinksThatNothingElseHoldsAreLeftAlone) {
+  Linkage l = grounded({{"A", {0, 0}}, {"D", {1, 0}}});
+  add_bar(l, "crank", "A", "B", 0.3);
+  add_bar(l, "first", "B", "C", 0.5);
+  add_bar(l, "second", "B", "C", 0.5);
+  add_pin(l, "A", "ground.A", "crank.A");
+  add_pin(l, "B1", "crank.B", "first.B");
+  add_pin(l, "B2", "first.B", "second.B");
+  add_drive(l, "A");
+  EXPECT_FALSE(plan_linkage(l).problems.empty());
+}
+
 }  // namespace
 }  // namespace linkwright::planar

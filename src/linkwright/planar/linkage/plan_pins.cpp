@@ -99,8 +99,12 @@ bool pair_with_known(PlanDraft& d, const LinksAtPin& pin) {
   return false;
 }
 
-// Pairs two links of which each is held by another joint, so that they make a dyad.
+// Pairs two links of which each is held by a joint elsewhere, so that they make a dyad: where no link at the
+// pin has its place yet.
 bool pair_for_dyad(PlanDraft& d, const LinksAtPin& pin) {
+  if (std::any_of(pin.links.begin(), pin.links.end(),
+                  [&](const PartPoint& link) { return d.known[at(link.part)]; }))
+    return false;
   const auto held = [&](const PartPoint& link) {
     return !d.known[at(link.part)] && !geared(d, link.part) && to_known(d, link.part) != nullptr;
   };
