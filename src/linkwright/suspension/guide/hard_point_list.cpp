@@ -87,7 +87,7 @@ Word word_of(std::string text, bool comma_is_point) {
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || begin == end) return out;
-  if (stop != end && !(out.unit = unit_of({stop, end}))) return out;
+  if (stop != end && !(out.unit = unit_of({stop, static_cast<std::size_t>(end - stop)}))) return out;
   out.number = value;
   return out;
 }
