@@ -7,7 +7,6 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/triangle.h"
 #include "linkwright/planar/loop_gap.h"
@@ -204,7 +203,7 @@ void count_turns(const LinkagePlan& plan, std::span<const InputMotion> inputs, L
     if (std::isnan(now)) continue;
     const double last =
         std::isnan(motion.twists[k]) ? t.free - full_turn * std::round(t.free / full_turn) : motion.twists[k];
-    motion.twists[k] = last + math::wrap_angle(now - last);
+    motion.twists[k] = now + full_turn * std::round((last - now) / full_turn);
   }
 }
 
