@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -24,36 +24,11 @@ namespace {
 using study::Fact;
 using study::Scene;
 
-/// The unit of a text such as "N m"; nothing when it is none that keys have.
-std::optional<UnitKey> unit_in(const std::string& text) {
-  for (const Dimension dimension : all_dimensions())
-    for (const Unit& unit : units(dimension))
-      if (readable_unit(unit.suffix) == text) return UnitKey{{}, &unit, dimension};
-  return std::nullopt;
-}
-
-/// A number with its unit, also as a symbol ("67.6°", "0.3 m²"); nothing when more follows ("3 mm at point
-/// 5").
-std::optional<study::FactValue> number_of(const Fact& fact) {
-  double value = 0;
-  const char* const end = fact.text.data() + fact.text.size();
-  const auto [behind, error] = std::from_chars(fact.text.data(), end, value);
-  if (error != std::errc()) return std::nullopt;
-  const std::string unit(behind + (behind != end && *behind == ' '), end);
-  constexpr std::size_t longest_symbol = 8;  // "mm/s²"
-  const bool words = unit.size() > longest_symbol || unit.find_first_of("0123456789,;(") != std::string::npos;
-  if (words && !unit_in(unit)) return std::nullopt;
-  return study::FactValue{value, unit};
-}
-
-/// The number of a fact in a unit; NaN if it has no number or another dimension.
-double value_in(const Fact& fact, const std::string& unit) {
-  const auto value = number_of(fact);
-  if (!value) return nan;
-  if (value->unit == unit) return value->value;
-  const auto from = unit_in(value->unit), to = unit_in(unit);
-  if (!from || !to || from->dimension != to->dimension) return nan;
-  return to->unit->from_si(from->unit->to_si(value->value));
+/// The value of a fact in the unit of another; NaN if it has none or another dimension.
+double value_in(const Fact& fact, const std::optional<Measured>& other) {
+  const std::optional<Measured> own = fact.text.value();
+  if (!own || !other || own->dimension != other->dimension || !own->unit != !other->unit) return nan;
+  return own->unit ? other->unit->from_si(own->si) : own->si;
 }
 
 const Fact* find_fact(const study::Result& result, std::string_view label) {
@@ -128,25 +103,24 @@ class Merger {
     for (const std::string& label : labels) {
       Fact fact{label, {}, Fact::Verdict::plain};
       std::set<std::string> texts;
-      std::string unit;
+      std::optional<Measured> first;
       std::vector<double> values;
       for (const Compared& one : all_) {
         const Fact* own = find_fact(one.result, label);
-        texts.insert(own ? own->text : "");
+        texts.insert(own ? to_string(own->text) : "");
         if (own && own->verdict == Fact::Verdict::bad) fact.verdict = Fact::Verdict::bad;
-        if (own && values.empty())
-          if (const auto value = number_of(*own)) unit = value->unit;
-        values.push_back(own ? value_in(*own, unit) : nan);
+        if (own && values.empty()) first = own->text.value();
+        values.push_back(own ? value_in(*own, first) : nan);
         fact.text += values.size() == 1 ? "" : " | ";
-        fact.text += own ? own->text : "-";
+        fact.text += own ? own->text : Sentence("-");
         fact.text += percent(values.back(), values.front());
       }
-      if (texts.size() == 1) fact.text = *texts.begin();
+      if (const Fact* same = find_fact(first_, label); same && texts.size() == 1) fact.text = same->text;
       out_.facts.push_back(fact);
       ++compared_;
       different_ += texts.size() > 1 && !std::all_of(values.begin(), values.end(), is_rounding);
       if (!std::isnan(values.front()))
-        figure(unit.empty() ? label : fmt::format("{} ({})", label, unit), values);
+        figure(first->unit ? fmt::format("{} ({})", label, first->unit_words()) : label, values);
     }
   }
 

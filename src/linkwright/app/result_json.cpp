@@ -107,12 +107,16 @@ Value to_value(const Table& table, const NumberLists& lists, std::size_t most_ro
 
 Value to_value(const study::Fact& fact) {
   Value v;
+  v["key"] = identifier(fact.label);
   v["label"] = fact.label;
-  v["text"] = fact.text;
-  if (const auto number = study::value_of(fact)) {
-    v["value"] = number->value;
-    v["unit"] = number->unit;
+  v["text"] = to_string(fact.text);
+  if (const auto number = fact.text.value()) {
+    v["value"] = number->value();
+    v["unit"] = number->unit_words();
   }
+  for (const Sentence::Part& part : fact.text.parts())
+    if (const auto* number = std::get_if<Measured>(&part); number && !number->place.empty())
+      v["at"][number->place_key()] = number->value();
   v["verdict"] = name_of(fact.verdict);
   return v;
 }
@@ -154,7 +158,7 @@ Value all(const std::vector<T>& items) {
 Value answer(const study::Result& result) {
   const study::Answer answer = study::answer_of(result);
   Value v;
-  v["headline"] = result.headline;
+  v["headline"] = to_string(result.headline);
   v["verdict"] = name_of(answer.verdict);
   v["reasons"] = Value::array();
   for (const std::string& reason : answer.reasons) v["reasons"].push_back(reason);

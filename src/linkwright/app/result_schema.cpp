@@ -150,13 +150,15 @@ constexpr std::string_view text = R"json({
   "verdict": {},
   "fact": {
     "type": "object",
-    "required": ["label", "text", "verdict"],
+    "required": ["key", "label", "text", "verdict"],
     "additionalProperties": false,
     "properties": {
+      "key": {"type": "string", "description": "the label as an identifier"},
       "label": {"type": "string"},
       "text": {"type": "string"},
-      "value": {"type": "number", "description": "where the text is one number with its unit"},
-      "unit": {"type": "string"},
+      "value": {"type": ["number", "null"], "description": "the first number of the text, unrounded, in its unit; null where it is not finite"},
+      "unit": {"type": "string", "description": "of the value; empty of a plain number"},
+      "at": {"type": "object", "additionalProperties": {"type": ["number", "null"]}, "description": "where: keys with units"},
       "verdict": {"enum": ["plain", "good", "bad"]}
     }
   },

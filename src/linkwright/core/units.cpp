@@ -105,6 +105,13 @@ std::optional<UnitKey> split_unit(std::string_view key) {
   return longest;
 }
 
+std::string identifier(std::string_view name) {
+  std::string out;
+  for (const char c : name)
+    out += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
+  return out;
+}
+
 std::string_view describe(Dimension dimension) { return row_of(dimension).words; }
 
 std::string readable_unit(std::string_view suffix) {

@@ -44,6 +44,9 @@ struct UnitKey {
 /// ("samples").
 std::optional<UnitKey> split_unit(std::string_view key);
 
+/// A name as part of a key: what is no letter or digit becomes '_'.
+std::string identifier(std::string_view name);
+
 /// What the dimension is called in messages: "a length".
 std::string_view describe(Dimension dimension);
 

@@ -285,9 +285,10 @@ py::list solutions_of(const FinishedRun& run) {
 py::list facts_of(const FinishedRun& run) {
   py::list out;
   for (const study::Fact& fact : run.shown.facts) {
-    const auto number = study::value_of(fact);
-    out.append(py::make_tuple(fact.label, fact.text, number ? py::cast(number->value) : py::none(),
-                              number ? number->unit : std::string(), name_of(fact.verdict)));
+    const auto number = fact.text.value();
+    out.append(py::make_tuple(fact.label, to_string(fact.text),
+                              number ? py::cast(number->value()) : py::none(),
+                              number ? number->unit_words() : std::string(), name_of(fact.verdict)));
   }
   return out;
 }
@@ -370,7 +371,7 @@ void bind_sources(py::module_& module) {
 
 void bind_results(py::module_& module) {
   py::class_<FinishedRun, std::shared_ptr<FinishedRun>>(module, "Run")
-      .def_property_readonly("headline", [](const FinishedRun& r) { return r.shown.headline; })
+      .def_property_readonly("headline", [](const FinishedRun& r) { return to_string(r.shown.headline); })
       .def_property_readonly("status", [](const FinishedRun& r) { return to_string(r.shown.status); })
       .def_property_readonly("verdict",
                              [](const FinishedRun& r) { return name_of(study::answer_of(r.shown).verdict); })

@@ -57,7 +57,8 @@ void write_banner(std::string& out, const ReportInput& input) {
   const auto failed =
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header class=\"verdict {}\"><div class=\"words\"><h1>{}</h1><p class=\"headline\">{}</p></div>",
-      linkwright::name_of(study::answer_of(result).verdict), escape(input.title), escape(result.headline));
+      linkwright::name_of(study::answer_of(result).verdict), escape(input.title),
+      escape(to_string(result.headline)));
   put(out, "<span>status {}", to_string(result.status));
   if (!result.checks.empty())
     put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
@@ -77,9 +78,10 @@ void write_facts(std::string& out, const study::Result& result) {
   if (result.facts.empty()) return;
   out += "<dl class=\"facts\">";
   for (const auto& fact : result.facts) {
-    const Brief text = brief(fact.text);
-    put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>",
-        fact.text.size() > longest_beside ? " class=\"long\"" : "", escape(fact.label), fact_text(text));
+    const std::string whole = to_string(fact.text);
+    const Brief text = brief(whole);
+    put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>", whole.size() > longest_beside ? " class=\"long\"" : "",
+        escape(fact.label), fact_text(text));
   }
   out += "</dl>\n";
 }

@@ -192,7 +192,7 @@ Value view_data(const ReportInput& input) {
   out["command"] = input.command;
   out["study_toml"] = input.study_toml;
   out["status"] = to_string(result.status);
-  out["headline"] = result.headline;
+  out["headline"] = to_string(result.headline);
   out["verdict"] = linkwright::name_of(study::answer_of(result).verdict);
   const std::vector<ShownSuffix> units = shown_suffixes(input.units);
   out["units"] = list(units, [](Value& o, const ShownSuffix& s) {
@@ -205,7 +205,8 @@ Value view_data(const ReportInput& input) {
   });
   out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
     o["label"] = f.label;
-    const Brief parts = brief(f.text);
+    const std::string whole = to_string(f.text);
+    const Brief parts = brief(whole);
     o["text"] = std::string(parts.head);
     if (!parts.rest.empty()) o["rest"] = std::string(parts.rest);
     o["verdict"] = linkwright::name_of(f.verdict);

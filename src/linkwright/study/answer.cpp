@@ -52,7 +52,7 @@ Answer answer_of(const Result& result) {
                                 : fmt::format("check failed: {}: {}", check.quantity, check.message));
   const bool failed_check = !out.reasons.empty();
   for (const Fact& fact : result.facts)
-    if (fact.verdict == Fact::Verdict::bad) out.reasons.push_back(fact.label + ": " + fact.text);
+    if (fact.verdict == Fact::Verdict::bad) out.reasons.push_back(fact.label + ": " + to_string(fact.text));
   if (!result.solutions.empty() && result.solutions.front().defects.is_array())
     for (const Value& defect : result.solutions.front().defects.as_array())
       if (defect.is_string()) out.reasons.push_back("defect of the best solution: " + defect.as_string());
@@ -71,8 +71,8 @@ Answer answer_of(const Result& result) {
       break;
     default:
       out.verdict = Verdict::failed;
-      out.reasons.insert(out.reasons.begin(),
-                         result.headline.empty() ? std::string(to_string(result.status)) : result.headline);
+      out.reasons.insert(out.reasons.begin(), result.headline.empty() ? std::string(to_string(result.status))
+                                                                      : to_string(result.headline));
   }
   if (!result.troubles.empty()) {
     out.first = result.troubles.front();
@@ -93,22 +93,6 @@ Answer answer_of(const Result& result) {
     break;
   }
   return out;
-}
-
-std::optional<FactValue> value_of(const Fact& fact) {
-  const std::string& text = fact.text;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  std::string unit(end, text.data() + text.size());
-  if (unit.empty()) return FactValue{value, {}};
-  if (unit.front() != ' ' || unit.size() < 2) return std::nullopt;
-  unit.erase(0, 1);
-  if (unit == "%") return FactValue{value, unit};
-  for (const Dimension dimension : all_dimensions())
-    for (const Unit& known : units(dimension))
-      if (readable_unit(known.suffix) == unit) return FactValue{value, unit};
-  return std::nullopt;
 }
 
 }  // namespace linkwright::study

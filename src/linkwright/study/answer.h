@@ -32,11 +32,4 @@ struct Answer {
 /// none, the rows of its tables that are not done.
 Answer answer_of(const Result& result);
 
-/// A fact as a number with its unit where its text is just that: "25.4 deg".
-struct FactValue {
-  double value;
-  std::string unit;  ///< as in the text; empty = a plain number
-};
-std::optional<FactValue> value_of(const Fact& fact);
-
 }  // namespace linkwright::study

@@ -153,6 +153,20 @@ Table in_units(Table table, const DisplayUnits& units) {
   return table;
 }
 
+Sentence in_units(const Sentence& sentence, const DisplayUnits& units) {
+  Sentence out;
+  for (const Sentence::Part& part : sentence.parts()) {
+    const auto* number = std::get_if<Measured>(&part);
+    if (number && number->unit && units.chosen(number->dimension))
+      out += number->in(units.of(number->dimension));
+    else if (number)
+      out += *number;
+    else
+      out += std::get<std::string>(part);
+  }
+  return out;
+}
+
 Value in_units(const Value& object, const DisplayUnits& units) {
   if (!object.is_object()) return object;
   Value out = Value::object();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
@@ -51,6 +52,9 @@ DisplayUnits units_of(const Value& document);
 Table in_units(Table table, const DisplayUnits& units);
 /// An object of numbers by key, such as parameters and objectives; what is no number stays.
 Value in_units(const Value& object, const DisplayUnits& units);
+
+/// A sentence with its numbers in these units, those of other dimensions as they were.
+Sentence in_units(const Sentence& sentence, const DisplayUnits& units);
 
 /// The number with six significant digits.
 double six_digits(double value);

@@ -17,7 +17,7 @@ namespace linkwright::study {
 /// Adds facts to those of a result.
 struct AddFact {
   std::vector<Fact>& facts;
-  void operator()(std::string label, std::string text, Fact::Verdict verdict = Fact::Verdict::plain) const {
+  void operator()(std::string label, Sentence text, Fact::Verdict verdict = Fact::Verdict::plain) const {
     facts.push_back({std::move(label), std::move(text), verdict});
   }
 };

@@ -8,6 +8,7 @@
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/status.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/value.h"
@@ -28,7 +29,7 @@ struct Check {
 /// One line of the headline panel of a report and of the summary on the terminal.
 struct Fact {
   std::string label;  ///< "path error (sum of squares)"
-  std::string text;   ///< "0.00902888 m2"
+  Sentence text;      ///< "5.567 N m at 343°": its first number that says no place is the value
   enum class Verdict { plain, good, bad } verdict = Verdict::plain;
 };
 constexpr std::array<EnumName<Fact::Verdict>, 3> names(Fact::Verdict) {
@@ -140,7 +141,7 @@ struct Trouble {
 /// What a study gives back. Tables, scenes and plots are all that a report draws.
 struct Result {
   Status status = Status::done;
-  std::string headline;  ///< the answer in one sentence
+  Sentence headline;  ///< the answer in one sentence
   std::vector<Fact> facts;
   std::vector<Solution> solutions;  ///< best first
   Value statistics;                 ///< object: best, median, worst, success_rate, evaluations, ...

@@ -29,6 +29,8 @@ Result in_units(Result result, const DisplayUnits& units) {
   for (Trouble& trouble : result.troubles)
     for (Trouble::Place& place : trouble.where) convert(place.key, place.value);
   result.statistics = in_units(result.statistics, units);
+  result.headline = in_units(result.headline, units);
+  for (Fact& fact : result.facts) fact.text = in_units(fact.text, units);
   return result;
 }
 

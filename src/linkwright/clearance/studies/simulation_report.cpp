@@ -64,10 +64,10 @@ class SimulationReporter {
   bool real() const { return s_.model == PinModel::contact || r_.went_over(); }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.linkage.joints[at(s_.joint_of(pin))].name; }
-  std::string key(std::size_t pin) const { return planar::identifier(name(pin)); }
+  std::string key(std::size_t pin) const { return identifier(name(pin)); }
   std::string trace_key(std::size_t k) const {
     const planar::LinkageBody& b = s_.linkage.bodies[at(s_.traces[k].body)];
-    return planar::identifier(b.name) + "_" + planar::identifier(b.points[at(s_.traces[k].point)].name);
+    return identifier(b.name) + "_" + identifier(b.points[at(s_.traces[k].point)].name);
   }
   std::string trace_name(std::size_t k) const {
     const planar::LinkageBody& b = s_.linkage.bodies[at(s_.traces[k].body)];
@@ -92,7 +92,7 @@ class SimulationReporter {
       const char *rate = rotary ? "rad_per_s" : "m_per_s", *unit = rotary ? "rad/s" : "m/s";
       table.add(planar::input_key(l, s_.plan, k), planar::input_label(l, s_.plan, k),
                 column(rows, [k](const RecordedRow& r) { return r.inputs[k].value; }));
-      table.add(fmt::format("{}_joint_speed_{}", planar::identifier(joint), rate),
+      table.add(fmt::format("{}_joint_speed_{}", identifier(joint), rate),
                 fmt::format("{} joint speed ({})", joint, unit),
                 column(rows, [k](const RecordedRow& r) { return r.inputs[k].rate; }));
     }
@@ -299,10 +299,10 @@ class SimulationReporter {
                     {trace_key(k) + "_acceleration_x_m_per_s2", trace_key(k) + "_acceleration_y_m_per_s2"});
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
       if (s_.plan.rotary[k])
-        drives.push_back(planar::identifier(planar::input_joint(s_.linkage, k).name) + "_drive_torque_N_m");
+        drives.push_back(identifier(planar::input_joint(s_.linkage, k).name) + "_drive_torque_N_m");
     for (const planar::LinkageJoint& j : s_.linkage.joints)
       if (j.type != planar::JointType::gear && reactions.size() < 6)
-        reactions.push_back(planar::identifier(j.name) + "_N");
+        reactions.push_back(identifier(j.name) + "_N");
     against_ideal("torque", "Drive torque (pale: without clearance)", drives);
     against_ideal("reactions", "Joint forces (pale: without clearance)", reactions);
     diagrams({.table = "spectrum", .x = "frequency_Hz", .logarithmic_y = true})(

@@ -43,7 +43,7 @@ ClearanceRows::Value ClearanceRows::value_of(const planar::LinkageColumn& column
                                              const planar::Linkage& linkage, const planar::LinkagePlan& plan,
                                              std::span<const planar::LinkageColumn> own) const {
   for (std::size_t k = 0; k < s_.pins(); ++k) {
-    const std::string key = planar::identifier(s_.pin_name(k));
+    const std::string key = identifier(s_.pin_name(k));
     if (column.key == key + "_x_N")
       return [k](const planar::LinkageInstant&, const RecordedRow& r) { return r.pins[k].force.x; };
     if (column.key == key + "_y_N")

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t least_turns = 3, least_rows = 32;
 constexpr int map_directions = 72;
 
-std::string key(const ClearanceStudy& s, std::size_t pin) { return planar::identifier(s.pin_name(pin)); }
+std::string key(const ClearanceStudy& s, std::size_t pin) { return identifier(s.pin_name(pin)); }
 template <class F>
 std::vector<double> column(const std::vector<RecordedRow>& rows, F&& of) {
   std::vector<double> out;

@@ -137,7 +137,7 @@ class ToleranceReporter {
       over_input("errors")("error-" + quantity.key, "Error of " + quantity.name, y);
       std::vector<std::string> parts;
       for (const std::size_t k : r_.by_share(q))
-        if (parts.size() < most_curves) parts.push_back(planar::identifier(r_.tolerances[k]) + "_" + unit);
+        if (parts.size() < most_curves) parts.push_back(identifier(r_.tolerances[k]) + "_" + unit);
       over_input("contributions_" + quantity.key)("contributions-" + quantity.key,
                                                   "Contributions to the worst-case error of " + quantity.name,
                                                   parts);

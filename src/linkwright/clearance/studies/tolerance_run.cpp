@@ -30,24 +30,23 @@ std::vector<ToleranceQuantity> quantities_of(const planar::LinkageStudy& s, cons
   for (const planar::BodyPoint& p : o.points) {
     const planar::LinkageBody& b = l.bodies[at(p.body)];
     const std::string& point = b.points[at(p.point)].name;
-    add(Kind::point, planar::identifier(b.name) + "_" + planar::identifier(point), b.name + "." + point);
+    add(Kind::point, identifier(b.name) + "_" + identifier(point), b.name + "." + point);
   }
   for (const int j : o.coordinates) {
     const planar::LinkageJoint& joint = l.joints[at(j)];
     const bool turns = joint.type == planar::JointType::revolute;
     add(turns ? Kind::angle : Kind::displacement,
-        planar::identifier(joint.name) + (turns ? "_angle" : "_displacement"),
+        identifier(joint.name) + (turns ? "_angle" : "_displacement"),
         (turns ? "angle of " : "displacement of ") + joint.name);
   }
   for (const int j : o.forces)
-    add(Kind::force, planar::identifier(l.joints[at(j)].name) + "_force", "force at " + l.joints[at(j)].name);
+    add(Kind::force, identifier(l.joints[at(j)].name) + "_force", "force at " + l.joints[at(j)].name);
   if (o.drives)
     for (std::size_t k = 0; k < l.driven.size(); ++k) {
       const std::string& name = planar::input_joint(l, k).name;
       const bool turns = s.plan.rotary[k];
       // A force along one line: shown as a force, though it has one component.
-      add(turns ? Kind::torque : Kind::force,
-          planar::identifier(name) + (turns ? "_drive_torque" : "_drive_force"),
+      add(turns ? Kind::torque : Kind::force, identifier(name) + (turns ? "_drive_torque" : "_drive_force"),
           (turns ? "drive torque at " : "drive force at ") + name);
       if (!turns) {
         out.back().size = 1;

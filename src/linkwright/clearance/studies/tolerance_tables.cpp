@@ -192,7 +192,7 @@ class Tabler {
     Table over{.name = "contributions_" + quantity.key};
     add_inputs(over);
     for (const std::size_t k : order)
-      over.add(planar::identifier(r_.tolerances[k]) + "_" + unit,
+      over.add(identifier(r_.tolerances[k]) + "_" + unit,
                fmt::format("contribution of {} ({})", r_.tolerances[k], label),
                column([&](std::size_t i) { return r_.contribution(i, q, k); }));
     finish(std::move(over));

@@ -51,12 +51,6 @@ double value_of(const LinkageColumn& column, const LinkageInstant& instant) {
   return known ? column.value(instant) : nan;
 }
 
-std::string identifier(std::string_view name) {
-  std::string out;
-  for (char c : name)
-    out += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
-  return out;
-}
 const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
 namespace {
 /// Whether a body has the name of a driven joint: the columns of both would be called alike.

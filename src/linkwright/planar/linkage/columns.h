@@ -43,9 +43,6 @@ void unwrap(const LinkageColumn& column, std::span<double> rows);
 /// The value of a column, NaN where the status of the motion leaves it unknown.
 double value_of(const LinkageColumn& column, const LinkageInstant& instant);
 
-/// A name as part of a column key: what is no letter or digit becomes '_'.
-std::string identifier(std::string_view name);
-
 /// The name of a group as part of a column key: "coupler + rocker" becomes "coupler_rocker".
 std::string group_key(std::string name);
 
