@@ -24,6 +24,7 @@ TEST(Sentence, NumbersAreWrittenAsTheirAuthorWants) {
   EXPECT_EQ(to_string(measured("m2", 0.25)), "0.25 m²");
   EXPECT_EQ(to_string(measured("m2", 0.25).spelled()), "0.25 m2");
   EXPECT_EQ(to_string(measured("rad_per_s2", 3)), "3 rad/s²");
+  EXPECT_EQ(to_string(measured("deg_per_m", pi)), "180 °/m");
   EXPECT_EQ(to_string(percent(0.1234, 3)), "12.3 %");
   EXPECT_EQ(to_string(plain_number(2.5).with_sign()), "+2.5");
   EXPECT_EQ(to_string(millimetres(-0.0)), "0 mm");
@@ -32,6 +33,13 @@ TEST(Sentence, NumbersAreWrittenAsTheirAuthorWants) {
   EXPECT_EQ(to_string(length_by_size(3.14159e-6)), "3.14 µm");
   EXPECT_EQ(to_string(count_of(1234567)), "1234567");
   EXPECT_THROW((void)measured("furlong", 1), ContractError);
+}
+
+TEST(Sentence, NumbersMayHaveUnitsOfTheirOwn) {
+  constexpr Unit turn_by_turn{"deg_per_deg"}, by_kilonewton{"deg_per_kN", pi, 180e3};
+  EXPECT_EQ(to_string(measured(turn_by_turn, 0.25)), "0.25 °/°");
+  EXPECT_EQ(to_string(measured(by_kilonewton, pi / 180e3).fixed(2)), "1.00 °/kN");
+  EXPECT_EQ(measured(by_kilonewton, 0).unit_words(), "deg/kN");
 }
 
 TEST(Sentence, NumbersOfOneUnitShareIt) {
@@ -56,6 +64,8 @@ TEST(Sentence, ItsValueIsNoPlace) {
   ASSERT_TRUE(s.value());
   EXPECT_EQ(s.value()->si, 3);
   EXPECT_EQ(std::get<Measured>(s.parts()[1]).place_key(), "crank_angle_deg");
+  EXPECT_EQ(at_place("use", percent(0.5)).place_key(), "use_percent");
+  EXPECT_EQ(at_place("point", count_of(7)).place_key(), "point");
   EXPECT_FALSE(Sentence("no number").value());
 }
 

@@ -19,7 +19,7 @@ std::string with_signs(std::string text) {
                                       {"2", "²"},
                                       {"3", "³"},
                                       {"4", "⁴"}})
-    if (const std::size_t at = text.find(letters); at != std::string::npos)
+    for (std::size_t at = 0; (at = text.find(letters, at)) != std::string::npos; at += sign.size())
       text.replace(at, letters.size(), sign);
   return text;
 }
@@ -44,7 +44,8 @@ std::string Measured::unit_words() const { return unit ? readable_unit(unit->suf
 
 std::string Measured::place_key() const {
   std::string key(place);
-  return unit ? key + "_" + std::string(unit->suffix) : key;
+  if (!unit) return key;
+  return key.append("_").append(unit == &percent_unit ? "percent" : unit->suffix);
 }
 
 Measured Measured::fixed(int decimals) const {
@@ -85,6 +86,10 @@ Measured measured(std::string_view suffix, double si, int digits) {
       return {.si = si, .dimension = dimension, .unit = unit, .digits = digits};
   LINKWRIGHT_REQUIRE(false, "there is no unit '{}'", suffix);
   return {};
+}
+
+Measured measured(const Unit& unit, double si, int digits) {
+  return {.si = si, .unit = &unit, .digits = digits};
 }
 
 Measured at_place(std::string_view axis, Measured value) {
@@ -128,7 +133,7 @@ bool operator==(const Sentence& a, const Sentence& b) { return to_string(a) == t
 std::string to_string(const Measured& m) {
   std::string text = digits_of(m), symbol = m.symbol();
   if (symbol.empty() || m.shares_unit) return text;
-  return text + (symbol.starts_with("°") ? "" : " ") + symbol;
+  return text + (symbol == "°" ? "" : " ") + symbol;
 }
 
 std::string to_string(const Sentence& sentence) {

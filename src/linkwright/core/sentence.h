@@ -47,6 +47,8 @@ struct Measured {
 
 /// A number written in the unit of this suffix, "N_m": throws ContractError when there is no such unit.
 Measured measured(std::string_view suffix, double si, int digits = 4);
+/// In a unit that no key has, as "mm_per_kN"; the unit must outlive the number.
+Measured measured(const Unit& unit, double si, int digits = 4);
 /// The number of a place along an axis, "crank_angle".
 Measured at_place(std::string_view axis, Measured value);
 
