@@ -51,18 +51,19 @@ bool is_out_of_reach(const DexterityStand& stand) {
   return (stand.limit == DexterityLimit::reach || stand.limit == DexterityLimit::input) && stand.value < 0;
 }
 
-std::string described(const DexterityStand& stand) {
+Sentence described(const DexterityStand& stand) {
+  const Measured leg = at_place("leg", count_of(stand.leg + 1));
   if (is_out_of_reach(stand))
-    return fmt::format("leg {} does not reach ({:.4g}, {:.4g}, {:.4g}) m, and the whole region is required",
-                       stand.leg + 1, stand.place.x, stand.place.y, stand.place.z);
-  std::string text = fmt::format("{} is {:.6g}, {} {:.6g} is required", name_of(stand.limit), stand.value,
-                                 stand.at_least ? "at least" : "at most", stand.bound);
+    return say("leg {} does not reach {}, and the whole region is required", leg, coordinates_of(stand.place));
+  Sentence text =
+      say("{} is {}, {} {} is required", name_of(stand.limit), plain_number(stand.value, 6),
+          stand.at_least ? "at least" : "at most", plain_number(stand.bound, 6));
   const bool of_pose =
       stand.limit == DexterityLimit::conditioning || stand.limit == DexterityLimit::constraint;
-  if (stand.leg >= 0 || of_pose)
-    text += fmt::format(", at {}({:.4g}, {:.4g}, {:.4g}) m",
-                        stand.leg >= 0 ? fmt::format("leg {} in ", stand.leg + 1) : "", stand.place.x,
-                        stand.place.y, stand.place.z);
+  if (stand.leg >= 0)
+    text += say(", at leg {} in {}", leg, coordinates_of(stand.place));
+  else if (of_pose)
+    text += say(", at {}", coordinates_of(stand.place));
   return text;
 }
 

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
 #include "linkwright/parallel/robot/drives.h"
@@ -138,7 +139,7 @@ constexpr std::array<EnumName<BoundState>, 4> names(BoundState) {
 /// A design at all nodes of the region.
 struct DexterityDesign {
   Status status = Status::infeasible;  ///< done, or infeasible: a limit is missed
-  std::string reason;                  ///< why it is infeasible: "reach is missed by leg 2 at ..."
+  Sentence reason;                     ///< why it is infeasible: "reach is missed by leg 2 at ..."
   std::vector<double> x;               ///< as design_variables
   std::vector<BoundState> bounds;
   Robot robot;
@@ -191,7 +192,7 @@ struct DexterityStart {
 struct DexteritySynthesis {
   /// done; infeasible: no start met every limit; deadline or cancelled, with the best so far.
   Status status = Status::infeasible;
-  std::string reason;
+  Sentence reason;
   DexterityDesign best;  ///< without x when the run ended before all nodes had been looked at once
   /// The least or most that a search between the nodes found for the goal's or limits' indices of `best`:
   /// what the nodes overlook. Same order as best.limits; NaN for limits that are not of a pose.

@@ -214,13 +214,11 @@ std::optional<std::string> problem(const PiRequirements& r) {
   return {};
 }
 
-std::string to_string(const PiConflict& c) {
-  const auto length = [&](double value) {
-    return c.of_ratio ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} mm", value * 1e3);
-  };
-  return fmt::format("{} asks for a {} of at least {}, {} allows at most {}", name_of(c.low),
-                     c.of_ratio ? "ratio of base to arm" : "base", length(c.at_least), name_of(c.high),
-                     length(c.at_most));
+Sentence to_sentence(const PiConflict& c) {
+  const auto length = [&](double value) { return c.of_ratio ? plain_number(value) : millimetres(value); };
+  return say("{} asks for a {} of at least {}, {} allows at most {}", name_of(c.low),
+             c.of_ratio ? "ratio of base to arm" : "base", length(c.at_least), name_of(c.high),
+             length(c.at_most));
 }
 
 PiClosedForm closed_form_design(const PiRequirements& r) {

@@ -9,6 +9,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/optimise/optimiser.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 
@@ -84,7 +85,7 @@ struct PiConflict {
   double at_least = 0, at_most = 0;  ///< what the first asks for, and what the second allows
 };
 /// For example "torque asks for a base of at least 61.5 mm, stroke allows at most 60 mm".
-std::string to_string(const PiConflict& conflict);
+Sentence to_sentence(const PiConflict& conflict);
 
 /// The design by limits in closed form, for the best centre: smallest b, largest k, a = b / k.
 struct PiClosedForm {

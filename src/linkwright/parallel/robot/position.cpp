@@ -270,13 +270,13 @@ Placed direct_near(const Robot& robot, std::span<const double> angles, const Pos
   return out;
 }
 
-std::string reason(const ArmAngles& angles) {
+Sentence reason(const ArmAngles& angles) {
   if (angles.status == Status::done) return {};
+  const Measured leg = at_place("leg", count_of(angles.leg + 1));
   if (angles.status == Status::singular)
-    return fmt::format("the platform joint of leg {} is on the axis of its arm, whose angle is open",
-                       angles.leg + 1);
-  return fmt::format("leg {} is {:.4g} mm too {}", angles.leg + 1, 1e3 * std::abs(angles.shortfall),
-                     angles.shortfall >= 0 ? "short" : "long");
+    return say("the platform joint of leg {} is on the axis of its arm, whose angle is open", leg);
+  return say("leg {} is {} too {}", leg, millimetres(std::abs(angles.shortfall)),
+             angles.shortfall >= 0 ? "short" : "long");
 }
 
 }  // namespace linkwright::parallel

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/status.h"
 #include "linkwright/parallel/robot/robot.h"
 
@@ -64,6 +65,6 @@ Vec3 platform_joint(const Robot& robot, int leg, const Pose& pose);
 Vec3 elbow(const Leg& leg, double angle);
 
 /// "leg 2 is 3.1 mm too short": why a pose has no arm angles.
-std::string reason(const ArmAngles& angles);
+Sentence reason(const ArmAngles& angles);
 
 }  // namespace linkwright::parallel

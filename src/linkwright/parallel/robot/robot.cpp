@@ -8,6 +8,11 @@
 
 namespace linkwright::parallel {
 
+Sentence coordinates_of(const Vec3& place) {
+  return say("{}, {}, {}", at_place("x", metres(place.x)).sharing_unit(),
+             at_place("y", metres(place.y)).sharing_unit(), at_place("z", metres(place.z)));
+}
+
 namespace {
 
 // Unit and right angles may be wrong by rounding alone.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/math/vector3.h"
 
 /// Parallel robots of legs that are an arm, turned by a drive at the base, and a rod of constant length to
@@ -14,6 +15,9 @@ namespace linkwright::parallel {
 
 using math::Mat3;
 using math::Vec3;
+
+/// Says where: "0.1, 0.2, -0.75 m".
+Sentence coordinates_of(const Vec3& place);
 
 /// What the platform can do, and with it the number of legs.
 enum class Freedom { space_translation, space, plane_translation };

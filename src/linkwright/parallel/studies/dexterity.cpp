@@ -265,7 +265,7 @@ study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
   out.objectives["violation"] = a.best.violation;
   out.classification = Value::object();
   out.defects = Value::array();
-  if (!a.best.reason.empty()) out.defects.push_back(Value(a.best.reason));
+  if (!a.best.reason.empty()) out.defects.push_back(Value(to_string(a.best.reason)));
   out.scene = "region";
   out.study = study_of(s, a.best);
   return out;
@@ -313,10 +313,10 @@ study::Scene scene_of(const DexterityStudy& s, const DexterityDesign& best) {
                      samples);
 }
 
-std::string objective_text(DexterityGoal goal, double value) {
-  return goal == DexterityGoal::size   ? fmt::format("arm and rod {:.4g} mm together", 1e3 * value)
-         : goal == DexterityGoal::mean ? fmt::format("mean conditioning index {:.6f}", value)
-                                       : fmt::format("minimum conditioning index {:.6f}", value);
+Sentence objective_text(DexterityGoal goal, double value) {
+  if (goal == DexterityGoal::size) return say("arm and rod {} together", millimetres(value));
+  return say("{} conditioning index {}", goal == DexterityGoal::mean ? "mean" : "minimum",
+             plain_number(value).fixed(6));
 }
 
 }  // namespace
@@ -352,26 +352,26 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
     const bool angle = variables[i].name.ends_with("_rad"), length = variables[i].name.ends_with("_m");
     std::string label = variables[i].name.substr(0, variables[i].name.size() - (angle ? 4 : length ? 2 : 0));
     std::replace(label.begin(), label.end(), '_', ' ');
-    fact(std::move(label), angle    ? fmt::format("{:.4f}°", math::degrees(a.best.x[i]))
-                           : length ? fmt::format("{:.3f} mm", 1e3 * a.best.x[i])
-                                    : fmt::format("{:.5f}", a.best.x[i]));
+    fact(std::move(label), angle    ? degrees_of(a.best.x[i]).fixed(4)
+                           : length ? millimetres(a.best.x[i]).fixed(3)
+                                    : plain_number(a.best.x[i]).fixed(5));
   }
-  fact("minimum conditioning index", fmt::format("{:.6f}", a.best.worst));
-  fact("mean conditioning index", fmt::format("{:.6f}", a.best.mean));
-  fact("arm and rod together", fmt::format("{:.3f} mm", 1e3 * a.best.size));
-  fact("arm angles used", fmt::format("{:.2f}° to {:.2f}°", math::degrees(a.best.arm_lowest),
-                                      math::degrees(a.best.arm_highest)));
+  fact("minimum conditioning index", plain_number(a.best.worst).fixed(6));
+  fact("mean conditioning index", plain_number(a.best.mean).fixed(6));
+  fact("arm and rod together", millimetres(a.best.size).fixed(3));
+  fact("arm angles used", say("{} to {}", degrees_of(a.best.arm_lowest).fixed(2),
+                              degrees_of(a.best.arm_highest).fixed(2)));
   if (s.task.pi_joint)
     fact("diagonals used", [&] {
       const Drive& d = a.best.drives[0];
       const PiJoint joint{a.best.robot.leg[0].arm, d.ratio};
-      return fmt::format("{:.3f} to {:.3f} mm", 1e3 * diagonal(joint, d.lowest),
-                         1e3 * diagonal(joint, d.highest));
+      return say("{} to {}", millimetres(diagonal(joint, d.lowest)).fixed(3).sharing_unit(),
+                 millimetres(diagonal(joint, d.highest)).fixed(3));
     }());
   if (s.task.family == RobotFamily::delta)
     for (const DexterityStand& l : a.best.limits)
       if (l.limit == DexterityLimit::constraint)
-        fact("minimum constraint index", fmt::format("{:.6f}", l.value),
+        fact("minimum constraint index", plain_number(l.value).fixed(6),
              l.excess <= 0 || l.active ? Verdict::good : Verdict::bad);
   if (s.transmission_put_in)
     fact("limit put in",
@@ -382,10 +382,9 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
     proof = prove_region(s.task, a.best);
     fact("whole region free of singularities",
          proof.proven     ? "proven, also between the nodes"
-         : proof.violated ? fmt::format("no: at ({:.4g}, {:.4g}, {:.4g}) m the constraint index misses its "
-                                        "limit, or it is singular",
-                                        proof.violated->x, proof.violated->y, proof.violated->z)
-                          : fmt::format("not proven within {} poses; the nodes are", proof.looks),
+         : proof.violated ? say("no: at {} the constraint index misses its limit, or it is singular",
+                                coordinates_of(*proof.violated))
+                          : say("not proven within {} poses; the nodes are", proof.looks),
          proof.proven     ? Verdict::good
          : proof.violated ? Verdict::bad
                           : Verdict::plain);
@@ -395,19 +394,18 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   for (const DexterityStand& l : a.best.limits)
     if (l.active) held += fmt::format("{}{}", held.empty() ? "" : ", ", name_of(l.limit));
   if (!held.empty()) fact("held back by", held);
-  if (a.starts > 0) fact("local searches that reached it", fmt::format("{} of {}", a.reached_best, a.starts));
+  if (a.starts > 0) fact("local searches that reached it", say("{} of {}", a.reached_best, a.starts));
   if (runs.answers.size() > 1)
     fact("runs that reached it", study::successful_seeds(result, runs.answers.size()));
   result.scenes.push_back(scene_of(s, a.best));
   result.headline =
-      proof.violated
-          ? fmt::format(
-                "The best design misses the constraint index, or is singular, between the nodes, at "
-                "({:.4g}, {:.4g}, {:.4g}) m: ask for more nodes.",
-                proof.violated->x, proof.violated->y, proof.violated->z)
-      : good ? fmt::format("Best {} found: {}.", name_of(s.task.family),
-                           objective_text(s.task.goal, a.best.objective))
-             : fmt::format("No design meets every limit: {}.", a.best.reason);
+      proof.violated ? say(
+                           "The best design misses the constraint index, or is singular, between the nodes, "
+                           "at {}: ask for more nodes.",
+                           coordinates_of(*proof.violated))
+      : good ? say("Best {} found: {}.", name_of(s.task.family),
+                   objective_text(s.task.goal, a.best.objective))
+             : say("No design meets every limit: {}.", a.best.reason);
   return result;
 }
 

@@ -147,35 +147,37 @@ std::vector<DriveUse> PathJudge::uses() const {
   return out;
 }
 
-std::string PathJudge::text(const Peak& peak) const {
+Sentence PathJudge::text(const Peak& peak) const {
   const Demand& d = peak.demand;
-  const auto degrees = [](double angle) { return fmt::format("{:.2f} deg", math::degrees(angle)); };
-  const auto index = [&](std::string_view what) {
-    return fmt::format("{} is {:.3f}, at least {:.3f} is required", what, d.value, d.limit);
+  const auto angle = [](double value) { return degrees_of(value).fixed(2).spelled(); };
+  const auto index = [&](std::string_view name) {
+    return say("{} is {}, at least {} is required", name, plain_number(d.value).fixed(3),
+               plain_number(d.limit).fixed(3));
   };
-  std::string what;
+  Sentence what;
   switch (d.asked) {
     case Asked::travel: {
       const Drive& drive = drives_[static_cast<std::size_t>(d.drive)];
-      what = fmt::format("{} {} would be at {}, travel {:.2f} to {}", is_pi(drive) ? "Pi-joint" : "arm",
-                         d.drive + 1, degrees(d.value), math::degrees(drive.lowest), degrees(drive.highest));
+      what = say("{} {} would be at {}, travel {} to {}", is_pi(drive) ? "Pi-joint" : "arm",
+                 at_place("drive", count_of(d.drive + 1)), angle(d.value), angle(drive.lowest).sharing_unit(),
+                 angle(drive.highest));
       break;
     }
     case Asked::swing:
-      what = fmt::format("a rod leans {} out of the plane of its arm, at most {} is allowed",
-                         degrees(d.value), degrees(d.limit));
+      what = say("a rod leans {} out of the plane of its arm, at most {} is allowed", angle(d.value),
+                 angle(d.limit));
       break;
     case Asked::elbow:
-      what = fmt::format("the angle at an elbow is {}, {} {} is required", degrees(d.value),
-                         d.value < d.limit ? "at least" : "at most", degrees(d.limit));
+      what = say("the angle at an elbow is {}, {} {} is required", angle(d.value),
+                 d.value < d.limit ? "at least" : "at most", angle(d.limit));
       break;
     case Asked::speed:
     case Asked::effort: {
       const bool pi = is_pi(drives_[static_cast<std::size_t>(d.drive)]);
-      const char* unit = d.asked == Asked::speed ? (pi ? "m/s" : "rad/s") : (pi ? "N" : "N m");
-      what = fmt::format("{} is {:.4g} {}, the limit is {:.4g} {}", name_of_use(d, drives_), d.value, unit,
-                         d.limit, unit);
-      if (std::isfinite(d.excess)) what += fmt::format(", {:.0f} % of it is required", 100 * (1 + d.excess));
+      const char* unit = d.asked == Asked::speed ? (pi ? "m_per_s" : "rad_per_s") : (pi ? "N" : "N_m");
+      what = say("{} is {}, the limit is {}", name_of_use(d, drives_), measured(unit, d.value),
+                 measured(unit, d.limit));
+      if (std::isfinite(d.excess)) what += say(", {} of it is required", percent(1 + d.excess).fixed(0));
       break;
     }
     case Asked::transmission:
@@ -191,7 +193,7 @@ std::string PathJudge::text(const Peak& peak) const {
       what = index(fmt::format("sine of the angle between diagonal and arm of Pi-joint {}", d.drive + 1));
       break;
   }
-  return fmt::format("{} ({}); it begins in {}", what, motion_.where(peak.time), motion_.where(peak.begin));
+  return say("{} ({}); it begins in {}", what, motion_.where(peak.time), motion_.where(peak.begin));
 }
 
 std::vector<PathJudge::Failure> PathJudge::failures() const {
@@ -295,8 +297,8 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
     });
     if (most)
       result.facts.push_back({kind + ", most used",
-                              fmt::format("{:.1f} % of the limit ({}, {})", 100 * u.share,
-                                          u.what.substr(u.what.find("drive")), motion.where(u.time)),
+                              say("{} of the limit ({}, {})", percent(u.share).fixed(1),
+                                  u.what.substr(u.what.find("drive")), motion.where(u.time)),
                               u.share <= 1 ? Verdict::good : Verdict::bad});
   }
   const auto failures = judge.failures();
@@ -308,7 +310,7 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
     result.troubles.push_back({.what = std::string(to_string(failure.status)),
                                .where = {{"time_s", failure.time}},
                                .share = blocked ? HUGE_VAL : 1 + failure.worst,
-                               .why = failure.text});
+                               .why = to_string(failure.text)});
   }
   std::stable_sort(result.troubles.begin(), result.troubles.end(), [](const auto& a, const auto& b) {
     return a.where.front().value < b.where.front().value;
@@ -316,19 +318,19 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
   const DriveUse* most = nullptr;
   for (const DriveUse& u : uses)
     if (!most || u.share > most->share) most = &u;
-  const std::string tight = most ? fmt::format(" The tightest limit is the {}: {:.0f} % of it is used.",
-                                               most->what, 100 * most->share)
-                                 : "";
+  const Sentence tight = most ? say(" The tightest limit is the {}: {} of it is used.", most->what,
+                                    percent(most->share).fixed(0))
+                              : Sentence();
   if (failures.empty()) {
-    result.headline = whole ? fmt::format("It works: the path takes {:.4g} s.{}", motion.duration(), tight)
-                            : fmt::format("Interrupted after {:.4g} s of the path.", end);
+    result.headline = whole ? say("It works: the path takes {}.{}", seconds(motion.duration()), tight)
+                            : say("Interrupted after {} of the path.", seconds(end));
   } else {
-    result.headline = fmt::format("It fails: {}.", failures.front().text);
+    result.headline = say("It fails: {}.", failures.front().text);
     const auto first = std::min_element(failures.begin(), failures.end(),
                                         [](const auto& a, const auto& b) { return a.time < b.time; });
     if (first->time < failures.front().time)
       result.headline +=
-          fmt::format(" The first of {} failures begins in {}.", failures.size(), motion.where(first->time));
+          say(" The first of {} failures begins in {}.", failures.size(), motion.where(first->time));
   }
 }
 

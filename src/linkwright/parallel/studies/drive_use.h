@@ -84,10 +84,10 @@ class PathJudge {
     double time = 0;   ///< where it begins (s)
     double worst = 0;  ///< how bad it gets, among those of one severity: the excess
     Status status = Status::done;
-    std::string text;  ///< "torque of drive 1 is 74 N m at ..., the limit is 38 N m; ..."
+    Sentence text;  ///< "torque of drive 1 is 74 N m at ..., the limit is 38 N m; ..."
   };
   /// A trouble that something else has found.
-  void fail(Severity severity, double time, Status status, std::string text) {
+  void fail(Severity severity, double time, Status status, Sentence text) {
     failures_.push_back({severity, time, 0, status, std::move(text)});
   }
 
@@ -112,7 +112,7 @@ class PathJudge {
   const std::vector<Peak>& peaks() const { return peaks_; }
 
  private:
-  std::string text(const Peak& peak) const;
+  Sentence text(const Peak& peak) const;
 
   const ToolMotion& motion_;
   std::span<const Drive> drives_;

@@ -162,7 +162,7 @@ Table motion_table(const RobotDescription& d, const std::vector<Instant>& instan
 }
 
 /// The deepest that a leg is out of reach from `begin` on: "leg 2 is 12.3 mm too short at worst (...)".
-std::string deepest(const RobotDescription& d, const ToolMotion& motion, double begin) {
+Sentence deepest(const RobotDescription& d, const ToolMotion& motion, double begin) {
   constexpr int steps = 32;
   ArmAngles worst;
   double time = begin;
@@ -178,13 +178,13 @@ std::string deepest(const RobotDescription& d, const ToolMotion& motion, double 
       time = t;
     }
   if (worst.status == Status::done) return {};
-  return fmt::format("; at worst {} ({})", reason(worst), motion.where(time));
+  return say("; at worst {} ({})", reason(worst), motion.where(time));
 }
 
 /// How far the robot gets, and what is worth a fact.
 struct WayVerdict {
   double gets_to = 0;  // s
-  std::string falls;   // "constraint index 0.001 in step 1 ...": before a singularity
+  Sentence falls;      // "constraint index 0.001 in step 1 ...": before a singularity
 };
 
 /// Judges the way by bounds.
@@ -204,7 +204,7 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
     out.gets_to = trouble->begin;
     // A singularity is where the determinant vanishes; where it does not, where its index is too small.
     const double place = trouble->zero.value_or(trouble->begin);
-    std::string text = fmt::format("{}: {}", motion.where_exactly(place), cause(*task, way, *trouble));
+    Sentence text = say("{}: {}", motion.where_exactly(place), cause(*task, way, *trouble));
     Status status = Status::singular;
     switch (trouble->kind) {
       case Trouble::reach:
@@ -219,7 +219,7 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
         break;
       case Trouble::constraint:
         text += trouble->zero ? " (constraint singularity)" : " (close to a constraint singularity)";
-        out.falls = fmt::format("{:g} in {}", constraint_floor, motion.where_exactly(trouble->begin));
+        out.falls = say("{} in {}", plain_number(constraint_floor, 6), motion.where_exactly(trouble->begin));
         break;
     }
     judge.fail(Severity::impossible, trouble->begin, status, text);
@@ -229,8 +229,9 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
     const auto poor = first_trouble(*task, way, breaks);
     if (poor && poor->kind == Trouble::constraint)
       judge.fail(Severity::poor, poor->begin, Status::limit_reached,
-                 fmt::format("{}: the constraint index falls below {:.3f}, which is required: {}",
-                             motion.where_exactly(poor->begin), limits.constraint, cause(*task, way, *poor)));
+                 say("{}: the constraint index falls below {}, which is required: {}",
+                     motion.where_exactly(poor->begin), plain_number(limits.constraint).fixed(3),
+                     cause(*task, way, *poor)));
   }
   return out;
 }
@@ -352,10 +353,10 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
        {"transmission", "local_conditioning", "constraint_index"});
 
   const study::AddFact fact{result.facts};
-  fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
+  fact("duration of the path", seconds(study.motion.duration()));
   const auto least = [&](Asked asked, const char* label) {
     if (const auto* p = judge.peak(asked))
-      fact(label, fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
+      fact(label, say("{} ({})", plain_number(p->demand.value).fixed(3), study.motion.where(p->time)));
   };
   least(Asked::transmission, "minimum transmission index");
   if (got.falls.empty())
@@ -363,8 +364,7 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
   else
     fact("constraint index falls to", got.falls);
   if (got.gets_to < study.motion.duration())
-    fact("judged up to",
-         fmt::format("{}: the robot gets no farther", study.motion.where_exactly(got.gets_to)));
+    fact("judged up to", say("{}: the robot gets no farther", study.motion.where_exactly(got.gets_to)));
   add_verdict(result, judge, study.motion, instants.back().time,
               instants.size() == samples.size() && judged == Status::done);
   if (!d.motors_known) fact("limits of the drives", "none are known: speeds and forces are not judged");

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double right = pi / 2;
 
-std::string degrees(double radians) { return fmt::format("{:.4g}°", math::degrees(radians)); }
-using study::millimetres;
+/// In it people give resolutions.
+constexpr Unit milliradian{"mrad", 1, 1e3};
 
 /// Base, arms, coupler and diagonal over the angle.
 study::Scene scene_of(const PiJoint& joint, std::span<const double> angles) {
@@ -143,7 +143,7 @@ void add_calibration(study::Result& result, const PiAnalysis& s) {
   table.add("coupler_N_per_m", "stiffness of the coupler (N/m)", coupler);
   table.add("error_percent", "relative error of the compliance, rms (%)", error);
   table.add("condition", "growth of relative errors", condition);
-  fact("diagonal that fits the measurements", fmt::format("{:.4g} N/m, rms {:.2g} %", diagonal[0], error[0]));
+  fact("diagonal that fits the measurements", say("{}, rms {}", measured("N_per_m", diagonal[0]), percent(error[0] / 100, 2)));
   result.tables.push_back(std::move(table));
 }
 
@@ -232,10 +232,6 @@ std::optional<PiAnalysis> read_analysis(study::ObjectReader& document, const stu
   return s;
 }
 
-std::string limit_text(const PiActiveLimit& active) {
-  return fmt::format("{} (price {:.3g})", name_of(active.limit), active.price);
-}
-
 }  // namespace
 
 PiRequirements requirements_of(const PiLimitsForm& form) {
@@ -266,12 +262,12 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
                                   0.5 * (s.angles.back() - s.angles.front()));
   fact("base and coupler", millimetres(base_length(s.joint)));
   fact("diagonal",
-       fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+       say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
   fact("stroke", millimetres(range.stroke()));
-  fact("longest to shortest diagonal", fmt::format("{:.4f}", range.telescoping()));
-  fact("least angle between diagonal and arm", degrees(range.least_transmission));
+  fact("longest to shortest diagonal", plain_number(range.telescoping()).fixed(4));
+  fact("least angle between diagonal and arm", degrees_of(range.least_transmission));
   const double half = 0.5 * (s.angles.back() - s.angles.front());
-  fact("best centre for this travel", degrees(best_centre(s.joint, half)));
+  fact("best centre for this travel", degrees_of(best_centre(s.joint, half)));
   const auto least = [&](auto&& value) {
     double out = value(points.front());
     for (const PiCurvePoint& p : points) out = std::min(out, value(p));
@@ -279,25 +275,25 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
   };
   if (s.equipment.drive) {
     fact("least torque at the output",
-         fmt::format("{:.4g} N m", least([](const PiCurvePoint& p) { return p.output.torque; })));
+         newton_metres(least([](const PiCurvePoint& p) { return p.output.torque; })));
     fact("least top speed",
-         fmt::format("{:.4g} rad/s", least([](const PiCurvePoint& p) { return p.output.speed; })));
-    fact(
-        "coarsest resolution",
-        fmt::format("{:.4g} mrad", -1e3 * least([](const PiCurvePoint& p) { return -p.output.resolution; })));
+         measured("rad_per_s", least([](const PiCurvePoint& p) { return p.output.speed; })));
+    fact("coarsest resolution",
+         measured(milliradian, -least([](const PiCurvePoint& p) { return -p.output.resolution; })));
     fact("screw", self_locking(s.equipment.drive->screw) ? "self-locking" : "can be driven back by the load");
   }
   if (s.equipment.bars)
     fact("minimum stiffness",
-         fmt::format("{:.4g} N m/rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
+         measured("N_m_per_rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
   for (const PiSingularPosition& p : singular_positions(s.joint))
     fact("singular",
-         fmt::format("{} at {}, diagonal {}", name_of(p.kind), degrees(p.angle), millimetres(p.diagonal)));
+         say("{} at {}, diagonal {}", name_of(p.kind), at_place("angle", degrees_of(p.angle)),
+             millimetres(p.diagonal)));
   if (s.calibration) add_calibration(result, s);
   result.scenes.push_back(scene_of(s.joint, s.angles));
-  result.headline = fmt::format("Pi-joint of {} with k = {:.4g}: the diagonal runs {} over {} to {}.",
-                                millimetres(s.joint.arm), s.joint.ratio, millimetres(range.stroke()),
-                                degrees(s.angles.front()), degrees(s.angles.back()));
+  result.headline = say("Pi-joint of {} with k = {}: the diagonal runs {} over {} to {}.",
+                        millimetres(s.joint.arm), plain_number(s.joint.ratio), millimetres(range.stroke()),
+                        degrees_of(s.angles.front()), degrees_of(s.angles.back()));
   return result;
 }
 
@@ -307,7 +303,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   const PiDesignReport report =
       design_pi_joint(r, {}, {.seed = static_cast<std::uint64_t>(seeds.first)}, context);
   result.status = report.status;
-  for (const PiConflict& conflict : report.closed_form.conflicts) fact("conflict", to_string(conflict));
+  for (const PiConflict& conflict : report.closed_form.conflicts) fact("conflict", to_sentence(conflict));
   const PiDesign& best = report.best;
   const PiRangeValues range = range_values(best.joint, best.centre, r.half_travel);
   study::Solution solution{.label = "smallest Pi-joint"};
@@ -363,17 +359,18 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   limits.add("price", "relative size saved per relative relaxation", price);
   result.tables.push_back(std::move(limits));
 
-  fact("arm, base", fmt::format("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
+  fact("arm, base", say("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
   fact("range of the angle",
-       fmt::format("{} to {}", degrees(best.centre - r.half_travel), degrees(best.centre + r.half_travel)));
+       say("{} to {}", degrees_of(best.centre - r.half_travel), degrees_of(best.centre + r.half_travel)));
   fact("diagonal",
-       fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
-  for (const PiActiveLimit& active : report.active) fact("held back by", limit_text(active));
+       say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  for (const PiActiveLimit& active : report.active) 
+    fact("held back by", say("{} (price {})", name_of(active.limit), plain_number(active.price, 3)));
   fact("closed form", report.closed_form.design
-                          ? fmt::format("{}{}", millimetres(report.closed_form.design->size),
-                                        report.closed_form_is_best ? ", the best there is" : "")
+                          ? say("{}{}", millimetres(report.closed_form.design->size),
+                                report.closed_form_is_best ? ", the best there is" : "")
                           : "none: requirements are in conflict");
-  fact("local searches that reached it", fmt::format("{} of {}", report.reached_best, report.starts));
+  fact("local searches that reached it", say("{} of {}", report.reached_best, report.starts));
   result.statistics["evaluations"] = static_cast<std::int64_t>(report.evaluations);
   result.statistics["starts"] = static_cast<std::int64_t>(report.starts);
   result.statistics["reached_best"] = static_cast<std::int64_t>(report.reached_best);
@@ -387,13 +384,12 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   result.scenes.push_back(scene_of(best.joint, angles));
   result.headline =
       report.status == Status::done
-          ? fmt::format("Smallest Pi-joint: arm {}, k = {:.4f}, centre {} (a + b = {}).",
-                        millimetres(best.joint.arm), best.joint.ratio, degrees(best.centre),
-                        millimetres(best.size))
+          ? say("Smallest Pi-joint: arm {}, k = {}, centre {} (a + b = {}).", millimetres(best.joint.arm),
+                plain_number(best.joint.ratio).fixed(4), degrees_of(best.centre), millimetres(best.size))
       : report.status == Status::infeasible
-          ? fmt::format("No Pi-joint meets all requirements; the nearest misses one by {:.3g} %.",
-                        100 * best.violation)
-          : fmt::format("Interrupted: best so far a + b = {}.", millimetres(best.size));
+          ? say("No Pi-joint meets all requirements; the nearest misses one by {}.",
+                percent(best.violation, 3))
+          : say("Interrupted: best so far a + b = {}.", millimetres(best.size));
   return result;
 }
 

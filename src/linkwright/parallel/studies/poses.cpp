@@ -185,7 +185,7 @@ Table assembly_table(study::Result& result, const RobotDescription& d, const Pos
       row.next();
     }
     result.facts.push_back(
-        {fmt::format("{}: poses with its arm angles", form.poses[i].name), fmt::format("{}", found.size())});
+        {fmt::format("{}: poses with its arm angles", form.poses[i].name), say("{}", found.size())});
     if (!note.empty()) study::AddWarning{result.diagnostics}("modes", form.poses[i].name + ": " + note, {});
   }
   return table;
@@ -312,11 +312,11 @@ void find_way(const RobotDescription& d, const AskedPose& asked, const Pose& hom
   const auto trouble = first_trouble(*task, home, out.pose);
   out.joined = !trouble;
   out.way =
-      trouble ? fmt::format(
-                    "same signs as home, but the straight path is blocked at {:.4g} % of it ({}): not shown "
-                    "to be joined",
-                    100 * trouble->begin, name_of(trouble->kind))
-              : std::string("joined to home: the straight path is free");
+      trouble ? say(
+                    "same signs as home, but the straight path is blocked at {} of it ({}): not shown to be "
+                    "joined",
+                    at_place("path", percent(trouble->begin)), name_of(trouble->kind))
+              : "joined to home: the straight path is free";
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
     out.pose = {vec(*asked.position), math::turn_about(vec(asked.rotation.value_or(Coordinates{})))};
     out.angles = inverse(d.robot, out.pose, d.mode);
     out.status = out.angles.status;
-    out.reason = reason(out.angles);
+    out.reason = to_string(reason(out.angles));
   } else {
     std::copy(asked.arm_angles->begin(), asked.arm_angles->end(), out.angles.angle.begin());
     place_arms(d, home, out);
@@ -345,7 +345,7 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
     if (s == Singularity::constraint) out.reason += ": " + free_turn(d.robot, at);
   } else if (out.joined < 0) {
     out.status = Status::branch_lost;
-    out.reason = out.way;
+    out.reason = to_string(out.way);
   } else if (drives.status != Status::done) {
     out.status = Status::limit_reached;
     const double angle = math::degrees(drives.drive[drives.leg].angle);
@@ -379,9 +379,9 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
   }
   result.tables.push_back(poses_table(d, form, solved));
   if (result.headline.empty())
-    result.headline = fmt::format("{} of {} poses are usable.", good, form.poses.size());
+    result.headline = say("{} of {} poses are usable.", good, form.poses.size());
   result.facts.push_back(
-      {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
+      {"poses reached", say("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (form.modes && form.modes->working) result.tables.push_back(working_table(d, form, solved));
   if (form.modes && form.modes->assembly)

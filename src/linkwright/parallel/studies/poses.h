@@ -69,7 +69,7 @@ struct SolvedPose {
   /// once) is free of singularities; 0: it is not, and whether another leads there is not shown; -1: none
   /// does, the marks of regular_ball.h differ.
   int joined = 0;
-  std::string way;  ///< the same in words
+  Sentence way;  ///< the same in words
 };
 /// Arm angles of the pose, or the pose of the arm angles: of robots that turn the one to which the arms can
 /// be led from `home`, of others that of the assembly that `home` has. A pose of another assembly than home's

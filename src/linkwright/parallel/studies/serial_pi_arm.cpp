@@ -84,11 +84,12 @@ void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& c
   }
   const double mean = passing > 0 ? sum / static_cast<double>(passing) : 0;
   result.tables.push_back(totals_table(map));
-  result.facts.push_back(
-      {"workspace", fmt::format("{:.4g} m2 ({} of {} nodes)", area, passing, map.place.size())});
-  result.facts.push_back({"reach of the arms alone", fmt::format("{:.4g} m2", reach)});
+  const Measured shown_area = measured("m2", area).spelled();
+  result.facts.push_back({"workspace", say("{} ({} of {} nodes)", shown_area, passing, map.place.size())});
+  result.facts.push_back({"reach of the arms alone", measured("m2", reach).spelled()});
   if (passing > 0)
-    result.facts.push_back({"global conditioning index", fmt::format("{:.4f} (least {:.4f})", mean, least)});
+    result.facts.push_back({"global conditioning index", say("{} (least {})", plain_number(mean).fixed(4),
+                                                             plain_number(least).fixed(4))});
   result.tables.push_back(node_table(map, s.workspace->indices));
   for (const SerialIndex index : s.workspace->indices)
     result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),
@@ -98,7 +99,7 @@ void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& c
                             .y = {"y_m", key_of(index)},
                             .style = study::Plot::Style::map});
   if (result.headline.empty())
-    result.headline = fmt::format("Workspace {:.4g} m2, mean conditioning {:.3f}.", area, mean);
+    result.headline = say("Workspace {}, mean conditioning {}.", shown_area, plain_number(mean).fixed(3));
 }
 
 std::optional<SerialDescription> read_arm(study::ObjectReader& document, Value& canonical) {
@@ -187,7 +188,7 @@ std::optional<Pose> read_home(study::ObjectReader& document, const SerialDescrip
   if (document.document().has_errors()) return std::nullopt;
   const SerialAngles angles = inverse(d.arm, {form.position[0], form.position[1]}, d.mode);
   if (angles.status != Status::done) {
-    table->error("position", fmt::format("the arm does not reach its home: {}", reason(angles)));
+    table->error("position", fmt::format("the arm does not reach its home: {}", to_string(reason(angles))));
     return std::nullopt;
   }
   canonical["home"] = home_written(form, false);
@@ -247,14 +248,13 @@ std::optional<SerialWorkspaceForm> read_workspace(study::ObjectReader& document,
 
 }  // namespace
 
-std::string reason(const SerialAngles& angles) {
+Sentence reason(const SerialAngles& angles) {
   if (angles.status == Status::done) return {};
   if (angles.status == Status::singular)
     return "the tool is over the pivot of arms of equal length, whose first angle is open";
-  const double size = 1e3 * std::abs(angles.shortfall);
-  return angles.shortfall >= 0
-             ? fmt::format("the arms are {:.4g} mm too short", size)
-             : fmt::format("the place is {:.4g} mm too near for arms that differ so in length", size);
+  const Measured size = millimetres(std::abs(angles.shortfall));
+  return angles.shortfall >= 0 ? say("the arms are {} too short", size)
+                               : say("the place is {} too near for arms that differ so in length", size);
 }
 
 SerialConditions conditions_of(const SerialDescription& d, const SerialLimits& limits) {

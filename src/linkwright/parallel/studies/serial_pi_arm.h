@@ -148,7 +148,7 @@ std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document
 study::Result run_serial_analysis(const SerialAnalysis& study, RunContext& context);
 
 /// Why angles are none: "the arms are 12 mm too short"; empty when they are done.
-std::string reason(const SerialAngles& angles);
+Sentence reason(const SerialAngles& angles);
 SerialConditions conditions_of(const SerialDescription& description, const SerialLimits& limits);
 
 }  // namespace linkwright::parallel

@@ -103,8 +103,8 @@ double judge_way(PathJudge& judge, const SerialAnalysis& s) {
         beyond = std::min(breaks[k + 1], beyond + step);
       const bool leaves = margin(beyond) < -shortest || margin(middle) < -shortest;
       if (margin(from) > 0 && margin(beyond) < 0) begin = math::zero_between(margin, from, beyond);
-      std::string text = fmt::format("{}: the arms are in line: the tool cannot move along them",
-                                     motion.where_exactly(begin));
+      Sentence text =
+          say("{}: the arms are in line: the tool cannot move along them", motion.where_exactly(begin));
       SerialAngles worst;
       double worst_time = begin;
       constexpr int steps = 32;
@@ -118,7 +118,7 @@ double judge_way(PathJudge& judge, const SerialAnalysis& s) {
           worst_time = t;
         }
       if (worst.status != Status::done)
-        text += fmt::format("; at worst {} ({})", reason(worst), motion.where(worst_time));
+        text += say("; at worst {} ({})", reason(worst), motion.where(worst_time));
       judge.fail(Severity::impossible, begin,
                  leaves || worst.status != Status::done ? Status::no_assembly : Status::singular, text);
       return begin;
@@ -192,12 +192,12 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   plot("conditioning", "Conditioning", {"local_conditioning"});
 
   const study::AddFact fact{result.facts};
-  fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
+  fact("duration of the path", seconds(study.motion.duration()));
   if (const auto* p = judge.peak(Asked::conditioning))
     fact("minimum local conditioning index",
-         fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
+         say("{} ({})", plain_number(p->demand.value).fixed(3), study.motion.where(p->time)));
   if (gets_to < study.motion.duration())
-    fact("judged up to", fmt::format("{}: the arm gets no farther", study.motion.where_exactly(gets_to)));
+    fact("judged up to", say("{}: the arm gets no farther", study.motion.where_exactly(gets_to)));
   add_verdict(result, judge, study.motion, instants.back().time,
               instants.size() == samples.size() && judged == Status::done);
   if (!d.motors_known) fact("limits of the drives", "none are known: speeds and forces are not judged");

@@ -31,7 +31,7 @@ SolvedArm solve(const SerialDescription& d, const AskedPose& asked) {
     const SerialAngles found = inverse(d.arm, out.point, d.mode);
     out.angle = found.angle;
     out.status = found.status;
-    out.reason = reason(found);
+    out.reason = to_string(reason(found));
     if (out.status != Status::done) return out;
   } else {
     out.angle = {(*asked.arm_angles)[0], (*asked.arm_angles)[1]};
@@ -155,8 +155,8 @@ void add_serial_poses(study::Result& result, const SerialAnalysis& s) {
   }
   result.tables.push_back(std::move(table));
   if (result.headline.empty())
-    result.headline = fmt::format("{} of {} poses are usable.", good, s.poses.size());
-  result.facts.push_back({"poses reached", fmt::format("{} of {}", good, s.poses.size()),
+    result.headline = say("{} of {} poses are usable.", good, s.poses.size());
+  result.facts.push_back({"poses reached", say("{} of {}", good, s.poses.size()),
                           good == s.poses.size() ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (s.modes && s.modes->working) result.tables.push_back(working_table(s.description, s.poses, solved));
   result.scenes.push_back(

@@ -152,15 +152,25 @@ Table boundary_table(const WorkspaceTask& task, const std::vector<double>& heigh
   return table;
 }
 
-std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
-  const auto mm = [](double metres) { return fmt::format("{:g}", std::round(1e5 * metres) / 100 + 0.0); };
-  const std::string at = fmt::format("at {}, {}{} mm", mm(body.centre.x), mm(body.centre.y),
-                                     planar ? "" : fmt::format(", {}", mm(body.centre.z)));
-  if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm, {}", mm(2 * body.half.x), at);
+Sentence body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
+  // Hundredths of a millimetre.
+  const auto mm = [](double metres) { return millimetres(std::round(1e5 * metres) / 1e5, 6); };
+  const auto along = [&](const char* separator, const Measured& x, const Measured& y, const Measured& z) {
+    return planar ? say("{}{}{}", x.sharing_unit(), separator, y)
+                  : say("{}{}{}{}{}", x.sharing_unit(), separator, y.sharing_unit(), separator, z);
+  };
+  const Vec3 &c = body.centre, &half = body.half;
+  const Sentence at = along(", ", at_place("x", mm(c.x)), at_place("y", mm(c.y)), at_place("z", mm(c.z)));
+  if (f.shape == InscribedShape::ball) return say("diameter {}, at {}", mm(2 * half.x), at);
   if (f.shape == InscribedShape::cylinder)
-    return fmt::format("diameter {} mm, height {} mm, {}", mm(2 * body.half.x), mm(2 * body.half.z), at);
-  return fmt::format("{} x {}{} mm, {}", mm(2 * body.half.x), mm(2 * body.half.y),
-                     planar ? "" : fmt::format(" x {}", mm(2 * body.half.z)), at);
+    return say("diameter {}, height {}, at {}", mm(2 * half.x), mm(2 * half.z), at);
+  return say("{}, at {}", along(" x ", mm(2 * half.x), mm(2 * half.y), mm(2 * half.z)), at);
+}
+
+/// Of a workspace.
+Measured area_or_volume(double value, bool planar) {
+  static constexpr Unit cubic_metre{"m3"};
+  return (planar ? measured("m2", value) : measured(cubic_metre, value)).spelled();
 }
 
 }  // namespace
@@ -286,26 +296,25 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   const int axes = planar ? 2 : 3;
   result.tables.push_back(totals_table(sums, all.count, all.cell, axes));
   const study::AddFact fact{result.facts};
-  fact("workspace", fmt::format("{:.4g} {} ({} of {} nodes)", sums.measure, planar ? "m2" : "m3",
-                                sums.passing, all.count));
+  fact("workspace", say("{} ({} of {} nodes)", area_or_volume(sums.measure, planar), sums.passing, all.count));
   const IndexSummary lci = sums.index[slot(PoseIndex::conditioning)];
   if (lci.count > 0)
-    fact("global conditioning index", fmt::format("{:.4f} (least {:.4f})", lci.mean, lci.least));
+    fact("global conditioning index", say("{} (least {})", plain_number(lci.mean).fixed(4), plain_number(lci.least).fixed(4)));
 
-  if (planar) fact("area within reach of the legs", fmt::format("{:.6g} m2", reachable_area(d.robot)));
+  if (planar) fact("area within reach of the legs", measured("m2", reachable_area(d.robot), 6).spelled());
   if (f.aspects && s.large)
     fact("joined to home without a singularity",
-         fmt::format("not looked at: {:.3g} nodes are more than {:.3g}", static_cast<double>(all.count),
-                     most_in_memory));
+         say("not looked at: {} nodes are more than {}", plain_number(static_cast<double>(all.count), 3),
+             plain_number(most_in_memory, 3)));
   if (f.aspects && !s.large && sums.passing > 0) {
     const WorkspaceAspects aspects = workspace_aspects(
         map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
         context);
     if (aspects.status == Status::done)
       fact("joined to home without a singularity",
-           aspects.home < 0 ? std::string("none: home does not pass")
-                            : fmt::format("{} of {} nodes, {} aspect{}", aspects.reachable(), aspects.all(),
-                                          aspects.size.size(), aspects.size.size() == 1 ? "" : "s"));
+           aspects.home < 0 ? Sentence("none: home does not pass")
+                            : say("{} of {} nodes, {} aspect{}", aspects.reachable(), aspects.all(),
+                                  aspects.size.size(), aspects.size.size() == 1 ? "" : "s"));
   }
   if (f.inscribed) {
     InscribedTask inner{
@@ -316,18 +325,18 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     const Inscribed body = inscribed(map, passing(map), inner, context);
     if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
     fact(fmt::format("largest {}", name_of(f.inscribed->shape)),
-         body.status == Status::infeasible ? std::string("none fits")
+         body.status == Status::infeasible ? "none fits"
          : body.half.x == 0
-             ? std::string("not found before the run ended")
+             ? "not found before the run ended"
              : body_text(body, *f.inscribed, planar) + (body.proven ? ", proven free of singularities" : ""));
   }
   if (d.tool_turns()) {
     const RotationRange range =
         rotation_range(task.conditions, home, 72, {.longest = pi, .step = 0.02, .tolerance = 1e-6}, context);
     if (range.status == Status::done) {
-      fact("tilt at home, about any horizontal axis", fmt::format("{:.2f}°", math::degrees(range.tilt)));
+      fact("tilt at home, about any horizontal axis", degrees_of(range.tilt).fixed(2));
       fact("yaw at home",
-           fmt::format("{:.2f}° to {:.2f}°", math::degrees(range.least_yaw), math::degrees(range.most_yaw)));
+           say("{} to {}", degrees_of(range.least_yaw).fixed(2), degrees_of(range.most_yaw).fixed(2)));
     }
   }
   std::vector<std::size_t> reached;
@@ -338,7 +347,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   if (f.nodes && rows <= most_rows && !s.large)
     result.tables.push_back(node_table({{&map, reached}}, s, planar, "workspace"));
   if (f.nodes && rows > most_rows)
-    fact("table of nodes", fmt::format("left out: {} nodes are more than {}", rows, most_rows));
+    fact("table of nodes", say("left out: {} nodes are more than {}", rows, most_rows));
   const auto levels = all.nodes[2] > 1 ? levels_of(all.passing, f.slices)
                                        : std::vector<std::size_t>(sums.passing > 0 ? 1 : 0);
   std::vector<double> heights;
@@ -363,8 +372,8 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
                             .style = study::Plot::Style::map,
                             .group = planar ? "" : "z_m"});
   if (result.headline.empty())
-    result.headline = fmt::format("Workspace {:.4g} {}, mean conditioning {:.3f}.", sums.measure,
-                                  planar ? "m2" : "m3", lci.count > 0 ? lci.mean : 0.0);
+    result.headline = say("Workspace {}, mean conditioning {}.", area_or_volume(sums.measure, planar),
+                          plain_number(lci.count > 0 ? lci.mean : 0).fixed(3));
 }
 
 }  // namespace linkwright::parallel

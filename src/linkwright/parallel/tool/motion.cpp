@@ -235,8 +235,8 @@ int ToolMotion::piece_at(double t) const {
   return piece_at(run, std::clamp(progress(run, time).length, 0.0, run.length)).step;
 }
 
-std::string ToolMotion::where(double t) const {
-  return fmt::format("{} at {:.6g} s", names_[piece_at(t)], t);
+Sentence ToolMotion::where(double t) const {
+  return say("{} at {}", names_[piece_at(t)], at_place("time", seconds(t, 6)));
 }
 
 double ToolMotion::length_at(const Run& run, double t) const {
@@ -258,9 +258,9 @@ std::optional<double> ToolMotion::share_at(double t) const {
   return (length - first) / (last - first);
 }
 
-std::string ToolMotion::where_exactly(double t) const {
+Sentence ToolMotion::where_exactly(double t) const {
   const auto share = share_at(t);
-  return where(t) + (share ? fmt::format(", {:.4g} % of its path", 100 * *share) : "");
+  return where(t) + (share ? say(", {} of its path", at_place("path", percent(*share))) : Sentence());
 }
 
 std::vector<double> ToolMotion::breaks() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/math/spline.h"
 #include "linkwright/parallel/robot/regular_ball.h"
 #include "linkwright/parallel/robot/robot.h"
@@ -45,12 +46,12 @@ class ToolMotion {
   /// Index of the step that is being done; a rounded corner belongs to the step before it.
   int piece_at(double t) const;
   /// "step 3 (arc) at 0.412 s"
-  std::string where(double t) const;
+  Sentence where(double t) const;
 
   /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
   std::optional<double> share_at(double t) const;
   /// "step 3 (arc) at 0.412 s, 63.51 % of its path"
-  std::string where_exactly(double t) const;
+  Sentence where_exactly(double t) const;
 
   /// Times between which the path and its law are smooth, from 0 to the duration, increasing.
   std::vector<double> breaks() const;
