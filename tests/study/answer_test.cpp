@@ -68,18 +68,5 @@ TEST(Answer, PrefersTheTroublesThatTheStudyNames) {
   EXPECT_EQ(answer.worst->share, 1.96);
 }
 
-TEST(Answer, ReadsFactsThatAreNumbers) {
-  const auto value = [](const char* text) { return value_of({"", text}); };
-  EXPECT_EQ(value("25.4 deg")->value, 25.4);
-  EXPECT_EQ(value("25.4 deg")->unit, "deg");
-  EXPECT_EQ(value("1e-3 N m")->unit, "N m");
-  EXPECT_EQ(value("12 %")->unit, "%");
-  EXPECT_EQ(value("12")->unit, "");
-  EXPECT_FALSE(value("12 of 20 seeds"));
-  EXPECT_FALSE(value("30 deg over the path"));
-  EXPECT_FALSE(value("none"));
-  EXPECT_FALSE(value("nan m"));
-}
-
 }  // namespace
 }  // namespace linkwright::study

@@ -13,15 +13,17 @@ TEST(Remarks, GoToTheResult) {
   fact("energy balance", "1e-3", Fact::Verdict::bad);
   warn("the linkage is near a dead point");
   warn("drive", "is weak", "take a stronger one");
+  warn(say("the gap is {}", linkwright::millimetres(0.0125)));
   ASSERT_EQ(result.facts.size(), 2u);
   EXPECT_EQ(result.facts[0].label, "circuits");
   EXPECT_EQ(result.facts[0].verdict, Fact::Verdict::plain);
   EXPECT_EQ(result.facts[1].verdict, Fact::Verdict::bad);
-  ASSERT_EQ(result.diagnostics.size(), 2u);
+  ASSERT_EQ(result.diagnostics.size(), 3u);
   EXPECT_EQ(to_string(result.diagnostics[0]), "warning: the linkage is near a dead point");
   EXPECT_EQ(result.diagnostics[1].severity, Diagnostic::Severity::warning);
   EXPECT_EQ(result.diagnostics[1].key, "drive");
   EXPECT_EQ(result.diagnostics[1].hint, "take a stronger one");
+  EXPECT_EQ(result.diagnostics[2].message, "the gap is 12.5 mm");
 }
 
 TEST(Remarks, DiagramsShowTheColumnsThatTheirTableHas) {
@@ -52,16 +54,21 @@ TEST(Remarks, LengthsHaveTheUnitOfTheirSize) {
   EXPECT_EQ(metres(0.0125), "12.5 mm");
   EXPECT_EQ(metres(3.14e-6), "3.14 µm");
   EXPECT_EQ(millimetres(-1.5), "-1500 mm");
-  EXPECT_EQ(angle_or_length(0.0123456, false, 3), "12.3 mm");
-  EXPECT_EQ(angle_or_length(0.5, true, 4), "28.65°");
+  EXPECT_EQ(to_string(angle_or_length(0.0123456, false, 3)), "12.3 mm");
+  EXPECT_EQ(to_string(angle_or_length(0.5, true, 4)), "28.65°");
+}
+
+TEST(Remarks, DrivesGiveTorquesOrForces) {
+  EXPECT_EQ(to_string(torque_or_force(5.5671, true, 4)), "5.567 N m");
+  EXPECT_EQ(to_string(torque_or_force(-12.5, false, 4)), "-12.5 N");
 }
 
 TEST(Remarks, EnergiesBalanceOrDoNot) {
   const EnergyBalance good{1e-6, 20}, poor{0.003, 20};
   EXPECT_FALSE(good.poor());
   EXPECT_TRUE(poor.poor());
-  EXPECT_EQ(poor.text(), "within 0.003 J (0.00015 of the peak energy 20 J)");
-  EXPECT_EQ(EnergyBalance{}.text(), "within 0 J (0 of the peak energy 0 J)");
+  EXPECT_EQ(to_string(poor.text()), "within 0.003 J (0.00015 of the peak energy 20 J)");
+  EXPECT_EQ(to_string(EnergyBalance{}.text()), "within 0 J (0 of the peak energy 0 J)");
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ namespace linkwright::test {
 
 /// Everything that a result says, doubles by their bits.
 inline std::string all_of(const study::Result& r) {
-  std::string out = std::string(to_string(r.status)) + "\n" + r.headline + "\n";
+  std::string out = std::string(to_string(r.status)) + "\n" + to_string(r.headline) + "\n";
   const auto number = [&](double v) { out += pack_numbers({&v, 1}).as_string() + " "; };
-  for (const study::Fact& f : r.facts) out += f.label + ": " + f.text + "\n";
+  for (const study::Fact& f : r.facts) out += f.label + ": " + to_string(f.text) + "\n";
   for (const study::Solution& s : r.solutions) {
     out += s.label + "\n";
     for (const study::Parameter& p : s.parameters) out += p.key + " ", number(p.value);
@@ -53,7 +53,7 @@ inline void expect_resumed_alike(std::span<const study::Kind> kinds, const std::
   const study::Result whole = run(kept);
   const std::string said = all_of(whole);
   for (int seed = 1; seed <= seeds; ++seed)
-    ASSERT_TRUE(kept.entries.contains("seed " + std::to_string(seed))) << whole.headline;
+    ASSERT_TRUE(kept.entries.contains("seed " + std::to_string(seed))) << to_string(whole.headline);
   const auto compare = [&](const study::Result& again) {
     EXPECT_EQ(all_of(again), said);
     EXPECT_EQ(again.statistics, whole.statistics);

@@ -51,7 +51,7 @@ inline study::Result run_text(std::span<const study::Kind> kinds, const std::str
 /// Text of a fact; "no fact" when there is none of this label.
 inline std::string fact(const study::Result& result, std::string_view label) {
   for (const study::Fact& f : result.facts)
-    if (f.label == label) return f.text;
+    if (f.label == label) return to_string(f.text);
   return "no fact";
 }
 

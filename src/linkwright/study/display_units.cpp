@@ -114,10 +114,9 @@ const Unit& DisplayUnits::of(Dimension dimension) const {
   return found == chosen_.end() ? units(dimension).front() : *found->second;
 }
 
-std::string DisplayUnits::text(double si, Dimension dimension, int digits) const {
-  if (dimension == Dimension::none) return fmt::format("{:.{}g}", si, digits);
-  const Unit& unit = of(dimension);
-  return fmt::format("{:.{}g} {}", unit.from_si(si), digits, readable_unit(unit.suffix));
+Measured DisplayUnits::measured(double si, Dimension dimension, int digits) const {
+  if (dimension == Dimension::none) return plain_number(si, digits);
+  return linkwright::measured(of(dimension).suffix, si, digits).spelled();
 }
 
 DisplayUnits::Key DisplayUnits::key(std::string_view key) const {

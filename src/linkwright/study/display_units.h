@@ -27,8 +27,11 @@ class DisplayUnits {
 
   /// The unit of a dimension that has one.
   const Unit& of(Dimension dimension) const;
-  /// "3.1 mm" for 0.0031: four significant digits unless given otherwise.
-  std::string text(double si, Dimension dimension, int digits = 4) const;
+  /// 0.0031 m as "3.1 mm".
+  Measured measured(double si, Dimension dimension, int digits = 4) const;
+  std::string text(double si, Dimension dimension, int digits = 4) const {
+    return to_string(measured(si, dimension, digits));
+  }
 
   /// A key and the factor that its numbers take: ("crank_m") -> ("crank_mm", 1000). Unchanged, with factor 1,
   /// when the key has no unit.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
-#include "linkwright/math/angles.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/study/result.h"
 
 // How a study that reports says what it found: `const AddFact fact{result.facts};`, then fact("circuits",
@@ -25,12 +25,10 @@ struct AddFact {
 /// Adds warnings to the diagnostics of a result; `key` is that of the study which they are about.
 struct AddWarning {
   Diagnostics& diagnostics;
-  void operator()(std::string message, std::string hint = {}) const {
-    (*this)({}, std::move(message), std::move(hint));
-  }
-  void operator()(std::string key, std::string message, std::string hint) const {
+  void operator()(const Sentence& message, const Sentence& hint = {}) const { (*this)({}, message, hint); }
+  void operator()(std::string key, const Sentence& message, const Sentence& hint) const {
     diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, std::move(key), std::move(message), std::move(hint)});
+        {Diagnostic::Severity::warning, {}, {}, std::move(key), to_string(message), to_string(hint)});
   }
 };
 
@@ -63,9 +61,12 @@ inline std::string metres(double value) {
 inline std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
 /// An angle or a length, as those of a joint: "45°", "12.5 mm".
-inline std::string angle_or_length(double value, bool is_angle, int digits) {
-  return is_angle ? fmt::format("{:.{}g}°", math::degrees(value), digits)
-                  : fmt::format("{:.{}g} mm", 1e3 * value, digits);
+inline Measured angle_or_length(double value, bool is_angle, int digits) {
+  return is_angle ? degrees_of(value, digits) : linkwright::millimetres(value, digits);
+}
+/// A torque or a force, as those of a drive: "5.567 N m", "12.5 N".
+inline Measured torque_or_force(double value, bool is_torque, int digits) {
+  return is_torque ? newton_metres(value, digits) : newtons(value, digits);
 }
 
 /// How far the energies of a simulation are from their balance.
@@ -76,8 +77,9 @@ struct EnergyBalance {
   double share() const { return peak > 0 ? drift / peak : 0; }
   /// Whether the answer is not to be trusted.
   bool poor() const { return share() > 1e-5; }
-  std::string text() const {
-    return fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)", drift, share(), peak);
+  Sentence text() const {
+    return say("within {} ({} of the peak energy {})", measured("J", drift, 2), plain_number(share(), 2),
+               measured("J", peak));
   }
 };
 

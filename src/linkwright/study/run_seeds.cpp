@@ -95,9 +95,9 @@ void write_statistics(Value& out, const optimise::SeedStatistics& st, double sig
   out["median_evaluations"] = st.median_evaluations;
 }
 
-std::string successful_seeds(const Result& result, std::size_t ran) {
+Sentence successful_seeds(const Result& result, std::size_t ran) {
   const double share = result.statistics.find("success_rate")->as_number();
-  return fmt::format("{:.0f} of {}", share * static_cast<double>(ran), ran);
+  return say("{} of {}", count_of(share * static_cast<double>(ran)), ran);
 }
 
 void add_seed_facts(Result& result, std::string label, std::size_t ran, bool judged) {
@@ -105,7 +105,7 @@ void add_seed_facts(Result& result, std::string label, std::size_t ran, bool jud
   const bool good = judged && result.statistics.find("success_rate")->as_number() > 0.9;
   const AddFact fact{result.facts};
   fact(std::move(label), successful_seeds(result, ran), good ? Verdict::good : Verdict::plain);
-  fact("evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer()));
+  fact("evaluations", say("{}", result.statistics.find("evaluations")->as_integer()));
 }
 
 void warn_of_missing_seeds(Result& result, std::size_t ran, const Seeds& asked) {

@@ -102,7 +102,7 @@ void write_history(Value& entry, std::vector<Point> points, std::int64_t evaluat
 void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign = 1);
 
 /// "7 of 10": how many of the seeds that ran succeeded by the statistics of a result.
-std::string successful_seeds(const Result& result, std::size_t ran);
+Sentence successful_seeds(const Result& result, std::size_t ran);
 /// Adds how many seeds succeeded and what all of them evaluated; `judged`: it is good when nearly all did.
 void add_seed_facts(Result& result, std::string label, std::size_t ran, bool judged = true);
 /// Warns when not all of the seeds that were asked for ran.

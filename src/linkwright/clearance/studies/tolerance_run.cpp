@@ -128,7 +128,7 @@ std::string shown(Kind kind, double value) {
     case Kind::point:
     case Kind::displacement:
     case Kind::angle:
-      return study::angle_or_length(value, kind == Kind::angle, 3);
+      return to_string(study::angle_or_length(value, kind == Kind::angle, 3));
     case Kind::force:
     case Kind::torque:
       return fmt::format("{:.3g} {}", value, unit_label(kind));
@@ -174,7 +174,7 @@ std::string tolerance_place(const ToleranceStudy& s, const ToleranceRecording& r
   for (std::size_t k = 0; k < s.motion.plan.inputs(); ++k) {
     const double value = r.rows.inputs[sample][k].value;
     out += k ? ", " : "";
-    out += study::angle_or_length(value, s.motion.plan.rotary[k], 4);
+    out += to_string(study::angle_or_length(value, s.motion.plan.rotary[k], 4));
   }
   return out;
 }
