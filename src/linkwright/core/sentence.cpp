@@ -43,9 +43,8 @@ std::string Measured::symbol() const {
 std::string Measured::unit_words() const { return unit ? readable_unit(unit->suffix) : std::string(); }
 
 std::string Measured::place_key() const {
-  std::string key(place);
-  if (!unit) return key;
-  return key.append("_").append(unit == &percent_unit ? "percent" : unit->suffix);
+  if (!unit) return place;
+  return place + "_" + std::string(unit == &percent_unit ? "percent" : unit->suffix);
 }
 
 Measured Measured::fixed(int decimals) const {
@@ -92,8 +91,8 @@ Measured measured(const Unit& unit, double si, int digits) {
   return {.si = si, .unit = &unit, .digits = digits};
 }
 
-Measured at_place(std::string_view axis, Measured value) {
-  value.place = axis;
+Measured at_place(std::string axis, Measured value) {
+  value.place = std::move(axis);
   return value;
 }
 

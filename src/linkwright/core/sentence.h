@@ -22,10 +22,10 @@ struct Measured {
   const Unit* unit = nullptr;             ///< in which it is written; null of a plain number
   int digits = 4;                         ///< significant ones; behind the point when `fixed`
   bool is_fixed = false;
-  bool has_sign = false;        ///< "+3.1" for positive numbers
-  bool is_spelled = false;      ///< "3 deg", "2 m2" rather than "3°", "2 m²"
-  bool shares_unit = false;     ///< its unit follows the next number: the first one of "503.08 x 228.32 mm"
-  std::string_view place = {};  ///< of a number that says where: "crank_angle"; empty else
+  bool has_sign = false;     ///< "+3.1" for positive numbers
+  bool is_spelled = false;   ///< "3 deg", "2 m2" rather than "3°", "2 m²"
+  bool shares_unit = false;  ///< its unit follows the next number: the first one of "503.08 x 228.32 mm"
+  std::string place = {};    ///< of a number that says where: "crank_angle"; empty else
 
   /// The number in the unit in which it is written.
   double value() const { return unit ? unit->from_si(si) : si; }
@@ -50,7 +50,7 @@ Measured measured(std::string_view suffix, double si, int digits = 4);
 /// In a unit that no key has, as "mm_per_kN"; the unit must outlive the number.
 Measured measured(const Unit& unit, double si, int digits = 4);
 /// The number of a place along an axis, "crank_angle".
-Measured at_place(std::string_view axis, Measured value);
+Measured at_place(std::string axis, Measured value);
 
 inline Measured millimetres(double m, int digits = 4) { return measured("mm", m, digits); }
 inline Measured metres(double m, int digits = 4) { return measured("m", m, digits); }
