@@ -71,7 +71,7 @@ TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
       if (!study->kind->mechanism.starts_with("suspension")) continue;  // they run in milliseconds
       RunContext context;
       const study::Result result = study::run_study(*study, context);
-      EXPECT_EQ(result.status, Status::done) << entry.path() << result.headline;
+      EXPECT_EQ(result.status, Status::done) << entry.path() << to_string(result.headline);
       for (const study::Check& check : result.checks)
         EXPECT_TRUE(check.passed) << entry.path() << check.quantity;
       ++ran;

@@ -12,6 +12,7 @@
 #include "linkwright/app/examples.h"
 #include "linkwright/app/run.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
@@ -26,7 +27,7 @@ Compared mechanism(std::string name, double length, std::vector<double> inputs) 
   Compared one;
   one.name = std::move(name);
   study::Result& result = one.result;
-  result.facts = {{"length", fmt::format("{} mm", length), study::Fact::Verdict::plain},
+  result.facts = {{"length", millimetres(length / 1e3), study::Fact::Verdict::plain},
                   {"type", "lever", study::Fact::Verdict::plain}};
   Table& table = result.tables.emplace_back();
   table.name = "sweep";
@@ -59,9 +60,9 @@ Compared mechanism(std::string name, double length, std::vector<double> inputs) 
 TEST(Compare, FiguresStandSideBySideWithTheirDifference) {
   const std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
   const study::Result result = compare(all);
-  EXPECT_EQ(result.headline, "2 studies compared: 2 of 3 results differ.");
+  EXPECT_EQ(to_string(result.headline), "2 studies compared: 2 of 3 results differ.");
   std::vector<std::string> facts;
-  for (const study::Fact& fact : result.facts) facts.push_back(fact.label + "=" + fact.text);
+  for (const study::Fact& fact : result.facts) facts.push_back(fact.label + "=" + to_string(fact.text));
   EXPECT_THAT(facts,
               ElementsAre("1=short: done", "2=long: done", "length=400 mm | 500 mm (+25 %)", "type=lever"));
   const Table* figures = result.table("figures");
@@ -79,30 +80,30 @@ TEST(Compare, FiguresStandSideBySideWithTheirDifference) {
 
 TEST(Compare, FactsInOtherUnitsAreConverted) {
   std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
-  all[1].result.facts[0].text = "0.5 m";
+  all[1].result.facts[0].text = metres(0.5);
   const study::Result result = compare(all);
-  EXPECT_EQ(result.facts[2].text, "400 mm | 0.5 m (+25 %)");
-  all[0].result.facts[0].text = "20°";
-  all[1].result.facts[0].text = "25°";
-  EXPECT_EQ(compare(all).facts[2].text, "20° | 25° (+25 %)");
-  all[0].result.facts[0].text = "20 mm at 3°";
-  all[1].result.facts[0].text = "25 mm at 3°";
-  EXPECT_EQ(compare(all).facts[2].text, "20 mm at 3° | 25 mm at 3°");
-  all[0].result.facts[0].text = "400 mm";
-  all[1].result.facts[0].text = "0.5 kg";
-  EXPECT_EQ(compare(all).facts[2].text, "400 mm | 0.5 kg");
+  EXPECT_EQ(to_string(result.facts[2].text), "400 mm | 0.5 m (+25 %)");
+  all[0].result.facts[0].text = degrees_of(math::radians(20));
+  all[1].result.facts[0].text = degrees_of(math::radians(25));
+  EXPECT_EQ(to_string(compare(all).facts[2].text), "20° | 25° (+25 %)");
+  all[0].result.facts[0].text = say("{} at {}", millimetres(0.02), degrees_of(0.05, 1));
+  all[1].result.facts[0].text = say("{} at {}", millimetres(0.025), degrees_of(0.05, 1));
+  EXPECT_EQ(to_string(compare(all).facts[2].text), "20 mm at 3° | 25 mm at 3° (+25 %)");
+  all[0].result.facts[0].text = millimetres(0.4);
+  all[1].result.facts[0].text = measured("kg", 0.5);
+  EXPECT_EQ(to_string(compare(all).facts[2].text), "400 mm | 0.5 kg");
 }
 
 TEST(Compare, RoundingIsNoDifference) {
   std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
-  all[0].result.facts[0].text = "2.2e-16 m";
-  all[1].result.facts[0].text = "5.6e-16 m";
+  all[0].result.facts[0].text = metres(2.2e-16);
+  all[1].result.facts[0].text = metres(5.6e-16);
   study::Result result = compare(all);
-  EXPECT_EQ(result.facts[2].text, "2.2e-16 m | 5.6e-16 m");
-  EXPECT_EQ(result.headline, "2 studies compared: 1 of 3 results differ.");
-  all[1].result.facts[0].text = "1e-6 m";
+  EXPECT_EQ(to_string(result.facts[2].text), "2.2e-16 m | 5.6e-16 m");
+  EXPECT_EQ(to_string(result.headline), "2 studies compared: 1 of 3 results differ.");
+  all[1].result.facts[0].text = metres(1e-6);
   result = compare(all);
-  EXPECT_EQ(result.headline, "2 studies compared: 2 of 3 results differ.");
+  EXPECT_EQ(to_string(result.headline), "2 studies compared: 2 of 3 results differ.");
 }
 
 TEST(Compare, CurvesOfEqualInputsAreColumnsOfOneTable) {
@@ -179,7 +180,7 @@ TEST(Compare, IsAsGoodAsTheWorst) {
   all[1].result.status = Status::no_assembly;
   const study::Result result = compare(all);
   EXPECT_EQ(result.status, Status::no_assembly);
-  EXPECT_EQ(result.facts[1].text, "long: no_assembly");
+  EXPECT_EQ(to_string(result.facts[1].text), "long: no_assembly");
   EXPECT_EQ(result.facts[1].verdict, study::Fact::Verdict::bad);
 }
 

@@ -18,7 +18,7 @@ TEST(ClearanceStudies, ExamplesRun) {
   for (const study::Kind& kind : studies()) {
     SCOPED_TRACE(study::name_of(kind));
     const study::Result result = test::run_text(kind.example);
-    EXPECT_EQ(result.status, Status::done) << result.headline;
+    EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
     EXPECT_FALSE(result.scenes.empty());
     for (const Diagnostic& d : result.diagnostics) ADD_FAILURE() << to_string(d);
   }

@@ -15,7 +15,7 @@ TEST(FlexibleStudies, AreThoseOfLinksThatBendAndTheirExamplesRun) {
   EXPECT_EQ(study::name_of(kinds[2]), "analysis/flexible.hub_link");
   for (const study::Kind& kind : kinds) {
     const auto result = test::run_text(kinds, kind.example);
-    EXPECT_EQ(result.status, Status::done) << result.headline;
+    EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
     EXPECT_FALSE(result.scenes.empty());
   }
 }

@@ -27,7 +27,8 @@ using study::Scene;
 /// The value of a fact in the unit of another; NaN if it has none or another dimension.
 double value_in(const Fact& fact, const std::optional<Measured>& other) {
   const std::optional<Measured> own = fact.text.value();
-  if (!own || !other || own->dimension != other->dimension || !own->unit != !other->unit) return nan;
+  if (!own || !other || own->dimension != other->dimension) return nan;
+  if (own->dimension == Dimension::none && own->unit != other->unit) return nan;
   return own->unit ? other->unit->from_si(own->si) : own->si;
 }
 
@@ -40,10 +41,10 @@ const Fact* find_fact(const study::Result& result, std::string_view label) {
 /// Zeros but for rounding, of a residual or a balance: that they differ says nothing.
 bool is_rounding(double value) { return std::abs(value) < 1e-12; }
 
-std::string percent(double value, double first) {
-  if (is_rounding(value) && is_rounding(first)) return {};
-  const double share = 100 * (value / first - 1);
-  return std::isfinite(share) && value != first ? fmt::format(" ({:+.3g} %)", share) : std::string();
+Sentence difference(double value, double first) {
+  const double share = value / first - 1;
+  if ((is_rounding(value) && is_rounding(first)) || !std::isfinite(share) || value == first) return {};
+  return say(" ({})", percent(share, 3).with_sign());
 }
 
 class Merger {
@@ -63,7 +64,7 @@ class Merger {
     solutions();
     checks();
     out_.headline =
-        fmt::format("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
+        say("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
     if (!figures_.names.empty()) out_.tables.insert(out_.tables.begin(), figures());
     for (Table& table : diagrams.differences) out_.tables.push_back(std::move(table));
     return std::move(out_);
@@ -113,7 +114,7 @@ class Merger {
         values.push_back(own ? value_in(*own, first) : nan);
         fact.text += values.size() == 1 ? "" : " | ";
         fact.text += own ? own->text : Sentence("-");
-        fact.text += percent(values.back(), values.front());
+        fact.text += difference(values.back(), values.front());
       }
       if (const Fact* same = find_fact(first_, label); same && texts.size() == 1) fact.text = same->text;
       out_.facts.push_back(fact);

@@ -53,7 +53,7 @@ void expect_plots_have_columns(const study::Result& r) {
 
 TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
   const study::Result r = run_text(replaced(example("clearance-four-bar-lengths"), "count = 5", "count = 1"));
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   // The global optimum, to the digits of the reference.
   EXPECT_NEAR(objective(r, "path_objective_m"), 0.0152133e-3, 1e-10);
   EXPECT_NEAR(objective(r, "path_error_rms_m"), 6 * objective(r, "path_objective_m"), 1e-12);  // sqrt(36)
@@ -63,7 +63,7 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
   ASSERT_EQ(r.changes.size(), 2u);
   EXPECT_NEAR(r.changes[0].before, 3.929349e-4, 1e-10);
   EXPECT_EQ(column(r, "design", "reference")[0], 0.2027109);
-  EXPECT_THAT(r.headline, HasSubstr("if the clearance link leads the crank by 10°"));
+  EXPECT_THAT(to_string(r.headline), HasSubstr("if the clearance link leads the crank by 10°"));
   EXPECT_EQ(fact(r, "crank rotates fully wherever the pin lies"), "yes");
   ASSERT_EQ(r.diagnostics.size(), 1u);
   EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a constant phase of 10° is impossible"));
@@ -73,7 +73,7 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
 TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
   const study::Result r =
       run_text(replaced(example("clearance-four-bar-lengths-swarm"), "count = 10", "count = 2"));
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   EXPECT_GT(objective(r, "path_objective_m"), 0.0152133e-3);
   EXPECT_LT(objective(r, "path_objective_m"), 0.4e-3);
   EXPECT_FALSE(r.log.as_array().at(0).find("history")->as_array().empty());
@@ -82,9 +82,9 @@ TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
 
 TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
   const study::Result r = run_text(replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1"));
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   EXPECT_THAT(r.diagnostics, IsEmpty());
-  EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
+  EXPECT_THAT(to_string(r.headline), HasSubstr("pin and bush stay in contact, with 2.0"));
   EXPECT_LT(objective(r, "orbit_error_rad"), 4.3e-5);
   const std::vector<double>&phase = column(r, "turn", "phase_rad"), &tension = column(r, "turn", "tension_N"),
         &before = column(r, "reference", "phase_rad");
@@ -107,7 +107,7 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
   text = replaced(text, "speed_rad_per_s = 10.0", "speed_rad_per_s = 50.0\nstart_angle_deg = 30.0");
   text.erase(text.find("[[check]]"));
   const study::Result r = run_text(text);
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
 
   const Table &points = table(r, "linkage-points"), &masses = table(r, "linkage-masses");
   std::string sim = "schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"clearance.linkage\"\n";
@@ -142,7 +142,7 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
       start("crank_angle_rad"), start("speed_rad_per_s"), start("clearance_m"), start("start_angle_rad"),
       start("start_rate_rad_per_s"), start("turn_s"));
   const study::Result taken = run_text(sim);
-  ASSERT_EQ(taken.status, Status::done) << taken.headline;
+  ASSERT_EQ(taken.status, Status::done) << to_string(taken.headline);
   // Both integrate to about 1e-8; a turn of ten swings of the link lets that grow.
   const std::vector<double>&tension = column(taken, "pins", "A_tension_N"),
         &angle = column(taken, "pins", "A_link_angle_rad");
@@ -162,8 +162,8 @@ TEST(ClearanceDesignStudy, BothStagesInTurn) {
   text = replaced(text, "method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
                   "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");
   const study::Result r = run_text(text);
-  ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(r.headline, HasSubstr("on the periodic motion"));
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
+  EXPECT_THAT(to_string(r.headline), HasSubstr("on the periodic motion"));
   EXPECT_LT(objective(r, "first_turn_error_rad"), 0.03);
   ASSERT_FALSE(r.diagnostics.empty());
   EXPECT_THAT(to_string(r.diagnostics[0]),
@@ -172,7 +172,7 @@ TEST(ClearanceDesignStudy, BothStagesInTurn) {
 
 TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   const study::Result r = run_text(kind_example(DesignTarget::both));
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   EXPECT_LT(objective(r, "path_error_rms_m"), 5e-6);  // of points with 5 um of rounding
   EXPECT_GT(objective(r, "least_tension_N"), 0);
   EXPECT_THAT(r.diagnostics, IsEmpty());
@@ -202,10 +202,10 @@ TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
   set("method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
       "method = \"particle_swarm\"\npopulation = 4\ngenerations = 2");
   const study::Result r = run_text(text);
-  ASSERT_FALSE(r.solutions.empty()) << r.headline;
+  ASSERT_FALSE(r.solutions.empty()) << to_string(r.headline);
   EXPECT_LT(objective(r, "least_tension_N"), 0);
   EXPECT_THAT(fact(r, "contact"), HasSubstr("lost at a crank angle of"));
-  EXPECT_THAT(r.headline, HasSubstr("but pin and bush separate at a crank angle of"));
+  EXPECT_THAT(to_string(r.headline), HasSubstr("but pin and bush separate at a crank angle of"));
   const std::string told = test::lines_of(r.diagnostics);
   EXPECT_THAT(told, HasSubstr("what follows is outside of the model"));
   EXPECT_THAT(told, HasSubstr("simulate it with model = \"contact\""));
@@ -216,7 +216,7 @@ TEST(ClearanceDesignStudy, SaysWhenNothingAssembles) {
                                               "ground_mm         = { min = 150.0, max = 250.0 }",
                                               "ground_mm = { min = 2000.0, max = 2100.0 }"));
   EXPECT_EQ(far.status, Status::infeasible);
-  EXPECT_THAT(far.headline, HasSubstr("No design found: no start of the search assembles at every point"));
+  EXPECT_THAT(to_string(far.headline), HasSubstr("No design found: no start of the search assembles at every point"));
 }
 
 TEST(ClearanceDesignStudy, KeepsTheBestWhenItIsInterrupted) {
@@ -228,7 +228,7 @@ TEST(ClearanceDesignStudy, KeepsTheBestWhenItIsInterrupted) {
     context.set_threads(1);
     context.cancel();
     const study::Result r = study::run_study(*prepared, context);
-    EXPECT_EQ(r.status, Status::cancelled) << r.headline;
+    EXPECT_EQ(r.status, Status::cancelled) << to_string(r.headline);
     EXPECT_FALSE(r.headline.empty());
     ASSERT_FALSE(r.diagnostics.empty());
     EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("interrupted: 1 of 2 seeds ran"));

@@ -37,7 +37,7 @@ const std::string times =
 TEST(ArmStudy, WeldedHalvesAreOneLink) {
   const auto halves =
       run(head + link("divisions = 2\n") + link("tip_mass_kg = 0.085\ndivisions = 2\n") + pulse + times);
-  ASSERT_EQ(halves.status, Status::done) << halves.headline;
+  ASSERT_EQ(halves.status, Status::done) << to_string(halves.headline);
   const auto whole =
       run("schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"flexible.hub_link\"\nhub_radius_m = "
           "0.05\nhub_inertia_kg_m2 = 0.3\nlength_m = 1.8\ndensity_kg_per_m3 = 2766\narea_mm2 = "
@@ -77,7 +77,7 @@ TEST(ArmStudy, StiffLinksNeedTheTorquesOfRigidOnes) {
           "[[drive]]\nlink = \"link2\"\nlaw = \"cycloidal\"\nfrom_deg = 90\nto_deg = 30\nduration_s = 1\n" +
           "[simulation]\nstart = \"equilibrium\"\nend_s = 1\nstep_s = 0.002\ncompare_divisions = "
           "false\n[output]\nsamples = 21\n");
-  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   const double m = 2766 * 250e-6, m1 = m * l1, m2 = m * l2;
   const double J1 = m1 * l1 * l1 / 3 + 0.3 + (m2 + 0.3 + 0.2) * l1 * l1;
   const double J2 = m2 * l2 * l2 / 3 + 0.3 * l2 * l2;
@@ -125,8 +125,8 @@ TEST(ArmStudy, KeepsItsEnergyWithoutDrives) {
 
 TEST(ArmStudy, ReportsBendingTorquesAndVibration) {
   const auto result = run(example());
-  ASSERT_EQ(result.status, Status::done) << result.headline;
-  EXPECT_THAT(result.headline, HasSubstr("The tip leaves that of the rigid arm by up to"));
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("The tip leaves that of the rigid arm by up to"));
   EXPECT_THAT(fact(result, "largest bending stress of upper"), HasSubstr("MPa, at its root, at"));
   EXPECT_THAT(fact(result, "change of the tip with twice the divisions"),
               ::testing::MatchesRegex("[0-9.e-]+ mm"));
@@ -154,7 +154,7 @@ TEST(ArmStudy, KeepsWhatWasReached) {
   const auto result =
       run(replaced(example(), "elastic_modulus_GPa = 70.0\nfibre", "elastic_modulus_kPa = 70.0\nfibre"));
   EXPECT_NE(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr(" s: the chain folded."));
+  EXPECT_THAT(to_string(result.headline), HasSubstr(" s: the chain folded."));
   EXPECT_GE(result.tables.at(0).rows(), 1u);
 }
 

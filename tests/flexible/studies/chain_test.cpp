@@ -64,7 +64,7 @@ TEST(ChainStudy, KeepsWhatWasReached) {
   const auto result = run(replaced(replaced(level, "elastic_modulus_GPa = 210", "elastic_modulus_kPa = 1000"),
                                    "end_s = 0.2", "end_s = 2"));
   EXPECT_EQ(result.status, Status::limit_reached);
-  EXPECT_THAT(result.headline, HasSubstr("the chain folded"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("the chain folded"));
   EXPECT_GT(result.tables[0].rows(), 1u);
   EXPECT_LT(result.tables[0].rows(), 101u);
   ASSERT_EQ(result.scenes.size(), 1u);

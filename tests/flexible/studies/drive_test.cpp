@@ -44,7 +44,7 @@ TEST(DriveStudy, EveryLawDrivesAndIsShaped) {
   for (const std::string& law : laws)
     for (const bool shaped : {false, true}) {
       const auto result = linkwright::test::run_text(kinds(), study_with(law, shaped));
-      ASSERT_EQ(result.status, Status::done) << law << result.headline;
+      ASSERT_EQ(result.status, Status::done) << law << to_string(result.headline);
       const Table& motion = result.tables.front();
       const auto &balance = motion.find("energy_balance_J")->values,
                  &kinetic = motion.find("kinetic_energy_J")->values;

@@ -65,7 +65,7 @@ TEST_P(Benchmarks, ReachesTheBestKnownWithEverySeed) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     RunContext context;
     const DexteritySynthesis found = synthesise(dexterity_benchmark(goal), {}, seed, context);
-    ASSERT_EQ(found.status, Status::done) << found.reason;
+    ASSERT_EQ(found.status, Status::done) << to_string(found.reason);
     EXPECT_EQ(found.best.violation, 0);
     // All over the cylinder, not at its nodes alone: at least 0.1995.
     const BodyProof proof = prove_region(dexterity_benchmark(goal), found.best);

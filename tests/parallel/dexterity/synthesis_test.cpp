@@ -53,7 +53,7 @@ TEST(DexteritySynthesis, DesignsRobotAndPiJointsTogether) {
   RunContext context;
   const DexteritySynthesis same =
       synthesise(dexterity_benchmark_with_pi_joints(test::number_at(joint, "mu_min_rad")), {}, 1, context);
-  ASSERT_EQ(same.status, Status::done) << same.reason;
+  ASSERT_EQ(same.status, Status::done) << to_string(same.reason);
   EXPECT_NEAR(same.best.size, sequential, 1e-8);
   // A vertex: all of it is determined as well as the limits are kept to.
   EXPECT_NEAR(same.best.x[4], test::number_at(joint, "eps_rad"), 1e-6);
@@ -81,7 +81,7 @@ TEST(DexteritySynthesis, MirroredPiJointsServeMirroredTravel) {
   const DexteritySynthesis plain = synthesise(task, {}, 1, context);
   task.pi_joint->mirror = -1;
   const DexteritySynthesis mirrored = synthesise(task, {}, 1, context);
-  ASSERT_EQ(mirrored.status, Status::done) << mirrored.reason;
+  ASSERT_EQ(mirrored.status, Status::done) << to_string(mirrored.reason);
   EXPECT_NEAR(mirrored.best.size, plain.best.size, 1e-8);
   EXPECT_NEAR(mirrored.best.drives[0].lowest, plain.best.drives[0].lowest, 1e-6);
   // Every pose of the region is one of the drives.
@@ -101,7 +101,7 @@ TEST(DexteritySynthesis, RefusesDesignsWhosePlatformTurns) {
       task.limits.constraint = least;
       const DexterityDesign found = assess(task, test::numbers(test::at(former, "x_R_La_Lf_zt")));
       EXPECT_EQ(found.status, Status::infeasible);
-      EXPECT_NE(found.reason.find("constraint is -0."), std::string::npos) << found.reason;
+      EXPECT_NE(to_string(found.reason).find("constraint is -0."), std::string::npos) << to_string(found.reason);
       const DexterityStand* stand = stand_of(found, DexterityLimit::constraint);
       ASSERT_NE(stand, nullptr);
       EXPECT_NEAR(stand->value, test::number_at(former, "index_signed_min_on_E"), 1e-7) << id;
@@ -123,7 +123,7 @@ TEST(DexteritySynthesis, TheLeastIndexCostsDexterity) {
       const double best = test::number_at(row, key);
       EXPECT_NEAR(assess(task, test::numbers(test::at(row, "x_R_La_Lf_zt"))).objective, best, 1e-9);
       const DexteritySynthesis found = synthesise(task, {}, 1, context);
-      ASSERT_EQ(found.status, Status::done) << found.reason;
+      ASSERT_EQ(found.status, Status::done) << to_string(found.reason);
       EXPECT_NEAR(found.best.objective, best, 2e-8) << id << asked;
       EXPECT_TRUE(stand_of(found.best, DexterityLimit::constraint)->active);
     }
@@ -138,7 +138,7 @@ TEST(DexteritySynthesis, DesignsFiveBars) {
       .limits = {.size = 0.8}};
   RunContext context;
   const DexteritySynthesis half = synthesise(task, {}, 1, context);
-  ASSERT_EQ(half.status, Status::done) << half.reason;
+  ASSERT_EQ(half.status, Status::done) << to_string(half.reason);
   EXPECT_GE(half.reached_best, 3);
   EXPECT_GT(half.best.worst, 0.3);
   // The whole rectangle of the mirrored robot has the same least index.
@@ -163,7 +163,7 @@ TEST(DexteritySynthesis, DesignsHexasThatTilt) {
       .limits = {.transmission = 0.3, .size = 0.9}};
   RunContext context;
   const DexteritySynthesis found = synthesise(task, {.starts = 4}, 1, context);
-  ASSERT_EQ(found.status, Status::done) << found.reason;
+  ASSERT_EQ(found.status, Status::done) << to_string(found.reason);
   EXPECT_GT(found.best.worst, 0.2);
   EXPECT_EQ(found.best.bounds[2], BoundState::fixed);
   // Every node holds in the sense of jacobians.h, with one sign of det Jx.
@@ -189,7 +189,7 @@ TEST(DexteritySynthesis, PopulationMethodsMinimiseTheSameProblem) {
   for (const DexterityGoal goal : {DexterityGoal::worst, DexterityGoal::mean, DexterityGoal::size}) {
     const DexterityTask task = dexterity_benchmark(goal);
     const DexterityEvolution found = evolve(task, method, {}, 1, context);
-    EXPECT_EQ(found.best.status, Status::done) << found.best.reason;
+    EXPECT_EQ(found.best.status, Status::done) << to_string(found.best.reason);
     const DexteritySynthesis exact = synthesise(task, {}, 1, context);
     const double sign = goal == DexterityGoal::size ? 1 : -1;
     EXPECT_GT(sign * found.best.objective, sign * exact.best.objective - 1e-8);
@@ -209,7 +209,7 @@ TEST(DexteritySynthesis, TellsWhatIsMissed) {
   task.limits.size = infinity;
   const DexterityDesign short_arms = assess(task, std::vector{0.1, 0.2, 0.3, 0.3});
   EXPECT_EQ(short_arms.status, Status::infeasible);
-  EXPECT_NE(short_arms.reason.find("is required"), std::string::npos) << short_arms.reason;
+  EXPECT_NE(to_string(short_arms.reason).find("is required"), std::string::npos) << to_string(short_arms.reason);
 }
 
 TEST(DexteritySynthesis, EndsWhenCancelled) {

@@ -227,12 +227,12 @@ TEST(PiDesignSynthesis, SaysWhichRequirementsConflict) {
   EXPECT_FALSE(report.closed_form.design);
   EXPECT_FALSE(report.closed_form_is_best);
   ASSERT_EQ(report.closed_form.conflicts.size(), 3u);
-  EXPECT_EQ(to_string(report.closed_form.conflicts[0]),
+  EXPECT_EQ(to_string(words_of(report.closed_form.conflicts[0])),
             "torque asks for a base of at least 61.54 mm, stroke allows at most 57.74 mm");
-  EXPECT_EQ(to_string(report.closed_form.conflicts[1]),
+  EXPECT_EQ(to_string(words_of(report.closed_form.conflicts[1])),
             "resolution asks for a base of at least 63.5 mm, stroke allows at most 57.74 mm");
   EXPECT_EQ(
-      to_string(report.closed_form.conflicts[2]),
+      to_string(words_of(report.closed_form.conflicts[2])),
       "transmission asks for a ratio of base to arm of at least 0.5176, telescoping allows at most 0.378");
 }
 

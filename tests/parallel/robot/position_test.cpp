@@ -206,17 +206,17 @@ TEST(Position, TellsWhichLegCannotReach) {
   EXPECT_TRUE(std::isnan(far.angle[0]));
   // From the elbow straight towards the joint: hypot(0.155, 1.5) - 0.35 - 0.8.
   EXPECT_NEAR(far.shortfall, std::hypot(0.155, 1.5) - 1.15, 1e-12);
-  EXPECT_EQ(reason(far), "leg 1 is 358 mm too short");
+  EXPECT_EQ(to_string(reason(far)), "leg 1 is 358 mm too short");
   const ArmAngles near = inverse(robot, {{0, 0, 0}});
   EXPECT_EQ(near.status, Status::no_assembly);
   EXPECT_NEAR(near.shortfall, 0.155 + 0.35 - 0.8, 1e-12);
-  EXPECT_EQ(reason(near), "leg 1 is 295 mm too long");
+  EXPECT_EQ(to_string(reason(near)), "leg 1 is 295 mm too long");
   // The arm's axis goes through the joint and the rod fits: any angle would do.
   const Robot square =
       planar({.base_x = -0.15, .arm = 0.3, .rod = 0.3}, {.base_x = 0.15, .arm = 0.25, .rod = 0.35});
   const ArmAngles open = inverse(square, {{-0.15, 0, 0}});
   EXPECT_EQ(open.status, Status::singular);
-  EXPECT_EQ(reason(open), "the platform joint of leg 1 is on the axis of its arm, whose angle is open");
+  EXPECT_EQ(to_string(reason(open)), "the platform joint of leg 1 is on the axis of its arm, whose angle is open");
 }
 
 TEST(Position, ExactSingularPlaces) {

@@ -68,7 +68,7 @@ TEST(DexterityStudy, GoesOnFromACheckpointWithTheSameBits) {
 // Without limits the smallest robot is singular: a limit is put in, and reported.
 TEST(DexterityStudy, PutsALimitInWhereTheSmallestWouldBeSingular) {
   const auto result = run_text(head + "goal = \"size\"\n");
-  EXPECT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
   EXPECT_THAT(fact(result, "limit put in"), HasSubstr("transmission index at least 0.3"));
   const Table& limits = test::table(result, "limits");
   const auto& bound = column(result, "limits", "bound");
@@ -94,7 +94,7 @@ TEST(DexterityStudy, TheConstraintIsAChoice) {
 TEST(DexterityStudy, SaysWhatCannotBe) {
   const auto result = run_text(replaced(smallest, "conditioning = 0.4", "conditioning = 0.99"));
   EXPECT_EQ(result.status, Status::infeasible);
-  EXPECT_THAT(result.headline, HasSubstr("No design meets every limit"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("No design meets every limit"));
 }
 
 TEST(DexterityStudy, RefusesMorePointsThanThereIsMemoryFor) {

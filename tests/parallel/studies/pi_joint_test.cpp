@@ -58,7 +58,7 @@ TEST(PiJointStudy, SaysWhichRequirementsClash) {
   const auto result = run_text(replaced(design, "stroke_mm          = 120.0", "stroke_mm          = 90.0"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_THAT(fact(result, "conflict"), HasSubstr("stroke allows at most"));
-  EXPECT_THAT(result.headline, HasSubstr("No Pi-joint meets all requirements"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("No Pi-joint meets all requirements"));
 }
 
 TEST(PiJointStudy, TellsWhatIsWrong) {

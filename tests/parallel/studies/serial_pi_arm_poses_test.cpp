@@ -25,7 +25,7 @@ TEST(SerialPosesStudy, IsThatOfTheReference) {
     const auto result =
         run_text(replaced(arm, "mode = -1", "mode = " + std::to_string(mode)) + pose + "[modes]\n");
     EXPECT_EQ(result.status, Status::done);
-    EXPECT_EQ(result.headline, "1 of 1 poses are usable.");
+    EXPECT_EQ(to_string(result.headline), "1 of 1 poses are usable.");
     const Value& expected = linkwright::test::at(computed("serial-pi-pi"), mode == 1 ? "+1" : "-1");
     const auto numbers = [&](const char* key) {
       return linkwright::test::numbers(linkwright::test::at(expected, key));

@@ -21,8 +21,8 @@ const std::string pose = "[[pose]]\nposition_mm = [400, 220, 0]\n";
 
 TEST(SerialArmStudy, AnswersAllThatIsAskedFor) {
   const auto result = run_text(test::example("analysis/parallel.serial_pi_arm"));
-  EXPECT_EQ(result.status, Status::done) << result.headline;
-  EXPECT_THAT(result.headline, HasSubstr("It works: the path takes"));
+  EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("It works: the path takes"));
   for (const char* name :
        {"motion", "drive_limits", "poses", "working_modes", "workspace", "workspace_totals"})
     EXPECT_GT(test::table(result, name).rows(), 0u) << name;
@@ -36,7 +36,7 @@ TEST(SerialArmStudy, WorkspaceIsTheAnnulusOfMotorsAndLessOfPiJoints) {
   const double reach = 4 * 3.14159265358979 * 0.3 * 0.25;
   EXPECT_NEAR(column(motors, "workspace_totals", "area_left_m2").back(), reach, 2e-3);
   EXPECT_EQ(fact(motors, "reach of the arms alone"), "0.9425 m2");
-  EXPECT_THAT(motors.headline, HasSubstr("Workspace 0.94"));
+  EXPECT_THAT(to_string(motors.headline), HasSubstr("Workspace 0.94"));
   const auto joints = run_text(serial_mechanism + serial_drives + "[limits]\nconditioning = 0.3\n" + grid);
   const auto& left = column(joints, "workspace_totals", "area_left_m2");
   for (std::size_t i = 1; i < left.size(); ++i) EXPECT_LE(left[i], left[i - 1]);

@@ -159,7 +159,7 @@ TEST(ToolMotion, BlendedLinesAndArcsDoNotStop) {
   EXPECT_EQ(motion.piece_at(0), 0);
   EXPECT_EQ(motion.piece_at(motion.duration()), 2);
   EXPECT_EQ(motion.piece_at(motion.duration() + 1), 2);
-  EXPECT_THAT(motion.where(motion.duration() / 2), HasSubstr("step 2 (arc) at 0."));
+  EXPECT_THAT(to_string(motion.where(motion.duration() / 2)), HasSubstr("step 2 (arc) at 0."));
   for (int i = 20; i <= 980; ++i) EXPECT_GT(norm(motion(motion.duration() * i / 1000).velocity), 0.05);
 }
 
@@ -223,7 +223,7 @@ TEST(ToolMotion, TablesAreFollowedThroughAllPoints) {
   }
   EXPECT_LT(norm(motion(1.499999999).velocity), 1e-6);
   EXPECT_EQ(motion.piece_at(1), 1);
-  EXPECT_EQ(motion.where(1.55), "step 3 (dwell) at 1.55 s");
+  EXPECT_EQ(to_string(motion.where(1.55)), "step 3 (dwell) at 1.55 s");
   // A wandering axis: rates against differences.
   ToolTable wander;
   for (int i = 0; i <= 10; ++i) {
@@ -454,7 +454,7 @@ TEST(ToolMotion, TellsTheShareOfTheWayOfAStep) {
   EXPECT_NEAR(motion.share_at(first + 0.5).value_or(-1), -1, 0);
   EXPECT_NEAR(*motion.share_at(first * 1.5 + 1), 0.5, 1e-12);
   EXPECT_EQ(motion.share_at(motion.duration()), 1);
-  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its path"));
+  EXPECT_THAT(to_string(motion.where_exactly(first / 2)), HasSubstr(" s, 50 % of its path"));
 }
 
 }  // namespace

@@ -220,7 +220,7 @@ TEST(Sweep, AMeasureThatIsNotThereEndsItAtOnce) {
   const study::Result result =
       result_of(sweep(crank + "[[measure]]\nquantity = \"sweep.roker_angle_deg.max\"\n"));
   EXPECT_EQ(result.status, Status::infeasible);
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("Nothing was tried. sweep.roker_angle_deg.max: there is no column of 'sweep' "
                         "'roker_angle_deg'; did you mean 'rocker_angle"));
 }

@@ -23,7 +23,7 @@ const std::string& wheel_example() { return test::example("wheel_parameters"); }
 
 TEST(DirectStudy, TakesBumpSteerAwayByTheInnerTieRodPoint) {
   const study::Result result = run_text(wheel_example());
-  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   ASSERT_EQ(result.changes.size(), 1U);
   EXPECT_LT(result.changes[0].after, 0.2 * result.changes[0].before);
   // Reported by the curves of the found design, too.

@@ -25,7 +25,7 @@ const std::string& poses_example() { return test::example("carrier_poses"); }
 
 TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
   const study::Result result = run_text(poses_example());
-  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 1);
   const study::Solution& best = result.solutions.at(0);
   EXPECT_LT(best.objectives.find("max_constraint_error_m")->as_number(), 1e-9);
@@ -144,7 +144,7 @@ TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {
   mirrored = std::regex_replace(mirrored, std::regex("@"), "-");
   mirrored = replaced(mirrored, "side = \"left\"", "side = \"right\"\nrack = { direction = [0, -1, 0] }");
   const study::Result right = run_text(mirrored), left = run_text(poses_example());
-  ASSERT_EQ(right.status, Status::done) << right.headline;
+  ASSERT_EQ(right.status, Status::done) << to_string(right.headline);
   for (std::size_t i = 0; i < left.solutions.at(0).parameters.size(); ++i) {
     const study::Parameter &l = left.solutions[0].parameters[i], &r = right.solutions.at(0).parameters.at(i);
     EXPECT_NEAR(r.value, l.key.ends_with("_y_m") ? -l.value : l.value, 1e-6) << l.key;
@@ -156,7 +156,7 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   const study::Result result =
       run_text(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
   EXPECT_NE(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr("No exact wheel suspension found"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("No exact wheel suspension found"));
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
 }
 

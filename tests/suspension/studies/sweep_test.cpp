@@ -30,7 +30,7 @@ using ::testing::Not;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5US", sweep + racks));
-  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   ASSERT_EQ(result.tables.at(0).rows(), 15U);
   const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition reference = reference_position(plan);
@@ -102,7 +102,7 @@ body_mm   = [[200, 300, 0], [-200, 320, 20]]
 )";
   const std::string text = "schema = 1\nkind = \"analysis\"\n" + wheel + sweep;
   const study::Result result = run_text(text);
-  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   const std::vector<double>&toe = column(result, "toe_rad"), &at_rim = column(result, "toe_at_rim_m");
   const Table* bump = result.table("bump");
   ASSERT_NE(bump, nullptr);

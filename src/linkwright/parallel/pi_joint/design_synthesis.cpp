@@ -214,7 +214,7 @@ std::optional<std::string> problem(const PiRequirements& r) {
   return {};
 }
 
-Sentence to_sentence(const PiConflict& c) {
+Sentence words_of(const PiConflict& c) {
   const auto length = [&](double value) { return c.of_ratio ? plain_number(value) : millimetres(value); };
   return say("{} asks for a {} of at least {}, {} allows at most {}", name_of(c.low),
              c.of_ratio ? "ratio of base to arm" : "base", length(c.at_least), name_of(c.high),

@@ -85,7 +85,7 @@ struct PiConflict {
   double at_least = 0, at_most = 0;  ///< what the first asks for, and what the second allows
 };
 /// For example "torque asks for a base of at least 61.5 mm, stroke allows at most 60 mm".
-Sentence to_sentence(const PiConflict& conflict);
+Sentence words_of(const PiConflict& conflict);
 
 /// The design by limits in closed form, for the best centre: smallest b, largest k, a = b / k.
 struct PiClosedForm {

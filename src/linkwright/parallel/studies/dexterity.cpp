@@ -10,7 +10,6 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/robot_scene.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"

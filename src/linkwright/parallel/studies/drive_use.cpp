@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 

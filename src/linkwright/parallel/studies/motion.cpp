@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/path_trouble.h"
 #include "linkwright/parallel/studies/drive_use.h"

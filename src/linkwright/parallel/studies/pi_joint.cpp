@@ -8,7 +8,6 @@
 #include <string>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/singularities.h"
 #include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
@@ -303,7 +302,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   const PiDesignReport report =
       design_pi_joint(r, {}, {.seed = static_cast<std::uint64_t>(seeds.first)}, context);
   result.status = report.status;
-  for (const PiConflict& conflict : report.closed_form.conflicts) fact("conflict", to_sentence(conflict));
+  for (const PiConflict& conflict : report.closed_form.conflicts) fact("conflict", words_of(conflict));
   const PiDesign& best = report.best;
   const PiRangeValues range = range_values(best.joint, best.centre, r.half_travel);
   study::Solution solution{.label = "smallest Pi-joint"};

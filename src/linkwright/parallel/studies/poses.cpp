@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/assembly_modes/assembly_modes.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/led_arms.h"
@@ -260,7 +259,7 @@ Marks marks_of(const Robot& robot, const Jacobians& at) {
 
 /// Arm angles that are given: where they put the platform. A status that is not done has its reason.
 void place_arms(const RobotDescription& d, const Pose& home, SolvedPose& out) {
-  const auto fail = [&](Status status, std::string why) {
+  const auto fail = [&](Status status, Sentence why) {
     out.status = status;
     out.reason = std::move(why);
     out.angles.leg = 0;
@@ -278,12 +277,12 @@ void place_arms(const RobotDescription& d, const Pose& home, SolvedPose& out) {
   const LedPose led = lead_arms(d.robot, home, at_home.angle, out.angles.angle, platform_size(d.robot));
   out.pose = led.pose;
   if (led.status == Status::done) return;
-  const std::string where = fmt::format("{:.4g} % of the motion of the arms from home", 100 * led.share);
+  const Sentence where = say("{} of the motion of the arms from home", percent(led.share));
   if (led.status == Status::singular)
     fail(led.status,
-         fmt::format("at {} the rods do not hold the platform: beyond, its assembly is not known", where));
+         say("at {} the rods do not hold the platform: beyond, its assembly is not known", where));
   else
-    fail(led.status, fmt::format("beyond {} the platform cannot follow", where));
+    fail(led.status, say("beyond {} the platform cannot follow", where));
 }
 
 /// Fills `joined` and `way` of a pose that the legs reach.
@@ -327,7 +326,7 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
     out.pose = {vec(*asked.position), math::turn_about(vec(asked.rotation.value_or(Coordinates{})))};
     out.angles = inverse(d.robot, out.pose, d.mode);
     out.status = out.angles.status;
-    out.reason = to_string(reason(out.angles));
+    out.reason = reason(out.angles);
   } else {
     std::copy(asked.arm_angles->begin(), asked.arm_angles->end(), out.angles.angle.begin());
     place_arms(d, home, out);
@@ -339,17 +338,17 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
   const Quality q = quality(d.robot, at, platform_size(d.robot));
   if (const Singularity s = singularity(d.robot, q); s != Singularity::none) {
     out.status = Status::singular;
-    out.reason = fmt::format("singular ({})", name_of(s));
+    out.reason = say("singular ({})", name_of(s));
     for (const auto& entry : names(Singularity{}))
-      if (entry.value == s) out.reason += fmt::format(": {}", entry.summary);
+      if (entry.value == s) out.reason += say(": {}", entry.summary);
     if (s == Singularity::constraint) out.reason += ": " + free_turn(d.robot, at);
   } else if (out.joined < 0) {
     out.status = Status::branch_lost;
-    out.reason = to_string(out.way);
+    out.reason = out.way;
   } else if (drives.status != Status::done) {
     out.status = Status::limit_reached;
-    const double angle = math::degrees(drives.drive[drives.leg].angle);
-    out.reason = fmt::format("drive {} is at {:.2f} deg, beyond its travel", drives.leg + 1, angle);
+    out.reason = say("drive {} is at {}, beyond its travel", drives.leg + 1,
+                     degrees_of(drives.drive[drives.leg].angle).fixed(2).spelled());
   }
   return out;
 }
@@ -367,7 +366,7 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     good += s.status == Status::done;
     if (s.status != Status::done) {
       study::AddWarning{result.diagnostics}(
-          "pose", fmt::format("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
+          "pose", say("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
       if (result.status == Status::done) result.status = s.status;
     }
     // Of robots that do not turn a way that is shown needs no word.

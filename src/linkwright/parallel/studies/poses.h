@@ -62,7 +62,7 @@ void describe_poses(study::SchemaWriter& document);
 /// A pose of the study as solved.
 struct SolvedPose {
   Status status = Status::done;
-  std::string reason;  ///< why it is not done
+  Sentence reason;  ///< why it is not done
   Pose pose;
   ArmAngles angles;
   /// What is known of a way from home. 1: the straight one (of arms that were given: with all of them led at

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
 #include "linkwright/study/remarks.h"
 
@@ -18,7 +17,7 @@ namespace {
 
 struct SolvedArm {
   Status status = Status::done;
-  std::string reason;
+  Sentence reason;
   Vector2 point{nan, nan};
   Vector2 angle{nan, nan};
   bool drawn() const { return std::isfinite(angle[0]) && std::isfinite(point[0]); }
@@ -31,7 +30,7 @@ SolvedArm solve(const SerialDescription& d, const AskedPose& asked) {
     const SerialAngles found = inverse(d.arm, out.point, d.mode);
     out.angle = found.angle;
     out.status = found.status;
-    out.reason = to_string(reason(found));
+    out.reason = reason(found);
     if (out.status != Status::done) return out;
   } else {
     out.angle = {(*asked.arm_angles)[0], (*asked.arm_angles)[1]};
@@ -41,8 +40,9 @@ SolvedArm solve(const SerialDescription& d, const AskedPose& asked) {
   const SerialQuality q = quality(d.arm, out.angle);
   if (drives.status != Status::done) {
     out.status = Status::limit_reached;
-    out.reason = fmt::format("drive {} is at {:.2f} deg, beyond its travel", drives.joint + 1,
-                             math::degrees(drives.drive[static_cast<std::size_t>(drives.joint)].angle));
+    const DriveAt& drive = drives.drive[static_cast<std::size_t>(drives.joint)];
+    out.reason = say("drive {} is at {}, beyond its travel", drives.joint + 1,
+                     degrees_of(drive.angle).fixed(2).spelled());
   } else if (q.singular) {
     out.status = Status::singular;
     out.reason = "the arms are in line, or a Pi-joint has no lever";
@@ -143,7 +143,7 @@ void add_serial_poses(study::Result& result, const SerialAnalysis& s) {
     good += at.status == Status::done;
     if (at.status != Status::done) {
       study::AddWarning{result.diagnostics}(
-          "pose", fmt::format("{}: {}: {}", asked.name, to_string(at.status), at.reason), {});
+          "pose", say("{}: {}: {}", asked.name, to_string(at.status), at.reason), {});
       if (result.status == Status::done) result.status = at.status;
     }
     table.names.push_back(asked.name);

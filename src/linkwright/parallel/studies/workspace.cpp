@@ -10,7 +10,6 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/workspace/aspects.h"
 #include "linkwright/parallel/workspace/rays.h"

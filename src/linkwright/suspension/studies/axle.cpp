@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/math/angles.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/remarks.h"
 
@@ -185,7 +184,7 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
   const study::AddFact fact{result.facts};
   const auto state = [&](const std::string& name, const std::vector<double>& values) {
     if (stated < values.size() && std::isfinite(values[stated]))
-      fact(name + position, fmt::format("{:.2f} %", values[stated]));
+      fact(name + position, percent(values[stated] / 100).fixed(2));
   };
   state(brake_label + ", outboard brake", columns[0]);
   state(brake_label + ", outboard brake, by arm planes", columns[3]);
@@ -232,8 +231,10 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
     plot("roll-centre-roll", "Roll centre over roll: height, and offset to the left",
          {"roll_centre_height_m", "roll_centre_offset_m"});
     remark_lost(result, rows, "roll (rad)");
-    fact("roll steer (mean steer by roll)", fmt::format("{:.4f} °/°", straight.roll_steer));
-    fact("camber against the road by roll, left", fmt::format("{:.4f} °/°", straight.roll_camber_left));
+    static constexpr Unit angle_by_angle{"deg_per_deg"};
+    fact("roll steer (mean steer by roll)", measured(angle_by_angle, straight.roll_steer).fixed(4));
+    fact("camber against the road by roll, left",
+         measured(angle_by_angle, straight.roll_camber_left).fixed(4));
   }
   if (form.rack) {
     const auto rows = swept(AxleMotion::rack, *form.rack->values);
@@ -246,10 +247,11 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
     remark_lost(result, rows, "rack (m)");
     if (form.rack_per_turn && straight.steering_left && straight.steering_right)
       fact("steering ratio, rack centred",
-           fmt::format("{:.2f}", steering_ratio((straight.steering_left->steer_by_rack +
-                                                 straight.steering_right->steer_by_rack) /
-                                                    2,
-                                                *form.rack_per_turn)));
+           plain_number(steering_ratio((straight.steering_left->steer_by_rack +
+                                        straight.steering_right->steer_by_rack) /
+                                           2,
+                                       *form.rack_per_turn))
+               .fixed(2));
   }
 }
 

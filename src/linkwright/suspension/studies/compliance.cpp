@@ -274,15 +274,16 @@ void add_compliance(study::Result& result, const GuideDescription& description, 
     result.tables.push_back(load_forces_table(guide, c, form.loads[i], i + 1));
   const ComplianceCoefficients k = compliance_coefficients(c);
   const std::string held = fmt::format(" ({})", name_of(c.support));
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label) + held, std::move(text)});
+  const auto fact = [&](std::string label, const Unit& unit, double value) {
+    result.facts.push_back({std::move(label) + held, measured(unit, value).fixed(4)});
   };
-  fact("lateral force steer", fmt::format("{:.4f} °/kN", math::degrees(k.lateral_steer * per_kilonewton)));
-  fact("lateral force camber", fmt::format("{:.4f} °/kN", math::degrees(k.lateral_camber * per_kilonewton)));
-  fact("longitudinal compliance at the wheel centre",
-       fmt::format("{:.4f} mm/kN", k.longitudinal_at_centre * 1e3 * per_kilonewton));
-  fact("aligning torque steer",
-       fmt::format("{:.4f} °/100 N m", math::degrees(k.aligning_steer * per_100_newton_metres)));
+  static constexpr Unit angle_by_force{"deg_per_kN", pi, 180 * per_kilonewton},
+      shift_by_force{"mm_per_kN", 1, 1e3 * per_kilonewton},
+      angle_by_torque{"deg_per_100_N_m", pi, 180 * per_100_newton_metres};
+  fact("lateral force steer", angle_by_force, k.lateral_steer);
+  fact("lateral force camber", angle_by_force, k.lateral_camber);
+  fact("longitudinal compliance at the wheel centre", shift_by_force, k.longitudinal_at_centre);
+  fact("aligning torque steer", angle_by_torque, k.aligning_steer);
 }
 
 }  // namespace linkwright::suspension

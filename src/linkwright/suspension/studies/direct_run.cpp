@@ -365,20 +365,20 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
       std::count_if(best.objectives.begin(), best.objectives.end(), [](double v) { return v <= 1; });
   const bool all = met == static_cast<std::ptrdiff_t>(best.objectives.size());
   result.headline =
-      all ? fmt::format("All targets are met: the largest deviation is {:.4g} of its tolerance.",
-                        best.largest)
-          : fmt::format("{} of {} objectives are met; the largest deviation is {:.4g} tolerances.", met,
-                        best.objectives.size(), best.largest);
+      all ? say("All targets are met: the largest deviation is {} of its tolerance.",
+                plain_number(best.largest))
+          : say("{} of {} objectives are met; the largest deviation is {} tolerances.", met,
+                best.objectives.size(), plain_number(best.largest));
   for (std::size_t i = 0; i < best.objectives.size(); ++i)
     result.facts.push_back(
         {s.task.objectives[i].name + ", largest deviation",
-         fmt::format("{:.6f} tolerances{}", best.objectives[i],
-                     before.answer.assembled ? fmt::format(" (before: {:.4g})", before.objectives.at(i))
-                                             : std::string()),
+         say("{} tolerances{}", plain_number(best.objectives[i]).fixed(6),
+             before.answer.assembled ? say(" (before: {})", plain_number(before.objectives.at(i)))
+                                     : Sentence()),
          best.objectives[i] <= 1 ? Verdict::good : Verdict::bad});
-  result.facts.push_back({"half sum of squared deviations", fmt::format("{:.6f}", best.half_sum_of_squares)});
-  result.facts.push_back({"active targets", fmt::format("{} for {} design variables", best.active.size(),
-                                                        s.task.designed.size())});
+  result.facts.push_back({"half sum of squared deviations", plain_number(best.half_sum_of_squares).fixed(6)});
+  result.facts.push_back({"active targets", say("{} for {} design variables", best.active.size(),
+                                                s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
   study::add_seed_facts(result, "runs that reached the best solution", runs.answers.size(), false);
   const study::AddWarning warn{result.diagnostics};

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
@@ -357,10 +356,7 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Indirec
   study::write_statistics(result.statistics, st);
 }
 
-std::string metres(double value) {
-  if (value >= 1e-3) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.2g} m", value);
-}
+Measured error_of(double value) { return value >= 1e-3 ? millimetres(value) : metres(value, 2); }
 
 }  // namespace
 
@@ -404,18 +400,17 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
       good
-          ? fmt::format("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
-                        structure_name(structure_of(guide)), poses, metres(best.error))
+          ? say("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
+                structure_name(structure_of(guide)), poses, error_of(best.error))
       : assembled
-          ? fmt::format(
-                "No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
-                to_string(best.answer.status), poses, metres(best.error))
-          : fmt::format("No wheel suspension found ({}).", to_string(best.answer.status));
+          ? say("No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
+                to_string(best.answer.status), poses, error_of(best.error))
+          : say("No wheel suspension found ({}).", to_string(best.answer.status));
   result.facts = {
-      {"largest constraint error at the positions", assembled ? metres(best.error) : "-",
+      {"largest constraint error at the positions", assembled ? Sentence(error_of(best.error)) : "-",
        good ? Verdict::good : Verdict::bad},
       {"structure", structure_name(structure_of(guide))},
-      {"positions", fmt::format("{} (at least {:.2g} determine the links)", poses, best.answer.fewest)},
+      {"positions", say("{} (at least {} determine the links)", poses, plain_number(best.answer.fewest, 2))},
       {"method", std::string(result.statistics.find("method")->as_string())}};
   study::add_seed_facts(result, "seeds that found exact links", runs.answers.size());
   if (carrier_pitch_is_given(best.answer.targets)) add_seven_poses(result, s, best.answer.targets);

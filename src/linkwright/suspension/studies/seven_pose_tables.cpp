@@ -85,11 +85,11 @@ void add_seven_poses(study::Result& result, const IndirectStudy& s, const Carrie
     }
     result.facts.push_back(
         {fmt::format("rods through seven positions{}", by_rack ? ", on the rack" : ""),
-         fmt::format("{} solutions, {} of them real; {} fit all positions{}", found.solutions,
-                     found.rods.size(), fitting,
-                     found.arms.empty() ? std::string()
-                                        : fmt::format("; {} hinged arms (RS, SR) whose rods form families",
-                                                      found.arms.size()))});
+         say("{} solutions, {} of them real; {} fit all positions{}", found.solutions, found.rods.size(),
+             fitting,
+             found.arms.empty()
+                 ? Sentence()
+                 : say("; {} hinged arms (RS, SR) whose rods form families", found.arms.size()))});
   }
   if (!rods.names.empty()) {
     rods.add("number", "number", std::move(number));

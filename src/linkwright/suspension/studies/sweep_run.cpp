@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/math/angles.h"
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/assemblies.h"
@@ -251,9 +250,9 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
   }
 }
 
-std::string degrees(double radians) { return fmt::format("{:.3f}°", math::degrees(radians)); }
-std::string millimetres(double metres) { return fmt::format("{:.2f} mm", metres * 1e3); }
-std::string degrees_by_metre(double value) { return fmt::format("{:.3f} °/m", math::degrees(value)); }
+Measured angle(double value) { return degrees_of(value).fixed(3); }
+Measured angle_by_travel(double value) { return measured("deg_per_m", value).fixed(3); }
+Measured length(double value) { return millimetres(value).fixed(2); }
 
 void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, const TravelLimits& limits) {
   const WheelGuide& guide = s.description.guide;
@@ -261,7 +260,7 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   fact("structure", structure_name(structure_of(guide)));
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
-  const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
+  const std::string centred = s.racks[rack] == 0 ? "" : " (rack " + to_string(length(s.racks[rack])) + ")";
   const auto span = [&](const char* label, auto&& value, auto&& text) {
     study::Extreme least, greatest;
     for (std::size_t i = first; i < first + s.travels.size(); ++i) {
@@ -270,41 +269,41 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
       least.least(now, i);
       greatest.greatest(now, i);
     }
-    if (least.any()) fact(label + centred, fmt::format("{} to {}", text(least.value), text(greatest.value)));
+    if (least.any()) fact(label + centred, say("{} to {}", text(least.value), text(greatest.value)));
   };
   span(
-      "toe over the travel", [](const WheelAngles& a) { return a.toe; }, degrees);
+      "toe over the travel", [](const WheelAngles& a) { return a.toe; }, angle);
   if (const auto rim = rim_of(s))
     span(
-        "toe at the rim over the travel", [&](const WheelAngles& a) { return toe_at(*rim, a); }, millimetres);
+        "toe at the rim over the travel", [&](const WheelAngles& a) { return toe_at(*rim, a); }, length);
   span(
-      "camber over the travel", [](const WheelAngles& a) { return a.camber; }, degrees);
+      "camber over the travel", [](const WheelAngles& a) { return a.camber; }, angle);
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
   if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
     const std::string here = s.travels[next_to_zero(s.travels)] == 0
                                  ? centred
-                                 : fmt::format(" (travel {})", millimetres(grid.travel(middle)));
-    fact("bump steer" + here, degrees_by_metre(w.toe_by_travel));
-    fact("camber by travel" + here, degrees_by_metre(w.camber_by_travel));
-    fact("roll-centre height" + here, millimetres(w.roll_centre_height));
-    if (guide.spring) fact("motion ratio" + here, fmt::format("{:.4f}", w.motion_ratio));
+                                 : " (travel " + to_string(length(grid.travel(middle))) + ")";
+    fact("bump steer" + here, angle_by_travel(w.toe_by_travel));
+    fact("camber by travel" + here, angle_by_travel(w.camber_by_travel));
+    fact("roll-centre height" + here, length(w.roll_centre_height));
+    if (guide.spring) fact("motion ratio" + here, plain_number(w.motion_ratio).fixed(4));
     if (std::isfinite(w.arms.roll_centre_height))
-      fact("roll-centre height by arm planes" + here, millimetres(w.arms.roll_centre_height));
+      fact("roll-centre height by arm planes" + here, length(w.arms.roll_centre_height));
     if (const SteeringAxis* axis = steering_axis_of(w, s.lock)) {
       const std::string held = s.lock == Driver::spring      ? "spring held"
                                : s.lock == Driver::contact_z ? "contact point's height held"
                                                              : "wheel centre's height held";
       fact("caster, kingpin inclination" + here,
-           fmt::format("{}, {} ({})", degrees(axis->caster), degrees(axis->inclination), held));
+           say("{}, {} ({})", angle(axis->caster), angle(axis->inclination), held));
       fact("trail, scrub radius" + here,
-           fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
+           say("{}, {}", length(axis->trail), length(axis->scrub)));
     }
     if (const auto& axis = w.geometric_axis) {
       fact("caster, kingpin inclination by ball joints" + here,
-           fmt::format("{}, {}", degrees(axis->caster), degrees(axis->inclination)));
+           say("{}, {}", angle(axis->caster), angle(axis->inclination)));
       fact("trail, scrub radius by ball joints" + here,
-           fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
+           say("{}, {}", length(axis->trail), length(axis->scrub)));
     }
   }
   if (const std::string why = why_no_axis(guide); !why.empty())
@@ -313,10 +312,10 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
     fact("roll centre by arm planes", "none: " + why);
   const auto limit = [&](int i) {
     return limits.status[static_cast<std::size_t>(i)] == Status::no_assembly
-               ? millimetres(limits.value[static_cast<std::size_t>(i)])
-               : std::string("none within 1 m");
+               ? Sentence(length(limits.value[static_cast<std::size_t>(i)]))
+               : say("none within {}", at_place("travel", metres(1)));
   };
-  fact("travel limits of the links, rack centred", fmt::format("{} and {}", limit(0), limit(1)));
+  fact("travel limits of the links, rack centred", say("{} and {}", limit(0), limit(1)));
 }
 
 /// Every so manieth value, with both ends and the one next to zero.
@@ -443,7 +442,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     add_anti_features(result, *s.vehicle, grid.solved.wheels, middle,
                       s.travels[next_to_zero(s.travels)] == 0 || middle >= grid.solved.wheels.size()
                           ? std::string()
-                          : fmt::format(" (travel {})", millimetres(grid.travel(middle))));
+                          : " (travel " + to_string(length(grid.travel(middle))) + ")");
   }
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
@@ -463,17 +462,17 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     }
     if (result.status == Status::done) result.status = p.status;
     if (lost++ < 5)
-      warn(fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
-                       to_string(p.status), p.reason),
+      warn(say("travel {}, rack {}: {}: {}", millimetres(grid.travel(i), 6), millimetres(grid.rack(i), 6),
+               to_string(p.status), p.reason),
            "the table `limits` lists the travel that the links allow");
   }
-  if (lost > 5) warn(fmt::format("{} more positions are not reached", lost - 5));
+  if (lost > 5) warn(say("{} more positions are not reached", lost - 5));
   result.headline =
       lost == 0
-          ? fmt::format("{} wheel suspension: all {} positions reached (largest closure residual {:.1g} m).",
-                        structure_name(structure_of(s.description.guide)), grid.rows(), worst)
-          : fmt::format("{} wheel suspension: {} of {} positions are not reached.",
-                        structure_name(structure_of(s.description.guide)), lost, grid.rows());
+          ? say("{} wheel suspension: all {} positions reached (largest closure residual {}).",
+                structure_name(structure_of(s.description.guide)), grid.rows(), metres(worst, 1))
+          : say("{} wheel suspension: {} of {} positions are not reached.",
+                structure_name(structure_of(s.description.guide)), lost, grid.rows());
   return result;
 }
 
