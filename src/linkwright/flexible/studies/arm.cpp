@@ -215,9 +215,9 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     if (off > peak) peak = off, when = motion.find("time_s")->values[i];
   }
   fact("largest displacement of the tip against the rigid arm",
-       fmt::format("{} at {:.4g} s", millimetres(peak), when));
+       say("{} at {}", millimetres(peak), at_place("time", seconds(when))));
   if (!std::holds_alternative<FreeForm>(s.drives[0]))
-    fact("largest torque on the hub", fmt::format("{:.4g} N m", largest_of(motion, "hub_torque_N_m")));
+    fact("largest torque on the hub", newton_metres(largest_of(motion, "hub_torque_N_m")));
   Table sections{.name = "sections", .names = {}, .columns = {}, .status = {}};
   sections.add("bending_moment_N_m", "largest bending moment (N m)");
   sections.add("bending_stress_Pa", "largest bending stress (Pa)");
@@ -230,16 +230,17 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     const Worst& w = worst[k];
     if (link.hinge && motion.find(link.name + "_torque_N_m"))
       fact("largest torque in the hinge of " + link.name,
-           fmt::format("{:.4g} N m", largest_of(motion, link.name + "_torque_N_m")));
-    const std::string where = fmt::format("{} its root, at {:.4g} s",
-                                          w.position == 0 ? "at" : millimetres(w.position) + " from", w.time);
+           newton_metres(largest_of(motion, link.name + "_torque_N_m")));
+    const Sentence from = say("{} from", at_place("position", millimetres(w.position)));
+    const Sentence where =
+        say("{} its root, at {}", w.position == 0 ? "at" : from, at_place("time", seconds(w.time)));
     double stress = nan;
     if (link.fibre_distance) {
       stress = bending_stress(link.beam, w.moment, *link.fibre_distance);
       if (stress > most_stress) most_stress = stress, most_stressed = link.name;
-      fact("largest bending stress of " + link.name, fmt::format("{:.4g} MPa, {}", 1e-6 * stress, where));
+      fact("largest bending stress of " + link.name, say("{}, {}", measured("MPa", stress), where));
     } else {
-      fact("largest bending moment of " + link.name, fmt::format("{:.4g} N m, {}", w.moment, where));
+      fact("largest bending moment of " + link.name, say("{}, {}", newton_metres(w.moment), where));
     }
     sections.names.push_back(link.name);
     std::size_t column = 0;
@@ -248,13 +249,12 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   }
   if (!result.scenes.empty()) add_hinges(s, run.arm, motion, result.scenes.front());
   result.facts.insert(result.facts.begin(), facts.begin(), facts.end());
-  result.headline =
-      result.status == Status::done
-          ? fmt::format("The tip leaves that of the rigid arm by up to {}{}.", millimetres(peak),
-                        most_stressed.empty() ? ""
-                                              : fmt::format("; {} bends most, by {:.4g} MPa", most_stressed,
-                                                            1e-6 * most_stress))
-          : headline_of_end(run.simulation);
+  result.headline = result.status == Status::done
+                        ? say("The tip leaves that of the rigid arm by up to {}{}.", millimetres(peak),
+                              most_stressed.empty() ? Sentence()
+                                                    : say("; {} bends most, by {}", most_stressed,
+                                                          measured("MPa", most_stress)))
+                        : headline_of_end(run.simulation);
   result.tables.push_back(std::move(sections));
   return std::move(result);
 }

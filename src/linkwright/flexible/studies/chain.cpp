@@ -143,22 +143,23 @@ void add_plots(const ChainStudy& s, bool shaped, study::Result& result) {
 }
 
 // How far the energies less the work moved away from where they were.
-std::string audit(const Simulation& run) {
+Sentence audit(const Simulation& run) {
   double drift = 0, energy = 0;
   for (const Sample& at : run.samples) {
     drift = std::max(drift, std::abs(at.energy_balance() - run.samples.front().energy_balance()));
     energy = std::max({energy, std::abs(at.kinetic), std::abs(at.potential), std::abs(at.work)});
   }
-  return fmt::format("{:.2g} J ({:.1g} of the peak)", drift, energy > 0 ? drift / energy : 0.0);
+  return say("{} ({} of the peak)", measured("J", drift, 2),
+             plain_number(energy > 0 ? drift / energy : 0, 1));
 }
 
 // From peak to peak across the last link, from a time on.
-std::string vibration_after(const ChainStudy& s, const Table& motion, double from) {
+Sentence vibration_after(const ChainStudy& s, const Table& motion, double from) {
   const std::vector<double>&time = motion.find("time_s")->values, &tip = motion.find(s.tip[0])->values;
   double low = INFINITY, high = -INFINITY;
   for (std::size_t i = 0; i < time.size(); ++i)
     if (time[i] >= from) low = std::min(low, tip[i]), high = std::max(high, tip[i]);
-  return high >= low ? millimetres(high - low) + " from peak to peak" : std::string("beyond the end");
+  return high >= low ? say("{} from peak to peak", millimetres(high - low)) : "beyond the end";
 }
 
 std::optional<double> quiet_from(const ChainStudy& s) {
@@ -170,11 +171,11 @@ std::optional<double> quiet_from(const ChainStudy& s) {
   return out;
 }
 
-std::string hertz_of(const std::vector<Mode>& found) {
-  std::vector<std::string> out;
+Sentence words_of(const std::vector<Mode>& found) {
+  std::vector<double> frequencies;
   for (const Mode& m : found)
-    if (m.frequency > 0) out.push_back(fmt::format("{:.4g}", m.frequency / full_turn));
-  return fmt::format("{} Hz", fmt::join(out, ", "));
+    if (m.frequency > 0) frequencies.push_back(m.frequency);
+  return in_hertz(frequencies);
 }
 
 }  // namespace
@@ -184,9 +185,18 @@ double largest_of(const Table& table, std::string_view key) {
   return column ? study::largest_size(column->values) : 0;
 }
 
-std::string headline_of_end(const Simulation& run) {
-  return fmt::format("Ended at {:.4g} s: {}.", run.samples.empty() ? 0.0 : run.samples.back().time,
-                     run.message);
+Sentence in_hertz(const std::vector<double>& frequencies) {
+  Sentence out;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const Measured one = measured("Hz", frequencies[i] / full_turn);
+    out += i + 1 < frequencies.size() ? say("{}, ", one.sharing_unit()) : one;
+  }
+  return out;
+}
+
+Sentence headline_of_end(const Simulation& run) {
+  return say("Ended at {}: {}.", at_place("time", seconds(run.samples.empty() ? 0 : run.samples.back().time)),
+             run.message);
 }
 
 void check_times(const SimulationForm& form, study::ObjectReader& simulation) {
@@ -247,8 +257,8 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
   result.tables.push_back(std::move(modes_table));
   add_plots(s, !impulses.empty(), result);
 
-  fact("frequencies at rest", hertz_of(found));
-  if (first.turns != last.turns) fact("frequencies at the end", hertz_of(at_end));
+  fact("frequencies at rest", words_of(found));
+  if (first.turns != last.turns) fact("frequencies at the end", words_of(at_end));
   fact("drift of the energy audit", audit(run));
   if (run.error > 0) fact("change of the tip by the last halving of the step", millimetres(run.error));
   const std::optional<double> drives_end = quiet_from(s);
@@ -257,8 +267,8 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
          vibration_after(s, result.tables[0], *drives_end + (impulses.empty() ? 0 : impulses.back().time)));
   if (!impulses.empty()) {
     fact("shaped for",
-         fmt::format("{:.4g} Hz by {}: the drive takes {:.4g} s longer", shaped_mode.frequency / full_turn,
-                     name_of(s.shaping->shaper), impulses.back().time));
+         say("{} by {}: the drive takes {} longer", measured("Hz", shaped_mode.frequency / full_turn),
+             name_of(s.shaping->shaper), seconds(impulses.back().time)));
     const Simulation plain = simulate(s, chain, start, {}, true, context);
     Table other = s.table(out.arm, plain);
     other.name = "unshaped";

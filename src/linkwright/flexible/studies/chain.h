@@ -17,8 +17,6 @@
 // What the simulations of one link and of arms share: their options, how they run and what they report.
 namespace linkwright::flexible {
 
-using study::millimetres;
-
 enum class StartForm { undeformed, equilibrium };
 constexpr std::array<EnumName<StartForm>, 2> names(StartForm) {
   return {{{StartForm::undeformed, "undeformed", "straight links"},
@@ -94,8 +92,10 @@ ChainRun run_chain(const ChainStudy& study, RunContext& context);
 
 /// Largest |value| of a column, 0 of an empty one and of one that the table does not have.
 double largest_of(const Table& table, std::string_view key);
+/// Angular frequencies (rad/s) as "12.3, 45.6 Hz".
+Sentence in_hertz(const std::vector<double>& frequencies);
 /// "Ended at 1.2 s: ..." of a run that is not done.
-std::string headline_of_end(const Simulation& run);
+Sentence headline_of_end(const Simulation& run);
 
 /// Whether the states of a chain of so many cells at all samples, and the drawing of them, have room in
 /// memory; an error at `output.samples` if not.

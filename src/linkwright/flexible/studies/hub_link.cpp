@@ -125,11 +125,11 @@ void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vecto
   other.name = "chord_consistent";
   const double largest = largest_of(other, "tip_eta_m"), difference = lay_beside(result, std::move(other));
   facts.push_back({"difference of the tip from chord_consistent",
-                   fmt::format("{}, {:.2f} times its largest displacement{}", millimetres(difference),
-                               difference / largest,
-                               s.simulation.kinematics == Kinematics::source_linearised
-                                   ? ": the printed velocities lack the stiffening by the speed"
-                                   : ""),
+                   say("{}, {} times its largest displacement{}", millimetres(difference),
+                       plain_number(difference / largest).fixed(2),
+                       s.simulation.kinematics == Kinematics::source_linearised
+                           ? ": the printed velocities lack the stiffening by the speed"
+                           : ""),
                    study::Fact::Verdict::plain});
 }
 
@@ -169,13 +169,13 @@ study::Result run_hub_link(const HubLinkStudy& s, RunContext& context) {
   const study::AddFact fact{facts};
   fact("largest displacement of the tip across the link", millimetres(peak));
   if (s.mechanism.fibre_distance)
-    fact("largest bending stress", fmt::format("{:.4g} MPa", 1e-6 * largest_of(motion, "bending_stress_Pa")));
-  fact("largest torque of the drive", fmt::format("{:.4g} N m", largest_of(motion, "torque_N_m")));
+    fact("largest bending stress", measured("MPa", largest_of(motion, "bending_stress_Pa")));
+  fact("largest torque of the drive", newton_metres(largest_of(motion, "torque_N_m")));
   compare_kinematics(s, result, facts, context);
   compare_elastica(s, result, facts, context);
   result.facts.insert(result.facts.begin(), facts.begin(), facts.end());
   result.headline = result.status == Status::done
-                        ? fmt::format("The tip leaves the line of the hub by up to {}.", millimetres(peak))
+                        ? say("The tip leaves the line of the hub by up to {}.", millimetres(peak))
                         : headline_of_end(run.simulation);
   return std::move(result);
 }

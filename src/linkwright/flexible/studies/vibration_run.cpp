@@ -12,7 +12,6 @@
 #include "linkwright/flexible/statics.h"
 #include "linkwright/flexible/studies/chain.h"
 #include "linkwright/flexible/studies/vibration.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
@@ -23,7 +22,7 @@ namespace {
 /// Share of a frequency by which twice the divisions, or the continuum, may change it before it is reported.
 constexpr double poor_frequency = 0.01;
 
-std::string hertz(double rate) { return fmt::format("{:.4g} Hz", rate / full_turn); }
+Measured hertz(double rate) { return measured("Hz", rate / full_turn); }
 
 class Analyst {
  public:
@@ -79,7 +78,6 @@ class Analyst {
     const std::vector<double> exact = of_continuum();
     Table table{.name = "frequencies"};
     std::vector<double> number, rate, twice, continuum, by_twice, by_continuum;
-    std::string text;
     for (std::size_t k = 0; k < found_.size(); ++k) {
       const double w = found_[k].frequency;
       number.push_back(static_cast<double>(k + 1));
@@ -88,31 +86,29 @@ class Analyst {
       continuum.push_back(exact[k]);
       by_twice.push_back(w > 0 ? finer[k].frequency / w - 1 : 0);
       by_continuum.push_back(w > 0 && exact[k] > 0 ? w / exact[k] - 1 : 0);
-      text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", w / full_turn);
     }
-    fact("frequencies at rest", text + " Hz");
+    fact("frequencies at rest", in_hertz(rate));
     fact("against the continuum",
-         fmt::format("within {:.2g} %; {:.2g} % is what {} divisions change",
-                     100 * study::largest_size(by_continuum), 100 * study::largest_size(by_twice),
-                     2 * s_.vibration.divisions),
+         say("within {}; {} is what {} divisions change", percent(study::largest_size(by_continuum), 2),
+             percent(study::largest_size(by_twice), 2), 2 * s_.vibration.divisions),
          study::largest_size(by_continuum) > poor_frequency ? Verdict::bad : Verdict::good);
     if (study::largest_size(by_continuum) > poor_frequency)
       for (std::size_t k = 0; k < found_.size(); ++k)
         if (std::abs(by_continuum[k]) > poor_frequency) {
           warn("vibration.divisions",
-               fmt::format("mode {} is {:.2g} % off the continuum, {} against {}", k + 1,
-                           100 * by_continuum[k], hertz(rate[k]), hertz(continuum[k])),
+               say("mode {} is {} off the continuum, {} against {}", k + 1, percent(by_continuum[k], 2),
+                   hertz(rate[k]), hertz(continuum[k])),
                "take more divisions");
           break;
         }
-    const auto in_hertz = [](std::vector<double> v) {
+    const auto column = [](std::vector<double> v) {
       for (double& x : v) x /= full_turn;
       return v;
     };
     table.add("mode", "mode", number);
-    table.add("frequency_Hz", "frequency (Hz)", in_hertz(rate));
-    table.add("finer_Hz", fmt::format("with {} divisions (Hz)", 2 * s_.vibration.divisions), in_hertz(twice));
-    table.add("continuum_Hz", "continuum (Hz)", in_hertz(continuum));
+    table.add("frequency_Hz", "frequency (Hz)", column(rate));
+    table.add("finer_Hz", fmt::format("with {} divisions (Hz)", 2 * s_.vibration.divisions), column(twice));
+    table.add("continuum_Hz", "continuum (Hz)", column(continuum));
     table.add("frequency_rad_per_s", "frequency (rad/s)", std::move(rate));
     table.add("finer_change", "change by twice the divisions, relative", std::move(by_twice));
     table.add("continuum_error", "error against the continuum, relative", std::move(by_continuum));
@@ -152,7 +148,8 @@ class Analyst {
     study::Scene scene;
     scene.name = fmt::format("mode-{}", k);
     const double w = found_[static_cast<std::size_t>(k) - 1].frequency;
-    scene.title = w > 0 ? fmt::format("mode {}, {}", k, hertz(w)) : fmt::format("mode {}: turns freely", k);
+    scene.title =
+        w > 0 ? fmt::format("mode {}, {}", k, to_string(hertz(w))) : fmt::format("mode {}: turns freely", k);
     scene.input_key = "phase_rad";
     scene.input_label = "phase";
     double reach = std::abs(mode.hub_angle) * (beam().hub_radius + beam().length);
@@ -211,7 +208,8 @@ class Analyst {
                            bad == speeds.begin() ? 0 : *(bad - 1), *bad, {.relative = 1e-9})
                   .outside;
       fact("loses stability",
-           fmt::format("at {:.5g} rad/s, below the {:.5g} rad/s that are asked for", lost_, c.to),
+           say("at {}, below the {} that are asked for", measured("rad_per_s", lost_, 5),
+               measured("rad_per_s", c.to, 5)),
            Verdict::bad);
       warn("campbell.to",
            fmt::format(
@@ -252,7 +250,7 @@ class Analyst {
     if (s_.campbell->orders.empty()) return;
     Table out{.name = "crossings"};
     std::vector<double> order, mode, speed, rate;
-    std::string text;
+    Sentence text;
     for (const double p : s_.campbell->orders)
       for (int k = 1; k <= count(); ++k) {
         if (context_.interrupted()) break;
@@ -269,7 +267,8 @@ class Analyst {
           mode.push_back(k);
           speed.push_back(at);
           rate.push_back(p * at);
-          text += fmt::format("{}{:.4g} rad/s (mode {} by {:g} x)", text.empty() ? "" : ", ", at, k, p);
+          text += say("{}{} (mode {} by {} x)", text.empty() ? "" : ", ", measured("rad_per_s", at), k,
+                      plain_number(p, 6));
         }
       }
     if (context_.interrupted()) result_.status = context_.interruption();
@@ -310,9 +309,9 @@ class Analyst {
     study::AddPlot{result_, {.table = "deflection", .x = "position_m"}}(
         "deflection", "The link under its load", {"eta_m", "linear_eta_m"});
     tip_ = across.back();
-    fact("tip under the load", fmt::format("{} across the link, {} along it, {:.4g}°; linear {} across it",
-                                           millimetres(across.back()), millimetres(along.back()),
-                                           math::degrees(line.angle.back()), millimetres(linear.eta.back())));
+    fact("tip under the load",
+         say("{} across the link, {} along it, {}; linear {} across it", millimetres(across.back()),
+             millimetres(along.back()), degrees_of(line.angle.back()), millimetres(linear.eta.back())));
     if (found.status == Status::done) {
       const Chain twice = discretise(beam(), 2 * s_.vibration.divisions, s_.vibration.kinematics);
       const Equilibrium finer = equilibrium(twice, load, options);
@@ -359,7 +358,7 @@ class Analyst {
     if (!stress.empty()) {
       table.add("bending_stress_Pa", "bending stress (Pa)", std::move(stress));
       fact("largest bending stress",
-           fmt::format("{:.4g} MPa", 1e-6 * bending_stress(beam(), largest, *s_.mechanism.fibre_distance)));
+           measured("MPa", bending_stress(beam(), largest, *s_.mechanism.fibre_distance)));
     }
     result_.tables.push_back(std::move(table));
     study::AddPlot{result_, {.table = "sections", .x = "position_m"}}(
@@ -377,21 +376,20 @@ class Analyst {
   }
 
   void headline() {
-    std::string& text = result_.headline;
+    Sentence& text = result_.headline;
     const auto first =
         std::find_if(found_.begin(), found_.end(), [](const Mode& m) { return m.frequency > 0; });
-    text = first == found_.end() ? std::string("The link has no frequency among the modes that are asked for")
-                                 : fmt::format("The first frequency is {} at rest", hertz(first->frequency));
+    text = first == found_.end() ? "The link has no frequency among the modes that are asked for"
+                                 : say("The first frequency is {} at rest", hertz(first->frequency));
     if (s_.campbell && last_ > 0)
-      text += fmt::format(" and {} at {:.4g} rad/s", hertz(last_), s_.campbell->to);
+      text += say(" and {} at {}", hertz(last_), measured("rad_per_s", s_.campbell->to));
     text += ".";
     if (s_.campbell && !s_.campbell->orders.empty())
       text += crossed_.empty() ? " No multiple of the speed meets a frequency."
-                               : " Resonant speeds: " + crossed_ + ".";
-    if (lost_ > 0) text += fmt::format(" The chain loses its stability at {:.4g} rad/s.", lost_);
+                               : say(" Resonant speeds: {}.", crossed_);
+    if (lost_ > 0) text += say(" The chain loses its stability at {}.", measured("rad_per_s", lost_));
     if (!std::isnan(tip_))
-      text +=
-          fmt::format(" Under the load the tip moves by {} across the link.", millimetres(std::abs(tip_)));
+      text += say(" Under the load the tip moves by {} across the link.", millimetres(std::abs(tip_)));
   }
 
   const VibrationStudy& s_;
@@ -399,7 +397,7 @@ class Analyst {
   Chain chain_;
   std::vector<Mode> found_;
   double last_ = 0, lost_ = 0, tip_ = nan;
-  std::string crossed_;
+  Sentence crossed_;
   study::Result result_;
   const study::AddFact fact{result_.facts};
   const study::AddWarning warn{result_.diagnostics};
