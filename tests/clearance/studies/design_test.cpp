@@ -216,7 +216,8 @@ TEST(ClearanceDesignStudy, SaysWhenNothingAssembles) {
                                               "ground_mm         = { min = 150.0, max = 250.0 }",
                                               "ground_mm = { min = 2000.0, max = 2100.0 }"));
   EXPECT_EQ(far.status, Status::infeasible);
-  EXPECT_THAT(to_string(far.headline), HasSubstr("No design found: no start of the search assembles at every point"));
+  EXPECT_THAT(to_string(far.headline),
+              HasSubstr("No design found: no start of the search assembles at every point"));
 }
 
 TEST(ClearanceDesignStudy, KeepsTheBestWhenItIsInterrupted) {

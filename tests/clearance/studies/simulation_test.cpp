@@ -219,7 +219,8 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
   EXPECT_EQ(fact(r, "model"),
             "pin A separated from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
-  EXPECT_THAT(to_string(r.headline), HasSubstr("Pin A separates from its bush at 0.1538 s, O2 at 88.15 deg, and"));
+  EXPECT_THAT(to_string(r.headline),
+              HasSubstr("Pin A separates from its bush at 0.1538 s, O2 at 88.15 deg, and"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
   // One motion: all rows, without a jump of the pin where the models meet (10 mm/s for 0.44 ms).
   const std::vector<double>&time = column(r, "motion", "time_s"),
@@ -280,7 +281,8 @@ TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
   ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
-  EXPECT_THAT(to_string(r.headline), HasSubstr("The periodic motion is neutral: pin and bush stay in contact"));
+  EXPECT_THAT(to_string(r.headline),
+              HasSubstr("The periodic motion is neutral: pin and bush stay in contact"));
   EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("found in 4 steps of Newton's method"));
   EXPECT_THAT(fact(r, "stability"), HasSubstr("Floquet multipliers 0.87793"));
   EXPECT_EQ(table(r, "orbit").names, std::vector<std::string>{"A"});
@@ -322,7 +324,8 @@ TEST(ClearanceStudy, GoesOnUntilContactsRepeat) {
 TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
   const study::Result r = run_text(regime_of(slider_crank(), "samples = 101\nmax_turns = 5"));
   EXPECT_EQ(r.status, Status::not_converged);
-  EXPECT_THAT(to_string(r.headline), HasSubstr("The motion did not become periodic within 5 turns: in 0.06 s"));
+  EXPECT_THAT(to_string(r.headline),
+              HasSubstr("The motion did not become periodic within 5 turns: in 0.06 s"));
   ASSERT_FALSE(r.diagnostics.empty());
   EXPECT_THAT(to_string(r.diagnostics[0]),
               HasSubstr("the motion did not become periodic within 5 turns: the last one changed it by"));

@@ -50,10 +50,10 @@ constexpr std::array<Variable, clearance_length_count + clearance_mass_count> va
      {"rocker_v_m", "mass centre of the rocker, across (m)"},
      {"rocker_inertia_kg_m2", "inertia of the rocker (kg m2)"}}};
 
-using study::metres;
-double wrapped_degrees(double angle) {
-  const double d = std::fmod(math::degrees(angle), 360);
-  return d < 0 ? d + 360 : d;
+/// "at a crank angle of 123.4°".
+Measured crank_angle(double angle) {
+  const double rest = std::fmod(angle, full_turn);
+  return at_place("crank_angle", degrees_of(rest < 0 ? rest + full_turn : rest).fixed(1));
 }
 
 class DesignReporter {
@@ -300,56 +300,53 @@ class DesignReporter {
   // ---- words
   // --------------------------------------------------------------------------------------------------
 
-  std::string contact_text(const DesignMeasures& d) const {
+  Sentence contact_text(const DesignMeasures& d) const {
     if (!lost(d))
-      return fmt::format("kept: minimum tension {:.4g} N, at a crank angle of {:.1f}°", d.run.least_tension,
-                         wrapped_degrees(d.least_at));
-    return fmt::format(
-        "lost at a crank angle of {:.1f}°; without contact {:.3g} % of the turn, minimum tension "
-        "{:.4g} N at {:.1f}°",
-        wrapped_degrees(separation_angle(d)), 100 * d.run.separated, d.run.least_tension,
-        wrapped_degrees(d.least_at));
+      return say("kept: minimum tension {}, at a crank angle of {}", newtons(d.run.least_tension),
+                 crank_angle(d.least_at));
+    return say("lost at a crank angle of {}; without contact {} of the turn, minimum tension {} at {}",
+               crank_angle(separation_angle(d)), percent(d.run.separated, 3), newtons(d.run.least_tension),
+               crank_angle(d.least_at));
   }
   void facts() {
     if (s_.has_path()) {
       study::Extreme worst;
       for (std::size_t k = 0; k < d_.reached.size(); ++k) worst.greatest(off(k), k);
       fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed phase",
-           std::isfinite(d_.rms) ? fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms),
-                                               metres(d_.largest), worst.row + 1)
-                                 : std::string("not known: the motion does not reach every point"),
+           std::isfinite(d_.rms) ? say("root mean square {}, at most {} at point {}", length_by_size(d_.rms),
+                                       length_by_size(d_.largest),
+                                       at_place("point", count_of(static_cast<double>(worst.row + 1))))
+                                 : "not known: the motion does not reach every point",
            feasible_ ? Verdict::good : Verdict::bad);
       if (s_.has_masses())
         fact("path error with the presumed phase",
-             fmt::format("root mean square {}", metres(d_.presumed.rms)));
+             say("root mean square {}", length_by_size(d_.presumed.rms)));
       else
-        fact("path objective F1", metres(d_.presumed.objective));
+        fact("path objective F1", length_by_size(d_.presumed.objective));
       fact("wherever the pin lies in its bush",
-           fmt::format("at most {} off the points", metres(d_.anywhere)));
+           say("at most {} off the points", length_by_size(d_.anywhere)));
     }
     fact("crank rotates fully wherever the pin lies", turns_fully(d_.model) ? "yes" : "no",
          turns_fully(d_.model) ? Verdict::good : Verdict::bad);
     if (s_.has_masses()) {
       fact("contact", contact_text(d_), lost(d_) ? Verdict::bad : Verdict::good);
       const auto [low, high] = phases(d_);
-      fact("phase of the clearance link",
-           fmt::format("{:.2f}° to {:.2f}° over the turn, wanted {:.4g}°", math::degrees(low),
-                       math::degrees(high), math::degrees(s_.phase())));
+      fact("phase of the clearance link", say("{} to {} over the turn, wanted {}", degrees_of(low).fixed(2),
+                                              degrees_of(high).fixed(2), degrees_of(s_.phase())));
       if (d_.repeats)
         fact("phase objective F2",
-             fmt::format(
-                 "{:.4g} rad on the periodic motion, {:.4g} rad in the first turn from the wanted phase",
-                 d_.motion.orbit_error, d_.motion.transient_error));
+             say("{} on the periodic motion, {} in the first turn from the wanted phase",
+                 measured("rad", d_.motion.orbit_error), measured("rad", d_.motion.transient_error)));
       else
         fact("phase objective F2",
-             fmt::format("{:.4g} rad in the first turn from the wanted phase", d_.motion.transient_error));
+             say("{} in the first turn from the wanted phase", measured("rad", d_.motion.transient_error)));
       fact("mean sine of the phase, by tension",
-           fmt::format("{:.2g}: the work of the pin over a turn", d_.work_mean));
+           say("{}: the work of the pin over a turn", plain_number(d_.work_mean, 2)));
       fact("to simulate it", "tables linkage-points, linkage-masses, linkage-start for clearance.linkage");
     }
     fact("method", std::string(method()));
     if (answer_->starts > 0 && s_.target == DesignTarget::lengths)
-      fact("local searches that reached it", fmt::format("{} of {}", answer_->reached, answer_->starts));
+      fact("local searches that reached it", say("{} of {}", answer_->reached, answer_->starts));
     study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size());
   }
   double off(std::size_t k) const {
@@ -377,20 +374,19 @@ class DesignReporter {
 
   void warnings() {
     for (const auto& v : d_.presumed.violations)
-      warn(fmt::format("the design violates {} by {:.3g}", v.reason, v.amount));
+      warn(say("the design violates {} by {}", v.reason, plain_number(v.amount, 3)));
     if (!turns_fully(d_.model))
       warn("the crank does not rotate fully with the pin anywhere in its bush",
            "lengthen coupler and rocker, or take a shorter crank");
     const bool passive = s_.target == DesignTarget::lengths || s_.stages == DesignStages::in_turn;
     if (s_.phase() > 0 && passive) {
       const double least = s_.phase() / std::sqrt(double(s_.mass.samples));
-      warn(fmt::format(
-               "a constant phase of {:.4g}° is impossible: over a turn of a periodic motion the pin does no "
+      warn(say("a constant phase of {} is impossible: over a turn of a periodic motion the pin does no "
                "work on a passive coupler in contact, so the sine of the phase, weighted by the "
                "tension, has the mean 0{}",
-               math::degrees(s_.phase()),
-               s_.has_masses() ? fmt::format("; no masses come far below F2 = phase / sqrt({}) = {:.4g} rad",
-                                             s_.mass.samples, least)
+               degrees_of(s_.phase()),
+               s_.has_masses() ? say("; no masses come far below F2 = phase / sqrt({}) = {}", s_.mass.samples,
+                                     measured("rad", least))
                                : ", and the path differs from the one presumed here"),
            "masses can achieve phase_deg = 0");
     }
@@ -402,40 +398,35 @@ class DesignReporter {
           "allow more mass at the clearance joint");
     if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
     if (lost(d_))
-      warn(
-          fmt::format(
-              "pin and bush separate at a crank angle of {:.1f}° (minimum tension {:.4g} N at {:.1f}°): what "
-              "follows is outside of the model",
-              wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
-          "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
-          "joint");
+      warn(say("pin and bush separate at a crank angle of {} (minimum tension {} at {}): what follows is "
+               "outside of the model",
+               crank_angle(separation_angle(d_)), newtons(d_.run.least_tension), crank_angle(d_.least_at)),
+           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
+           "joint");
   }
 
   void headline() {
-    std::string& text = result_.headline;
+    Sentence& text = result_.headline;
     if (!feasible_) {
       text = "No design meets every condition; the nearest one is shown.";
       return;
     }
     if (s_.has_path()) {
-      text = fmt::format("The linkage passes the {} points within {} (root mean square {})",
-                         d_.reached.size(), metres(d_.largest), metres(d_.rms));
-      text += s_.has_masses() ? (d_.repeats ? " on the periodic motion" : " in the first turn")
-                              : fmt::format(" if the clearance link leads the crank by {:.4g}°",
-                                            math::degrees(s_.phase()));
+      text = say("The linkage passes the {} points within {} (root mean square {})", d_.reached.size(),
+                 length_by_size(d_.largest), length_by_size(d_.rms));
+      text += s_.has_masses() ? Sentence(d_.repeats ? " on the periodic motion" : " in the first turn")
+                              : say(" if the clearance link leads the crank by {}", degrees_of(s_.phase()));
     } else {
       const auto [low, high] = phases(d_);
-      text = fmt::format("The clearance link keeps within {:.2g}° of its phase of {:.4g}°",
-                         math::degrees(std::max(high - s_.phase(), s_.phase() - low)),
-                         math::degrees(s_.phase()));
+      text = say("The clearance link keeps within {} of its phase of {}",
+                 degrees_of(std::max(high - s_.phase(), s_.phase() - low), 2), degrees_of(s_.phase()));
     }
     if (s_.has_masses())
-      text += lost(d_) ? fmt::format(
-                             ", but pin and bush separate at a crank angle of {:.1f}°: the design is outside "
-                             "of the model",
-                             wrapped_degrees(separation_angle(d_)))
-                       : fmt::format("; pin and bush stay in contact, with {:.4g} N at least",
-                                     d_.run.least_tension);
+      text += lost(d_)
+                  ? say(", but pin and bush separate at a crank angle of {}: the design is outside of the "
+                        "model",
+                        crank_angle(separation_angle(d_)))
+                  : say("; pin and bush stay in contact, with {} at least", newtons(d_.run.least_tension));
     text += ".";
   }
 

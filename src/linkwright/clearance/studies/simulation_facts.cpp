@@ -19,9 +19,7 @@ constexpr double deep_share = 0.1;
 // Of the coefficient of restitution: a law that is off by more is reported.
 constexpr double far_restitution = 0.25;
 
-std::string newtons(double force) {
-  return force < 1e4 ? fmt::format("{:.4g} N", force) : fmt::format("{:.4g} kN", 1e-3 * force);
-}
+Measured force_by_size(double force) { return force < 1e4 ? newtons(force) : measured("kN", force); }
 
 class Facts {
  public:
@@ -36,22 +34,20 @@ class Facts {
     else
       continuous_facts();
     if (errors_.path.any())
-      fact("path error", fmt::format("at most {:.4g} mm from the ideal path ({}{})", 1e3 * errors_.path.value,
-                                     errors_.point,
-                                     errors_.place.any() ? fmt::format(", {:.4g} mm from its ideal place",
-                                                                       1e3 * errors_.place.value)
-                                                         : ""));
+      fact("path error",
+           say("at most {} from the ideal path ({}{})", millimetres(errors_.path.value), errors_.point,
+               errors_.place.any() ? say(", {} from its ideal place", millimetres(errors_.place.value))
+                                   : Sentence()));
     if (rows() > 0) {
       const study::EnergyBalance balance{r_.largest_drift, r_.peak_energy};
       fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
       if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     }
-    fact("integration",
-         fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
+    fact("integration", say("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
     if (!r_.message.empty()) warn(r_.message, "");
   }
   void headline() {
-    std::string& text = result_.headline;
+    Sentence& text = result_.headline;
     if (rows() == 0) {
       const bool interrupted = r_.status == Status::cancelled || r_.status == Status::deadline;
       text =
@@ -61,11 +57,11 @@ class Facts {
     if (r_.regime) text = regime_headline();
     text += motion_headline();
     if (errors_.path.any())
-      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path.value);
+      text += say("; {} leaves its path by up to {}", errors_.point, millimetres(errors_.path.value));
     text += ".";
     if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
-      text +=
-          fmt::format(" It ends at {:.6g} s, before {:.6g} s: {}.", r_.time, s_.to(), to_string(r_.status));
+      text += say(" It ends at {}, before {}: {}.", seconds(r_.time, 6), seconds(s_.to(), 6),
+                  to_string(r_.status));
   }
 
  private:
@@ -81,20 +77,17 @@ class Facts {
     if (regime.orbit) orbit_facts(*regime.orbit);
     if (regime.turns > 0 && regime.waited > 0)
       fact("periodic regime",
-           fmt::format("repeats every {} ({:.6g} s) after {}, within {:.2g}", periods(regime.turns),
-                       regime.turns * s_.period, periods(regime.waited), regime.change),
+           say("repeats every {} ({}) after {}, within {}", periods(regime.turns),
+               seconds(regime.turns * s_.period, 6), periods(regime.waited), plain_number(regime.change, 2)),
            Verdict::good);
     else if (regime.turns == 0)
       fact("periodic regime",
-           std::isnan(regime.change)
-               ? std::string("not found")
-               : fmt::format("not found within {}: the last one changed the motion by {:.3g}",
-                             periods(regime.waited), regime.change),
+           std::isnan(regime.change) ? "not found"
+                                     : say("not found within {}: the last one changed the motion by {}",
+                                           periods(regime.waited), plain_number(regime.change, 3)),
            Verdict::bad);
   }
-  static std::string periods(int count) {
-    return count == 1 ? std::string("turn") : fmt::format("{} turns", count);
-  }
+  static Sentence periods(int count) { return count == 1 ? "turn" : say("{} turns", count); }
   void orbit_facts(const JointOrbit& orbit) {
     const bool taken = r_.regime->waited == 0;
     if (orbit.status != Status::done) {
@@ -102,19 +95,18 @@ class Facts {
       return;
     }
     fact(taken ? "periodic regime" : "shooting",
-         fmt::format(
-             "{:.6g} s, in continuous contact; found in {} steps of Newton's method, a period changes it by "
-             "{:.2g}{}",
-             s_.period, orbit.iterations, orbit.residual,
+         say("{}, in continuous contact; found in {} steps of Newton's method, a period changes it by {}{}",
+             seconds(s_.period, 6), orbit.iterations, plain_number(orbit.residual, 2),
              taken ? "" : "; but pins separate on it, or it is unstable"),
          taken ? Verdict::good : Verdict::plain);
-    std::string multipliers;
+    Sentence multipliers;
     for (const std::complex<double>& m : orbit.multipliers)
-      multipliers += fmt::format("{}{:.6f}{:+.6f}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
+      multipliers += say("{}{}{}i", multipliers.empty() ? "" : ", ", plain_number(m.real()).fixed(6),
+                         plain_number(m.imag()).fixed(6).with_sign());
     const bool unstable = orbit.stability == OrbitStability::unstable;
     fact("stability",
-         fmt::format("{}: {}; Floquet multipliers {}", name_of(orbit.stability), summary_of(orbit.stability),
-                     multipliers),
+         say("{}: {}; Floquet multipliers {}", name_of(orbit.stability), summary_of(orbit.stability),
+             multipliers),
          unstable ? Verdict::bad : Verdict::good);
     if (unstable && taken)
       warn("the periodic motion is unstable: a real linkage leaves it",
@@ -126,13 +118,14 @@ class Facts {
     return {};
   }
   // Where the first input was when pins parted: "O2 at 71 deg".
-  std::string where_switched() const {
+  Sentence where_switched() const {
     if (r_.switched_inputs.empty()) return {};
+    const bool turns = s_.plan.rotary[0];
     const double value = r_.switched_inputs[0].value;
     const std::string& joint = planar::input_joint(s_.linkage, 0).name;
-    return s_.plan.rotary[0]
-               ? fmt::format(", {} at {:.4g} deg", joint, math::degrees(math::wrap_angle(value)))
-               : fmt::format(", {} at {:.4g} mm", joint, 1e3 * value);
+    return say(", {} at {}", joint,
+               at_place(identifier(joint),
+                        study::angle_or_length(turns ? math::wrap_angle(value) : value, turns, 4).spelled()));
   }
   void switch_fact() {
     if (!(duration() > 0)) return;
@@ -140,9 +133,9 @@ class Facts {
       fact("model", "continuous contact holds throughout", Verdict::good);
       return;
     }
-    fact("model", fmt::format("pin {} separated from its bush at {:.6g} s{}; from there on real contact{}",
-                              name(at(r_.parted)), r_.switched, where_switched(),
-                              s_.pins() > 1 ? " of all clearance joints" : ""));
+    fact("model", say("pin {} separated from its bush at {}{}; from there on real contact{}",
+                      name(at(r_.parted)), at_place("time", seconds(r_.switched, 6)), where_switched(),
+                      s_.pins() > 1 ? " of all clearance joints" : ""));
   }
   void contact_facts() {
     if (!(duration() > 0)) return;
@@ -152,11 +145,11 @@ class Facts {
       const double touching = (r_.went_over() ? std::max(r_.switched - r_.from, 0.0) : 0) + of.touching;
       shortest = std::min(shortest, of.shortest);
       fact(fmt::format("contacts of {}", name(k)),
-           of.contacts == 0 ? std::string("none: the pin stays free in its bush")
-                            : fmt::format("{}, {:.3g} % of the time in contact; at most {}, {:.3g} um deep, "
-                                          "approach of {:.3g} m/s",
-                                          of.contacts, 100 * touching / duration(), newtons(of.force),
-                                          1e6 * of.depth, of.approach));
+           of.contacts == 0
+               ? "none: the pin stays free in its bush"
+               : say("{}, {} of the time in contact; at most {}, {} deep, approach of {}", of.contacts,
+                     percent(touching / duration(), 3), force_by_size(of.force),
+                     measured("um", of.depth, 3).spelled(), measured("m_per_s", of.approach, 3)));
       largest_force_ = std::max(largest_force_, of.force);
       too_deep(k, of.depth);
       poor_restitution(k);
@@ -169,11 +162,11 @@ class Facts {
     const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
     if (shortest < interval)
       fact("shortest contact",
-           fmt::format("{:.3g} s, less than the {:.3g} s between rows: plots and spectrum miss peaks of the "
-                       "forces, the table of contacts has them",
-                       shortest, interval));
+           say("{}, less than the {} between rows: plots and spectrum miss peaks of the forces, the table of "
+               "contacts has them",
+               seconds(shortest, 3), seconds(interval, 3)));
     else if (std::isfinite(shortest))
-      fact("shortest contact", fmt::format("{:.3g} s, rows every {:.3g} s", shortest, interval));
+      fact("shortest contact", say("{}, rows every {}", seconds(shortest, 3), seconds(interval, 3)));
   }
   // The law is one of depths that are small against the bodies; deeper, it is a number without a meaning.
   void too_deep(std::size_t k, double depth) {
@@ -181,8 +174,8 @@ class Facts {
     const double pin = c.bush_radius - c.clearance;
     if (depth <= deep_share * pin) return;
     fact(fmt::format("depth in the bush of {}", name(k)),
-         fmt::format("{:.4g} mm, {:.3g} % of the radius of the pin of {:.4g} mm", 1e3 * depth,
-                     100 * depth / pin, 1e3 * pin),
+         say("{}, {} of the radius of the pin of {}", millimetres(depth), percent(depth / pin, 3),
+             millimetres(pin)),
          Verdict::bad);
     warn(fmt::format("the pin of '{}', {:.4g} mm in radius, is pressed {:.4g} mm into its bush{}: the law of "
                      "contact holds for depths of a few per cent",
@@ -209,13 +202,14 @@ class Facts {
       const bool lost = !std::isnan(v.first_separation);
       lost_ = lost_ || lost;
       if (!lost) {
-        fact(fmt::format("contact of {}", name(k)),
-             fmt::format("kept: minimum tension {:.4g} N", v.least_tension), Verdict::good);
+        fact(fmt::format("contact of {}", name(k)), say("kept: minimum tension {}", newtons(v.least_tension)),
+             Verdict::good);
         continue;
       }
       fact(fmt::format("contact of {}", name(k)),
-           fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, minimum tension {:.4g} N",
-                       v.first_separation, 100 * v.separated, v.least_tension),
+           say("lost at {}; without contact {} of the time, minimum tension {}",
+               at_place("time", seconds(v.first_separation)), percent(v.separated, 3),
+               newtons(v.least_tension)),
            Verdict::bad);
       warn(fmt::format(
                "the pin of '{}' is taken to touch its bush always, but they separate at {:.4g} s: what "
@@ -225,28 +219,26 @@ class Facts {
     }
   }
 
-  std::string regime_headline() const {
+  Sentence regime_headline() const {
     const ClearanceRegime& regime = *r_.regime;
     if (regime.turns == 0)
-      return fmt::format("The motion did not become periodic within {} turns: ", s_.periodic()->max_turns);
-    if (regime.waited == 0)
-      return fmt::format("The periodic motion is {}: ", name_of(regime.orbit->stability));
-    return fmt::format("The motion repeats every {} after {}: ", periods(regime.turns),
-                       periods(regime.waited));
+      return say("The motion did not become periodic within {} turns: ", s_.periodic()->max_turns);
+    if (regime.waited == 0) return say("The periodic motion is {}: ", name_of(regime.orbit->stability));
+    return say("The motion repeats every {} after {}: ", periods(regime.turns), periods(regime.waited));
   }
-  std::string motion_headline() const {
+  Sentence motion_headline() const {
     const bool begins = result_.headline.empty();
     if (r_.went_over())
-      return fmt::format("{} {} separates from its bush at {:.4g} s{}, and {} contacts with up to {} follow",
-                         begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(),
-                         r_.all_contacts(), newtons(largest_force_));
+      return say("{} {} separates from its bush at {}{}, and {} contacts with up to {} follow",
+                 begins ? "Pin" : "pin", name(at(r_.parted)), seconds(r_.switched), where_switched(),
+                 r_.all_contacts(), force_by_size(largest_force_));
     if (real())
-      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {}", begins ? "In" : "in",
-                         duration(), r_.all_contacts(), newtons(largest_force_));
+      return say("{} {} {} contacts of pin and bush, with up to {}", begins ? "In" : "in",
+                 seconds(duration()), r_.all_contacts(), force_by_size(largest_force_));
     if (lost_)
       return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
                     : "pin and bush do not stay in contact, so it is outside of the model";
-    return fmt::format("{} and bush stay in contact for all {:.4g} s", begins ? "Pin" : "pin", duration());
+    return say("{} and bush stay in contact for all {}", begins ? "Pin" : "pin", seconds(duration()));
   }
 
   const ClearanceStudy& s_;

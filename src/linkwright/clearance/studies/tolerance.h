@@ -49,7 +49,7 @@ struct ToleranceQuantity {
 std::string unit_key(ToleranceQuantity::Kind kind);
 std::string unit_label(ToleranceQuantity::Kind kind);
 /// "0.31 mm", "0.21°", "12 N".
-std::string shown(ToleranceQuantity::Kind kind, double value);
+Measured shown(ToleranceQuantity::Kind kind, double value);
 
 /// Clearance or tolerance k of a study, pins before lengths, m.
 double tolerance_range(const ToleranceStudy& study, std::size_t k);
@@ -108,8 +108,8 @@ std::vector<Table> tolerance_tables(const ToleranceStudy& study, const Tolerance
 /// Key of the last input, or of the time: what diagrams run over.
 std::string tolerance_input_key(const ToleranceStudy& study);
 /// A sample for people: "132°".
-std::string tolerance_place(const ToleranceStudy& study, const ToleranceRecording& recording,
-                            std::size_t sample);
+Sentence tolerance_place(const ToleranceStudy& study, const ToleranceRecording& recording,
+                         std::size_t sample);
 
 /// Tables, plots and facts.
 study::Result report_tolerances(const ToleranceStudy& study, ToleranceRecording recording);

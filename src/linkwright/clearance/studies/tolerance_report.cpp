@@ -66,7 +66,7 @@ class ToleranceReporter {
   std::size_t quantities() const { return r_.quantities.size(); }
   std::size_t rows() const { return r_.samples(); }
   double range(std::size_t k) const { return tolerance_range(s_, k); }
-  std::string where(std::size_t row) const { return tolerance_place(s_, r_, row); }
+  Sentence where(std::size_t row) const { return tolerance_place(s_, r_, row); }
   double worst(std::size_t q) const { return r_.worst(q); }
   // Error that a share of the random linkages keeps to at every sample; infinite when too many do not
   // assemble everywhere.
@@ -172,40 +172,38 @@ class ToleranceReporter {
       result_.statistics[quantity.key + "_worst_" + unit] = worst(q);
       if (std::isfinite(nearly_[q])) result_.statistics[quantity.key + "_99_percent_" + unit] = nearly_[q];
       if (q >= most_told) continue;
-      std::string text =
-          fmt::format("at most {} at {}", shown(quantity.kind, worst(q)), where(quantity.worst_row));
+      Sentence text = say("at most {} at {}", shown(quantity.kind, worst(q)), where(quantity.worst_row));
       if (quantity.kind == Kind::point)
-        text += fmt::format(", at most {} across its path",
-                            shown(quantity.kind, study::largest_size(bands_[q].across)));
+        text +=
+            say(", at most {} across its path", shown(quantity.kind, study::largest_size(bands_[q].across)));
       if (quantity.kind == Kind::force || quantity.kind == Kind::torque)
         if (const double size = largest_value(q); size > 0)
-          text += fmt::format(", {:.2g} % of the largest there is, {}", 100 * worst(q) / size,
-                              shown(quantity.kind, size));
+          text += say(", {} of the largest there is, {}", percent(worst(q) / size, 2),
+                      shown(quantity.kind, size));
       if (std::isfinite(nearly_[q]))
-        text += fmt::format("; {:g} % of the random linkages stay within {}", 100 * nearly_all,
-                            shown(quantity.kind, nearly_[q]));
+        text += say("; {} of the random linkages stay within {}", percent(nearly_all, 6),
+                    shown(quantity.kind, nearly_[q]));
       fact("error of " + quantity.name, text);
       if (worst(q) > 0) tighten(q);
     }
     for (const Yield& y : yields_) {
       const ToleranceQuantity& quantity = r_.quantities[y.quantity];
       const double largest = worst(y.quantity);
-      std::string text =
-          fmt::format("{:.4g} % of the random linkages ({:.3g} to {:.3g} % with 95 % confidence)",
-                      100 * y.share.value, 100 * y.share.lower, 100 * y.share.upper);
+      Sentence text = say("{} of the random linkages ({} to {} with {} confidence)", percent(y.share.value),
+                          percent(y.share.lower, 3).sharing_unit(), percent(y.share.upper, 3), percent(0.95));
       const bool always = largest <= y.limit;
       if (always)
         text += "; the worst case does, too";
       else if (quantity.any)
-        text += fmt::format("; with all tolerances {:.2g} times as large the worst case would, too",
-                            std::floor(100 * y.limit / largest) / 100);
-      fact(fmt::format("{} within {}", quantity.name, shown(quantity.kind, y.limit)), text,
+        text += say("; with all tolerances {} times as large the worst case would, too",
+                    plain_number(std::floor(100 * y.limit / largest) / 100, 2));
+      fact(fmt::format("{} within {}", quantity.name, to_string(shown(quantity.kind, y.limit))), text,
            always ? Verdict::good : Verdict::plain);
     }
     if (std::isfinite(r_.transmission))
       fact("minimum transmission angle",
-           fmt::format("{:.1f}° of {} at {}", math::degrees(r_.transmission), r_.transmission_group,
-                       where(r_.transmission_row)),
+           say("{} of {} at {}", degrees_of(r_.transmission).fixed(1), r_.transmission_group,
+               where(r_.transmission_row)),
            r_.transmission < poor_transmission ? Verdict::bad : Verdict::plain);
   }
 
@@ -225,19 +223,19 @@ class ToleranceReporter {
   void tighten(std::size_t q) {
     const ToleranceQuantity& quantity = r_.quantities[q];
     const std::size_t row = quantity.worst_row;
-    std::string text;
+    Sentence text;
     std::size_t told = 0;
     const std::vector<std::size_t> order = r_.by_share(q);
     for (const std::size_t k : order) {
       const double part = r_.contribution(row, q, k) / worst(q);
       if (told == 4 || part < 0.005) break;
-      text += fmt::format("{}{} ({:.0f} %{})", told ? ", " : "", r_.tolerances[k], 100 * part,
-                          told ? "" : " of the worst case");
+      text += say("{}{} ({}{})", told ? ", " : "", r_.tolerances[k], percent(part).fixed(0),
+                  told ? "" : " of the worst case");
       ++told;
     }
     const double less = range(order[0]) / 10;
-    text += fmt::format("; {:.3g} mm less for {} takes off {}", 1e3 * less, r_.tolerances[order[0]],
-                        shown(quantity.kind, r_.contribution(row, q, order[0]) / 10));
+    text += say("; {} less for {} takes off {}", millimetres(less, 3), r_.tolerances[order[0]],
+                shown(quantity.kind, r_.contribution(row, q, order[0]) / 10));
     fact("tighten first for " + quantity.name, text);
   }
 
@@ -247,7 +245,7 @@ class ToleranceReporter {
       for (std::size_t row = rows(); row-- > 0;)
         if (bad(r_.linear[row].status)) ++count, first = row;
       if (count > 0)
-        warn(fmt::format("{} of {} positions, the first at {}, {}", count, rows(), where(first), what),
+        warn(say("{} of {} positions, the first at {}, {}", count, rows(), where(first), what),
              std::move(hint));
     };
     told([](Status s) { return s != Status::done && s != Status::infeasible; },
@@ -257,10 +255,8 @@ class ToleranceReporter {
          "are at the end of the motion: linkages with the least errors do not assemble there",
          "end the sweep before them");
     if (r_.transmission < poor_transmission)
-      warn(
-          fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point errors grow "
-                      "without bound",
-                      r_.transmission_group, math::degrees(r_.transmission), where(r_.transmission_row)));
+      warn(say("the transmission angle of {} falls to {} at {}: near a dead point errors grow without bound",
+               r_.transmission_group, degrees_of(r_.transmission).fixed(2), where(r_.transmission_row)));
     if (r_.random.draws < s_.draws)
       warn(fmt::format("only {} of {} random linkages were drawn ({})", r_.random.draws, s_.draws,
                        to_string(r_.random.status)));
@@ -273,8 +269,8 @@ class ToleranceReporter {
             (r_.linear[least].status == Status::no_assembly ||
              r_.random.samples[row].assembled < r_.random.samples[least].assembled))
           least = row;
-      warn(fmt::format("{} of {} random linkages do not assemble everywhere; at {} {} of them do not", apart,
-                       r_.random.draws, where(least), r_.random.draws - r_.random.samples[least].assembled),
+      warn(say("{} of {} random linkages do not assemble everywhere; at {} {} of them do not", apart,
+               r_.random.draws, where(least), r_.random.draws - r_.random.samples[least].assembled),
            "they count as beyond every limit; all other figures of random linkages are about the rest");
     }
     for (std::size_t q = 0; q < quantities(); ++q) linearity(q);
@@ -302,10 +298,9 @@ class ToleranceReporter {
       if (off > most) most = off, farthest = row;
     }
     if (count > 0)
-      warn(fmt::format(
-               "{}: the errors of the random linkages differ from the linear theory at {} of {} positions, "
-               "by {:.0f} % (root mean square) at {}",
-               quantity.name, count, rows(), 100 * most, where(farthest)),
+      warn(say("{}: the errors of the random linkages differ from the linear theory at {} of {} positions, "
+               "by {} (root mean square) at {}",
+               quantity.name, count, rows(), percent(most).fixed(0), where(farthest)),
            "take the random linkages there; worst case and budget are of the linear theory");
   }
 
@@ -317,23 +312,25 @@ class ToleranceReporter {
           "dead points.";
       return;
     }
-    std::string& text = result_.headline;
-    text = fmt::format("{} deviates by at most {} (worst case, at {})", main.name, shown(main.kind, worst(0)),
-                       where(main.worst_row));
-    if (text[0] >= 'a' && text[0] <= 'z' && main.kind != Kind::point)
-      text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    std::string name = main.name;
+    if (name[0] >= 'a' && name[0] <= 'z' && main.kind != Kind::point)
+      name[0] = static_cast<char>(name[0] - 'a' + 'A');
+    Sentence& text = result_.headline;
+    text = say("{} deviates by at most {} (worst case, at {})", name, shown(main.kind, worst(0)),
+               where(main.worst_row));
     if (std::isfinite(nearly_[0]))
-      text += fmt::format("; {:g} % of {} random linkages stay within {}", 100 * nearly_all, r_.random.draws,
-                          shown(main.kind, nearly_[0]));
+      text += say("; {} of {} random linkages stay within {}", percent(nearly_all, 6), r_.random.draws,
+                  shown(main.kind, nearly_[0]));
     if (worst(0) > 0) {
       const std::size_t first = r_.by_share(0)[0];
-      text += fmt::format("; {:.0f} % of the worst case comes from {}",
-                          100 * r_.contribution(main.worst_row, 0, first) / worst(0), r_.tolerances[first]);
+      text +=
+          say("; {} of the worst case comes from {}",
+              percent(r_.contribution(main.worst_row, 0, first) / worst(0)).fixed(0), r_.tolerances[first]);
     }
     text += ".";
     for (const Yield& y : yields_)
-      text += fmt::format(" {:.3g} % keep {} within {}.", 100 * y.share.value, r_.quantities[y.quantity].name,
-                          shown(r_.quantities[y.quantity].kind, y.limit));
+      text += say(" {} keep {} within {}.", percent(y.share.value, 3), r_.quantities[y.quantity].name,
+                  shown(r_.quantities[y.quantity].kind, y.limit));
   }
 
   const ToleranceStudy& s_;

@@ -123,17 +123,9 @@ std::string unit_key(Kind kind) {
 
 std::string unit_label(Kind kind) { return kind == Kind::torque ? "N m" : unit_key(kind); }
 
-std::string shown(Kind kind, double value) {
-  switch (kind) {
-    case Kind::point:
-    case Kind::displacement:
-    case Kind::angle:
-      return to_string(study::angle_or_length(value, kind == Kind::angle, 3));
-    case Kind::force:
-    case Kind::torque:
-      return fmt::format("{:.3g} {}", value, unit_label(kind));
-  }
-  return {};
+Measured shown(Kind kind, double value) {
+  return kind == Kind::force || kind == Kind::torque ? study::torque_or_force(value, kind == Kind::torque, 3)
+                                                     : study::angle_or_length(value, kind == Kind::angle, 3);
 }
 
 double tolerance_range(const ToleranceStudy& s, std::size_t k) {
@@ -167,14 +159,15 @@ std::string tolerance_input_key(const ToleranceStudy& s) {
              : planar::input_key(s.motion.linkage, s.motion.plan, s.motion.plan.inputs() - 1);
 }
 
-std::string tolerance_place(const ToleranceStudy& s, const ToleranceRecording& r, std::size_t sample) {
+Sentence tolerance_place(const ToleranceStudy& s, const ToleranceRecording& r, std::size_t sample) {
   if (std::holds_alternative<study::TimeSamples>(s.motion.sweep))
-    return fmt::format("{:.4g} s", r.rows.time[sample]);
-  std::string out;
+    return at_place("time", seconds(r.rows.time[sample]));
+  Sentence out;
   for (std::size_t k = 0; k < s.motion.plan.inputs(); ++k) {
     const double value = r.rows.inputs[sample][k].value;
     out += k ? ", " : "";
-    out += to_string(study::angle_or_length(value, s.motion.plan.rotary[k], 4));
+    out += at_place(identifier(planar::input_joint(s.motion.linkage, k).name),
+                    study::angle_or_length(value, s.motion.plan.rotary[k], 4));
   }
   return out;
 }

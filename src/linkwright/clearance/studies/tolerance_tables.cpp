@@ -178,7 +178,8 @@ class Tabler {
     const bool length = quantity.kind == Kind::point || quantity.kind == Kind::displacement;
     add("tolerance_m", "tolerance (m)", [&](std::size_t k) { return tolerance_range(s_, k); });
     add("worst_" + unit,
-        fmt::format("contribution to the worst case at {} ({})", tolerance_place(s_, r_, row), label),
+        fmt::format("contribution to the worst case at {} ({})", to_string(tolerance_place(s_, r_, row)),
+                    label),
         [&](std::size_t k) { return r_.contribution(row, q, k); });
     add("worst_share", "share of the worst case",
         [&](std::size_t k) { return part(r_.contribution(row, q, k), all); });
