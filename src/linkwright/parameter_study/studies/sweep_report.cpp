@@ -115,9 +115,11 @@ std::vector<std::string> names_of(const std::vector<Heading>& headings) {
   return names;
 }
 
-std::string with_unit(double value, const std::string& unit) {
-  if (unit == "deg") return fmt::format("{:.4g}°", value);
-  return fmt::format("{:.4g}{}", value, unit.empty() ? "" : " " + readable_unit(unit));
+/// A value in the unit in which it is given.
+Measured with_unit(double value, const std::string& unit) {
+  if (unit.empty()) return plain_number(value);
+  const Measured number = measured(unit, in_si(value, unit));
+  return unit == "deg" ? number : number.spelled();
 }
 
 std::string spaced(std::string text) {
@@ -137,14 +139,14 @@ class Reporter {
       : s_(s), results_(results), result_(result) {
     for (const Parameter& p : s.parameters) headings_.push_back(heading_of(p));
     for (const Measure& m : s.measures) headings_.push_back(heading_of(m));
-    const std::vector<std::string> names = names_of(headings_);
+    names_ = names_of(headings_);
     for (std::size_t k = 0; k < headings_.size(); ++k) {
       const std::string unit = si_unit(headings_[k].unit);
-      keys_.push_back(names[k] + (unit.empty() ? "" : "_" + unit));
+      keys_.push_back(names_[k] + (unit.empty() ? "" : "_" + unit));
       const Heading& h = headings_[k];
-      const bool said = !h.before.empty() && names[k].ends_with(h.tail);
+      const bool said = !h.before.empty() && names_[k].ends_with(h.tail);
       const std::string words =
-          said ? h.before + names[k].substr(0, names[k].size() - h.tail.size()) : names[k];
+          said ? h.before + names_[k].substr(0, names_[k].size() - h.tail.size()) : names_[k];
       titles_.push_back(h.label.empty() ? spaced(words) : h.label);
       labels_.push_back(titles_[k] + (unit.empty() ? "" : fmt::format(" ({})", readable_unit(unit))));
     }
@@ -219,27 +221,28 @@ class Reporter {
   }
 
   /// "at coupler 350 mm, branch open", or "in trial 17" where that would be long.
-  std::string place(std::size_t trial) const {
-    if (parameters() > most_named) return fmt::format("in trial {}", trial + 1);
-    std::string text = "at ";
+  Sentence place(std::size_t trial) const {
+    if (parameters() > most_named)
+      return say("in trial {}", at_place("trial", count_of(static_cast<double>(trial + 1))));
+    Sentence text = "at ";
     for (std::size_t j = 0; j < parameters(); ++j) {
       const Parameter& p = s_.parameters[j];
       const double value = s_.trials.at(trial, j);
-      text += fmt::format("{}{} {}", j == 0 ? "" : ", ", titles_[j],
-                          p.words.empty() ? with_unit(value, headings_[j].unit)
-                                          : word_text(p.words[static_cast<std::size_t>(value)]));
+      text += say("{}{} ", j == 0 ? "" : ", ", titles_[j]);
+      text += p.words.empty() ? Sentence(at_place(names_[j], with_unit(value, headings_[j].unit)))
+                              : word_text(p.words[static_cast<std::size_t>(value)]);
     }
     return text;
   }
-  std::string measured_text(std::size_t k, double value) const { return with_unit(value, unit_of(k)); }
+  Measured measured_value(std::size_t k, double value) const { return with_unit(value, unit_of(k)); }
 
   void add_facts() {
     const study::AddFact fact{result_.facts};
     const auto done = static_cast<std::size_t>(
         std::count(results_.status.begin(), results_.status.end(), to_string(Status::done)));
     const std::size_t all = s_.trials.count();
-    fact("trials", done == all ? fmt::format("{}", all) : fmt::format("{} of {} done", done, all));
-    std::string headline;
+    fact("trials", done == all ? say("{}", all) : say("{} of {} done", done, all));
+    Sentence headline;
     for (std::size_t k = 0; k < measures(); ++k) {
       const std::vector<double>& values = results_.measured[k];
       std::size_t least = all, greatest = all;
@@ -253,17 +256,17 @@ class Reporter {
         continue;
       }
       if (values[least] == values[greatest]) {
-        fact(title_of(k), fmt::format("{} in all trials", measured_text(k, values[least])));
+        fact(title_of(k), say("{} in all trials", measured_value(k, values[least])));
       } else {
-        fact(title_of(k) + ", smallest", fmt::format("{} {}", measured_text(k, values[least]), place(least)));
-        fact(title_of(k) + ", largest",
-             fmt::format("{} {}", measured_text(k, values[greatest]), place(greatest)));
+        fact(title_of(k) + ", smallest", say("{} {}", measured_value(k, values[least]), place(least)));
+        fact(title_of(k) + ", largest", say("{} {}", measured_value(k, values[greatest]), place(greatest)));
       }
       if (headline.empty())
-        headline = fmt::format(
-            "Over {} trial{}, {} is {}{}.", done, done == 1 ? "" : "s", title_of(k),
-            measured_text(k, values[least]),
-            values[least] == values[greatest] ? std::string() : " to " + measured_text(k, values[greatest]));
+        headline =
+            say("Over {} trial{}, {} is {}{}.", done, done == 1 ? "" : "s", title_of(k),
+                measured_value(k, values[least]),
+                values[least] == values[greatest] ? Sentence()
+                                                  : say(" to {}", measured_value(k, values[greatest])));
     }
     result_.headline = headline.empty() ? "No trial has a measure." : headline;
     if (headline.empty() && result_.status == Status::done) result_.status = Status::infeasible;
@@ -300,8 +303,8 @@ class Reporter {
     const std::string& parameter = titles_[static_cast<std::size_t>(strongest - strength.begin())];
     study::AddFact{result_.facts}(
         "moves " + title_of(k) + " most",
-        share ? fmt::format("{}: {:.3g} of the variance", parameter, *strongest)
-              : fmt::format("{}: {} over its range, on average", parameter, measured_text(k, *strongest)));
+        share ? say("{}: {} of the variance", parameter, plain_number(*strongest, 3))
+              : say("{}: {} over its range, on average", parameter, measured_value(k, *strongest)));
   }
 
   void add_effects(const MorrisSampling& sampling) {
@@ -430,10 +433,10 @@ class Reporter {
                                     [](const std::string& problem) { return !problem.empty(); });
     if (first != results_.problem.end()) {
       const auto i = static_cast<std::size_t>(first - results_.problem.begin());
-      warning(fmt::format("{} of {} trials are studies with errors; the first {}: {}",
-                          std::count_if(results_.problem.begin(), results_.problem.end(),
-                                        [](const std::string& problem) { return !problem.empty(); }),
-                          s_.trials.count(), place(i), *first));
+      warning(say("{} of {} trials are studies with errors; the first {}: {}",
+                  std::count_if(results_.problem.begin(), results_.problem.end(),
+                                [](const std::string& problem) { return !problem.empty(); }),
+                  s_.trials.count(), place(i), *first));
     }
     std::string others;
     for (const auto& [status, count] : counts)
@@ -446,7 +449,7 @@ class Reporter {
   const TrialResults& results_;
   study::Result& result_;
   std::vector<Heading> headings_;  // of the parameters, then of the measures
-  std::vector<std::string> keys_, titles_, labels_;
+  std::vector<std::string> names_, keys_, titles_, labels_;
 };
 
 }  // namespace

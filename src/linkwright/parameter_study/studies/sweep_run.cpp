@@ -129,7 +129,7 @@ study::Result run_parameter_study(const ParameterStudy& s, std::span<const study
   }
   if (!base.problem.empty()) {
     result.status = Status::infeasible;
-    result.headline = fmt::format("Nothing was tried. {}", base.problem);
+    result.headline = "Nothing was tried. " + base.problem;
     return result;
   }
   const std::size_t trials = s.trials.count();
