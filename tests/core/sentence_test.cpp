@@ -60,7 +60,8 @@ TEST(Sentence, IsJoinedFromOthers) {
 }
 
 TEST(Sentence, ItsValueIsNoPlace) {
-  const Sentence s = say("at {}: {}", at_place(std::string("crank") + "_angle", degrees_of(pi / 2)), newtons(3));
+  const Sentence s =
+      say("at {}: {}", at_place(std::string("crank") + "_angle", degrees_of(pi / 2)), newtons(3));
   ASSERT_TRUE(s.value());
   EXPECT_EQ(s.value()->si, 3);
   EXPECT_EQ(std::get<Measured>(s.parts()[1]).place_key(), "crank_angle_deg");

@@ -63,8 +63,7 @@ class Merger {
     out_.tables = std::move(diagrams.tables);
     solutions();
     checks();
-    out_.headline =
-        say("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
+    out_.headline = say("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
     if (!figures_.names.empty()) out_.tables.insert(out_.tables.begin(), figures());
     for (Table& table : diagrams.differences) out_.tables.push_back(std::move(table));
     return std::move(out_);

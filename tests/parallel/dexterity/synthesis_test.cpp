@@ -101,7 +101,8 @@ TEST(DexteritySynthesis, RefusesDesignsWhosePlatformTurns) {
       task.limits.constraint = least;
       const DexterityDesign found = assess(task, test::numbers(test::at(former, "x_R_La_Lf_zt")));
       EXPECT_EQ(found.status, Status::infeasible);
-      EXPECT_NE(to_string(found.reason).find("constraint is -0."), std::string::npos) << to_string(found.reason);
+      EXPECT_NE(to_string(found.reason).find("constraint is -0."), std::string::npos)
+          << to_string(found.reason);
       const DexterityStand* stand = stand_of(found, DexterityLimit::constraint);
       ASSERT_NE(stand, nullptr);
       EXPECT_NEAR(stand->value, test::number_at(former, "index_signed_min_on_E"), 1e-7) << id;
@@ -209,7 +210,8 @@ TEST(DexteritySynthesis, TellsWhatIsMissed) {
   task.limits.size = infinity;
   const DexterityDesign short_arms = assess(task, std::vector{0.1, 0.2, 0.3, 0.3});
   EXPECT_EQ(short_arms.status, Status::infeasible);
-  EXPECT_NE(to_string(short_arms.reason).find("is required"), std::string::npos) << to_string(short_arms.reason);
+  EXPECT_NE(to_string(short_arms.reason).find("is required"), std::string::npos)
+      << to_string(short_arms.reason);
 }
 
 TEST(DexteritySynthesis, EndsWhenCancelled) {

@@ -216,7 +216,8 @@ TEST(Position, TellsWhichLegCannotReach) {
       planar({.base_x = -0.15, .arm = 0.3, .rod = 0.3}, {.base_x = 0.15, .arm = 0.25, .rod = 0.35});
   const ArmAngles open = inverse(square, {{-0.15, 0, 0}});
   EXPECT_EQ(open.status, Status::singular);
-  EXPECT_EQ(to_string(reason(open)), "the platform joint of leg 1 is on the axis of its arm, whose angle is open");
+  EXPECT_EQ(to_string(reason(open)),
+            "the platform joint of leg 1 is on the axis of its arm, whose angle is open");
 }
 
 TEST(Position, ExactSingularPlaces) {

@@ -75,13 +75,15 @@ TEST(DriveUseStudy, TheWorstComesFirst) {
       motion.duration(), RunContext());
   auto failures = judge.failures();
   ASSERT_EQ(failures.size(), 5u);
-  EXPECT_THAT(to_string(failures[0].text), HasSubstr("Pi-joint 2 would be at 34.38 deg, travel -28.65 to 28.65 deg"));
+  EXPECT_THAT(to_string(failures[0].text),
+              HasSubstr("Pi-joint 2 would be at 34.38 deg, travel -28.65 to 28.65 deg"));
   EXPECT_THAT(to_string(failures[1].text), HasSubstr("screw force of drive 1 is"));
   EXPECT_THAT(to_string(failures[2].text),
               HasSubstr("speed of drive 2 is 3 m/s, the limit is 1 m/s, 300 % of it is required"));
   EXPECT_THAT(to_string(failures[3].text),
               HasSubstr("diagonal and arm of Pi-joint 2 is 0.500, at least 0.999 is required"));
-  EXPECT_THAT(to_string(failures[4].text), HasSubstr("transmission index is 0.200, at least 0.300 is required"));
+  EXPECT_THAT(to_string(failures[4].text),
+              HasSubstr("transmission index is 0.200, at least 0.300 is required"));
   judge.fail(Severity::impossible, 0.01, Status::no_assembly, "too far");
   EXPECT_EQ(to_string(judge.failures().front().text), "too far");
   const Table table = uses_table(judge.uses());
@@ -90,7 +92,8 @@ TEST(DriveUseStudy, TheWorstComesFirst) {
   study::Result result;
   add_verdict(result, judge, motion, motion.duration(), true);
   EXPECT_EQ(result.status, Status::no_assembly);
-  EXPECT_EQ(to_string(result.headline), "It fails: too far. The first of 6 failures begins in step 1 (line) at 0 s.");
+  EXPECT_EQ(to_string(result.headline),
+            "It fails: too far. The first of 6 failures begins in step 1 (line) at 0 s.");
 }
 
 TEST(DriveUseStudy, DemandsTellHowFarLimitsAreKept) {
@@ -123,7 +126,8 @@ TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {
       motion.duration(), RunContext());
   study::Result whole, part;
   add_verdict(whole, judge, motion, motion.duration(), true);
-  EXPECT_THAT(to_string(whole.headline), HasSubstr("The tightest limit is the torque of drive 1: 75 % of it is used."));
+  EXPECT_THAT(to_string(whole.headline),
+              HasSubstr("The tightest limit is the torque of drive 1: 75 % of it is used."));
   ASSERT_EQ(whole.facts.size(), 2u);
   EXPECT_EQ(to_string(whole.facts[0].text), "25.0 % of the limit (drive 1, step 1 (line) at 0 s)");
   add_verdict(part, judge, motion, 0.125, false);

@@ -98,7 +98,8 @@ TEST(MotionStudy, SaysWhereItFailsAndWhy) {
   const auto stiff = run_text(whole + "[limits]\ntransmission = 0.95\n");
   EXPECT_THAT(to_string(stiff.headline), HasSubstr("at least 0.950 is required"));
   const auto leaning = run_text(whole + "[limits]\nrod_swing_deg = 1\n");
-  EXPECT_THAT(to_string(leaning.headline), HasSubstr("out of the plane of its arm, at most 1.00 deg is allowed"));
+  EXPECT_THAT(to_string(leaning.headline),
+              HasSubstr("out of the plane of its arm, at most 1.00 deg is allowed"));
   const auto straight = run_text(whole + "[limits]\nlargest_elbow_deg = 90\n");
   EXPECT_THAT(to_string(straight.headline), HasSubstr("at most 90.00 deg is required"));
 }
@@ -138,7 +139,8 @@ TEST(MotionStudy, APathThroughAConstraintSingularityFails) {
   const auto limited =
       run_text(replaced(clear, "[300, 0, -440]", "[210, 0, -488]") + "[limits]\nconstraint = 0.2\n");
   EXPECT_EQ(limited.status, Status::limit_reached);
-  EXPECT_THAT(to_string(limited.headline), HasSubstr("the constraint index falls below 0.200, which is required"));
+  EXPECT_THAT(to_string(limited.headline),
+              HasSubstr("the constraint index falls below 0.200, which is required"));
   EXPECT_EQ(
       run_text(replaced(clear, "[300, 0, -440]", "[180, 0, -504]") + "[limits]\nconstraint = 0.2\n").status,
       Status::done);
@@ -162,12 +164,14 @@ TEST(MotionStudy, VerdictsDoNotDependOnTheTable) {
       EXPECT_EQ(to_string(other.headline), to_string(fine.headline));
       EXPECT_EQ(other.status, fine.status);
       ASSERT_EQ(other.facts.size(), fine.facts.size());
-      for (std::size_t i = 0; i < fine.facts.size(); ++i) EXPECT_EQ(to_string(other.facts[i].text), to_string(fine.facts[i].text));
+      for (std::size_t i = 0; i < fine.facts.size(); ++i)
+        EXPECT_EQ(to_string(other.facts[i].text), to_string(fine.facts[i].text));
     }
   }
   const auto out = run_text(reach);
   EXPECT_EQ(out.status, Status::no_assembly);
-  EXPECT_THAT(to_string(out.headline), HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its path: leg 1 is straight"));
+  EXPECT_THAT(to_string(out.headline),
+              HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its path: leg 1 is straight"));
 }
 
 // The use of a drive is the largest of the path: all rows of a fine table stay below it, and come close.

@@ -116,7 +116,8 @@ TEST(SerialMotionStudy, VerdictsDoNotDependOnTheTable) {
     const auto coarse = run_text(replaced(text, "interval_s = 0.0005", "interval_s = 10"));
     EXPECT_EQ(to_string(coarse.headline), to_string(fine.headline));
     ASSERT_EQ(coarse.facts.size(), fine.facts.size());
-    for (std::size_t i = 0; i < fine.facts.size(); ++i) EXPECT_EQ(to_string(coarse.facts[i].text), to_string(fine.facts[i].text));
+    for (std::size_t i = 0; i < fine.facts.size(); ++i)
+      EXPECT_EQ(to_string(coarse.facts[i].text), to_string(fine.facts[i].text));
   }
 }
 

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/result_units.h"
 #include "parallel/robots.h"
 #include "parallel/studies.h"
 
@@ -16,6 +18,7 @@ using test::column;
 using test::problems_of;
 using test::replaced;
 using test::run_text;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 const std::string delta =
@@ -96,6 +99,30 @@ TEST(WorkspaceStudy, TellsWhatCanBePromised) {
     EXPECT_EQ(at(to[i] - 1e-6), Criterion::none);
     EXPECT_NE(at(to[i] + 1e-6), Criterion::none);
   }
+}
+
+/// The sizes and the centre of the body, in this unit.
+std::string body_text(const study::Result& result, std::string_view label, std::string_view unit) {
+  study::DisplayUnits units;
+  units.choose({{}, find_unit(Dimension::length, unit), Dimension::length});
+  return test::fact(study::in_units(result, units), label);
+}
+
+TEST(WorkspaceStudy, SaysABodyInOneUnit) {
+  const auto space = run_text(delta + box + "[workspace.inscribed]\naxis_mm = [0, 0]\nheight_mm = 254\n");
+  EXPECT_THAT(body_text(space, "largest cylinder", "in"),
+              ContainsRegex("^diameter [0-9.]+ in, height 10 in, at 0, 0, -[0-9.]+ in,"));
+  const auto plane = run_text(
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.five_bar\"\n"
+      "[[mechanism.leg]]\nbase_mm = [-150, 0]\narm_mm = 250\nrod_mm = 350\n"
+      "[[mechanism.leg]]\nbase_mm = [150, 0]\narm_mm = 250\nrod_mm = 350\n[home]\nposition_mm = [0, 400, "
+      "0]\n"
+      "[workspace]\nlower_mm = [-600, -600, 0]\nupper_mm = [600, 600, 0]\nstep_mm = 40\n"
+      "[workspace.inscribed]\nshape = \"box\"\n");
+  EXPECT_THAT(body_text(plane, "largest box", "mm"),
+              ContainsRegex("^[0-9.]+ x [0-9.]+ mm, at -?[0-9.]+, [0-9.]+ mm"));
+  EXPECT_THAT(body_text(plane, "largest box", "in"),
+              ContainsRegex("^[0-9.]+ x [0-9.]+ in, at -?[0-9.]+, [0-9.]+ in"));
 }
 
 TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {

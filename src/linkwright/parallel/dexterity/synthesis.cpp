@@ -54,10 +54,10 @@ bool is_out_of_reach(const DexterityStand& stand) {
 Sentence described(const DexterityStand& stand) {
   const Measured leg = at_place("leg", count_of(stand.leg + 1));
   if (is_out_of_reach(stand))
-    return say("leg {} does not reach {}, and the whole region is required", leg, coordinates_of(stand.place));
-  Sentence text =
-      say("{} is {}, {} {} is required", name_of(stand.limit), plain_number(stand.value, 6),
-          stand.at_least ? "at least" : "at most", plain_number(stand.bound, 6));
+    return say("leg {} does not reach {}, and the whole region is required", leg,
+               coordinates_of(stand.place));
+  Sentence text = say("{} is {}, {} {} is required", name_of(stand.limit), plain_number(stand.value, 6),
+                      stand.at_least ? "at least" : "at most", plain_number(stand.bound, 6));
   const bool of_pose =
       stand.limit == DexterityLimit::conditioning || stand.limit == DexterityLimit::constraint;
   if (stand.leg >= 0)

@@ -358,8 +358,8 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   fact("minimum conditioning index", plain_number(a.best.worst).fixed(6));
   fact("mean conditioning index", plain_number(a.best.mean).fixed(6));
   fact("arm and rod together", millimetres(a.best.size).fixed(3));
-  fact("arm angles used", say("{} to {}", degrees_of(a.best.arm_lowest).fixed(2),
-                              degrees_of(a.best.arm_highest).fixed(2)));
+  fact("arm angles used",
+       say("{} to {}", degrees_of(a.best.arm_lowest).fixed(2), degrees_of(a.best.arm_highest).fixed(2)));
   if (s.task.pi_joint)
     fact("diagonals used", [&] {
       const Drive& d = a.best.drives[0];
@@ -398,13 +398,12 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
     fact("runs that reached it", study::successful_seeds(result, runs.answers.size()));
   result.scenes.push_back(scene_of(s, a.best));
   result.headline =
-      proof.violated ? say(
-                           "The best design misses the constraint index, or is singular, between the nodes, "
+      proof.violated ? say("The best design misses the constraint index, or is singular, between the nodes, "
                            "at {}: ask for more nodes.",
                            coordinates_of(*proof.violated))
-      : good ? say("Best {} found: {}.", name_of(s.task.family),
-                   objective_text(s.task.goal, a.best.objective))
-             : say("No design meets every limit: {}.", a.best.reason);
+      : good
+          ? say("Best {} found: {}.", name_of(s.task.family), objective_text(s.task.goal, a.best.objective))
+          : say("No design meets every limit: {}.", a.best.reason);
   return result;
 }
 

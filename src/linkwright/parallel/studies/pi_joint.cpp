@@ -142,7 +142,8 @@ void add_calibration(study::Result& result, const PiAnalysis& s) {
   table.add("coupler_N_per_m", "stiffness of the coupler (N/m)", coupler);
   table.add("error_percent", "relative error of the compliance, rms (%)", error);
   table.add("condition", "growth of relative errors", condition);
-  fact("diagonal that fits the measurements", say("{}, rms {}", measured("N_per_m", diagonal[0]), percent(error[0] / 100, 2)));
+  fact("diagonal that fits the measurements",
+       say("{}, rms {}", measured("N_per_m", diagonal[0]), percent(error[0] / 100, 2)));
   result.tables.push_back(std::move(table));
 }
 
@@ -260,8 +261,7 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
   const auto range = range_values(s.joint, 0.5 * (s.angles.front() + s.angles.back()),
                                   0.5 * (s.angles.back() - s.angles.front()));
   fact("base and coupler", millimetres(base_length(s.joint)));
-  fact("diagonal",
-       say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  fact("diagonal", say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
   fact("stroke", millimetres(range.stroke()));
   fact("longest to shortest diagonal", plain_number(range.telescoping()).fixed(4));
   fact("least angle between diagonal and arm", degrees_of(range.least_transmission));
@@ -285,9 +285,8 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
     fact("minimum stiffness",
          measured("N_m_per_rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
   for (const PiSingularPosition& p : singular_positions(s.joint))
-    fact("singular",
-         say("{} at {}, diagonal {}", name_of(p.kind), at_place("angle", degrees_of(p.angle)),
-             millimetres(p.diagonal)));
+    fact("singular", say("{} at {}, diagonal {}", name_of(p.kind), at_place("angle", degrees_of(p.angle)),
+                         millimetres(p.diagonal)));
   if (s.calibration) add_calibration(result, s);
   result.scenes.push_back(scene_of(s.joint, s.angles));
   result.headline = say("Pi-joint of {} with k = {}: the diagonal runs {} over {} to {}.",
@@ -361,14 +360,12 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   fact("arm, base", say("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
   fact("range of the angle",
        say("{} to {}", degrees_of(best.centre - r.half_travel), degrees_of(best.centre + r.half_travel)));
-  fact("diagonal",
-       say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
-  for (const PiActiveLimit& active : report.active) 
+  fact("diagonal", say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  for (const PiActiveLimit& active : report.active)
     fact("held back by", say("{} (price {})", name_of(active.limit), plain_number(active.price, 3)));
-  fact("closed form", report.closed_form.design
-                          ? say("{}{}", millimetres(report.closed_form.design->size),
-                                report.closed_form_is_best ? ", the best there is" : "")
-                          : "none: requirements are in conflict");
+  fact("closed form", report.closed_form.design ? say("{}{}", millimetres(report.closed_form.design->size),
+                                                      report.closed_form_is_best ? ", the best there is" : "")
+                                                : "none: requirements are in conflict");
   fact("local searches that reached it", say("{} of {}", report.reached_best, report.starts));
   result.statistics["evaluations"] = static_cast<std::int64_t>(report.evaluations);
   result.statistics["starts"] = static_cast<std::int64_t>(report.starts);

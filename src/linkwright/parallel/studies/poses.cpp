@@ -311,8 +311,7 @@ void find_way(const RobotDescription& d, const AskedPose& asked, const Pose& hom
   const auto trouble = first_trouble(*task, home, out.pose);
   out.joined = !trouble;
   out.way =
-      trouble ? say(
-                    "same signs as home, but the straight path is blocked at {} of it ({}): not shown to be "
+      trouble ? say("same signs as home, but the straight path is blocked at {} of it ({}): not shown to be "
                     "joined",
                     at_place("path", percent(trouble->begin)), name_of(trouble->kind))
               : "joined to home: the straight path is free";
@@ -365,8 +364,8 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     const SolvedPose& s = solved.back();
     good += s.status == Status::done;
     if (s.status != Status::done) {
-      study::AddWarning{result.diagnostics}(
-          "pose", say("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
+      study::AddWarning{result.diagnostics}("pose",
+                                            say("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
       if (result.status == Status::done) result.status = s.status;
     }
     // Of robots that do not turn a way that is shown needs no word.
@@ -377,8 +376,7 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     numbers.push_back(static_cast<double>(numbers.size() + 1));
   }
   result.tables.push_back(poses_table(d, form, solved));
-  if (result.headline.empty())
-    result.headline = say("{} of {} poses are usable.", good, form.poses.size());
+  if (result.headline.empty()) result.headline = say("{} of {} poses are usable.", good, form.poses.size());
   result.facts.push_back(
       {"poses reached", say("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});

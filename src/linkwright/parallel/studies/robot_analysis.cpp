@@ -82,7 +82,8 @@ std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescript
     }
     const ArmAngles angles = inverse(d.robot, pose_of(form), d.mode);
     if (angles.status != Status::done) {
-      table->error("position", fmt::format("the robot does not reach its home: {}", to_string(reason(angles))));
+      table->error("position",
+                   fmt::format("the robot does not reach its home: {}", to_string(reason(angles))));
       return std::nullopt;
     }
     if (const std::string wrong = singular_home(d, pose_of(form)); !wrong.empty()) {

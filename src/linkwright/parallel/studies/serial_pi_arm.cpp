@@ -88,8 +88,8 @@ void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& c
   result.facts.push_back({"workspace", say("{} ({} of {} nodes)", shown_area, passing, map.place.size())});
   result.facts.push_back({"reach of the arms alone", measured("m2", reach).spelled()});
   if (passing > 0)
-    result.facts.push_back({"global conditioning index", say("{} (least {})", plain_number(mean).fixed(4),
-                                                             plain_number(least).fixed(4))});
+    result.facts.push_back({"global conditioning index",
+                            say("{} (least {})", plain_number(mean).fixed(4), plain_number(least).fixed(4))});
   result.tables.push_back(node_table(map, s.workspace->indices));
   for (const SerialIndex index : s.workspace->indices)
     result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),

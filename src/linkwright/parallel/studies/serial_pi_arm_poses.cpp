@@ -154,8 +154,7 @@ void add_serial_poses(study::Result& result, const SerialAnalysis& s) {
     numbers.push_back(static_cast<double>(solved.size()));
   }
   result.tables.push_back(std::move(table));
-  if (result.headline.empty())
-    result.headline = say("{} of {} poses are usable.", good, s.poses.size());
+  if (result.headline.empty()) result.headline = say("{} of {} poses are usable.", good, s.poses.size());
   result.facts.push_back({"poses reached", say("{} of {}", good, s.poses.size()),
                           good == s.poses.size() ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (s.modes && s.modes->working) result.tables.push_back(working_table(s.description, s.poses, solved));

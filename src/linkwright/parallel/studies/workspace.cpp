@@ -295,10 +295,12 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   const int axes = planar ? 2 : 3;
   result.tables.push_back(totals_table(sums, all.count, all.cell, axes));
   const study::AddFact fact{result.facts};
-  fact("workspace", say("{} ({} of {} nodes)", area_or_volume(sums.measure, planar), sums.passing, all.count));
+  fact("workspace",
+       say("{} ({} of {} nodes)", area_or_volume(sums.measure, planar), sums.passing, all.count));
   const IndexSummary lci = sums.index[slot(PoseIndex::conditioning)];
   if (lci.count > 0)
-    fact("global conditioning index", say("{} (least {})", plain_number(lci.mean).fixed(4), plain_number(lci.least).fixed(4)));
+    fact("global conditioning index",
+         say("{} (least {})", plain_number(lci.mean).fixed(4), plain_number(lci.least).fixed(4)));
 
   if (planar) fact("area within reach of the legs", measured("m2", reachable_area(d.robot), 6).spelled());
   if (f.aspects && s.large)

@@ -247,10 +247,10 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
     remark_lost(result, rows, "rack (m)");
     if (form.rack_per_turn && straight.steering_left && straight.steering_right)
       fact("steering ratio, rack centred",
-           plain_number(steering_ratio((straight.steering_left->steer_by_rack +
-                                        straight.steering_right->steer_by_rack) /
-                                           2,
-                                       *form.rack_per_turn))
+           plain_number(
+               steering_ratio(
+                   (straight.steering_left->steer_by_rack + straight.steering_right->steer_by_rack) / 2,
+                   *form.rack_per_turn))
                .fixed(2));
   }
 }

@@ -364,11 +364,10 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   const auto met =
       std::count_if(best.objectives.begin(), best.objectives.end(), [](double v) { return v <= 1; });
   const bool all = met == static_cast<std::ptrdiff_t>(best.objectives.size());
-  result.headline =
-      all ? say("All targets are met: the largest deviation is {} of its tolerance.",
-                plain_number(best.largest))
-          : say("{} of {} objectives are met; the largest deviation is {} tolerances.", met,
-                best.objectives.size(), plain_number(best.largest));
+  result.headline = all ? say("All targets are met: the largest deviation is {} of its tolerance.",
+                              plain_number(best.largest))
+                        : say("{} of {} objectives are met; the largest deviation is {} tolerances.", met,
+                              best.objectives.size(), plain_number(best.largest));
   for (std::size_t i = 0; i < best.objectives.size(); ++i)
     result.facts.push_back(
         {s.task.objectives[i].name + ", largest deviation",
@@ -377,8 +376,8 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
                                      : Sentence()),
          best.objectives[i] <= 1 ? Verdict::good : Verdict::bad});
   result.facts.push_back({"half sum of squared deviations", plain_number(best.half_sum_of_squares).fixed(6)});
-  result.facts.push_back({"active targets", say("{} for {} design variables", best.active.size(),
-                                                s.task.designed.size())});
+  result.facts.push_back(
+      {"active targets", say("{} for {} design variables", best.active.size(), s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
   study::add_seed_facts(result, "runs that reached the best solution", runs.answers.size(), false);
   const study::AddWarning warn{result.diagnostics};

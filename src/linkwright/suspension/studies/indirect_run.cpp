@@ -399,9 +399,8 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const bool good = best.answer.status == Status::done;
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
-      good
-          ? say("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
-                structure_name(structure_of(guide)), poses, error_of(best.error))
+      good ? say("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
+                 structure_name(structure_of(guide)), poses, error_of(best.error))
       : assembled
           ? say("No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
                 to_string(best.answer.status), poses, error_of(best.error))

@@ -83,13 +83,12 @@ void add_seven_poses(study::Result& result, const IndirectStudy& s, const Carrie
         for (std::size_t k = 0; k < 3; ++k) arm_points[column++].push_back(coordinate_of(seen(p), k));
       arm_moved.push_back(by_rack);
     }
-    result.facts.push_back(
-        {fmt::format("rods through seven positions{}", by_rack ? ", on the rack" : ""),
-         say("{} solutions, {} of them real; {} fit all positions{}", found.solutions, found.rods.size(),
-             fitting,
-             found.arms.empty()
-                 ? Sentence()
-                 : say("; {} hinged arms (RS, SR) whose rods form families", found.arms.size()))});
+    result.facts.push_back({fmt::format("rods through seven positions{}", by_rack ? ", on the rack" : ""),
+                            say("{} solutions, {} of them real; {} fit all positions{}", found.solutions,
+                                found.rods.size(), fitting,
+                                found.arms.empty() ? Sentence()
+                                                   : say("; {} hinged arms (RS, SR) whose rods form families",
+                                                         found.arms.size()))});
   }
   if (!rods.names.empty()) {
     rods.add("number", "number", std::move(number));

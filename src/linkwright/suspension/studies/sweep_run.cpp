@@ -296,8 +296,7 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
                                                              : "wheel centre's height held";
       fact("caster, kingpin inclination" + here,
            say("{}, {} ({})", angle(axis->caster), angle(axis->inclination), held));
-      fact("trail, scrub radius" + here,
-           say("{}, {}", length(axis->trail), length(axis->scrub)));
+      fact("trail, scrub radius" + here, say("{}, {}", length(axis->trail), length(axis->scrub)));
     }
     if (const auto& axis = w.geometric_axis) {
       fact("caster, kingpin inclination by ball joints" + here,
@@ -468,11 +467,10 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   }
   if (lost > 5) warn(say("{} more positions are not reached", lost - 5));
   result.headline =
-      lost == 0
-          ? say("{} wheel suspension: all {} positions reached (largest closure residual {}).",
-                structure_name(structure_of(s.description.guide)), grid.rows(), metres(worst, 1))
-          : say("{} wheel suspension: {} of {} positions are not reached.",
-                structure_name(structure_of(s.description.guide)), lost, grid.rows());
+      lost == 0 ? say("{} wheel suspension: all {} positions reached (largest closure residual {}).",
+                      structure_name(structure_of(s.description.guide)), grid.rows(), metres(worst, 1))
+                : say("{} wheel suspension: {} of {} positions are not reached.",
+                      structure_name(structure_of(s.description.guide)), lost, grid.rows());
   return result;
 }
 
