@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "support/message.h"
@@ -48,11 +49,19 @@ inline study::Result run_text(std::span<const study::Kind> kinds, const std::str
   return prepared ? study::run_study(*prepared, context) : study::Result();
 }
 
-/// Text of a fact; "no fact" when there is none of this label.
-inline std::string fact(const study::Result& result, std::string_view label) {
+/// What a fact says; "no fact" when there is none of this label.
+inline Sentence sentence(const study::Result& result, std::string_view label) {
   for (const study::Fact& f : result.facts)
-    if (f.label == label) return to_string(f.text);
+    if (f.label == label) return f.text;
   return "no fact";
+}
+inline std::string fact(const study::Result& result, std::string_view label) {
+  return to_string(sentence(result, label));
+}
+/// Its value, which is NaN when it has none.
+inline double value_of_fact(const study::Result& result, std::string_view label) {
+  const auto value = sentence(result, label).value();
+  return value ? value->si : nan;
 }
 
 /// The table of this name; a failure and an empty one if there is none.

@@ -70,6 +70,7 @@ TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
   ASSERT_GE(r.changes.size(), 2u);
   EXPECT_EQ(r.changes[0].quantity, "O1_N");
   EXPECT_EQ(r.changes[0].measure, "rss_over_n");
+  EXPECT_DOUBLE_EQ(test::value_of_fact(r, r.facts[0].label), r.changes[0].after);
   EXPECT_TRUE(r.changes[0].wanted);
   EXPECT_NEAR(r.changes[0].percent(), -100, 1e-6);
   const auto torque = std::find_if(r.changes.begin(), r.changes.end(), [](const study::Change& c) {
@@ -130,7 +131,7 @@ TEST(BalancingStudyRun, WhatIsNotConvexIsRefusedByConvex) {
   const study::Result r = run_text(test::engine + "[optimiser]\nmethod = \"convex\"\n");
   EXPECT_EQ(r.status, Status::infeasible);
   EXPECT_EQ(
-      r.headline,
+      to_string(r.headline),
       "This is not a convex problem: the angle of 'crank mass 1' is limited; only a fixed one or a full turn "
       "is convex.");
 }

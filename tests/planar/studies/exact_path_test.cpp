@@ -124,7 +124,8 @@ TEST(ExactPathRun, AllFourBarsThroughSevenPointsWithAPivot) {
   const study::Result result = run_text(exact(one_pivot, seven));
   EXPECT_EQ(result.status, Status::done);
   EXPECT_EQ(count(result, "classes"), 486);
-  EXPECT_THAT(result.headline, HasSubstr("All 486 complex solutions for seven points and a pivot"));
+  EXPECT_THAT(to_string(result.headline),
+              HasSubstr("All 486 complex solutions for seven points and a pivot"));
   const auto near = [](const study::Solution& s, const char* key, double value) {
     for (const study::Parameter& parameter : s.parameters)
       if (parameter.key == key) return std::abs(parameter.value - value) < 1e-6;
@@ -166,7 +167,7 @@ TEST(ExactPathRun, FivePointsWithPivotsInARegion) {
   EXPECT_EQ(result.status, Status::done);
   EXPECT_EQ(count(result, "places"), 441);
   EXPECT_GT(count(result, "places_with_answers"), 0);
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("of 441 places of the pivots four-bars pass the 5 points in one motion"));
   const Table* pivots_table = result.table("pivots");
   ASSERT_TRUE(pivots_table);
@@ -191,7 +192,7 @@ TEST(ExactPathRun, AllFourBarsThroughNinePoints) {
   EXPECT_EQ(count(result, "branch_defects"), 382);
   EXPECT_EQ(count(result, "infinite") + count(result, "singular") + count(result, "lost"), 0);
   EXPECT_EQ(
-      result.headline,
+      to_string(result.headline),
       "All 1442 coupler curves through the nine points, each certified; 64 of them are real. 2 of their 384 "
       "four-bars pass the points in one motion and in their order; the best is a crank-rocker (open "
       "branch).");
@@ -216,7 +217,7 @@ TEST(ExactPathRun, LimitsOfTheStudyChooseAmongTheAnswers) {
       std::string(nine) + "closed = false\n[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 30\n"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_EQ(count(result, "defect_free"), 2);
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("None of the 2 four-bars that pass the points in one motion and in their order "
                         "keeps the limits of the study."));
   ASSERT_FALSE(result.solutions.empty());
@@ -235,7 +236,7 @@ TEST(ExactPathRun, AllFourBarsOnTwoPivotsThroughFivePoints) {
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
   EXPECT_EQ(result.statistics.find("completeness")->as_string(), "special_target");
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("13 change branch on the way, 1 circuit, 1 meet them in another order"));
   EXPECT_EQ(result.solutions.size(), 6U);
   EXPECT_THAT(result.solutions[0].defects.as_array()[0].as_string(), HasSubstr("order: "));
@@ -262,14 +263,15 @@ TEST(ExactPathRead, CountsTimedPointsAndPivots) {
 
 TEST(ExactPathRun, TwelveFourBarsThroughFiveTimedPoints) {
   const study::Result result = run_text(exact("", timed));
-  EXPECT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
   EXPECT_EQ(count(result, "cranks"), 4);
   EXPECT_EQ(count(result, "real_cranks"), 4);
   EXPECT_EQ(count(result, "real_classes"), 6);
   EXPECT_EQ(count(result, "designs"), 12);
   EXPECT_EQ(result.statistics.find("completeness")->as_string(), "complete_uncertified");
-  EXPECT_THAT(result.headline, HasSubstr("4 of 4 cranks that hold the 5 points at their angles are real; 12 "
-                                         "four-bars on 6 coupler curves have them."));
+  EXPECT_THAT(to_string(result.headline),
+              HasSubstr("4 of 4 cranks that hold the 5 points at their angles are real; 12 "
+                        "four-bars on 6 coupler curves have them."));
   ASSERT_FALSE(result.solutions.empty());
   EXPECT_TRUE(result.solutions[0].defects.as_array().empty());
   EXPECT_LT(result.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), 1e-18);
@@ -289,8 +291,8 @@ TEST(ExactPathRun, FourTimedPointsAreSwept) {
       exact("",
             "points_m = [[0, 0], [0.4, 0.1], [0.7, 0.3], [0.9, 0.6]]\nclosed = false\ntiming = { mode = "
             "\"equal_steps\", step_deg = 20 }\n"));
-  EXPECT_EQ(result.status, Status::done) << result.headline;
-  EXPECT_THAT(result.headline,
+  EXPECT_EQ(result.status, Status::done) << to_string(result.headline);
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("Infinitely many four-bars pass the 4 points at their crank angles"));
   EXPECT_EQ(result.statistics.find("completeness")->as_string(), "sample");
   EXPECT_GT(count(result, "defect_free"), 3);
@@ -302,7 +304,7 @@ TEST(ExactPathRun, SevenPointsOnALineHaveNoSolution) {
       "", "points_m = [[0, 0], [1, 0.5], [2, 1], [3, 1.5], [4, 2], [5, 2.5], [6, 3], [7, 2], [8, -1]]\n"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_EQ(result.statistics.find("outcome")->as_string(), "no_solution");
-  EXPECT_EQ(result.headline,
+  EXPECT_EQ(to_string(result.headline),
             "No four-bar passes the points: 7 of them (1, 2, 3, 4, 5, 6, 7) lie on a line, which no coupler "
             "curve meets "
             "in more than six points.");
@@ -319,7 +321,7 @@ TEST(ExactPathRun, WhatIsInterruptedIsNotComplete) {
   EXPECT_EQ(result.status, Status::cancelled);
   EXPECT_EQ(result.statistics.find("outcome")->as_string(), "cancelled");
   EXPECT_EQ(result.statistics.find("completeness")->as_string(), "incomplete");
-  EXPECT_THAT(result.headline, HasSubstr("others may be missing"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("others may be missing"));
 }
 
 }  // namespace

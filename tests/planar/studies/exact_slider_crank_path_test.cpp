@@ -70,7 +70,7 @@ TEST(ExactSliderPathRead, TheResolvedStudyReadsAgain) {
 TEST(ExactSliderPathRun, AllSliderCranksThroughEightPoints) {
   const study::Result result = run_text(eight());
   EXPECT_EQ(result.status, Status::done);
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("All 558 complex solutions for eight points; 114 of them are real. 4 of "
                         "these 114 slider-cranks pass the points in one motion"));
   const Table* counts = result.table("counts");
@@ -91,12 +91,12 @@ TEST(ExactSliderPathRun, LimitsOfTheStudyDecideWhatIsAnAnswer) {
   const study::Result result =
       run_text(eight("[[constraint]]\ntype = \"stroke\"\nmax_mm = 65\n[[constraint]]\ntype "
                      "= \"crank_rotates_fully\"\n"));
-  EXPECT_THAT(result.headline,
+  EXPECT_THAT(to_string(result.headline),
               HasSubstr("1 of them within the limits of the study; the best is one with a stroke of "
                         "60.96 mm"));
   const study::Result none = run_text(eight("[[constraint]]\ntype = \"pressure_angle\"\nmax_deg = 5\n"));
   EXPECT_EQ(none.status, Status::infeasible);
-  EXPECT_THAT(none.headline, HasSubstr("None of the 4 slider-cranks that pass the points"));
+  EXPECT_THAT(to_string(none.headline), HasSubstr("None of the 4 slider-cranks that pass the points"));
 }
 
 // Six points on a line and two beside it: nearly all solutions have gone.
@@ -104,8 +104,9 @@ TEST(ExactSliderPathRun, SpecialPointsAreCalledSo) {
   const study::Result result = run_text(
       eight({}, "points_mm = [[0, 0], [20, 0], [40, 0], [60, 0], [80, 0], [100, 0], [60, 30], [-10, 33]]\n"));
   EXPECT_EQ(result.status, Status::infeasible);
-  EXPECT_THAT(result.headline, HasSubstr("complex solutions for eight points: these points are special, the "
-                                         "others lie at infinity or coincide"));
+  EXPECT_THAT(to_string(result.headline),
+              HasSubstr("complex solutions for eight points: these points are special, the "
+                        "others lie at infinity or coincide"));
   EXPECT_EQ(result.table("counts")->find("lost")->values[0], 0);
 }
 

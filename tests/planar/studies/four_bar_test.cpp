@@ -308,10 +308,16 @@ TEST(FourBarStudyRun, OfThePublishedMechanismPassesItsCheck) {
   EXPECT_LT(largest("closure_residual_m"), 1e-15);
 
   EXPECT_EQ(fact(result, "largest drive torque at O1"), "-14.714 N m at 169.2°");
+  // The numbers of a fact are numbers: the torque with all its digits, and the crank angle, which says where.
+  const Sentence drive = test::sentence(result, "largest drive torque at O1");
+  ASSERT_TRUE(drive.value());
+  EXPECT_EQ(std::abs(drive.value()->si), largest("O1_drive_torque_N_m"));
+  EXPECT_EQ(drive.value()->unit_words(), "N m");
+  EXPECT_EQ(std::get<Measured>(drive.parts()[2]).place_key(), "O1_angle_deg");
   EXPECT_EQ(fact(result, "drive torque, root mean square"), "5.9465 N m");
   EXPECT_EQ(fact(result, "net work of the drive per revolution"), "0 J (31.17 J absolute)");
   EXPECT_THAT(fact(result, "type"), "crank-rocker, open");
-  EXPECT_THAT(result.headline, HasSubstr("The drive torque reaches -14.714 N m at 169.2°"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("The drive torque reaches -14.714 N m at 169.2°"));
   // Every plot finds its columns, and those over the crank angle follow the scene.
   ASSERT_EQ(result.scenes.size(), 1u);
   EXPECT_EQ(result.scenes[0].input, sweep.columns[0].values);
@@ -372,7 +378,7 @@ TEST(FourBarStudyRun, HoldsWhatWasAskedFor) {
                                 "coupler_angle_rad", "coupler_x_m", "coupler_y_m", "rocker_angle_rad",
                                 "rocker_x_m", "rocker_y_m", "coupler_O3_x_m", "coupler_O3_y_m",
                                 "coupler_rocker_transmission_angle_rad", "closure_residual_m"}));
-  EXPECT_EQ(result.headline, "9 of 9 positions computed.");
+  EXPECT_EQ(to_string(result.headline), "9 of 9 positions computed.");
   EXPECT_TRUE(result.scenes[0].moments.empty());
 }
 
@@ -433,13 +439,14 @@ TEST(FourBarStudyRun, TellsWhereTheLinkageDoesNotAssemble) {
   EXPECT_THAT(to_string(result.diagnostics[0]),
               ::testing::AllOf(HasSubstr("5 of 9 positions, the first at 90° do not assemble"),
                                HasSubstr("it assembles from -81.2 to 81.2 deg")));
-  EXPECT_THAT(result.headline, HasSubstr("positions have no answer."));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("positions have no answer."));
 
   const study::Result nowhere =
       run({{"3 parameters",
             "[mechanism.parameters]\nground_m = 6\ncrank_m = 0.5\ncoupler_m = 0.4\nrocker_m = 0.32\n"}});
   EXPECT_EQ(nowhere.status, Status::no_assembly);
-  EXPECT_THAT(nowhere.headline, HasSubstr("coupler + rocker cannot close, a gap of 4.78 m is left at 0°."));
+  EXPECT_THAT(to_string(nowhere.headline),
+              HasSubstr("coupler + rocker cannot close, a gap of 4.78 m is left at 0°."));
   EXPECT_THAT(to_string(nowhere.diagnostics[0]), HasSubstr("assembles nowhere"));
 }
 

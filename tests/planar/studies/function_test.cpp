@@ -92,7 +92,7 @@ TEST(FunctionStudy, SaysWhenNoGeneratorCoversTheRange) {
   const study::Result result = run_text(function_study("function = \"log10\"\nx = { from = 1, to = 10 }\n"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
-  EXPECT_THAT(result.headline, HasSubstr("stays on one branch over the whole range"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("stays on one branch over the whole range"));
 }
 
 TEST(FunctionStudy, TheRowsOfATableAreItsPrecisionPoints) {
@@ -100,7 +100,7 @@ TEST(FunctionStudy, TheRowsOfATableAreItsPrecisionPoints) {
   const auto points_of = [](const std::string& text) {
     const study::Result result = run_text(function_study(text));
     std::string all;
-    for (const study::Fact& fact : result.facts) all += fact.label + ": " + fact.text + "\n";
+    for (const study::Fact& fact : result.facts) all += fact.label + ": " + to_string(fact.text) + "\n";
     return all;
   };
   EXPECT_EQ(points_of(table), points_of(table + "at = [0, 0.5, 1, 2, 3]\n"));
@@ -117,7 +117,7 @@ TEST(FunctionStudy, ATableIsAFunctionToo) {
   const study::Result result =
       run_text(function_study("table = [[0, 0], [1, 0.8], [2, 2.1], [3, 4]]\nfit = \"least_squares\"\n"));
   EXPECT_EQ(result.status, Status::done);
-  EXPECT_THAT(result.facts[0].text, HasSubstr("a table of 4 points, x = 0 to 3"));
+  EXPECT_THAT(to_string(result.facts[0].text), HasSubstr("a table of 4 points, x = 0 to 3"));
 }
 
 TEST(SixBarFunctionStudy, ComparesWithTheFourBar) {

@@ -74,7 +74,7 @@ TEST(LinkageRange, ASweepGoesAsFarAsTheLinkageAssembles) {
   const study::Result r = run_text(drawn_text);
   EXPECT_EQ(r.status, Status::done);
   EXPECT_THAT(r.diagnostics, IsEmpty());
-  EXPECT_EQ(r.headline, "A moves from -126.4° to 46.42°, where the linkage assembles.");
+  EXPECT_EQ(to_string(r.headline), "A moves from -126.4° to 46.42°, where the linkage assembles.");
   EXPECT_THAT(r.tables.at(0).status, Each("done"));
   const std::vector<double>& angle = crank_angle(r);
   ASSERT_EQ(angle.size(), 361u);
@@ -102,9 +102,9 @@ range = "assembled"
 )";
   const study::Result r = run_text(four_bar);
   EXPECT_EQ(r.status, Status::done);
-  EXPECT_EQ(r.headline, "O1 moves from -86.42° to 86.42°, where the linkage assembles.");
+  EXPECT_EQ(to_string(r.headline), "O1 moves from -86.42° to 86.42°, where the linkage assembles.");
   const study::Result turn = run_text(replaced(four_bar, "crank_m = 4", "crank_m = 0.5"));
-  EXPECT_EQ(turn.headline, "O1 rotates fully.");
+  EXPECT_EQ(to_string(turn.headline), "O1 rotates fully.");
   EXPECT_EQ(turn.status, Status::done);
   EXPECT_NEAR(turn.tables.at(0).columns.at(0).values.back(), full_turn, 1e-12);
   const study::Result nowhere = run_text(replaced(four_bar, "coupler_m = 3", "coupler_m = 30"));
@@ -172,7 +172,7 @@ TEST(LinkageRange, IsKeptInTheStudyAsWritten) {
   const auto second = prepare(text, messages);
   ASSERT_TRUE(second) << messages << text;
   EXPECT_EQ(study::to_toml(second->canonical), text);
-  EXPECT_EQ(run_text(text).headline, run_text(drawn_text).headline);
+  EXPECT_EQ(to_string(run_text(text).headline), to_string(run_text(drawn_text).headline));
 }
 
 TEST(LinkageRange, IsOfOneInput) {

@@ -101,7 +101,7 @@ samples  = 4
 [output]
 quantities = ["position"]
 )");
-  EXPECT_EQ(r.headline,
+  EXPECT_EQ(to_string(r.headline),
             "The linkage assembles nowhere in the sweep: coupler + rocker cannot close, a gap of 130 mm is "
             "left at 0°.");
   const study::Scene& s = r.scenes.at(0);

@@ -65,7 +65,7 @@ TEST(PathSolution, ACrankThatHasToTurnIsJudgedByItsWholeMotion) {
   EXPECT_EQ(judged_transmission(e.problem, e.design), mu.whole);
   e.problem.crank_rotates_fully = false;
   EXPECT_EQ(judged_transmission(e.problem, e.design), mu.used);
-  EXPECT_THAT(transmission_fact(e.problem, e.design).text, HasSubstr("over the path ("));
+  EXPECT_THAT(to_string(transmission_fact(e.problem, e.design).text), HasSubstr("over the path ("));
 }
 
 }  // namespace

@@ -365,7 +365,7 @@ TEST(PathStudyRun, MeetsGatesTolerancesAndTheRegionOfTheRockerPivot) {
   RunContext context;
   const study::Result result = study::run_study(*study, context);
   ASSERT_EQ(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr("passes the 5 gates within their tolerance"));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("passes the 5 gates within their tolerance"));
   EXPECT_EQ(test::fact(result, "worst point"), "none is beyond its tolerance");
   const auto value = [&](const char* key) {
     for (const study::Parameter& p : result.solutions[0].parameters)
@@ -420,8 +420,8 @@ TEST(PathStudyRun, AUsableDesignStandsBesideADegenerateOne) {
   const auto usable = [](const study::Solution& s) { return s.classification.find("usable")->as_bool(); };
   EXPECT_TRUE(std::any_of(result.solutions.begin(), result.solutions.end(), usable));
   if (!usable(result.solutions[0])) {
-    EXPECT_THAT(result.headline, HasSubstr(". But its transmission angle falls to "));
-    EXPECT_THAT(result.headline, HasSubstr("The best one without such drawbacks is solution"));
+    EXPECT_THAT(to_string(result.headline), HasSubstr(". But its transmission angle falls to "));
+    EXPECT_THAT(to_string(result.headline), HasSubstr("The best one without such drawbacks is solution"));
     EXPECT_TRUE(result.facts[0].verdict == study::Fact::Verdict::plain);
   }
 }

@@ -147,7 +147,7 @@ TEST(SerialArmStudyRun, OfThePublishedArmPassesItsChecks) {
   EXPECT_EQ(fact(result, "largest torque of upper arm, motor on the ground"), "-1.6802 N m at 6.1 s");
   // Rounding: the two routes differ by some 1e-15 of a watt.
   EXPECT_THAT(fact(result, "power balance"), ::testing::ContainsRegex("within [0-9.]+e-1[4-7] of"));
-  EXPECT_THAT(result.headline, HasSubstr("The joint forces reach 5.8059 N at "));
+  EXPECT_THAT(to_string(result.headline), HasSubstr("The joint forces reach 5.8059 N at "));
   // Every plot finds its columns, and those over time follow the scene.
   const Table& sweep = result.tables[0];
   ASSERT_EQ(result.scenes.size(), 1u);

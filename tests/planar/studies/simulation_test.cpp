@@ -80,9 +80,9 @@ start_speed_m_per_s = 2.0
 to_s = 3
 samples = 11
 )");
-  ASSERT_EQ(r.status, Status::at_rest) << r.headline;
-  EXPECT_THAT(r.headline, HasSubstr("In 0.9 s guide goes from 0 mm to 1005.39 mm"));
-  EXPECT_THAT(r.headline, HasSubstr("at rest from 1.01937 s with guide at 1019.4 mm on"));
+  ASSERT_EQ(r.status, Status::at_rest) << to_string(r.headline);
+  EXPECT_THAT(to_string(r.headline), HasSubstr("In 0.9 s guide goes from 0 mm to 1005.39 mm"));
+  EXPECT_THAT(to_string(r.headline), HasSubstr("at rest from 1.01937 s with guide at 1019.4 mm on"));
 }
 
 // Both routes, from the file.
@@ -180,6 +180,7 @@ samples = 201
   const study::Result smooth = run_text(chain);
   EXPECT_EQ(smooth.status, Status::done);
   EXPECT_THAT(fact(smooth, "change points"), ::testing::StartsWith("2, the first at 0.7143 s with P0 at"));
+  EXPECT_EQ(test::value_of_fact(smooth, "change points"), 2);
   EXPECT_THAT(
       to_string(smooth.diagnostics.at(0)),
       HasSubstr("the linkage went through 2 change points, where it can continue in either assembly mode"));

@@ -223,7 +223,7 @@ seeds = { first = 1, count = 2 }
   EXPECT_EQ(r.statistics.find("success_rate")->as_number(), 1);
   EXPECT_EQ(r.plots.front().table, "front");
   EXPECT_EQ(r.comparisons.size(), 15u);  // Tables 4.2 and 4.3, where the front has a stroke as short
-  EXPECT_THAT(r.headline, HasSubstr("A front of 8 slider-cranks"));
+  EXPECT_THAT(to_string(r.headline), HasSubstr("A front of 8 slider-cranks"));
 }
 
 TEST(SliderPathStudyRun, EveryMethodReportsWhatItReaches) {

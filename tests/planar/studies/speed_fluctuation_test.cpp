@@ -23,7 +23,8 @@ TEST(SpeedFluctuationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
   const study::Result r = run_text(linkage_speed_fluctuation_kind().example);
   ASSERT_EQ(r.status, Status::done);
   EXPECT_THAT(r.diagnostics, IsEmpty());
-  EXPECT_THAT(r.headline, HasSubstr("kg m2 on O keeps the speed within 0.05 of its mean of 180 rpm."));
+  EXPECT_THAT(to_string(r.headline),
+              HasSubstr("kg m2 on O keeps the speed within 0.05 of its mean of 180 rpm."));
   ASSERT_EQ(r.tables.size(), 2u);
   EXPECT_EQ(r.tables[0].find("O_angle_rad")->values.size(), 720u);
   EXPECT_EQ(r.tables[1].find("speed_rad_per_s")->values.size(), 721u);
@@ -41,7 +42,8 @@ TEST(SpeedFluctuationStudy, InterruptedGivesTheCycleWithoutTheFlywheel) {
   const LooksAllowed looks(5);
   const study::Result r = run_text(linkage_speed_fluctuation_kind().example);
   EXPECT_EQ(r.status, Status::cancelled);
-  EXPECT_THAT(r.headline, HasSubstr("of its mean of 180 rpm; interrupted before the flywheel was found."));
+  EXPECT_THAT(to_string(r.headline),
+              HasSubstr("of its mean of 180 rpm; interrupted before the flywheel was found."));
   ASSERT_EQ(r.tables.size(), 1u);
   EXPECT_FALSE(std::isnan(r.tables[0].find("speed_rad_per_s")->values[0]));
   EXPECT_TRUE(std::isnan(r.tables[0].find("speed_with_flywheel_rad_per_s")->values[0]));

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
@@ -59,15 +60,23 @@ bool shares_name(const Linkage& l, std::size_t input) {
   return std::any_of(l.bodies.begin(), l.bodies.end(),
                      [&](const LinkageBody& body) { return identifier(body.name) == name; });
 }
+
+std::string input_axis(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
+  return identifier(input_joint(l, input).name) + (shares_name(l, input) ? "_joint" : "") +
+         (plan.rotary[input] ? "_angle" : "_displacement");
+}
 }  // namespace
 
 std::string input_key(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
-  return identifier(input_joint(l, input).name) + (shares_name(l, input) ? "_joint" : "") +
-         (plan.rotary[input] ? "_angle_rad" : "_displacement_m");
+  return input_axis(l, plan, input) + (plan.rotary[input] ? "_rad" : "_m");
 }
 std::string input_label(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
   return fmt::format("{}{} {}", shares_name(l, input) ? "joint " : "", input_joint(l, input).name,
                      plan.rotary[input] ? "angle (rad)" : "displacement (m)");
+}
+Measured input_place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value, int digits) {
+  return at_place(input_axis(l, plan, input),
+                  plan.rotary[input] ? degrees_of(value, digits) : millimetres(value, digits));
 }
 
 std::string moment_centre_name(const Linkage& l) {

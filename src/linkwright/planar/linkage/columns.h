@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/linkage/reactions.h"
 
 // Columns of the tables that studies of linkages write.
@@ -50,6 +51,9 @@ std::string group_key(std::string name);
 const LinkageJoint& input_joint(const Linkage& linkage, std::size_t input);
 std::string input_key(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
 std::string input_label(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
+/// A value of an input as a place along it, in degrees or millimetres: "30°" of "O_angle".
+Measured input_place(const Linkage& linkage, const LinkagePlan& plan, std::size_t input, double value,
+                     int digits);
 
 /// What shaking moments are about, in words: "the origin", or the point of the ground that is there.
 std::string moment_centre_name(const Linkage& linkage);

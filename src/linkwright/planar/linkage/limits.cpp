@@ -86,14 +86,14 @@ void number_circuits(InputLimits& l) {
   }
 }
 
-std::string place(bool rotary, double value) {
-  return rotary ? fmt::format("{:.1f}", math::degrees(value)) : fmt::format("{:.4g}", 1e3 * value);
+Measured place(bool rotary, double value) {
+  return rotary ? degrees_of(value).fixed(1).spelled() : millimetres(value);
+}
+Sentence from_to(bool rotary, double from, double to) {
+  return say("from {} to {}", place(rotary, from).sharing_unit(), place(rotary, to));
 }
 /// Two digits, and all before the point: a hundred is 100, not 1e+02.
-std::string two_digits(double value) {
-  return std::abs(value) < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
-}
-const char* unit_name(bool rotary) { return rotary ? "deg" : "mm"; }
+Measured short_by(double gap) { return gap < 99.5e-3 ? millimetres(gap, 2) : millimetres(gap).fixed(0); }
 
 }  // namespace
 
@@ -149,7 +149,7 @@ const InputRange* range_at(const InputLimits& limits, std::span<const double> mo
   return nullptr;
 }
 
-std::string assembly_range_text(const InputLimits& limits, std::span<const double> modes) {
+Sentence assembly_range_text(const InputLimits& limits, std::span<const double> modes) {
   const bool rotary = limits.rotary;
   std::vector<std::pair<double, double>> parts;
   for (const InputRange& r : limits.ranges) {
@@ -164,19 +164,17 @@ std::string assembly_range_text(const InputLimits& limits, std::span<const doubl
     else
       parts.emplace_back(from, to);
   }
-  if (parts.empty())
-    return fmt::format("assembles nowhere from {} to {} {}", place(rotary, limits.from),
-                       place(rotary, limits.to), unit_name(rotary));
+  if (parts.empty()) return say("assembles nowhere {}", from_to(rotary, limits.from, limits.to));
   if (limits.closed && parts.size() == 1 &&
       parts[0].second - parts[0].first >= (1 - same_place) * (limits.to - limits.from))
     return "assembles over the full turn";
-  std::string out = "assembles";
+  Sentence out = "assembles";
   for (std::size_t i = 0; i < parts.size(); ++i)
-    out += fmt::format("{} from {} to {} {}",
-                       i == 0                  ? ""
-                       : i + 1 == parts.size() ? " and"
-                                               : ",",
-                       place(rotary, parts[i].first), place(rotary, parts[i].second), unit_name(rotary));
+    out += say("{} {}",
+               i == 0                  ? ""
+               : i + 1 == parts.size() ? " and"
+                                       : ",",
+               from_to(rotary, parts[i].first, parts[i].second));
   return out;
 }
 
@@ -184,12 +182,12 @@ std::string assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& moti
   LINKWRIGHT_REQUIRE(input >= 0 && at(input) < plan.inputs(), "there is no input {} of {}", input,
                      plan.inputs());
   const bool rotary = plan.rotary[at(input)];
-  const std::string where = fmt::format("at {} {}", place(rotary, value), unit_name(rotary));
+  const std::string where = "at " + to_string(place(rotary, value));
   if (motion.status == Status::done) return where + " it assembles";
   const std::string group =
       motion.failed_group >= 0 ? fmt::format(" ('{}')", plan.groups[at(motion.failed_group)].name) : "";
   if (motion.status == Status::no_assembly && motion.gap > 0)
-    return fmt::format("{} short by {} mm{}", where, two_digits(1e3 * motion.gap), group);
+    return fmt::format("{} short by {}{}", where, to_string(short_by(motion.gap)), group);
   if (motion.status == Status::singular) return where + " at a dead point" + group;
   return fmt::format("{} {}{}", where, to_string(motion.status), group);
 }

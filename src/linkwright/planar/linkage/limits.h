@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {
@@ -51,7 +52,7 @@ const InputRange* range_at(const InputLimits& limits, std::span<const double> mo
 
 /// For messages: "assembles from 12.3 to 147.9 deg", "assembles over the full turn", "assembles from 0 to 10
 /// mm and from 30 to 40 mm", "assembles nowhere from 0.0 to 90.0 deg", for the given modes.
-std::string assembly_range_text(const InputLimits& limits, std::span<const double> modes);
+Sentence assembly_range_text(const InputLimits& limits, std::span<const double> modes);
 
 /// For messages: "at 103.2 deg short by 3.1 mm ('coupler + rocker')", of a motion that failed at this value;
 /// for a motion that is done, or of which no gap is known, what its status means.

@@ -1,7 +1,5 @@
 #include "linkwright/planar/linkage/modes.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -28,8 +26,8 @@ class Enumeration {
   AssemblyModes run() {
     visit(0);
     const auto n = out_.found.size();
-    out_.text = fmt::format("{} mode{}", n, n == 1 ? "" : "s");
-    if (out_.starts > 0) out_.text += fmt::format(" from {} starts", out_.starts);
+    out_.text = say("{} mode{}", n, n == 1 ? "" : "s");
+    if (out_.starts > 0) out_.text += say(" from {} starts", out_.starts);
     if (!out_.complete) out_.text += ", there may be more";
     return std::move(out_);
   }

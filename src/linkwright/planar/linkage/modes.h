@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/math/pose.h"
 #include "linkwright/planar/linkage/motion.h"
 
@@ -27,7 +28,7 @@ struct AssemblyModes {
   std::vector<AssembledMode> found;  ///< closed forms: all, plus first; general groups: what the starts met
   int starts = 0;                    ///< Newton starts in all; 0 = closed form, the list is complete
   bool complete = true;              ///< false: `most` was reached
-  std::string text;  ///< "4 modes", or "6 modes from 200 starts": a search cannot say that it found all
+  Sentence text;  ///< "4 modes", or "6 modes from 200 starts": a search cannot say that it found all
 };
 
 /// All assembly modes of the linkage at these inputs: every combination of the dyads' modes that closes, and

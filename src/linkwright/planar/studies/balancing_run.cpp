@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/balancing/force_balance.h"
 #include "linkwright/planar/studies/balancing.h"
@@ -81,10 +80,10 @@ std::vector<BalancedDesign> answers(const BalancingStudy& s, const Runs& runs) {
   return best == all.end() ? std::vector<BalancedDesign>() : std::vector<BalancedDesign>{*best};
 }
 
-std::string percent(double before, double after) {
+Sentence change_of(double before, double after) {
   if (!(before != 0)) return "was 0";
-  const double change = 100 * (after / before - 1);
-  return fmt::format("{:+.{}f} %", change, std::abs(change) < 10 ? 2 : 1);
+  const double share = after / before - 1;
+  return percent(share).fixed(std::abs(share) < 0.1 ? 2 : 1).with_sign();
 }
 
 // "kinetic energy (J)" and "J" of a column.
@@ -93,24 +92,25 @@ std::string label_of(const Table& table, const std::string& key) {
   return c && !c->label.empty() ? c->label : key;
 }
 
-// "shaking force" and "N" of "shaking_force_N", whose label is "shaking force (N)".
-struct Said {
-  std::string name, unit;
-};
-Said said_of(const Table& table, const std::string& key) {
-  Said out{label_of(table, key), {}};
+// "shaking force" of "shaking_force_N", whose label is "shaking force (N)".
+std::string name_of_column(const Table& table, const std::string& key) {
+  std::string name = label_of(table, key);
   if (const auto unit = split_unit(key)) {
-    const std::string readable = readable_unit(unit->unit->suffix), bracket = " (" + readable + ")";
-    out.unit = " " + readable;
-    if (const std::size_t at = out.name.find(bracket); at != std::string::npos)
-      out.name.erase(at, bracket.size());
-    if (out.name == key) out.name = std::string(unit->base);
+    const std::string bracket = " (" + readable_unit(unit->unit->suffix) + ")";
+    if (const std::size_t at = name.find(bracket); at != std::string::npos) name.erase(at, bracket.size());
+    if (name == key) name = std::string(unit->base);
   }
-  return out;
+  return name;
+}
+
+// A value of a column, which is in SI.
+Measured in_unit_of(const std::string& key, double value, int digits) {
+  const auto unit = split_unit(key);
+  return unit ? measured(unit->unit->suffix, value, digits).spelled() : plain_number(value, digits);
 }
 
 // "largest shaking force"
-std::string measured(Measure measure, const std::string& name) {
+std::string name_of_measure(Measure measure, const std::string& name) {
   switch (measure) {
     case Measure::rss_over_n:
       return "root of squares over n of " + name;
@@ -292,7 +292,7 @@ class Report {
   }
   std::string goal_label(std::size_t k) const {
     const BalancingGoal& o = p_.task.objectives[k];
-    return measured(o.measure, said_of(balanced(), o.quantity).name) + " over reference";
+    return name_of_measure(o.measure, name_of_column(balanced(), o.quantity)) + " over reference";
   }
 
   // Every load by every measure, what was asked for first.
@@ -371,27 +371,28 @@ class Report {
     using Verdict = study::Fact::Verdict;
     const BalancedDesign& d = designs_.front();
     const study::AddFact fact{result_.facts};
-    std::string told;
+    Sentence told;
     const std::vector<double> values = goal_values(p_.task, balanced()),
                               old = goal_values(p_.task, initial());
     for (std::size_t k = 0; k < values.size(); ++k) {
       const BalancingGoal& o = p_.task.objectives[k];
-      const std::string change = percent(old[k], values[k]);
-      const Said said = said_of(balanced(), o.quantity);
-      const std::string name = measured(o.measure, said.name);
-      fact(name, fmt::format("{:.6g}{}, was {:.6g}{} ({})", values[k], said.unit, old[k], said.unit, change),
+      const Sentence change = change_of(old[k], values[k]);
+      const std::string name = name_of_measure(o.measure, name_of_column(balanced(), o.quantity));
+      fact(name,
+           say("{}, was {} ({})", in_unit_of(o.quantity, values[k], 6), in_unit_of(o.quantity, old[k], 6),
+               change),
            values[k] < old[k]   ? Verdict::good
            : values[k] > old[k] ? Verdict::bad
                                 : Verdict::plain);
-      if (k < 3) told += fmt::format("{}{} {}", k ? ", " : "", name, change);
+      if (k < 3) told += say("{}{} {}", k ? ", " : "", name, change);
     }
     if (designs_.size() > 1)
       result_.headline =
-          fmt::format("A front of {} designs; the one with the least mean has {}.", designs_.size(), told);
+          say("A front of {} designs; the one with the least mean has {}.", designs_.size(), told);
     else if (d.violation > 0)
-      result_.headline = fmt::format("No design meets every constraint; the nearest one has {}.", told);
+      result_.headline = say("No design meets every constraint; the nearest one has {}.", told);
     else
-      result_.headline = fmt::format("Balanced: {}{}.", told, values.size() > 3 ? " and so on" : "");
+      result_.headline = say("Balanced: {}{}.", told, values.size() > 3 ? " and so on" : "");
     // What it costs: the drive, and mass.
     for (const Column& c : balanced().columns) {
       const Column* before = initial().find(c.key);
@@ -400,10 +401,10 @@ class Report {
                          c.key.ends_with("torque_joint_N_m");
       if (!drive || !before) continue;
       const double now = max_abs(c.values), then = max_abs(before->values);
-      const Said said = said_of(balanced(), c.key);
-      fact("largest " + said.name,
-           fmt::format("{:.5g}{}, was {:.5g}{} ({})", now, said.unit, then, said.unit, percent(then, now)),
-           now > then * 1.001 ? Verdict::bad : Verdict::plain);
+      fact(
+          "largest " + name_of_column(balanced(), c.key),
+          say("{}, was {} ({})", in_unit_of(c.key, now, 5), in_unit_of(c.key, then, 5), change_of(then, now)),
+          now > then * 1.001 ? Verdict::bad : Verdict::plain);
     }
     double mass = 0, old_mass = 0;
     bool any = false;
@@ -416,18 +417,19 @@ class Report {
     }
     if (any)
       fact("designed masses together",
-           fmt::format("{:.5g} kg, was {:.5g} kg ({:+.4g} kg)", mass, old_mass, mass - old_mass));
+           say("{}, was {} ({})", measured("kg", mass, 5), measured("kg", old_mass, 5),
+               measured("kg", mass - old_mass).with_sign()));
     const std::vector<std::string>& limits = d.active;
     if (!d.proof.empty()) fact("proof", d.proof, Verdict::good);
-    if (const std::string balance = complete_balance(); !balance.empty())
+    if (const Sentence balance = complete_balance(); !balance.empty())
       fact("complete force balance would take", balance);
     // All, with their prices, are with the solution.
     constexpr std::size_t told_limits = 4;
-    std::string text;
+    Sentence text;
     for (std::size_t i = 0; i < std::min(limits.size(), told_limits); ++i)
       text += (i ? ", " : "") + limits[i].substr(0, limits[i].find(" ("));
-    if (limits.size() > told_limits) text += fmt::format(" and {} more", limits.size() - told_limits);
-    fact("active bounds", text.empty() ? "none" : text);
+    if (limits.size() > told_limits) text += say(" and {} more", limits.size() - told_limits);
+    fact("active bounds", text.empty() ? Sentence("none") : text);
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
     study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size(), false);
@@ -435,15 +437,16 @@ class Report {
 
   // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
   // weight alone.
-  std::string complete_balance() const {
+  Sentence complete_balance() const {
     if (s_.mechanism->type != std::string_view("planar.four_bar")) return {};
     const FourBarMechanism m = four_bar_of(s_, designs_.front().x);
     const Counterweights w =
         balancing_counterweights(m.linkage, *m.masses, m.linkage.crank, m.linkage.rocker);
     const auto text = [](const PointMass& p) {
-      return fmt::format("{:.3g} kg at {:.4g} mm, {:.1f}°", p.mass, p.distance * 1e3, math::degrees(p.angle));
+      return say("{} at {}, {}", measured("kg", p.mass, 3), millimetres(p.distance),
+                 degrees_of(p.angle).fixed(1));
     };
-    return fmt::format("crank {}, rocker {}", text(w.crank), text(w.rocker));
+    return say("crank {}, rocker {}", text(w.crank), text(w.rocker));
   }
 
   const BalancingStudy& s_;
@@ -467,12 +470,12 @@ study::Result run_balancing_study(const BalancingStudy& s, const study::Common& 
   if (!exact && std::holds_alternative<ConvexBalancing>(s.optimiser.method)) {
     study::Result refused;
     refused.status = Status::infeasible;
-    refused.headline = fmt::format("This is not a convex problem: {}.", why);
+    refused.headline = say("This is not a convex problem: {}.", why);
     refused.diagnostics.push_back({Diagnostic::Severity::error,
                                    {},
                                    {},
                                    "optimiser.method",
-                                   refused.headline,
+                                   to_string(refused.headline),
                                    "take method = \"recommended\""});
     return refused;
   }

@@ -77,19 +77,17 @@ class DwellReport {
     result_.statistics["within_tolerance"] =
         static_cast<int>(std::count_if(answer_.designs.begin(), answer_.designs.end(),
                                        [&](const auto& d) { return d.deviation <= s_.target.tolerance; }));
-    say();
+    findings();
     return std::move(result_);
   }
 
  private:
-  static std::string degrees_text(double angle) { return fmt::format("{:.3g}°", math::degrees(angle)); }
-
   void solution(const DwellDesign& d, std::size_t number) {
     study::Solution out;
     const DwellLinkage& l = d.linkage;
     const double ground = s_.mechanism.ground;
-    out.label = fmt::format("rests within {}, least transmission angle {:.1f}°", degrees_text(d.deviation),
-                            math::degrees(std::min(d.four_bar_angle, d.dyad_angle)));
+    out.label = to_string(say("rests within {}, least transmission angle {}", degrees_of(d.deviation, 3),
+                              degrees_of(std::min(d.four_bar_angle, d.dyad_angle)).fixed(1)));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -112,7 +110,7 @@ class DwellReport {
     out.classification["dwell_to_rad"] = l.middle + s_.target.dwell / 2;
     out.defects = Value::array();
     if (d.deviation > s_.target.tolerance)
-      out.defects.push_back(fmt::format("departs by {} while it is to rest", degrees_text(d.deviation)));
+      out.defects.push_back(to_string(say("departs by {} while it is to rest", degrees_of(d.deviation, 3))));
     motion(d, out, number);
     result_.solutions.push_back(std::move(out));
   }
@@ -181,7 +179,7 @@ class DwellReport {
     result_.tables.push_back(std::move(table));
   }
 
-  void say() {
+  void findings() {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     if (answer_.designs.empty()) {
@@ -196,19 +194,18 @@ class DwellReport {
     }
     const DwellDesign& best = answer_.designs[0];
     const bool good = best.deviation <= s_.target.tolerance;
-    result_.headline =
-        fmt::format("A six-bar rests within {} over {} of the crank and swings by {}.",
-                    degrees_text(best.deviation), degrees_text(s_.target.dwell), degrees_text(best.swing));
-    fact("largest departure in the dwell", degrees_text(best.deviation), good ? Verdict::good : Verdict::bad);
-    fact("tolerance", degrees_text(s_.target.tolerance));
-    fact("swing angle of the output", degrees_text(best.swing));
-    fact("least transmission angle of the four-bar",
-         fmt::format("{:.1f}°", math::degrees(best.four_bar_angle)));
-    fact("least transmission angle of the dyad", fmt::format("{:.1f}°", math::degrees(best.dyad_angle)));
-    fact("four-bars tried", fmt::format("{}, {} six-bars refined", answer_.starts, answer_.refined));
+    const Measured deviation = degrees_of(best.deviation, 3), swing = degrees_of(best.swing, 3),
+                   tolerance = degrees_of(s_.target.tolerance, 3);
+    result_.headline = say("A six-bar rests within {} over {} of the crank and swings by {}.", deviation,
+                           degrees_of(s_.target.dwell, 3), swing);
+    fact("largest departure in the dwell", deviation, good ? Verdict::good : Verdict::bad);
+    fact("tolerance", tolerance);
+    fact("swing angle of the output", swing);
+    fact("least transmission angle of the four-bar", degrees_of(best.four_bar_angle).fixed(1));
+    fact("least transmission angle of the dyad", degrees_of(best.dyad_angle).fixed(1));
+    fact("four-bars tried", say("{}, {} six-bars refined", answer_.starts, answer_.refined));
     if (!good)
-      warn("target",
-           fmt::format("no six-bar was found that rests within {}", degrees_text(s_.target.tolerance)),
+      warn("target", say("no six-bar was found that rests within {}", tolerance),
            "take a shorter dwell, a smaller swing or transmission angle, or let the links be shorter and "
            "longer");
   }

@@ -130,11 +130,12 @@ class ElasticReporter {
 
   // Of a column that a table may have; NaN when there is none.
   static double largest(const Column* c) { return c ? std::abs(study::largest(c->values).value) : nan; }
-  std::string place_text(const ElasticPieces& p, double place) const {
+  Sentence place_text(const ElasticPieces& p, double place) const {
     const auto& points = s_.linkage.bodies[at(p.beam.body)].points;
-    return fmt::format("{:.4g} mm from {}", 1e3 * place, points[at(p.beam.from)].name);
+    return say("{} from {}", at_place("distance", millimetres(place)), points[at(p.beam.from)].name);
   }
-  static std::string error_text(const OutputError& e, double value) {
+  Measured time_of(std::size_t row) const { return at_place("time", seconds(r_.times[row])); }
+  static Measured size_of(const OutputError& e, double value) {
     return study::angle_or_length(value, e.of == OutputError::Of::angle, 3);
   }
 
@@ -144,8 +145,7 @@ class ElasticReporter {
     for (std::size_t i = 0; i < r_.errors.size(); ++i)
       if (const study::Extreme most = study::largest(r_.errors[i].values); most.any())
         fact("largest " + r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
-             fmt::format("{} at {:.4g} s", error_text(r_.errors[i], std::abs(most.value)),
-                         r_.times[most.row]));
+             say("{} at {}", size_of(r_.errors[i], std::abs(most.value)), time_of(most.row)));
     against_rigid();
     integration();
   }
@@ -157,48 +157,48 @@ class ElasticReporter {
     if (const study::Extreme most = study::largest(v.largest); most.any()) {
       const double share = std::abs(most.value) / p.length;
       fact(name + ": largest deflection",
-           fmt::format("{:.4g} mm at {:.4g} s", 1e3 * std::abs(most.value), r_.times[most.row]));
+           say("{} at {}", millimetres(std::abs(most.value)), time_of(most.row)));
       if (share > far_bent)
-        warn(fmt::format("{} bends by {:.3g} of its length", name, share),
+        warn(say("{} bends by {} of its length", name, plain_number(share, 3)),
              "the error of a beam theory without stretching is about the square of it");
     }
     if (const study::Extreme most = study::largest(v.stress); most.any() && p.beam.fibre_distance > 0)
       fact(name + ": largest stress",
-           fmt::format("{:.4g} MPa at {:.4g} s, {}; bending alone {:.4g} MPa", 1e-6 * most.value,
-                       r_.times[most.row], place_text(p, v.place[most.row]),
-                       1e-6 * *std::max_element(v.bending.begin(), v.bending.end())));
+           say("{} at {}, {}; bending alone {}", measured("MPa", most.value), time_of(most.row),
+               place_text(p, v.place[most.row]),
+               measured("MPa", *std::max_element(v.bending.begin(), v.bending.end()))));
     fact(name + ": first frequency on two pins",
-         fmt::format("{:.4g} Hz{}; {} segments", hertz(first),
-                     r_.largest_rate > 0
-                         ? fmt::format(", {:.3g} times the largest input speed", first / r_.largest_rate)
-                         : std::string(),
-                     p.beam.segments));
+         say("{}{}; {} segments", measured("Hz", hertz(first)),
+             r_.largest_rate > 0
+                 ? say(", {} times the largest input speed", plain_number(first / r_.largest_rate, 3))
+                 : Sentence(),
+             p.beam.segments));
     result_.statistics[identifier(name) + "_first_frequency_Hz"] = hertz(first);
     if (const int n = p.beam.segments; too_few_segments(n)) {
       const SegmentErrors missed = segment_errors(n), better = segment_errors(enough_segments());
-      warn(fmt::format("{} segment{} of {}: bending moment and stress are up to {:.3g} % too low, as the "
-                       "springs miss the worst section, and the first frequency is {:.3g} % too low",
-                       n, n == 1 ? "" : "s", name, 100 * missed.moment, 100 * missed.frequency),
-           fmt::format("segments = {} leaves {:.2g} % and {:.2g} %", enough_segments(), 100 * better.moment,
-                       100 * better.frequency));
+      warn(say("{} segment{} of {}: bending moment and stress are up to {} too low, as the springs miss the "
+               "worst section, and the first frequency is {} too low",
+               n, n == 1 ? "" : "s", name, percent(missed.moment, 3), percent(missed.frequency, 3)),
+           say("segments = {} leaves {} and {}", enough_segments(), percent(better.moment, 2),
+               percent(better.frequency, 2)));
     }
     const double nyquist = (s_.samples - 1) / (2 * (s_.to - s_.from));
     if (hertz(first) > nyquist)
-      warn(fmt::format("rows are {:.3g} s apart, too far to show the first vibration of {} of {:.4g} Hz",
-                       0.5 / nyquist, name, hertz(first)),
-           fmt::format("simulation.samples = {} shows it",
-                       static_cast<long>(std::ceil(8 * hertz(first) * (s_.to - s_.from))) + 1));
+      warn(say("rows are {} apart, too far to show the first vibration of {} of {}",
+               seconds(0.5 / nyquist, 3), name, measured("Hz", hertz(first))),
+           say("simulation.samples = {} shows it",
+               static_cast<long>(std::ceil(8 * hertz(first) * (s_.to - s_.from))) + 1));
   }
   void against_rigid() {
     const Table &motion = result_.tables[0], &rigid = result_.tables[1];
     double most = 0;
-    std::string where;
+    Sentence where;
     for (const LinkageJoint& j : s_.linkage.joints) {
       const std::string key = identifier(j.name) + "_N";
       const double bent = largest(motion.find(key)), stiff = largest(rigid.find(key));
       if (!(stiff > 0) || !(bent / stiff > most)) continue;
       most = bent / stiff;
-      where = fmt::format("{:.4g} N in {}, {:.4g} times {:.4g} N", bent, j.name, most, stiff);
+      where = say("{} in {}, {} times {}", newtons(bent), j.name, plain_number(most), newtons(stiff));
     }
     if (most > 0) fact("joint force that grew most over the rigid linkage", where);
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k) {
@@ -206,10 +206,11 @@ class ElasticReporter {
       const std::string key =
           identifier(joint) + (s_.plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N");
       const double bent = largest(motion.find(key)), stiff = largest(rigid.find(key));
-      const char* unit = s_.plan.rotary[k] ? "N m" : "N";
+      const bool rotary = s_.plan.rotary[k];
       if (std::isfinite(bent))
-        fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force", joint),
-             fmt::format("{:.4g} {}, of the rigid linkage {:.4g} {}", bent, unit, stiff, unit));
+        fact(fmt::format("largest drive {} at {}", rotary ? "torque" : "force", joint),
+             say("{}, of the rigid linkage {}", study::torque_or_force(bent, rotary, 4),
+                 study::torque_or_force(stiff, rotary, 4)));
     }
   }
   double fastest() const {
@@ -224,19 +225,19 @@ class ElasticReporter {
     if (!r_.times.empty())
       fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
     if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
-    if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
-    fact("integration",
-         fmt::format("{}{}; {} steps, {} evaluations", in_words(s_.options.method),
-                     s_.method_reason.empty() ? ", as the study says" : ", as " + s_.method_reason,
-                     r_.report.steps, r_.report.evaluations));
+    if (s_.settle > 0) fact("settled", say("{} before the first row", seconds(s_.settle)));
+    fact("integration", say("{}{}; {} steps, {} evaluations", in_words(s_.options.method),
+                            s_.method_reason.empty() ? ", as the study says" : ", as " + s_.method_reason,
+                            r_.report.steps, r_.report.evaluations));
     if (r_.report.status == Status::done) return;
-    std::string hint;
+    Sentence hint;
     if (r_.report.status == Status::not_converged) {
       const double needed = steps_a_period * hertz(fastest()) * (s_.to - s_.from + s_.settle);
-      hint = fmt::format(
-          "the fastest vibration of the pieces has {:.3g} Hz, which explicit steps must follow: about {:.2g} "
-          "steps; take fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"",
-          hertz(fastest()), needed);
+      hint =
+          say("the fastest vibration of the pieces has {}, which explicit steps must follow: about {} steps; "
+              "take "
+              "fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"",
+              measured("Hz", hertz(fastest()), 3), plain_number(needed, 2));
     }
     warn(r_.report.message, hint);
   }
@@ -246,29 +247,30 @@ class ElasticReporter {
       result_.headline = "The linkage does not start: " + r_.report.message + ".";
       return;
     }
-    std::string text;
+    Sentence text;
     for (std::size_t e = 0; e < r_.beams.size(); ++e) {
       const ElasticPieces& p = r_.elastic.pieces[e];
       const study::Extreme bent = study::largest(r_.beams[e].largest),
                            stressed = study::largest(r_.beams[e].stress);
       if (!bent.any()) continue;
-      text += fmt::format("{}{} bends by up to {:.3g} mm", text.empty() ? "" : "; ", name_of_beam(p),
-                          1e3 * std::abs(bent.value));
+      std::string name = name_of_beam(p);
+      if (text.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+      text +=
+          say("{}{} bends by up to {}", text.empty() ? "" : "; ", name, millimetres(std::abs(bent.value), 3));
       if (p.beam.fibre_distance > 0 && stressed.any())
-        text += fmt::format(" and bears up to {:.3g} MPa {}", 1e-6 * stressed.value,
-                            place_text(p, r_.beams[e].place[stressed.row]));
+        text += say(" and bears up to {} {}", measured("MPa", stressed.value, 3),
+                    place_text(p, r_.beams[e].place[stressed.row]));
     }
     for (std::size_t i = 0; i < r_.errors.size(); ++i)
       if (const study::Extreme most = study::largest(r_.errors[i].values); most.any()) {
-        text += fmt::format("; {} up to {}", r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
-                            error_text(r_.errors[i], std::abs(most.value)));
+        text += say("; {} up to {}", r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
+                    size_of(r_.errors[i], std::abs(most.value)));
         break;
       }
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
     result_.headline = text + ".";
     if (r_.report.status != Status::done)
-      result_.headline += fmt::format(" It ends at {:.4g} s, before {:.4g} s: {}.", r_.times.back(), s_.to,
-                                      to_string(r_.report.status));
+      result_.headline += say(" It ends at {}, before {}: {}.", seconds(r_.times.back()), seconds(s_.to),
+                              to_string(r_.report.status));
   }
 
   const LinkageSimulationStudy& s_;

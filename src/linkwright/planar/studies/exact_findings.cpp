@@ -55,41 +55,37 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
   }
 }
 
-std::string found_text(const ExactFindings& f) {
-  const std::string real =
-      fmt::format("{} of them {} real", f.real_classes, f.real_classes == 1 ? "is" : "are");
+Sentence found_text(const ExactFindings& f) {
+  const Sentence real = say("{} of them {} real", f.real_classes, f.real_classes == 1 ? "is" : "are");
   switch (f.completeness) {
     case Completeness::complete:
-      return fmt::format("All {} {}, each certified; {}.", f.whole, f.what, real);
+      return say("All {} {}, each certified; {}.", f.whole, f.what, real);
     case Completeness::complete_uncertified:
-      return f.certificates
-                 ? fmt::format("All {} {}, {} of them certified; {}.", f.whole, f.what, f.certified, real)
-                 : fmt::format("All {} {}; {}.", f.whole, f.what, real);
+      return f.certificates ? say("All {} {}, {} of them certified; {}.", f.whole, f.what, f.certified, real)
+                            : say("All {} {}; {}.", f.whole, f.what, real);
     case Completeness::special_target:
-      return fmt::format("{} of {} {}: these points are special, the others lie at infinity or coincide; {}.",
-                         f.classes, f.whole, f.what, real);
+      return say("{} of {} {}: these points are special, the others lie at infinity or coincide; {}.",
+                 f.classes, f.whole, f.what, real);
     case Completeness::incomplete:
-      return fmt::format("{} of {} {}, others may be missing; {}.", f.classes, f.whole, f.what, real);
+      return say("{} of {} {}, others may be missing; {}.", f.classes, f.whole, f.what, real);
   }
   return {};
 }
 
-std::string answer_text(const ExactFindings& f, const char* whose, const std::string& best) {
-  if (f.designs == 0) return fmt::format("There is no {} to build.", f.mechanism);
+Sentence answer_text(const ExactFindings& f, const char* whose, const Sentence& best) {
+  if (f.designs == 0) return say("There is no {} to build.", f.mechanism);
   const char* pass = "in one motion and in their order";
   if (f.answers > 0) {
     const auto free = static_cast<std::size_t>(f.defect_free);
-    return fmt::format("{} of {} {} {}s {} the points {}{}; the best is {}.", free, whose, f.designs,
-                       f.mechanism, free == 1 ? "passes" : "pass", pass,
-                       free == f.answers
-                           ? std::string()
-                           : fmt::format(", {} of them within the limits of the study", f.answers),
-                       best);
+    return say("{} of {} {} {}s {} the points {}{}; the best is {}.", free, whose, f.designs, f.mechanism,
+               free == 1 ? "passes" : "pass", pass,
+               free == f.answers ? Sentence() : say(", {} of them within the limits of the study", f.answers),
+               best);
   }
   if (f.defect_free > 0)
-    return fmt::format("None of the {} {}s that pass the points {} keeps the limits of the study.",
-                       f.defect_free, f.mechanism, pass);
-  return fmt::format(
+    return say("None of the {} {}s that pass the points {} keeps the limits of the study.", f.defect_free,
+               f.mechanism, pass);
+  return say(
       "None of {} {} {}s passes the points {}: {} change branch on the way, {} circuit, {} meet them in "
       "another order.",
       whose, f.designs, f.mechanism, pass, f.branch, f.circuit, f.order);
@@ -120,15 +116,15 @@ void add_path_counts(Table& counts, const ExactFindings& f) {
 
 void add_design_facts(const study::AddFact& fact, const ExactFindings& f) {
   using Verdict = study::Fact::Verdict;
-  fact(fmt::format("{}s with their driver", f.mechanism), fmt::format("{}", f.designs));
-  fact("without defects", fmt::format("{}", f.defect_free), f.defect_free > 0 ? Verdict::good : Verdict::bad);
-  fact("with defects", fmt::format("{} branch, {} circuit, {} order", f.branch, f.circuit, f.order));
+  fact(fmt::format("{}s with their driver", f.mechanism), say("{}", f.designs));
+  fact("without defects", say("{}", f.defect_free), f.defect_free > 0 ? Verdict::good : Verdict::bad);
+  fact("with defects", say("{} branch, {} circuit, {} order", f.branch, f.circuit, f.order));
 }
 
 void add_path_facts(const study::AddFact& fact, const ExactFindings& f) {
   if (f.infinite + f.singular + f.lost > 0)
     fact("paths without a solution",
-         fmt::format("{} to infinity, {} where solutions meet, {} lost", f.infinite, f.singular, f.lost));
+         say("{} to infinity, {} where solutions meet, {} lost", f.infinite, f.singular, f.lost));
 }
 
 void offer_order(const study::AddWarning& warn, const ExactFindings& f,
@@ -141,19 +137,19 @@ void offer_order(const study::AddWarning& warn, const ExactFindings& f,
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   std::string list;
   for (const int k : best->first) list += fmt::format("{}{}", list.empty() ? "" : ", ", k + 1);
-  warn(fmt::format("in the order {} {} of these {}s would pass the points in one motion", list, best->second,
-                   f.mechanism),
+  warn(say("in the order {} {} of these {}s would pass the points in one motion", list, best->second,
+           f.mechanism),
        "write the points in that order if it will do");
 }
 
 void warn_of_missing_solutions(const study::AddWarning& warn, const ExactFindings& f) {
   if (f.completeness == Completeness::special_target)
-    warn(fmt::format("the points are special: {} of {} solutions lie at infinity or coincide",
-                     f.whole - f.classes, f.whole),
+    warn(say("the points are special: {} of {} solutions lie at infinity or coincide", f.whole - f.classes,
+             f.whole),
          "mirror-symmetric points, points on a line or on a grid are such; move one of them a little to see "
          "the rest");
   if (f.stopped == Status::done && f.lost > 0)
-    warn(fmt::format("{} paths were lost: {}s may be missing", f.lost, f.mechanism),
+    warn(say("{} paths were lost: {}s may be missing", f.lost, f.mechanism),
          "move a point a little and compare");
 }
 

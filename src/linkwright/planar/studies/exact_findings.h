@@ -37,11 +37,11 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
 Completeness completeness_of(const ExactFindings& findings);
 
 /// "All 1442 coupler curves through the nine points, each certified; 64 of them are real."
-std::string found_text(const ExactFindings& findings);
+Sentence found_text(const ExactFindings& findings);
 
 /// How many of the mechanisms pass the points in one motion; `whose`: "their" or "these", `best`: what the
 /// first one is called.
-std::string answer_text(const ExactFindings& findings, const char* whose, const std::string& best);
+Sentence answer_text(const ExactFindings& findings, const char* whose, const Sentence& best);
 
 /// Status of a result and the outcome in a word.
 struct ExactVerdict {

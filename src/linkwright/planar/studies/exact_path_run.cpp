@@ -74,10 +74,10 @@ class ExactReport {
       for (const int k : blocked.points) list += fmt::format("{}{}", list.empty() ? "" : ", ", k + 1);
       result_.status = Status::infeasible;
       outcome_ = "no_solution";
-      result_.headline = fmt::format(
-          "No four-bar passes the points: {} of them ({}) lie on a {}, which no coupler curve meets in "
-          "more than six points.",
-          blocked.points.size(), list, blocked.kind == PointObstacle::collinear ? "line" : "circle");
+      result_.headline =
+          say("No four-bar passes the points: {} of them ({}) lie on a {}, which no coupler curve meets in "
+              "more than six points.",
+              blocked.points.size(), list, blocked.kind == PointObstacle::collinear ? "line" : "circle");
       return;
     }
     const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
@@ -309,8 +309,7 @@ class ExactReport {
     const std::string best =
         designs_.empty() ? std::string() : fmt::format("a {}", called(designs_[0].design));
     if (swept_ && !timed_ && found_.answers > 0)
-      result_.headline =
-          fmt::format("{} The best of {} that differ is {}.", region_text(), found_.answers, best);
+      result_.headline = say("{} The best of {} that differ is {}.", region_text(), found_.answers, best);
     else
       result_.headline = (timed_   ? timed_text()
                           : swept_ ? region_text()
@@ -318,18 +317,18 @@ class ExactReport {
                          " " + answer_text(found_, timed_ || swept_ ? "these" : "their", best);
   }
 
-  std::string region_text() const {
-    return fmt::format(
+  Sentence region_text() const {
+    return say(
         "At {} of {} places of the pivots four-bars pass the {} points in one motion and in their order.",
         places_with_answers_, places_, p_.x.size());
   }
 
-  std::string timed_text() const {
+  Sentence timed_text() const {
     if (swept_)
-      return fmt::format(
+      return say(
           "Infinitely many four-bars pass the {} points at their crank angles; {} that differ are listed.",
           p_.x.size(), designs_.size());
-    return fmt::format(
+    return say(
         "{} of {} cranks that hold the {} points at their angles {} real; {} four-bars on {} coupler "
         "curves have them.",
         cranks_, found_.classes, p_.x.size(), cranks_ == 1 ? "is" : "are", designs_.size(),
@@ -402,19 +401,19 @@ class ExactReport {
     const study::AddFact fact{result_.facts};
     if (outcome_ == "no_solution") return;
     if (swept_ && !timed_) {
-      fact("places of the pivots", fmt::format("{}", places_));
-      fact("places with an answer", fmt::format("{}", places_with_answers_),
+      fact("places of the pivots", say("{}", places_));
+      fact("places with an answer", say("{}", places_with_answers_),
            places_with_answers_ > 0 ? Verdict::good : Verdict::bad);
     } else if (timed_) {
-      fact("found", swept_ ? fmt::format("a sample of {} four-bars", designs_.size())
-                           : fmt::format("{} real cranks of {}", cranks_, found_.classes));
+      fact("found", swept_ ? say("a sample of {} four-bars", designs_.size())
+                           : say("{} real cranks of {}", cranks_, found_.classes));
     } else
       fact("found",
-           found_.certificates ? fmt::format("{} of {} classes of four-bars, {} certified", found_.classes,
-                                             found_.whole, found_.certified)
-                               : fmt::format("{} of {} solutions", found_.classes, found_.whole),
+           found_.certificates ? say("{} of {} classes of four-bars, {} certified", found_.classes,
+                                     found_.whole, found_.certified)
+                               : say("{} of {} solutions", found_.classes, found_.whole),
            found_.completeness == Completeness::incomplete ? Verdict::bad : Verdict::plain);
-    if (!swept_) fact(timed_ ? "coupler curves" : "real", fmt::format("{}", found_.real_classes));
+    if (!swept_) fact(timed_ ? "coupler curves" : "real", say("{}", found_.real_classes));
     if (!swept_ || timed_) add_design_facts(fact, found_);
     if (found_.answers > 0) result_.facts.push_back(transmission_fact(p_, designs_[0].design));
     add_path_facts(fact, found_);

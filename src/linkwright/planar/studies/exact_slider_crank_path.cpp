@@ -140,11 +140,11 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
   study::Result result;
   const ExactVerdict verdict = judge(found);
   result.status = verdict.status;
-  std::string best;
+  Sentence best;
   if (found.answers > 0) {
     const SliderPathDesign& d = designs[0].design;
-    best = std::isnan(d.stroke) ? std::string("one whose crank rocks")
-                                : fmt::format("one with a stroke of {}", study::metres(d.stroke));
+    best = std::isnan(d.stroke) ? Sentence("one whose crank rocks")
+                                : say("one with a stroke of {}", length_by_size(d.stroke));
   }
   result.headline = found_text(found) + " " + answer_text(found, "these", best);
 
@@ -166,9 +166,8 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
       break;
     drawn.push_back(d.design);
     add_slider_solution(result, p, d.design, common,
-                        std::isnan(d.design.stroke)
-                            ? std::string("the crank rocks")
-                            : fmt::format("stroke {}", study::metres(d.design.stroke)));
+                        std::isnan(d.design.stroke) ? std::string("the crank rocks")
+                                                    : "stroke " + to_string(length_by_size(d.design.stroke)));
     study::Solution& solution = result.solutions.back();
     for (study::Parameter& parameter : solution.parameters)
       parameter.lower = -infinity, parameter.upper = infinity;
@@ -185,15 +184,15 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
   result.statistics["outcome"] = verdict.outcome;
   result.statistics["completeness"] = name_of(found.completeness);
   const study::AddFact fact{result.facts};
-  fact("found", fmt::format("{} of {} solutions", found.classes, found.whole),
+  fact("found", say("{} of {} solutions", found.classes, found.whole),
        found.completeness == Completeness::incomplete ? study::Fact::Verdict::bad
                                                       : study::Fact::Verdict::plain);
-  fact("real", fmt::format("{}", found.real_classes));
+  fact("real", say("{}", found.real_classes));
   add_design_facts(fact, found);
   const study::AddWarning warn{result.diagnostics};
   if (found.answers > 0) {
     const double pressure = math::degrees(designs[0].pressure_angle);
-    fact("greatest pressure angle", fmt::format("{:.1f}°", pressure),
+    fact("greatest pressure angle", degrees_of(designs[0].pressure_angle).fixed(1),
          pressure > steep_pressure ? study::Fact::Verdict::bad : study::Fact::Verdict::plain);
     warn_of_pressure(warn, pressure);
   }

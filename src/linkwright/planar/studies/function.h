@@ -199,10 +199,9 @@ study::Kind slider_function_kind();
 /// That of "planar.six_bar".
 study::Kind six_bar_function_kind();
 
-/// Tells the greatest error, as it is written in `text`; one of more than a tenth of what the output moves is
+/// Tells the greatest error; one of more than a tenth of what the output moves is
 /// bad and warned of: the linkage does not follow the function.
-void tell_greatest_error(const FunctionProblem& problem, double greatest, std::string text,
-                         study::Result& result);
+void tell_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result);
 
 study::Result run_six_bar_function_study(const FunctionStudy& study, const study::Common& common,
                                          RunContext& context);

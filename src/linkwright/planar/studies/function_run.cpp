@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/as_linkage.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/slider_crank.h"
@@ -52,22 +51,20 @@ class FunctionReport {
     result_.statistics["outcome"] = any                       ? "done"
                                     : answer_.designs.empty() ? "no_real_solution"
                                                               : "all_defective";
-    say(any, good);
+    findings(any, good);
     return std::move(result_);
   }
 
  private:
   std::string unit() const { return p_.slider ? "m" : "rad"; }
-  std::string amount(double value) const {
-    return p_.slider ? study::metres(value) : fmt::format("{:.4g}°", math::degrees(value));
-  }
+  Measured amount(double value) const { return p_.slider ? length_by_size(value) : degrees_of(value); }
   double scale() const { return s_.mechanism.ground; }
 
   void solution(const FunctionDesign& d, std::size_t number) {
     study::Solution out;
     const FunctionGenerator& g = d.generator;
-    out.label = fmt::format("{}, greatest error {}", p_.slider ? "slider-crank" : "four-bar",
-                            amount(d.greatest_error));
+    out.label = to_string(
+        say("{}, greatest error {}", p_.slider ? "slider-crank" : "four-bar", amount(d.greatest_error)));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -161,24 +158,23 @@ class FunctionReport {
     result_.scenes.push_back(std::move(scene));
   }
 
-  void say(bool any, int good) {
+  void findings(bool any, int good) {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     const char* what = p_.slider ? "slider-crank" : "four-bar";
-    fact("function", fmt::format("{}, x = {:.4g} to {:.4g}", s_.name, s_.x_from, s_.x_to));
+    fact("function", say("{}, x = {} to {}", s_.name, at_place("x_from", plain_number(s_.x_from)),
+                         at_place("x_to", plain_number(s_.x_to))));
     if (p_.fit == FunctionFit::points) {
-      fact("precision points", fmt::format("{}", p_.at.size()));
-      fact("generators through them",
-           fmt::format("{}, {} over the whole range", answer_.designs.size(), good),
+      fact("precision points", say("{}", p_.at.size()));
+      fact("generators through them", say("{}, {} over the whole range", answer_.designs.size(), good),
            good > 0 ? Verdict::plain : Verdict::bad);
     }
     if (!any) {
       result_.headline =
-          answer_.status != Status::done ? "Stopped before a generator was found."
+          answer_.status != Status::done ? Sentence("Stopped before a generator was found.")
           : answer_.designs.empty()
-              ? fmt::format("No {} meets all precision points: there is no real solution.", what)
-              : fmt::format(
-                    "None of {} {}s through the precision points stays on one branch over the whole range.",
+              ? say("No {} meets all precision points: there is no real solution.", what)
+              : say("None of {} {}s through the precision points stays on one branch over the whole range.",
                     answer_.designs.size(), what);
       if (answer_.status == Status::done)
         warn("target", fmt::format("no {} generates the function at these points", what),
@@ -186,22 +182,21 @@ class FunctionReport {
       return;
     }
     const FunctionDesign& best = answer_.designs[0];
-    const double pair = math::degrees(best.pair_angle);
-    result_.headline = fmt::format("A {} generates {} within {}, least pair angle {:.1f}°.", what, s_.name,
-                                   amount(best.greatest_error), pair);
-    tell_greatest_error(p_, best.greatest_error, amount(best.greatest_error), result_);
+    const Measured pair = degrees_of(best.pair_angle).fixed(1);
+    result_.headline = say("A {} generates {} within {}, least pair angle {}.", what, s_.name,
+                           amount(best.greatest_error), pair);
+    tell_greatest_error(p_, amount(best.greatest_error), result_);
     fact("root mean square error", amount(best.rms_error));
-    fact("least pair angle", fmt::format("{:.1f}°", pair),
-         best.pair_angle < flat_generator ? Verdict::bad : Verdict::plain);
+    fact("least pair angle", pair, best.pair_angle < flat_generator ? Verdict::bad : Verdict::plain);
     if (best.pair_angle < p_.least_pair_angle) {
       warn("mechanism",
-           fmt::format("no {} was found with a pair angle of {:.3g}° over the range", what,
-                       math::degrees(p_.least_pair_angle)),
+           say("no {} was found with a pair angle of {} over the range", what,
+               degrees_of(p_.least_pair_angle, 3)),
            "take smaller ranges, or a six-bar: mechanism type = \"planar.six_bar\"");
       return;
     }
     if (best.pair_angle < flat_generator)
-      warn(fmt::format("the pair angle falls to {:.1f}°: the linkage is near a dead point there", pair),
+      warn(say("the pair angle falls to {}: the linkage is near a dead point there", pair),
            "take smaller ranges, or another of the solutions");
   }
 
@@ -214,22 +209,21 @@ class FunctionReport {
 
 }  // namespace
 
-void tell_greatest_error(const FunctionProblem& problem, double greatest, std::string text,
-                         study::Result& result) {
+void tell_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result) {
   double least = problem.output(0), most = least;
   for (int k = 1; k <= 100; ++k) {
     const double output = problem.output(0.01 * k);
     least = std::min(least, output);
     most = std::max(most, output);
   }
-  const double share = greatest / (most - least);
+  const double share = greatest.si / (most - least);
   const bool follows = share <= 0.1;
-  study::AddFact{result.facts}("greatest structural error", std::move(text),
+  study::AddFact{result.facts}("greatest structural error", greatest,
                                follows ? study::Fact::Verdict::good : study::Fact::Verdict::bad);
   if (!follows)
     study::AddWarning{result.diagnostics}(
-        fmt::format("the greatest error is {:.0f} % of what the output moves: the function is not followed",
-                    100 * share),
+        say("the greatest error is {} of what the output moves: the function is not followed",
+            percent(share).fixed(0)),
         problem.fit == FunctionFit::points ? "write fit = \"minimax\", or move the precision points"
                                            : "take smaller ranges");
 }

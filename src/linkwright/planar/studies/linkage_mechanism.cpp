@@ -296,7 +296,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
 
 void tell_assumed_masses(const Linkage& l, study::Result& result) {
   constexpr std::size_t most = 8;
-  std::string text;
+  Sentence text;
   std::size_t told = 0, more = 0;
   for (const LinkageBody& b : l.bodies) {
     if (!b.mass || !b.mass->assumed) continue;
@@ -305,10 +305,11 @@ void tell_assumed_masses(const Linkage& l, study::Result& result) {
       continue;
     }
     ++told;
-    text += fmt::format("{}{} {:.5g} kg m² about ({:.5g}, {:.5g}) m", text.empty() ? "" : "; ", b.name,
-                        b.mass->inertia, b.mass->centre.real() + 0.0, b.mass->centre.imag() + 0.0);
+    text +=
+        say("{}{} {} about ({}, {})", text.empty() ? "" : "; ", b.name, measured("kg_m2", b.mass->inertia, 5),
+            metres(b.mass->centre.real(), 5), metres(b.mass->centre.imag(), 5));
   }
-  if (more > 0) text += fmt::format("; {} more in the study as it was read", more);
+  if (more > 0) text += say("; {} more in the study as it was read", more);
   if (!text.empty()) result.facts.push_back({"inertia of uniform bars and plates, where left out", text});
 }
 

@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 
 #include <cmath>
 #include <optional>
@@ -112,19 +111,20 @@ void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
   const std::vector<DeadCentre> centres = dead_centres(s.linkage, s.plan, inputs, 0, path, joint);
   Table table{.name = "dead_centres"};
   std::vector<double> input, coordinate;
-  std::string text;
+  Sentence text;
   for (const DeadCentre& c : centres) {
     input.push_back(c.input);
     coordinate.push_back(c.coordinate);
     table.status.emplace_back("done");
-    text += (text.empty() ? "" : ", ") + study::angle_or_length(c.input, s.plan.rotary[0], 6);
+    text += (text.empty() ? "at " : ", ") + Sentence(study::angle_or_length(c.input, s.plan.rotary[0], 6));
   }
   const bool slide = s.linkage.joints[at(joint)].type == JointType::prismatic ||
                      s.linkage.joints[at(joint)].type == JointType::pin_in_slot;
   table.add(input_key(s.linkage, s.plan, 0), input_label(s.linkage, s.plan, 0), std::move(input));
   table.add(identifier(s.quality.output_joint) + (slide ? "_displacement_m" : "_angle_rad"),
             s.quality.output_joint + (slide ? " displacement (m)" : " angle (rad)"), std::move(coordinate));
-  result.facts.push_back({"dead centres of " + s.quality.output_joint, text.empty() ? "none" : "at " + text});
+  result.facts.push_back(
+      {"dead centres of " + s.quality.output_joint, text.empty() ? Sentence("none") : text});
   result.tables.push_back(std::move(table));
 }
 

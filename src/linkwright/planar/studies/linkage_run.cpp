@@ -108,11 +108,11 @@ class Runner {
                        : input_joint(s_.linkage, scene_axis()).name +
                              (s_.plan.rotary[scene_axis()] ? " angle" : " displacement");
   }
-  std::string where(std::size_t row) const {
-    if (over_time()) return fmt::format("{:.4g} s", rows_.time[row]);
-    std::string out;
+  Sentence where(std::size_t row) const {
+    if (over_time()) return at_place("time", seconds(rows_.time[row]));
+    Sentence out;
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
-      out += (k ? ", " : "") + study::angle_or_length(rows_.inputs[row][k].value, s_.plan.rotary[k], 6);
+      out += (k ? ", " : "") + Sentence(input_place(s_.linkage, s_.plan, k, rows_.inputs[row][k].value, 6));
     return out;
   }
 
@@ -275,7 +275,7 @@ class Runner {
                        ? "cannot be assembled: one link is longer than the others together"
                        : fmt::format("{}, {}", in_words(c.type), name_of(s_.four_bar->linkage.branch)));
     }
-    fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
+    fact("degrees of freedom", say("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
     std::string order;
     for (const Group& g : s_.plan.groups)
       order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, traits_of(g).name,
@@ -283,8 +283,7 @@ class Runner {
     fact("solved in this order", order);
     if (limits_) {
       fact("range of the input", assembly_range_text(*limits_, modes_));
-      if (s_.plan.closed_form())
-        fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
+      if (s_.plan.closed_form()) fact("circuits", say("{} over all assembly modes", limits_->circuits));
     }
     std::string general;
     for (const Group& g : s_.plan.groups)
@@ -295,25 +294,24 @@ class Runner {
       if (s_.quantities.drive && drives_[k].any())
         fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
                          input_joint(s_.linkage, k).name),
-             fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
-                         where(drives_[k].row)));
+             say("{} at {}", study::torque_or_force(drives_[k].value, s_.plan.rotary[k], 5),
+                 where(drives_[k].row)));
     facts_of_turn(fact);
     if (s_.quantities.dynamic()) tell_assumed_masses(s_.linkage, result_);
     if (s_.quantities.reactions && strongest() < joints_.size())
-      fact("largest joint force",
-           fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,
-                       where(joints_[strongest()].row)));
+      fact("largest joint force", say("{} at {}, {}", newtons(joints_[strongest()].value, 5),
+                                      s_.linkage.joints[strongest()].name, where(joints_[strongest()].row)));
     if (s_.quantities.shaking && shaking_.any())
-      fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
+      fact("largest shaking force", say("{} at {}", newtons(shaking_.value, 5), where(shaking_.row)));
     if (transmission_.any())
       fact("minimum transmission angle",
-           fmt::format("{:.1f}° of {} at {}", math::degrees(transmission_.value),
-                       s_.plan.groups[weakest_].name, where(transmission_.row)),
+           say("{} of {} at {}", degrees_of(transmission_.value).fixed(1), s_.plan.groups[weakest_].name,
+               where(transmission_.row)),
            transmission_.value < poor_transmission ? Verdict::bad : Verdict::plain);
-    if (closure_.any()) fact("closure residual", fmt::format("{:.2g} m", closure_.value));
+    if (closure_.any()) fact("closure residual", metres(closure_.value, 2));
     if (s_.quantities.dynamic() && power_.any() && power_.value > 0)
       fact("power balance",
-           fmt::format("within {:.2g} of the largest power", std::abs(balance_.value / power_.value)));
+           say("within {} of the largest power", plain_number(std::abs(balance_.value / power_.value), 2)));
   }
 
   // Of one drive over whole turns of its joint: mean square of the torque, and its work, which is 0 at
@@ -337,11 +335,11 @@ class Runner {
       moved += (std::abs(a) + std::abs(b)) / 2 * std::abs(step);
     }
     const double rms = std::sqrt(squares / static_cast<double>(torque->values.size() - 1));
-    fact("drive torque, root mean square", fmt::format("{:.5g} N m", rms));
+    fact("drive torque, root mean square", newton_metres(rms, 5));
     if (s_.drives[0].acceleration == 0)
       fact("net work of the drive per revolution",
-           fmt::format("{:.2g} J ({:.4g} J absolute)", std::abs(work) < work_rounding * moved ? 0 : work,
-                       moved));
+           say("{} ({} absolute)", measured("J", std::abs(work) < work_rounding * moved ? 0 : work, 2),
+               measured("J", moved)));
   }
 
   void warnings() {
@@ -354,31 +352,27 @@ class Runner {
     for (const Failures::One& f : failures_.sorted()) {
       const Status s = f.status;
       const std::string group = f.group >= 0 ? s_.plan.groups[at(f.group)].name : std::string();
-      const std::string place =
-          fmt::format("{} of {} positions, the first at {}", f.rows, statuses_.size(), where(f.first));
+      const Sentence place =
+          say("{} of {} positions, the first at {}", f.rows, statuses_.size(), where(f.first));
       if (s == Status::singular)
-        warn(fmt::format("{} are at a dead point of {}: speeds and forces are not determined there", place,
-                         group),
-             {});
+        warn(say("{} are at a dead point of {}: speeds and forces are not determined there", place, group));
       else if (s == Status::no_assembly)
-        warn(f.gap > 0 ? fmt::format("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
-                                     s_.units.text(f.gap, Dimension::length))
-                       : fmt::format("{} do not assemble", place),
+        warn(f.gap > 0 ? say("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
+                             s_.units.measured(f.gap, Dimension::length))
+                       : say("{} do not assemble", place),
              assembled_ranges());
       else if (s == Status::other_circuit)
-        warn(fmt::format(
-                 "{} are on another circuit: the linkage does not come there from {} without being taken "
+        warn(say("{} are on another circuit: the linkage does not come there from {} without being taken "
                  "apart",
                  place, s_.plan.drawn_inputs.empty() ? "the first position" : "the drawn position"),
              "sweep.range = \"assembled\" sweeps what it comes to; sweep.circuits = \"all\" counts these "
              "positions as well");
       else if (s == Status::self_locking)
         warn(
-            fmt::format("{} lock by friction: no force of the drive, however large, keeps the linkage moving",
-                        place),
+            say("{} lock by friction: no force of the drive, however large, keeps the linkage moving", place),
             "less friction, or a position farther from the dead point, frees it");
       else
-        warn(fmt::format("{} have no answer ({})", place, to_string(s)),
+        warn(say("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
     }
     change_points(warn);
@@ -389,22 +383,20 @@ class Runner {
       warn_of_held_loads(s_.linkage, s_.plan, (*low)[0].value, (*high)[0].value, warn);
     }
     if (transmission_.any() && transmission_.value < poor_transmission)
-      warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
-                       "without bound",
-                       s_.plan.groups[weakest_].name, math::degrees(transmission_.value),
-                       where(transmission_.row)),
-           {});
+      warn(say("the transmission angle of {} falls to {} at {}: near a dead point forces grow without bound",
+               s_.plan.groups[weakest_].name, degrees_of(transmission_.value).fixed(2),
+               where(transmission_.row)));
   }
   // Where the linkage assembles: exactly for one input in closed form, else nothing.
-  std::string assembled_ranges() const {
-    return limits_ ? "it " + assembly_range_text(*limits_, modes_) + ends_of_ranges() : std::string();
+  Sentence assembled_ranges() const {
+    return limits_ ? "it " + assembly_range_text(*limits_, modes_) + ends_of_ranges() : Sentence();
   }
   // Which group stops the motion at which end; of several that could.
-  std::string ends_of_ranges() const {
+  Sentence ends_of_ranges() const {
     const auto loops = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
                                      [](const Group& g) { return traits_of(g).closes_loop; });
     if (loops < 2) return {};
-    std::string out;
+    Sentence out;
     for (const InputRange& r : limits_->ranges) {
       if (!std::equal(modes_.begin(), modes_.end(), r.modes.begin(), r.modes.end()) || r.full_turn) continue;
       for (const RangeEnd* end : {&r.from, &r.to}) {
@@ -412,8 +404,8 @@ class Runner {
         std::string groups;
         for (const int g : end->groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
         const double value = limits_->rotary ? math::wrap_angle(end->value) : end->value;
-        out += fmt::format("{}at {} by {}", out.empty() ? "; stopped " : ", ",
-                           study::angle_or_length(value, limits_->rotary, 4), groups);
+        out += say("{}at {} by {}", out.empty() ? "; stopped " : ", ",
+                   study::angle_or_length(value, limits_->rotary, 4), groups);
       }
     }
     return out;
@@ -431,10 +423,9 @@ class Runner {
     for (std::size_t r = 0; r < statuses_.size(); ++r)
       if (passed_[r] && statuses_[r] == Status::singular) {
         warn(s_.at_change_point == AtChangePoint::keep_sign
-                 ? fmt::format("at {} the motion has a kink: the row holds the position alone", where(r))
-                 : fmt::format("at {} the joint forces grow without bound: the row holds what stays finite",
-                               where(r)),
-             {});
+                 ? say("at {} the motion has a kink: the row holds the position alone", where(r))
+                 : say("at {} the joint forces grow without bound: the row holds what stays finite",
+                       where(r)));
         break;
       }
     std::vector<double> reported;
@@ -446,9 +437,9 @@ class Runner {
       reported.push_back(value);
       std::string groups;
       for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
-      warn(fmt::format("change point at {}: the assembly modes of {} coincide there, and the linkage can "
-                       "continue in either",
-                       study::angle_or_length(value, limits_->rotary, 6), groups),
+      warn(say("change point at {}: the assembly modes of {} coincide there, and the linkage can continue in "
+               "either",
+               study::angle_or_length(value, limits_->rotary, 6), groups),
            s_.at_change_point == AtChangePoint::smooth
                ? "the rows continue smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
            : s_.at_change_point == AtChangePoint::keep_sign
@@ -458,14 +449,14 @@ class Runner {
   }
 
   // Of a sweep over the range in which the linkage assembles; empty for others.
-  std::string range_in_words() const {
+  Sentence range_in_words() const {
     const InputGrid* grid = std::get_if<InputGrid>(&s_.sweep);
     if (!grid || !grid->assembled) return {};
     const std::string& joint = grid->inputs[0].joint;
-    if (grid->assembled->full_turn) return fmt::format("{} rotates fully", joint);
+    if (grid->assembled->full_turn) return say("{} rotates fully", joint);
     const auto end = [&](const RangeEnd& e) { return study::angle_or_length(e.value, s_.plan.rotary[0], 4); };
-    return fmt::format("{} moves from {} to {}, where the linkage assembles", joint,
-                       end(grid->assembled->from), end(grid->assembled->to));
+    return say("{} moves from {} to {}, where the linkage assembles", joint, end(grid->assembled->from),
+               end(grid->assembled->to));
   }
 
   void headline() {
@@ -475,28 +466,26 @@ class Runner {
           std::all_of(statuses_.begin(), statuses_.end(), [](Status s) { return s == Status::no_assembly; });
       result_.headline =
           open && nearest_group_ >= 0 && nearest_.any() && nearest_.value > 0
-              ? fmt::format(
-                    "The linkage assembles nowhere in the sweep: {} cannot close, a gap of {} is left at {}.",
-                    s_.plan.groups[at(nearest_group_)].name, s_.units.text(nearest_.value, Dimension::length),
-                    where(nearest_.row))
+              ? say("The linkage assembles nowhere in the sweep: {} cannot close, a gap of {} is left at {}.",
+                    s_.plan.groups[at(nearest_group_)].name,
+                    s_.units.measured(nearest_.value, Dimension::length), where(nearest_.row))
               : "No position of the sweep has an answer: the linkage does not assemble or is at "
                 "dead points.";
       return;
     }
-    std::string text;
+    Sentence text;
     if (s_.quantities.drive && !drives_.empty() && drives_[0].any())
-      text = fmt::format("The drive {} reaches {:.5g} {} at {}", s_.plan.rotary[0] ? "torque" : "force",
-                         drives_[0].value, s_.plan.rotary[0] ? "N m" : "N", where(drives_[0].row));
+      text = say("The drive {} reaches {} at {}", s_.plan.rotary[0] ? "torque" : "force",
+                 study::torque_or_force(drives_[0].value, s_.plan.rotary[0], 5), where(drives_[0].row));
     if (s_.quantities.reactions && strongest() < joints_.size())
-      text += fmt::format("{} {:.5g} N at joint {}",
-                          text.empty() ? "The joint forces reach" : " and the joint forces",
-                          joints_[strongest()].value, s_.linkage.joints[strongest()].name);
+      text += say("{} {} at joint {}", text.empty() ? "The joint forces reach" : " and the joint forces",
+                  newtons(joints_[strongest()].value, 5), s_.linkage.joints[strongest()].name);
     if (text.empty()) text = range_in_words();
-    if (text.empty()) text = fmt::format("{} of {} positions computed", good, statuses_.size());
+    if (text.empty()) text = say("{} of {} positions computed", good, statuses_.size());
     result_.headline = text + ".";
     if (good != static_cast<std::ptrdiff_t>(statuses_.size()) && s_.quantities.dynamic())
-      result_.headline += fmt::format(" {} of {} positions have no answer.",
-                                      static_cast<std::ptrdiff_t>(statuses_.size()) - good, statuses_.size());
+      result_.headline += say(" {} of {} positions have no answer.",
+                              static_cast<std::ptrdiff_t>(statuses_.size()) - good, statuses_.size());
   }
 
   const LinkageStudy& s_;

@@ -10,6 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
+#include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/open_pose.h"
 
 namespace linkwright::planar {
@@ -486,11 +487,9 @@ void warn_of_held_loads(const Linkage& l, const LinkagePlan& plan, double low, d
                         const study::AddWarning& warn) {
   if (plan.rotary.empty()) return;
   for (const std::string& name : loads_held(l, plan.rotary[0], low, high))
-    warn(fmt::format(
-             "the table of '{}' ends within the motion, from {} to {} of {}: beyond it the load keeps its "
+    warn(say("the table of '{}' ends within the motion, from {} to {} of {}: beyond it the load keeps its "
              "last value",
-             name, study::angle_or_length(low, plan.rotary[0], 6),
-             study::angle_or_length(high, plan.rotary[0], 6), input_joint(l, 0).name),
+             name, input_place(l, plan, 0, low, 6), input_place(l, plan, 0, high, 6), input_joint(l, 0).name),
          "period repeats a table; one of whole turns repeats by itself");
 }
 

@@ -26,7 +26,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Verdict = study::Fact::Verdict;
-using study::metres;
 
 // A pair angle below this passes force badly (rad).
 constexpr double flat_pair = 0.35;
@@ -52,7 +51,7 @@ class PoseReport {
     design_table();
     dyad_table();
     curves();
-    say();
+    findings();
     return std::move(result_);
   }
 
@@ -261,27 +260,27 @@ class PoseReport {
   bool has_angle(std::size_t k) const { return p_.demands.empty() || p_.demands[k].angle; }
 
   // "3 poses and 4 points"; "12 poses".
-  std::string poses_and_points() const {
+  Sentence poses_and_points() const {
     const std::size_t n = p_.poses.size();
     const auto points =
         p_.exact
             ? static_cast<std::size_t>(std::count_if(p_.demands.begin(), p_.demands.end(),
                                                      [](const PoseDemand& demand) { return !demand.angle; }))
             : 0;
-    return points == 0 ? fmt::format("{} poses", n)
-                       : fmt::format("{} poses and {} point{}", n - points, points, points == 1 ? "" : "s");
+    return points == 0 ? say("{} poses", n)
+                       : say("{} poses and {} point{}", n - points, points, points == 1 ? "" : "s");
   }
 
   // "5, met exactly"; "3 poses and 4 points, met exactly"; "12, 3 of them exactly and 4 without rotation, by
   // least squares".
-  std::string poses_text() const {
+  Sentence poses_text() const {
     if (p_.exact)
-      return (p_.demands.empty() ? fmt::format("{}", p_.poses.size()) : poses_and_points()) + ", met exactly";
+      return (p_.demands.empty() ? say("{}", p_.poses.size()) : poses_and_points()) + ", met exactly";
     int exact = 0, points = 0;
     for (const PoseDemand& demand : p_.demands) exact += demand.exact, points += !demand.angle;
-    std::string out = fmt::format("{}", p_.poses.size());
-    if (exact > 0) out += fmt::format(", {} of them exactly", exact);
-    if (points > 0) out += fmt::format(", {} at any rotation", points);
+    Sentence out = say("{}", p_.poses.size());
+    if (exact > 0) out += say(", {} of them exactly", exact);
+    if (points > 0) out += say(", {} at any rotation", points);
     return out + ", by least squares";
   }
 
@@ -414,32 +413,32 @@ class PoseReport {
          .style = study::Plot::Style::polar});
   }
 
-  std::string why() const {
-    std::vector<std::string> parts;
+  Sentence why() const {
+    Sentence out;
     for (const PoseDefect defect : {PoseDefect::branch, PoseDefect::circuit, PoseDefect::order})
       if (const int count = answer_.defects[static_cast<std::size_t>(defect)])
-        parts.push_back(fmt::format("{} {}", count, name_of(defect)));
-    return fmt::format("{}", fmt::join(parts, ", "));
+        out += say("{}{} {}", out.empty() ? "" : ", ", count, name_of(defect));
+    return out;
   }
 
-  void say() {
+  void findings() {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     const std::size_t n = p_.poses.size();
     fact("poses", poses_text());
     if (answer_.pairs >= 0)
-      fact("linkages", fmt::format("{} real of {}", answer_.pairs, answer_.solutions));
+      fact("linkages", say("{} real of {}", answer_.pairs, answer_.solutions));
     else if (!answer_.swept)
-      fact("dyads", p_.exact ? fmt::format("{} real of {}",
-                                           answer_.dyads.size() + static_cast<std::size_t>(answer_.outside),
-                                           answer_.solutions)
-                             : fmt::format("{} next to the poses", answer_.dyads.size()));
-    if (answer_.outside > 0) fact("with a pivot outside its region", fmt::format("{}", answer_.outside));
+      fact("dyads",
+           p_.exact ? say("{} real of {}", answer_.dyads.size() + static_cast<std::size_t>(answer_.outside),
+                          answer_.solutions)
+                    : say("{} next to the poses", answer_.dyads.size()));
+    if (answer_.outside > 0) fact("with a pivot outside its region", say("{}", answer_.outside));
     if (p_.drive_turns)
-      fact("left out, the crank does not rotate fully", fmt::format("{}", answer_.swinging),
+      fact("left out, the crank does not rotate fully", say("{}", answer_.swinging),
            answer_.tried > 0 ? Verdict::plain : Verdict::bad);
-    fact("linkages with a drive", fmt::format("{}", answer_.tried));
-    fact("free of defects", fmt::format("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
+    fact("linkages with a drive", say("{}", answer_.tried));
+    fact("free of defects", say("{}", answer_.free), answer_.free > 0 ? Verdict::good : Verdict::bad);
     if (answer_.tried > answer_.free) fact("defects", why());
     if (shown_.empty() && answer_.dependent) {
       result_.headline =
@@ -450,48 +449,41 @@ class PoseReport {
     }
     if (shown_.empty()) {
       result_.headline =
-          answer_.status != Status::done ? "Stopped before a linkage was found."
+          answer_.status != Status::done ? Sentence("Stopped before a linkage was found.")
           : answer_.outside > 0
-              ? fmt::format(
-                    "No linkage through the poses has its pivots in the regions: of {}, {} are outside.",
+              ? say("No linkage through the poses has its pivots in the regions: of {}, {} are outside.",
                     answer_.pairs >= 0 ? "the real linkages" : "the real dyads", answer_.outside)
           : answer_.swept && regions() ? "No linkage through the poses has its pivots in the regions."
-          : answer_.pairs >= 0
-              ? fmt::format("None of the {} linkages through the poses is real.", answer_.solutions)
+          : answer_.pairs >= 0 ? say("None of the {} linkages through the poses is real.", answer_.solutions)
           : answer_.dyads.size() == 0
-              ? fmt::format("No dyad holds the body in all {} poses: there is no real solution.", n)
-              : fmt::format("Of the dyads through the poses ({}) no two make a linkage.",
-                            answer_.dyads.size());
+              ? say("No dyad holds the body in all {} poses: there is no real solution.", n)
+              : say("Of the dyads through the poses ({}) no two make a linkage.", answer_.dyads.size());
       relax(warn);
       return;
     }
     const PoseDesign& best = *shown_[0];
     if (answer_.free == 0) {
-      result_.headline = fmt::format("None of {} linkages through the {} passes them in one motion: {}.",
-                                     answer_.tried, poses_and_points(), why());
+      result_.headline = say("None of {} linkages through the {} passes them in one motion: {}.",
+                             answer_.tried, poses_and_points(), why());
       relax(warn);
       return;
     }
-    const double pair = math::degrees(best.passage.pair_angle);
-    result_.headline = fmt::format(
-        "A {} driven by {} leads the body through {}{}, least pair angle {:.1f}°.", name_of_linkage(best),
-        drive_of(best), poses_and_points(),
-        p_.exact ? std::string()
-                 : fmt::format(" within {} and {:.3g}°", metres(best.distance), math::degrees(best.rotation)),
-        pair);
-    fact("least pair angle", fmt::format("{:.1f}°", pair),
-         best.passage.pair_angle < flat_pair ? Verdict::bad : Verdict::plain);
+    const Measured pair = degrees_of(best.passage.pair_angle).fixed(1);
+    result_.headline =
+        say("A {} driven by {} leads the body through {}{}, least pair angle {}.", name_of_linkage(best),
+            drive_of(best), poses_and_points(),
+            p_.exact ? Sentence()
+                     : say(" within {} and {}", length_by_size(best.distance), degrees_of(best.rotation, 3)),
+            pair);
+    fact("least pair angle", pair, best.passage.pair_angle < flat_pair ? Verdict::bad : Verdict::plain);
     fact("drive", std::string(drive_of(best)));
     if (!p_.exact) {
-      fact("worst distance", metres(best.distance));
-      fact("worst rotation", fmt::format("{:.4g}°", math::degrees(best.rotation)));
-      if (p_.demands.empty())
-        fact("misfit of the poses to a four-bar", fmt::format("{:.3g}", answer_.misfit[6]));
+      fact("worst distance", length_by_size(best.distance));
+      fact("worst rotation", degrees_of(best.rotation));
+      if (p_.demands.empty()) fact("misfit of the poses to a four-bar", plain_number(answer_.misfit[6], 3));
     }
     if (best.passage.pair_angle < flat_pair)
-      warn(fmt::format(
-               "the pair angle falls to {:.1f}° between the poses: the linkage is near a dead point there",
-               pair),
+      warn(say("the pair angle falls to {} between the poses: the linkage is near a dead point there", pair),
            "move a pose, or take out one that need not be met");
   }
 

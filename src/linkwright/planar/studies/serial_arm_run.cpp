@@ -264,8 +264,8 @@ Peak peak(const std::vector<Row>& rows, Value&& value) {
   }
   return out;
 }
-std::string text(const Peak& p, std::string_view unit) {
-  return fmt::format("{:.5g} {} at {:.4g} s", p.value, unit, p.time);
+Sentence text(const Peak& p, std::string_view unit) {
+  return say("{} at {}", measured(unit, p.value, 5), at_place("time", seconds(p.time)));
 }
 Peak peak_force(const std::vector<Row>& rows, std::size_t k) {
   return peak(rows, [k](const Row& r) { return std::abs(r.loads[k].force); });
@@ -278,7 +278,7 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
   const ArmQuantities& q = s.quantities;
   const std::vector<ArmLinkEntry>& links = s.mechanism.links;
   const study::AddFact fact{result.facts};
-  fact("links", fmt::format("{}", links.size()));
+  fact("links", say("{}", links.size()));
   if (q.reactions)
     for (std::size_t k = 0; k < links.size(); ++k)
       fact(fmt::format("largest force at {}", joint_name(k)), text(peak_force(rows, k), "N"));
@@ -287,9 +287,9 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
     for (std::size_t k = 0; k < links.size(); ++k) {
       const std::string link = words(links[k].name);
       fact(fmt::format("largest torque of {}, motor in the joint", link),
-           text(peak_torque(rows, k, &ArmJointLoads::joint_torque), "N m"));
+           text(peak_torque(rows, k, &ArmJointLoads::joint_torque), "N_m"));
       fact(fmt::format("largest torque of {}, motor on the ground", link),
-           text(peak_torque(rows, k, &ArmJointLoads::absolute_torque), "N m"));
+           text(peak_torque(rows, k, &ArmJointLoads::absolute_torque), "N_m"));
     }
   const Peak power = peak(rows, [](const Row& r) { return r.power(); });
   if (q.power) fact("largest power of all motors", text(power, "W"));
@@ -297,12 +297,12 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
     fact("largest kinetic energy", text(peak(rows, [](const Row& r) { return r.energy.kinetic; }), "J"));
   if (q.rates)
     fact("largest speed of the tip",
-         text(peak(rows, [](const Row& r) { return std::abs(r.tip.velocity); }), "m/s"));
+         text(peak(rows, [](const Row& r) { return std::abs(r.tip.velocity); }), "m_per_s"));
   // Two routes to the power, relative to the largest power of the sweep.
   const Peak residual = peak(rows, [](const Row& r) { return r.power() - r.energy_rate; });
   if (q.power && power.value != 0)
     fact("power balance",
-         fmt::format("within {:.2g} of the largest power", std::abs(residual.value / power.value)));
+         say("within {} of the largest power", plain_number(std::abs(residual.value / power.value), 2)));
 }
 
 }  // namespace
@@ -346,9 +346,9 @@ study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context)
     if (!(f.value <= force.value)) force = f, joint = k;
     if (!(std::abs(t.value) <= std::abs(torque.value))) torque = t, motor = k;
   }
-  result.headline = fmt::format(
-      "The joint forces reach {} in {}, the torques of motors in the joints {} at {}.", text(force, "N"),
-      joint_name(joint), text(torque, "N m"), words(s.mechanism.links[motor].name));
+  result.headline =
+      say("The joint forces reach {} in {}, the torques of motors in the joints {} at {}.", text(force, "N"),
+          joint_name(joint), text(torque, "N_m"), words(s.mechanism.links[motor].name));
   return result;
 }
 

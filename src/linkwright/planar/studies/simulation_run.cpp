@@ -126,9 +126,7 @@ class SimulationRunner {
     plot("paths", "Paths of the traced points", paths, study::Plot::Style::polar);
   }
 
-  std::string shown(std::size_t k, double value) const {
-    return study::angle_or_length(value, s_.plan.rotary[k], 6);
-  }
+  Measured place(std::size_t k, double value) const { return input_place(s_.linkage, s_.plan, k, value, 6); }
   study::EnergyBalance balance() const { return {report_.largest_drift, report_.peak_energy}; }
 
   void facts() {
@@ -138,7 +136,7 @@ class SimulationRunner {
     std::size_t free = 0;
     for (std::size_t k = 0; k < s_.drives.size(); ++k) free += is_free(k);
     fact("degrees of freedom",
-         fmt::format("{}, {} free and {} driven", mobility(s_.linkage), free, s_.drives.size() - free));
+         say("{}, {} free and {} driven", mobility(s_.linkage), free, s_.drives.size() - free));
     tell_assumed_masses(s_.linkage, result_);
     if (!times_.empty()) {
       const bool poor = balance().poor();
@@ -146,21 +144,20 @@ class SimulationRunner {
       if (poor)
         warn("the energies do not balance: " + balance().text(),
              "take a smaller rtol; loads that jump need it");
-      fact("closure residual", fmt::format("{:.2g} m", closure_));
+      fact("closure residual", metres(closure_, 2));
     }
-    fact("integration", fmt::format("{} steps, {} evaluations of the equations of motion", report_.steps,
-                                    report_.evaluations));
+    fact("integration",
+         say("{} steps, {} evaluations of the equations of motion", report_.steps, report_.evaluations));
     if (!report_.passages.empty()) {
       const ChangePassage& first = report_.passages.front();
-      const std::string choice(name_of(s_.options.at_change_point));
-      fact("change points", fmt::format("{}, the first at {:.4g} s with {} at {} ({} groups); taken: {}",
-                                        report_.passages.size(), first.time, input_joint(s_.linkage, 0).name,
-                                        shown(0, first.value), first.groups.size(), choice));
+      fact("change points",
+           say("{}, the first at {} with {} at {} ({} groups); taken: {}", report_.passages.size(),
+               at_place("time", seconds(first.time)), input_joint(s_.linkage, 0).name, place(0, first.value),
+               first.groups.size(), name_of(s_.options.at_change_point)));
       if (s_.options.at_change_point == AtChangePoint::smooth)
-        warn(fmt::format("the linkage went through {} change points, where it can continue in either "
-                         "assembly mode: it went "
-                         "on smoothly",
-                         report_.passages.size()),
+        warn(say("the linkage went through {} change points, where it can continue in either assembly mode: "
+                 "it went on smoothly",
+                 report_.passages.size()),
              "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise");
     }
     if (!times_.empty()) {
@@ -183,18 +180,17 @@ class SimulationRunner {
       return;
     }
     // Time and values are those of the last row, which may be before the instant at which the motion ends.
-    std::string text;
+    Sentence text;
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
       if (is_free(k))
-        text +=
-            fmt::format("{}{} goes from {} to {}", text.empty() ? "" : ", ", input_joint(s_.linkage, k).name,
-                        shown(k, inputs_[3 * k].front()), shown(k, inputs_[3 * k].back()));
+        text += say("{}{} goes from {} to {}", text.empty() ? "" : ", ", input_joint(s_.linkage, k).name,
+                    place(k, inputs_[3 * k].front()), place(k, inputs_[3 * k].back()));
     result_.headline =
-        fmt::format("In {:.4g} s {}; energies balance {}.", times_.back() - s_.from, text, balance().text());
+        say("In {} {}; energies balance {}.", seconds(times_.back() - s_.from), text, balance().text());
     if (report_.status == Status::at_rest)
-      result_.headline += fmt::format(" Then {}.", report_.message);
+      result_.headline += say(" Then {}.", report_.message);
     else if (report_.status != Status::done)
-      result_.headline += fmt::format(" It ends before {:.6g} s: {}.", s_.to, to_string(report_.status));
+      result_.headline += say(" It ends before {}: {}.", seconds(s_.to, 6), to_string(report_.status));
   }
 
   const LinkageSimulationStudy& s_;

@@ -74,18 +74,16 @@ class SixBarFunctionReport {
       result_.statistics["four_bar_structural_error_rad"] = answer_.four_bar->greatest_error;
       result_.statistics["four_bar_least_pair_angle_rad"] = answer_.four_bar->pair_angle;
     }
-    say();
+    findings();
     return std::move(result_);
   }
 
  private:
-  static std::string degrees_text(double angle) { return fmt::format("{:.3g}°", math::degrees(angle)); }
-
   void solution(const SixBarDesign<Generator>& d, std::size_t number) {
     study::Solution out;
     const double scale = s_.mechanism.ground;
-    out.label = fmt::format("six-bar, greatest error {}, least pair angle {:.1f}°",
-                            degrees_text(d.greatest_error), math::degrees(d.pair_angle));
+    out.label = to_string(say("six-bar, greatest error {}, least pair angle {}",
+                              degrees_of(d.greatest_error, 3), degrees_of(d.pair_angle).fixed(1)));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -155,10 +153,11 @@ class SixBarFunctionReport {
     out.study = motion_study(linkage, true, crank, std::string(output_point(d.generator)));
   }
 
-  void say() {
+  void findings() {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
-    fact("function", fmt::format("{}, x = {:.4g} to {:.4g}", s_.name, s_.x_from, s_.x_to));
+    fact("function", say("{}, x = {} to {}", s_.name, at_place("x_from", plain_number(s_.x_from)),
+                         at_place("x_to", plain_number(s_.x_to))));
     if (answer_.designs.empty()) {
       result_.headline = answer_.status == Status::infeasible
                              ? "No six-bar was found that assembles over the range."
@@ -170,20 +169,18 @@ class SixBarFunctionReport {
     }
     const SixBarDesign<Generator>& best = answer_.designs[0];
     const bool steep = best.pair_angle >= s_.transmission;
-    result_.headline = fmt::format("A six-bar generates {} within {}, least pair angle {:.1f}°.", s_.name,
-                                   degrees_text(best.greatest_error), math::degrees(best.pair_angle));
-    tell_greatest_error(p_, best.greatest_error, degrees_text(best.greatest_error), result_);
-    fact("root mean square error", degrees_text(best.rms_error));
-    fact("least pair angle", fmt::format("{:.1f}°", math::degrees(best.pair_angle)),
-         steep ? Verdict::plain : Verdict::bad);
+    const Measured greatest = degrees_of(best.greatest_error, 3), pair = degrees_of(best.pair_angle).fixed(1);
+    result_.headline = say("A six-bar generates {} within {}, least pair angle {}.", s_.name, greatest, pair);
+    tell_greatest_error(p_, greatest, result_);
+    fact("root mean square error", degrees_of(best.rms_error, 3));
+    fact("least pair angle", pair, steep ? Verdict::plain : Verdict::bad);
     if (answer_.four_bar) {
-      fact("greatest error of the best four-bar", degrees_text(answer_.four_bar->greatest_error));
-      fact("its least pair angle", fmt::format("{:.1f}°", math::degrees(answer_.four_bar->pair_angle)));
+      fact("greatest error of the best four-bar", degrees_of(answer_.four_bar->greatest_error, 3));
+      fact("its least pair angle", degrees_of(answer_.four_bar->pair_angle).fixed(1));
     }
     if (!steep)
       warn("mechanism",
-           fmt::format("no six-bar was found with a pair angle of {} over the range",
-                       degrees_text(s_.transmission)),
+           say("no six-bar was found with a pair angle of {} over the range", degrees_of(s_.transmission, 3)),
            "take smaller ranges, or let the links be longer");
   }
 

@@ -1,20 +1,15 @@
-#include <fmt/core.h>
 
 #include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
-
-double rpm(double speed) { return speed * 30 / pi; }
 
 // The cycle drawn with the forces that it has at the mean speed.
 study::Scene drawn(const SpeedFluctuationStudy& s, const SpeedFluctuation& cycle) {
@@ -60,30 +55,31 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   plot("energy", "Excess energy with a constant motor torque", {"excess_energy_J"});
   plot("speed", "Speed without and with the flywheel", {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
   const study::AddFact fact{result.facts};
+  const Measured mean_speed = measured("rpm", s.setup.mean_speed, 5);
   fact("constant motor torque",
-       fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
-                   cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
+       say("{} ({} at {})", newton_metres(cycle.motor_torque, 6),
+           measured("W", cycle.motor_torque * s.setup.mean_speed, 5), at_place("mean_speed", mean_speed)));
   tell_assumed_masses(s.linkage, result);
-  fact("fluctuation of energy", fmt::format("{:.6g} J", cycle.energy_fluctuation));
-  fact("coefficient of fluctuation without flywheel", fmt::format("{:.5g}", cycle.fluctuation));
+  fact("fluctuation of energy", measured("J", cycle.energy_fluctuation, 6));
+  fact("coefficient of fluctuation without flywheel", plain_number(cycle.fluctuation, 5));
   const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel
+  const auto flywheel = [&](int digits) { return measured("kg_m2", cycle.flywheel, digits).spelled(); };
   fact("flywheel on the input", !found               ? "not found: " + cycle.message
-                                : cycle.flywheel > 0 ? fmt::format("{:.6g} kg m2 for a coefficient of {:.4g}",
-                                                                   cycle.flywheel, s.setup.fluctuation)
-                                                     : "none is needed");
+                                : cycle.flywheel > 0 ? say("{} for a coefficient of {}", flywheel(6),
+                                                           plain_number(s.setup.fluctuation))
+                                                     : Sentence("none is needed"));
   result.statistics["motor_torque_N_m"] = cycle.motor_torque;
   result.statistics["energy_fluctuation_J"] = cycle.energy_fluctuation;
   result.statistics["fluctuation"] = cycle.fluctuation;
   result.statistics["flywheel_kg_m2"] = cycle.flywheel;
   result.headline =
-      !found ? fmt::format("The speed varies by {:.4g} of its mean of {:.5g} rpm; {}.", cycle.fluctuation,
-                           rpm(s.setup.mean_speed), cycle.message)
+      !found ? say("The speed varies by {} of its mean of {}; {}.", plain_number(cycle.fluctuation),
+                   mean_speed, cycle.message)
       : cycle.flywheel > 0
-          ? fmt::format(
-                "A flywheel of {:.5g} kg m2 on {} keeps the speed within {:.4g} of its mean of {:.5g} rpm.",
-                cycle.flywheel, input_joint(s.linkage, 0).name, s.setup.fluctuation, rpm(s.setup.mean_speed))
-          : fmt::format("The speed stays within {:.4g} of its mean of {:.5g} rpm without a flywheel.",
-                        cycle.fluctuation, rpm(s.setup.mean_speed));
+          ? say("A flywheel of {} on {} keeps the speed within {} of its mean of {}.", flywheel(5),
+                input_joint(s.linkage, 0).name, plain_number(s.setup.fluctuation), mean_speed)
+          : say("The speed stays within {} of its mean of {} without a flywheel.",
+                plain_number(cycle.fluctuation), mean_speed);
   if (!found) warn(cycle.message);
   if (!found || !s.has_motor) return result;
 
@@ -100,8 +96,9 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   result.tables.push_back(std::move(with));
   study::AddPlot{result, {.table = "steady", .x = key}}("steady", "Speed with the motor, without flywheel",
                                                         {"speed_rad_per_s"});
-  fact("steady mean speed with the motor", fmt::format("{:.6g} rpm, coefficient of fluctuation {:.5g}",
-                                                       rpm(steady.mean_speed), steady.fluctuation));
+  fact("steady mean speed with the motor",
+       say("{}, coefficient of fluctuation {}", measured("rpm", steady.mean_speed, 6),
+           plain_number(steady.fluctuation, 5)));
   result.statistics["steady_mean_speed_rad_per_s"] = steady.mean_speed;
   result.statistics["steady_fluctuation"] = steady.fluctuation;
   return result;

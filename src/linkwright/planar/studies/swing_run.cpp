@@ -64,12 +64,11 @@ class SwingReport {
     if (!s_.slider)
       result_.statistics["greatest_time_ratio_against_crank"] =
           time_ratio_of(most_imbalance(s_.swing, false));
-    say();
+    findings();
     return std::move(result_);
   }
 
  private:
-  static std::string degrees_text(double angle) { return fmt::format("{:.4g}°", math::degrees(angle)); }
   std::string sense_text(const Strokes& strokes) const {
     if (strokes.imbalance == 0) return "both strokes equal";
     if (!s_.slider)
@@ -281,53 +280,52 @@ class SwingReport {
          {"with_crank_rad", "against_crank_rad"});
   }
 
-  void say() {
+  void findings() {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     const SwingDesign& best = designs_[0];
     const char* what = s_.slider ? "slider-crank" : "crank-rocker";
-    const double transmission = best.lengths.transmission_angle;
-    const bool good = transmission >= good_transmission;
+    const Measured transmission = degrees_of(best.lengths.transmission_angle).fixed(1);
+    const bool good = transmission.si >= good_transmission;
     if (!best.swept) {
-      result_.headline = fmt::format("The {} locks: its least transmission angle is {:.2g}°.", what,
-                                     math::degrees(transmission));
+      result_.headline = say("The {} locks: its least transmission angle is {}.", what,
+                             degrees_of(best.lengths.transmission_angle, 2));
       warn("target", "the strokes are at the limit of what is possible",
            "take a smaller time ratio, or give no second length");
       return;
     }
-    const std::string swing = s_.slider ? study::metres(best.swept->swing) : degrees_text(best.swept->swing);
-    result_.headline = fmt::format(
-        "A {} {} {} with a time ratio of {:.4g}, least transmission angle {:.1f}°.", what,
-        s_.slider ? "of stroke" : "swings by", swing, best.time_ratio(), math::degrees(transmission));
-    fact("least transmission angle", fmt::format("{:.1f}°", math::degrees(transmission)),
-         good ? Verdict::good : Verdict::bad);
+    const Measured swing = s_.slider ? length_by_size(best.swept->swing) : degrees_of(best.swept->swing);
+    result_.headline =
+        say("A {} {} {} with a time ratio of {}, least transmission angle {}.", what,
+            s_.slider ? "of stroke" : "swings by", swing, plain_number(best.time_ratio()), transmission);
+    fact("least transmission angle", transmission, good ? Verdict::good : Verdict::bad);
     fact(s_.slider ? "stroke, by a sweep of the linkage" : "swing angle, by a sweep of the linkage", swing);
-    fact("time ratio, by a sweep of the linkage", fmt::format("{:.4g}", best.time_ratio()));
+    fact("time ratio, by a sweep of the linkage", plain_number(best.time_ratio()));
     fact("crank rotation of slow and quick stroke",
-         fmt::format("{} and {}", degrees_text(best.slow()), degrees_text(2 * pi - best.slow())));
-    fact("imbalance angle", degrees_text(s_.imbalance));
+         say("{} and {}", degrees_of(best.slow()), degrees_of(2 * pi - best.slow())));
+    fact("imbalance angle", degrees_of(s_.imbalance));
     fact(s_.slider ? "rod over crank" : "coupler over crank",
-         fmt::format("{:.4g}, {}", 1 / best.lengths.crank,
-                     s_.settled                                      ? "given"
-                     : best.lengths.crank > best_crank(best.strokes) ? "the most allowed"
-                                                                     : "the best"));
+         say("{}, {}", plain_number(1 / best.lengths.crank),
+             s_.settled                                      ? "given"
+             : best.lengths.crank > best_crank(best.strokes) ? "the most allowed"
+                                                             : "the best"));
     fact(s_.slider ? "greatest time ratio" : "greatest time ratio with this swing",
-         s_.slider ? "3"
-                   : fmt::format("below {:.4g}, or {:.4g} against the crank",
-                                 time_ratio_of(most_imbalance(s_.swing, true)),
-                                 time_ratio_of(most_imbalance(s_.swing, false))));
+         s_.slider ? say("{}", 3)
+                   : say("below {}, or {} against the crank",
+                         plain_number(time_ratio_of(most_imbalance(s_.swing, true))),
+                         plain_number(time_ratio_of(most_imbalance(s_.swing, false)))));
     const double expected = s_.slider ? s_.given[0].length : s_.swing;
-    const double loose = same_strokes / transmission;
+    const double loose = same_strokes / transmission.si;
     if (std::abs(best.swept->swing - expected) > loose * expected ||
         std::abs(best.slow() - pi - s_.imbalance) > loose)
       warn(
-          fmt::format("the sweep gives a {} of {} and an imbalance angle of {}: the linkage is so near to "
-                      "locking that rounding shows",
-                      s_.slider ? "stroke" : "swing", swing, degrees_text(best.slow() - pi)));
+          say("the sweep gives a {} of {} and an imbalance angle of {}: the linkage is so near to "
+              "locking that rounding shows",
+              s_.slider ? "stroke" : "swing", swing, degrees_of(best.slow() - pi)));
     if (!good)
       warn("target",
-           fmt::format("the least transmission angle of {:.1f}° is below 40°{}", math::degrees(transmission),
-                       s_.settled ? "" : ", the largest possible with these strokes"),
+           say("the least transmission angle of {} is below {}{}", transmission,
+               degrees_of(good_transmission), s_.settled ? "" : ", the largest possible with these strokes"),
            s_.settled ? "leave out the second length, or take a smaller time ratio"
                       : "take a smaller time ratio; the diagram of time ratios shows what each costs");
   }
