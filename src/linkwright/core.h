@@ -19,6 +19,7 @@
 #include "linkwright/core/quantity_columns.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/status.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/tolerance.h"

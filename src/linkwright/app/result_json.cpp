@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/sha256.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <variant>
 
 #include "linkwright/core/check.h"
 #include "linkwright/study/bind_schema.h"
