@@ -81,7 +81,7 @@ std::vector<double> spun_up(int segments, std::span<const double> times) {
                  found.push_back(cross(unit(now.inputs[0].value), tip.position));
                  return true;
                });
-  EXPECT_EQ(r.status, Status::done) << r.message;
+  EXPECT_EQ(r.status, Status::done) << to_string(r.message);
   EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
   found.erase(found.begin());
   return found;

@@ -218,7 +218,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
   if (motion.status != Status::done) {
     out.status = motion.status;
     out.message = "without clearance the start does not work: " +
-                  planar::assembly_gap_text(ideal.plan, motion, 0, inputs.empty() ? 0 : inputs[0]);
+                  to_string(planar::assembly_gap_text(ideal.plan, motion, 0, inputs.empty() ? 0 : inputs[0]));
     return out;
   }
   out.linkage = linkage;
@@ -334,10 +334,10 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
       watch, context);
   watcher.finish(times.front());
   run.status = run.simulation.status;
-  run.message = run.simulation.message;
+  run.message = to_string(run.simulation.message);
   if (hopeless && run.status == Status::done) {
     run.status = run.simulation.status = Status::not_converged;
-    run.message = run.simulation.message = pace.message(run.simulation.time);
+    run.simulation.message = run.message = pace.message(run.simulation.time);
   }
   return run;
 }

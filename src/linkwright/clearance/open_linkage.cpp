@@ -167,7 +167,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   if (motion.status != Status::done) {
     out.status = motion.status;
     out.message = "without clearance the start does not work: " +
-                  planar::assembly_gap_text(whole.plan, motion, 0, inputs.empty() ? 0 : inputs[0]);
+                  to_string(planar::assembly_gap_text(whole.plan, motion, 0, inputs.empty() ? 0 : inputs[0]));
     return out;
   }
   out.linkage = linkage;

@@ -253,7 +253,8 @@ TEST(LinkageFriction, NearSelfLockingInASimulation) {
       crank.friction = share * crank.locking(1.65);  // nearly the largest inclination of the rod
       const double speed = flywheel < 1 ? -300 : -10, time = 1.5 / std::abs(speed);
       const Turn turn = simulated(crank, 2.2, speed, time);
-      ASSERT_EQ(turn.report.status, Status::done) << flywheel << ' ' << share << ' ' << turn.report.message;
+      ASSERT_EQ(turn.report.status, Status::done)
+          << flywheel << ' ' << share << ' ' << to_string(turn.report.message);
       const InputMotion expected = by_steps(crank, 2.2, speed, time, 20000);
       EXPECT_NEAR(turn.last.value, expected.value, 1e-7) << flywheel << ' ' << share;
       EXPECT_NEAR(turn.last.rate, expected.rate, 1e-6 * std::abs(speed)) << flywheel << ' ' << share;
@@ -265,8 +266,8 @@ TEST(LinkageFriction, JamsASimulation) {
   crank.friction = 1.02 * crank.locking(1.65);
   const Turn turn = simulated(crank, 2.2, -10, 0.15);
   EXPECT_EQ(turn.report.status, Status::self_locking);
-  EXPECT_THAT(turn.report.message, ::testing::HasSubstr("friction locks the linkage at 0.0"));
-  EXPECT_THAT(turn.report.message,
+  EXPECT_THAT(to_string(turn.report.message), ::testing::HasSubstr("friction locks the linkage at 0.0"));
+  EXPECT_THAT(to_string(turn.report.message),
               ::testing::HasSubstr("it jams, for no finite joint forces go with motion in this sense"));
   // Where the friction at hand is that which locks.
   double low = 1.65, high = 2.2;

@@ -140,15 +140,15 @@ TEST(LinkageLimits, InWords) {
             fmt::format("assembles from {:.1f} to {:.1f} deg", -far, far));
   LinkageMotion m(p);
   solve_position(p, std::vector<InputMotion>{{math::radians(81.5), 0, 0}}, m);
-  EXPECT_EQ(assembly_gap_text(p, m, 0, math::radians(81.5)),
+  EXPECT_EQ(to_string(assembly_gap_text(p, m, 0, math::radians(81.5))),
             "at 81.5 deg short by 5.5 mm ('coupler + rocker')");
   solve_position(p, std::vector<InputMotion>{{1, 0, 0}}, m);
-  EXPECT_EQ(assembly_gap_text(p, m, 0, 1), "at 57.3 deg it assembles");
+  EXPECT_EQ(to_string(assembly_gap_text(p, m, 0, 1)), "at 57.3 deg it assembles");
   // A hundred millimetres and more have no power of ten.
   const LinkagePlan large = planned(four_bar_linkage(100, 100, 60, 70));
   LinkageMotion gap(large);
   solve_position(large, std::vector<InputMotion>{{math::radians(81.5), 0, 0}}, gap);
-  EXPECT_THAT(assembly_gap_text(large, gap, 0, math::radians(81.5)),
+  EXPECT_THAT(to_string(assembly_gap_text(large, gap, 0, math::radians(81.5))),
               ::testing::MatchesRegex("at 81.5 deg short by 5[0-9][0-9] mm .*"));
 }
 

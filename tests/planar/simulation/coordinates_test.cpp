@@ -19,8 +19,8 @@ void expect_same(const Linkage& l, const std::vector<InputDrive>& drives, double
   const LinkagePlan p = planned(l);
   const SimulationRun free = simulated(l, p, drives, evenly(0, to, 21)),
                       all = simulated(l, p, drives, evenly(0, to, 21), {}, simulate_all_coordinates);
-  ASSERT_EQ(free.report.status, Status::done) << free.report.message;
-  ASSERT_EQ(all.report.status, Status::done) << all.report.message;
+  ASSERT_EQ(free.report.status, Status::done) << to_string(free.report.message);
+  ASSERT_EQ(all.report.status, Status::done) << to_string(all.report.message);
   ASSERT_EQ(all.rows.size(), free.rows.size());
   double scale = 0;
   for (const auto& row : free.rows)
@@ -88,7 +88,7 @@ TEST(AllCoordinates, PassDeadPointsOfEitherRocker) {
         worst = std::max(worst, open_joints(l, p, *now.motion));
         return true;
       });
-  EXPECT_EQ(r.status, Status::done) << r.message;
+  EXPECT_EQ(r.status, Status::done) << to_string(r.message);
   EXPECT_GT(plus, 50);
   EXPECT_GT(minus, 50);
   EXPECT_LT(worst, 1e-12);

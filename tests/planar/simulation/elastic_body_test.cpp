@@ -210,7 +210,7 @@ TEST(ElasticBody, RodOfASliderCrankKeepsItsAccountOfEnergy) {
           most = std::max(most, std::abs(bent_body(e, e.pieces[0], *now.motion).deflections[2]));
           return true;
         });
-    ASSERT_EQ(r.status, Status::done) << r.message;
+    ASSERT_EQ(r.status, Status::done) << to_string(r.message);
     EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
     EXPECT_GT(most, 1e-4);  // it does bend
   }
@@ -236,7 +236,7 @@ TEST(ElasticBody, GoesToTheRigidLinkageAsItGetsStiff) {
           deflection = std::max(deflection, std::abs(bent_body(e, e.pieces[0], *now.motion).deflections[1]));
           return true;
         });
-    ASSERT_EQ(r.status, Status::done) << r.message;
+    ASSERT_EQ(r.status, Status::done) << to_string(r.message);
     apart.push_back(worst);
     bent.push_back(deflection);
   }
@@ -271,7 +271,7 @@ TEST(ElasticBody, DampingDecaysAsKelvinAndVoigtHaveIt) {
         EXPECT_NEAR(bent.moments[0] / first, way + coupler.damping * rate, 1e-4) << t;
         return true;
       });
-  ASSERT_EQ(r.status, Status::done) << r.message;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.message);
   EXPECT_GT(ratio, 0.01);
   EXPECT_NEAR(std::abs(first), stiffness / 0.4 * 2 * start, 0.01 * std::abs(first));
 }
@@ -298,7 +298,7 @@ TEST(ElasticBody, CouplerAndRockerBendTogether) {
           return true;
         },
         nullptr);
-    EXPECT_EQ(r.status, Status::done) << r.message;
+    EXPECT_EQ(r.status, Status::done) << to_string(r.message);
     EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
   };
   run(simulate, deflections[0]);
@@ -353,7 +353,7 @@ TEST(ElasticBody, SlowRodBearsTheMomentsOfItsInertia) {
             << now.time;
         return true;
       });
-  ASSERT_EQ(r.status, Status::done) << r.message;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.message);
   EXPECT_GT(worst.stress, 0);
   EXPECT_EQ(worst.spring, 2);
   EXPECT_NEAR(worst.place, length / 2, 1e-15);
@@ -391,7 +391,7 @@ TEST(ElasticBody, BendsInGroupsWithoutClosedFormAndInDrivenBodies) {
   free[0].law = math::ConstantSpeed{1, 10};
   const SimulationReport r = simulate(e.linkage, e.plan, free, times_to(0.02, 10), {},
                                       [](const SimulationInstant&) { return true; });
-  ASSERT_EQ(r.status, Status::done) << r.message;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.message);
   EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
 }
 

@@ -178,18 +178,18 @@ Sentence assembly_range_text(const InputLimits& limits, std::span<const double> 
   return out;
 }
 
-std::string assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& motion, int input, double value) {
+Sentence assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& motion, int input, double value) {
   LINKWRIGHT_REQUIRE(input >= 0 && at(input) < plan.inputs(), "there is no input {} of {}", input,
                      plan.inputs());
   const bool rotary = plan.rotary[at(input)];
-  const std::string where = "at " + to_string(place(rotary, value));
+  const Sentence where = say("at {}", place(rotary, value));
   if (motion.status == Status::done) return where + " it assembles";
   const std::string group =
       motion.failed_group >= 0 ? fmt::format(" ('{}')", plan.groups[at(motion.failed_group)].name) : "";
   if (motion.status == Status::no_assembly && motion.gap > 0)
-    return fmt::format("{} short by {}{}", where, to_string(short_by(motion.gap)), group);
+    return say("{} short by {}{}", where, short_by(motion.gap), group);
   if (motion.status == Status::singular) return where + " at a dead point" + group;
-  return fmt::format("{} {}{}", where, to_string(motion.status), group);
+  return say("{} {}{}", where, to_string(motion.status), group);
 }
 
 std::string mode_text(const LinkagePlan& plan, std::span<const double> modes) {

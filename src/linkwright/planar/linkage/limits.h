@@ -56,7 +56,7 @@ Sentence assembly_range_text(const InputLimits& limits, std::span<const double> 
 
 /// For messages: "at 103.2 deg short by 3.1 mm ('coupler + rocker')", of a motion that failed at this value;
 /// for a motion that is done, or of which no gap is known, what its status means.
-std::string assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& motion, int input, double value);
+Sentence assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& motion, int input, double value);
 
 /// The modes in words: "coupler + rocker plus, link + ram minus"; "only one mode" when no group has modes.
 std::string mode_text(const LinkagePlan& plan, std::span<const double> modes);

@@ -106,7 +106,7 @@ class Coordinates {
     report_.time = ode.t;
     if (ode.status != Status::done) {
       report_.status = ode.status;
-      report_.message = fmt::format("ended at {:.6g} s: {}", ode.t, ode.message);
+      report_.message = say("ended at {}: {}", seconds(ode.t, 6), ode.message);
     }
     return std::move(report_);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage/branch.h"
@@ -72,7 +73,7 @@ struct SimulationReport {
   /// self_locking: friction jams it while it moves (see settle_friction); not_converged; cancelled, deadline.
   /// Rows so far are kept.
   Status status = Status::done;
-  std::string message;       ///< why it is not `done`, in plain words; else empty
+  Sentence message;          ///< why it is not `done`, in plain words; else empty
   double time = 0;           ///< reached, s
   int group = -1;            ///< of the plan, where a limit or start failed
   double largest_drift = 0;  ///< J, over the rows

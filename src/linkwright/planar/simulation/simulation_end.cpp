@@ -16,21 +16,20 @@ namespace {
 
 constexpr std::string_view jams = "it jams, for no finite joint forces go with motion in this sense";
 
-std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
-  const std::string& name = l.joints[at(l.driven[input])].name;
-  return plan.rotary[input] ? fmt::format("{} at {:.4f} deg", name, math::degrees(value))
-                            : fmt::format("{} at {:.5g} mm", name, value * 1e3);
+Sentence place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
+  return say("{} at {}", l.joints[at(l.driven[input])].name,
+             plan.rotary[input] ? degrees_of(value).fixed(4).spelled() : millimetres(value, 5));
 }
 
 }  // namespace
 
-std::string Simulation::start_message(Status status) const {
+Sentence Simulation::start_message(Status status) const {
   if (dynamics_.motion.failed_group >= 0)
     return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
   if (status == Status::singular)
     return "a free joint moves no mass, so its motion does not follow from the forces";
   if (status == Status::self_locking)
-    return fmt::format("friction locks the linkage at the start, with {}: {}", stands(), jams);
+    return say("friction locks the linkage at the start, with {}: {}", stands(), jams);
   if (status == Status::not_converged) return "the joint forces of the start do not settle";
   return "the start does not work";
 }
@@ -40,7 +39,7 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   report_.evaluations = ode.evaluations;
   report_.time = ode.t;
   put(ode.t, y);
-  const std::string where = fmt::format("{:.6g} s with {}", at_limit_ ? limit_time_ : ode.t, stands());
+  const Sentence where = say("{} with {}", seconds(at_limit_ ? limit_time_ : ode.t, 6), stands());
   if (chattering_ < 0 && friction_ && ode.status != Status::done && ode.status != Status::cancelled &&
       ode.status != Status::deadline && !turns_.empty()) {
     // Steps that became too short before the window was full.
@@ -49,24 +48,24 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   }
   if (stuck_ || (chattering_ >= 0 && rests_)) {
     report_.status = Status::at_rest;
-    report_.message = fmt::format("friction holds the linkage at rest from {} on", where);
+    report_.message = say("friction holds the linkage at rest from {} on", where);
   } else if (jammed_) {
     report_.status = Status::self_locking;
-    report_.message = fmt::format("friction locks the linkage at {}: {}", where, jams);
+    report_.message = say("friction locks the linkage at {}: {}", where, jams);
   } else if (chattering_ >= 0) {
     report_.status = Status::limit_reached;
-    report_.message = fmt::format(
+    report_.message = say(
         "the motion cannot be followed beyond {}: the friction of joint '{}' holds it while others move on "
         "(sticking joints are not computed)",
         where, l_.joints[at(chattering_)].name);
   } else if (at_change_) {
     report_.status = Status::limit_reached;
     report_.message =
-        fmt::format("the motion stops at {}: '{}' is at a change point, where it {}", where,
-                    plan_.groups[at(report_.group)].name,
-                    options_.at_change_point == AtChangePoint::stop
-                        ? "can continue in either assembly mode"
-                        : "cannot continue with the sign of its mode: that branch does not meet this one");
+        say("the motion stops at {}: '{}' is at a change point, where it {}", where,
+            plan_.groups[at(report_.group)].name,
+            options_.at_change_point == AtChangePoint::stop
+                ? "can continue in either assembly mode"
+                : "cannot continue with the sign of its mode: that branch does not meet this one");
   } else if (at_limit_) {
     limit(where);
   } else if (ode.status == Status::limit_reached || ode.status == Status::infeasible) {
@@ -74,29 +73,29 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
     const bool kept = last_status_ == Status::not_converged || last_status_ == Status::self_locking;
     report_.status = kept ? last_status_ : Status::limit_reached;
     if (last_status_ == Status::self_locking)
-      report_.message = fmt::format("friction locks the linkage at {}: {}", where, jams);
+      report_.message = say("friction locks the linkage at {}: {}", where, jams);
     else if (report_.group >= 0)
       limit(where);
     else
-      report_.message = fmt::format("the motion cannot be followed beyond {}", where);
+      report_.message = say("the motion cannot be followed beyond {}", where);
   } else if (ode.status != Status::done) {
     report_.status = ode.status;
-    report_.message = fmt::format("ended at {:.6g} s: {}", ode.t, ode.message);
+    report_.message = say("ended at {}: {}", seconds(ode.t, 6), ode.message);
   }
 }
 
-void Simulation::limit(const std::string& where) {
+void Simulation::limit(const Sentence& where) {
   report_.status = Status::limit_reached;
-  report_.message = fmt::format(
-      "'{}' reaches its dead point at {}: the joint turns back there while the linkage continues in the "
-      "other "
-      "assembly mode",
-      plan_.groups[at(report_.group)].name, where);
+  report_.message =
+      say("'{}' reaches its dead point at {}: the joint turns back there while the linkage continues in the "
+          "other "
+          "assembly mode",
+          plan_.groups[at(report_.group)].name, where);
   if (at_limit_) report_.time = limit_time_;
 }
 
-std::string Simulation::stands() const {
-  std::string out;
+Sentence Simulation::stands() const {
+  Sentence out;
   for (const std::size_t k : dynamics_.free()) {
     double value = inputs_[k].value;
     if (at_limit_ && branch_) value = nearer_end().value;

@@ -59,15 +59,16 @@ bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answ
       branch_path(plan, std::span(&s.start, 1), 0, motion.modes, s.start - 1, s.start + 1);
   if (path.status != Status::done) {
     out.status = path.status;
-    out.message = fmt::format("it does not assemble at {:.6g} deg", math::degrees(s.start));
+    out.message = say("it does not assemble at {}", degrees_of(s.start, 6).spelled());
   } else if (path.period == 0) {
     out.status = Status::limit_reached;
-    out.message = fmt::format("the input does not rotate fully: it goes from {:.6g} to {:.6g} deg",
-                              math::degrees(path.low.value), math::degrees(path.high.value));
+    out.message =
+        say("the input does not rotate fully: it goes from {} to {}",
+            degrees_of(path.low.value, 6).spelled().sharing_unit(), degrees_of(path.high.value, 6).spelled());
   } else if (!path.change_points.empty()) {
     out.status = Status::infeasible;
-    out.message = fmt::format("the cycle passes through a change point at {:.6g} deg",
-                              math::degrees(path.change_points.front().value));
+    out.message = say("the cycle passes through a change point at {}",
+                      degrees_of(path.change_points.front().value, 6).spelled());
   }
   return out.status == Status::done;
 }
@@ -145,7 +146,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
     solve_forces(l, plan, motion, 0, input.value, forces);
     if (forces.status != Status::done) {
       out.status = forces.status;
-      out.message = fmt::format("no answer at {:.6g} deg", math::degrees(input.value));
+      out.message = say("no answer at {}", degrees_of(input.value, 6).spelled());
       return out;
     }
     out.input.push_back(input.value);
@@ -226,10 +227,10 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const SpeedF
                           report.status == Status::infeasible;
     if (given_up && y[0] < 1e-3 * setup.mean_speed * setup.mean_speed) {
       out.status = Status::limit_reached;
-      out.message = fmt::format("it comes to rest at {:.6g} deg: the motor does not carry it over",
-                                math::degrees(report.t));
+      out.message =
+          say("it comes to rest at {}: the motor does not carry it over", degrees_of(report.t, 6).spelled());
     } else if (report.status != Status::done) {
-      out.message = fmt::format("at {:.6g} deg: {}", math::degrees(report.t), report.message);
+      out.message = say("at {}: {}", degrees_of(report.t, 6).spelled(), report.message);
     }
     return sense * std::sqrt(std::max(y[0], 0.0));
   };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/linkage/plan.h"
 
 // Speed fluctuation of a machine: a linkage with one turning input over its cycle: one turn, or as many as
@@ -21,7 +22,7 @@ struct SpeedFluctuationSetup {
 /// and all loads as one torque Q on it; J a + J' speed^2 / 2 = Q + motor.
 struct SpeedFluctuation {
   Status status = Status::done;
-  std::string message;          ///< why it is not `done`, in plain words
+  Sentence message;             ///< why it is not `done`, in plain words
   int turns = 1;                ///< of the cycle: after so many the loads repeat
   std::vector<double> input;    ///< rad, evenly from the start in the sense of turning, end excluded
   std::vector<double> inertia;  ///< kg m2: twice the kinetic energy over the squared speed
@@ -50,7 +51,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
 /// The motion that a motor and the loads settle in.
 struct SteadyCycle {
   Status status = Status::done;
-  std::string message;
+  Sentence message;
   int turns = 1;              ///< of the cycle
   std::vector<double> input;  ///< rad, evenly from the start, the cycle with both ends
   std::vector<double> speed;  ///< rad/s

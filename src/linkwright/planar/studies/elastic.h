@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/studies/elastic_scene.h"
 #include "linkwright/planar/studies/simulation.h"
 
@@ -99,9 +100,9 @@ struct ElasticRecording {
   std::vector<BeamRows> beams;  ///< one an elastic body
   std::vector<OutputError> errors;
   std::vector<ElasticRecord> records;
-  Table motion, rigid;        ///< `rigid` has columns of `motion`, by the same keys
-  std::string rigid_message;  ///< why the rigid linkage ends early; else empty
-  double largest_rate = 0;    ///< of the inputs, rad/s or m/s
+  Table motion, rigid;      ///< `rigid` has columns of `motion`, by the same keys
+  Sentence rigid_message;   ///< why the rigid linkage ends early; else empty
+  double largest_rate = 0;  ///< of the inputs, rad/s or m/s
   SimulationReport report;
 };
 /// Tables, scene, plots, facts and headline.

@@ -44,10 +44,10 @@ class ElasticReporter {
   study::Result run() {
     if (r_.elastic.status != Status::done) {
       result_.status = r_.elastic.status;
-      const std::string why =
-          r_.rigid_message.empty() ? std::string(to_string(r_.elastic.status)) : r_.rigid_message;
-      result_.headline = fmt::format("The linkage does not start: {}.", why);
-      warn(why, {});
+      const Sentence why =
+          r_.rigid_message.empty() ? Sentence(to_string(r_.elastic.status)) : r_.rigid_message;
+      result_.headline = say("The linkage does not start: {}.", why);
+      warn(why);
       return std::move(result_);
     }
     result_.status = r_.report.status;

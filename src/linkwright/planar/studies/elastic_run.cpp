@@ -72,7 +72,7 @@ class ElasticRecorder {
       if (!from.empty()) follow(s_.plan, from, to, motion);
       solve_motion(s_.plan, inputs, motion);
       if (motion.status != Status::done) {
-        out_.rigid_message = fmt::format("at {:.6g} s: {}", t, assembly_gap_text(s_.plan, motion, 0, to[0]));
+        out_.rigid_message = say("at {}: {}", seconds(t, 6), assembly_gap_text(s_.plan, motion, 0, to[0]));
         return;
       }
       from = to;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/simulation/simulation.h"
@@ -68,7 +69,7 @@ class Simulation {
   // ---- start, steps, output -----------------------------------------------------------------------------
 
   bool start(double t);
-  std::string start_message(Status status) const;
+  Sentence start_message(Status status) const;
   // The motion where inputs_ say, accelerations included.
   const LinkageMotion& placed();
   double kinetic(double inertia) const;
@@ -123,8 +124,8 @@ class Simulation {
   // ---- end ----------------------------------------------------------------------------------------------
 
   void finish(const math::OdeReport& ode, std::span<const double> y);
-  void limit(const std::string& where);
-  std::string stands() const;
+  void limit(const Sentence& where);
+  Sentence stands() const;
 
   const Linkage& l_;
   const LinkagePlan& plan_;
