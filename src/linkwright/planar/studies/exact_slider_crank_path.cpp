@@ -191,8 +191,8 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
   add_design_facts(fact, found);
   const study::AddWarning warn{result.diagnostics};
   if (found.answers > 0) {
-    const double pressure = math::degrees(designs[0].pressure_angle);
-    fact("greatest pressure angle", degrees_of(designs[0].pressure_angle).fixed(1),
+    const double pressure = designs[0].pressure_angle;
+    fact("greatest pressure angle", degrees_of(pressure).fixed(1),
          pressure > steep_pressure ? study::Fact::Verdict::bad : study::Fact::Verdict::plain);
     warn_of_pressure(warn, pressure);
   }

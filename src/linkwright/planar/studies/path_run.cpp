@@ -147,19 +147,17 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
   }
 }
 
-using study::metres;
-
 // "passes the 9 points within 0.2 mm (root mean square 0.1 mm)"
-std::string how_near(const PathProblem& p, const PathDesign& d) {
+Sentence how_near(const PathProblem& p, const PathDesign& d) {
   const PathErrors errors = path_errors(p, d);
   const double worst = *std::max_element(errors.excess.begin(), errors.excess.end());
-  const std::string what = fmt::format("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
+  const Sentence what = say("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
   const char* allowed = p.tolerance.empty() ? "" : " of their tolerance";
   if (worst <= exact_share * path_size(p))
-    return p.tolerance.empty() ? fmt::format("passes the {} exactly", what)
-                               : fmt::format("passes the {} within their tolerance", what);
-  return fmt::format("passes the {} within {}{} (root mean square {})", what, metres(worst), allowed,
-                     metres(std::sqrt(d.error / static_cast<double>(p.x.size()))));
+    return p.tolerance.empty() ? say("passes the {} exactly", what)
+                               : say("passes the {} within their tolerance", what);
+  return say("passes the {} within {}{} (root mean square {})", what, length_by_size(worst), allowed,
+             length_by_size(std::sqrt(d.error / static_cast<double>(p.x.size()))));
 }
 
 std::string_view short_name(DrawbackKind kind) {
@@ -177,15 +175,15 @@ std::string_view short_name(DrawbackKind kind) {
 }
 
 // Why the best design is of little use, and which one is better in use; empty = it is usable.
-std::string caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
-  std::string out;
+Sentence caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
+  Sentence out;
   for (const Drawback& drawback : drawbacks(p, designs[0]))
     out += (out.empty() ? " But " : "; ") + drawback.text;
   if (out.empty()) return out;
   for (std::size_t i = 1; i < designs.size(); ++i)
     if (drawbacks(p, designs[i]).empty())
-      return fmt::format("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
-                         called(designs[i]), how_near(p, designs[i]));
+      return say("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
+                 called(designs[i]), how_near(p, designs[i]));
   return out + ". No design without such drawbacks was found.";
 }
 
@@ -194,23 +192,23 @@ study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
   const bool exact = *worst <= exact_share * path_size(p);
   if (exact && !p.tolerance.empty()) return {"worst point", "none is beyond its tolerance"};
   if (exact) return {"worst point", "none, to rounding"};
-  return {"worst point", fmt::format("{} at {} {}", metres(*worst), p.gate_x.empty() ? "point" : "gate",
-                                     worst - errors.excess.begin() + 1)};
+  const std::string what = p.gate_x.empty() ? "point" : "gate";
+  const auto number = static_cast<double>(worst - errors.excess.begin() + 1);
+  return {"worst point", say("{} at {} {}", length_by_size(*worst), what, at_place(what, count_of(number)))};
 }
 
 void warn_of_transmission(study::Result& result, const PathProblem& p, const PathDesign& d) {
-  const double mu = math::degrees(judged_transmission(p, d));
-  if (mu >= 20) return;
-  const double limit = math::degrees(p.min_transmission_angle);
+  const double mu = judged_transmission(p, d), limit = math::degrees(p.min_transmission_angle);
+  if (math::degrees(mu) >= 20) return;
   study::AddWarning{result.diagnostics}(
-      fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
-                  p.closed                ? ""
-                  : p.crank_rotates_fully ? " over the full turn"
-                                          : " on the path"),
-      limit > 0
-          ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
-                        limit)
-          : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30");
+      say("the transmission angle falls to {}{}: the linkage transmits force badly there",
+          degrees_of(mu).fixed(1),
+          p.closed                ? ""
+          : p.crank_rotates_fully ? " over the full turn"
+                                  : " on the path"),
+      limit > 0 ? say("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {}",
+                      plain_number(limit, 6))
+                : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30");
 }
 
 void add_cognates(study::Result& result, const PathDesign& best) {
@@ -267,21 +265,21 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
   const PathErrors errors = path_errors(s.problem, best);
   using Verdict = study::Fact::Verdict;
-  const std::string but = feasible ? caution(s.problem, designs) : std::string();
+  const Sentence but = feasible ? caution(s.problem, designs) : Sentence();
   if (feasible) {
-    result.headline = fmt::format("A {} {}.{}", called(best), how_near(s.problem, best), but);
+    result.headline = say("A {} {}.{}", called(best), how_near(s.problem, best), but);
   } else {
     std::string reasons;
     for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
-    result.headline = fmt::format("No design meets every constraint; the nearest one violates {}.", reasons);
+    result.headline = say("No design meets every constraint; the nearest one violates {}.", reasons);
   }
   result.facts = {
-      {"path error (sum of squares)",
-       best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
+      {"path error (sum of squares)", path_error(best.error),
        !feasible     ? Verdict::bad
        : but.empty() ? Verdict::good
                      : Verdict::plain},
-      {"root mean square distance", rms <= exact_share * path_size(s.problem) ? "0 mm" : metres(rms)},
+      {"root mean square distance",
+       rms <= exact_share * path_size(s.problem) ? millimetres(0) : length_by_size(rms)},
       worst_fact(s.problem, errors),
       {"type", result.solutions[0].label},
       transmission_fact(s.problem, best),

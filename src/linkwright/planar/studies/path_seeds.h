@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/path/synthesis.h"
 #include "linkwright/study/result.h"
@@ -27,6 +28,12 @@ struct PathRuns : study::SeedRuns<Answer> {
 template <class Answer>
 double best_error(const Answer& answer) {
   return answer.designs.empty() || !answer.designs[0].violations.empty() ? infinity : answer.designs[0].error;
+}
+
+/// The sum of squares of an answer (m2) as it is written: with decimals that compare, a small one by its
+/// digits.
+inline Measured path_error(double sum) {
+  return sum >= 1e-4 ? measured("m2", sum).fixed(8) : measured("m2", sum);
 }
 
 /// A seed succeeds when its error is not above this (m2): close to the best of all seeds, or, where zero is

@@ -123,9 +123,8 @@ double judged_transmission(const PathProblem& p, const PathDesign& d) {
 
 study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
   const PathTransmission mu = path_transmission(p, d);
-  std::string text = fmt::format("{:.1f}°", math::degrees(mu.used));
-  if (!p.closed)
-    text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
+  Sentence text = degrees_of(mu.used).fixed(1);
+  if (!p.closed) text += say(" over the path ({} over the whole motion)", degrees_of(mu.whole).fixed(1));
   const bool poor = math::degrees(judged_transmission(p, d)) < 20;
   return {"minimum transmission angle", std::move(text),
           poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};

@@ -234,8 +234,8 @@ std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& study, 
 
 /// Solutions with a drawing and tables of their own.
 inline constexpr std::size_t most_drawn_sliders = 15;
-/// deg, a pressure angle beyond this moves the slider badly.
-inline constexpr double steep_pressure = 75;
+/// A pressure angle (rad) beyond this, 75 degrees, moves the slider badly.
+inline constexpr double steep_pressure = 75 * pi / 180;
 
 /// A design as the next solution of a result, called `label`; the first ones have a drawing.
 void add_slider_solution(study::Result& result, const SliderPathProblem& problem,
@@ -244,7 +244,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& problem
 /// in those of the others.
 void add_slider_design_tables(study::Result& result, const SliderPathProblem& problem,
                               const std::vector<SliderPathDesign>& designs, int samples);
-void warn_of_pressure(const study::AddWarning& warn, double degrees);
+void warn_of_pressure(const study::AddWarning& warn, double pressure);
 
 study::Result report_slider_path(const SliderPathStudy& study, const study::Common& common,
                                  const SliderPathRuns& runs);

@@ -26,8 +26,6 @@ namespace {
 // A seed of a front succeeds when so little of what the front of all seeds dominates is missing.
 constexpr double success_of_front = 1e-3;
 
-using study::metres;
-
 class Report {
  public:
   Report(const SliderPathStudy& s, const study::Common& common, const SliderPathRuns& runs)
@@ -44,9 +42,9 @@ class Report {
     result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
     for (const SliderPathDesign& d : designs_)
       add_slider_solution(result_, p_, d, common_,
-                          std::isnan(d.stroke)
-                              ? std::string(name_of(d.mechanism.branch))
-                              : fmt::format("stroke {}, {} rms", metres(d.stroke), metres(rms(d))));
+                          std::isnan(d.stroke) ? std::string(name_of(d.mechanism.branch))
+                                               : to_string(say("stroke {}, {} rms", length_by_size(d.stroke),
+                                                               length_by_size(rms(d)))));
     statistics();
     tables();
     if (feasible_) comparisons();
@@ -193,40 +191,39 @@ class Report {
     const SliderPathDesign& best = designs_[0];
     const SliderPathErrors errors = path_errors(p_, best);
     const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
-    const double pressure = math::degrees(greatest_pressure_angle(best.mechanism.parameters));
+    const double pressure = greatest_pressure_angle(best.mechanism.parameters);
     const study::AddFact fact{result_.facts};
     if (!feasible_) {
       std::string reasons;
       for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
-      result_.headline =
-          fmt::format("No design meets every constraint; the nearest one violates {}.", reasons);
+      result_.headline = say("No design meets every constraint; the nearest one violates {}.", reasons);
     } else if (s_.front) {
       const SliderPathDesign& shortest = designs_.back();
       result_.headline =
           designs_.size() > 1
-              ? fmt::format(
-                    "A front of {} slider-cranks: from a stroke of {} at {} root mean square to {} at {}.",
-                    designs_.size(), metres(best.stroke), metres(rms(best)), metres(shortest.stroke),
-                    metres(rms(shortest)))
-              : fmt::format("One slider-crank is the best in path error and stroke: {} root mean square, {}.",
-                            metres(rms(best)), metres(best.stroke));
+              ? say("A front of {} slider-cranks: from a stroke of {} at {} root mean square to {} at {}.",
+                    designs_.size(), length_by_size(best.stroke), length_by_size(rms(best)),
+                    length_by_size(shortest.stroke), length_by_size(rms(shortest)))
+              : say("One slider-crank is the best in path error and stroke: {} root mean square, {}.",
+                    length_by_size(rms(best)), length_by_size(best.stroke));
     } else {
       result_.headline =
-          fmt::format("A slider-crank passes the {} points within {} (root mean square {}){}.", p_.x.size(),
-                      metres(*worst), metres(rms(best)),
-                      std::isnan(best.stroke) ? "" : fmt::format(", stroke {}", metres(best.stroke)));
+          say("A slider-crank passes the {} points within {} (root mean square {}){}.", p_.x.size(),
+              length_by_size(*worst), length_by_size(rms(best)),
+              std::isnan(best.stroke) ? Sentence() : say(", stroke {}", length_by_size(best.stroke)));
     }
     fact(s_.front ? "least path error (sum of squares)" : "path error (sum of squares)",
-         best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
-         feasible_ ? Verdict::good : Verdict::bad);
-    fact("root mean square distance", metres(rms(best)));
-    fact("worst point", fmt::format("{} at point {}", metres(*worst), worst - errors.distance.begin() + 1));
+         path_error(best.error), feasible_ ? Verdict::good : Verdict::bad);
+    fact("root mean square distance", length_by_size(rms(best)));
+    fact("worst point",
+         say("{} at point {}", length_by_size(*worst),
+             at_place("point", count_of(static_cast<double>(worst - errors.distance.begin() + 1)))));
     if (!std::isnan(best.stroke)) {
       fact("stroke of the slider",
            s_.front && feasible_ && designs_.size() > 1
-               ? fmt::format("{}, down to {}", metres(best.stroke), metres(designs_.back().stroke))
-               : metres(best.stroke));
-      fact("greatest pressure angle", fmt::format("{:.1f}°", pressure),
+               ? say("{}, down to {}", length_by_size(best.stroke), length_by_size(designs_.back().stroke))
+               : length_by_size(best.stroke));
+      fact("greatest pressure angle", degrees_of(pressure).fixed(1),
            pressure > steep_pressure ? Verdict::bad : Verdict::plain);
     }
     fact("method", runs_.method);
@@ -329,10 +326,10 @@ void add_slider_design_tables(study::Result& result, const SliderPathProblem& p,
   }
 }
 
-void warn_of_pressure(const study::AddWarning& warn, double degrees) {
-  if (degrees > steep_pressure)
-    warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
-                     degrees),
+void warn_of_pressure(const study::AddWarning& warn, double pressure) {
+  if (pressure > steep_pressure)
+    warn(say("the rod comes to {} from the guide: it presses the slider against it there",
+             degrees_of(pressure).fixed(1)),
          "limit it: [[constraint]] type = \"pressure_angle\", max_deg = 60");
 }
 
