@@ -13,7 +13,7 @@ TEST(Remarks, GoToTheResult) {
   fact("energy balance", "1e-3", Fact::Verdict::bad);
   warn("the linkage is near a dead point");
   warn("drive", "is weak", "take a stronger one");
-  warn(say("the gap is {}", linkwright::millimetres(0.0125)));
+  warn(say("the gap is {}", millimetres(0.0125)));
   ASSERT_EQ(result.facts.size(), 2u);
   EXPECT_EQ(result.facts[0].label, "circuits");
   EXPECT_EQ(result.facts[0].verdict, Fact::Verdict::plain);
@@ -49,11 +49,7 @@ TEST(Remarks, DiagramsShowTheColumnsThatTheirTableHas) {
   EXPECT_EQ(result.plots[1].style, Plot::Style::polar);
 }
 
-TEST(Remarks, LengthsHaveTheUnitOfTheirSize) {
-  EXPECT_EQ(metres(1.25), "1.25 m");
-  EXPECT_EQ(metres(0.0125), "12.5 mm");
-  EXPECT_EQ(metres(3.14e-6), "3.14 µm");
-  EXPECT_EQ(millimetres(-1.5), "-1500 mm");
+TEST(Remarks, JointsGiveAnglesOrLengths) {
   EXPECT_EQ(to_string(angle_or_length(0.0123456, false, 3)), "12.3 mm");
   EXPECT_EQ(to_string(angle_or_length(0.5, true, 4)), "28.65°");
 }

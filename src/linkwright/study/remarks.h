@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/core.h>
-
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,19 +48,9 @@ struct AddPlot {
   }
 };
 
-/// A length for people, in the unit that suits its size: "1.25 m", "12.5 mm", "3.1 µm".
-inline std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
-
-/// "12.5 mm".
-inline std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
-
 /// An angle or a length, as those of a joint: "45°", "12.5 mm".
 inline Measured angle_or_length(double value, bool is_angle, int digits) {
-  return is_angle ? degrees_of(value, digits) : linkwright::millimetres(value, digits);
+  return is_angle ? degrees_of(value, digits) : millimetres(value, digits);
 }
 /// A torque or a force, as those of a drive: "5.567 N m", "12.5 N".
 inline Measured torque_or_force(double value, bool is_torque, int digits) {

@@ -166,8 +166,7 @@ Sentence tolerance_place(const ToleranceStudy& s, const ToleranceRecording& r, s
   for (std::size_t k = 0; k < s.motion.plan.inputs(); ++k) {
     const double value = r.rows.inputs[sample][k].value;
     out += k ? ", " : "";
-    out += at_place(identifier(planar::input_joint(s.motion.linkage, k).name),
-                    study::angle_or_length(value, s.motion.plan.rotary[k], 4));
+    out += planar::input_place(s.motion.linkage, s.motion.plan, k, value, 4);
   }
   return out;
 }
