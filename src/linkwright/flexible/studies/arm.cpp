@@ -1,7 +1,5 @@
 #include "linkwright/flexible/studies/arm.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <variant>

@@ -1,7 +1,5 @@
 #include "linkwright/flexible/studies/hub_link.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>

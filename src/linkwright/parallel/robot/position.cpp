@@ -1,7 +1,5 @@
 #include "linkwright/parallel/robot/position.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

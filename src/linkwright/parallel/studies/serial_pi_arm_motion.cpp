@@ -1,7 +1,5 @@
 #include "linkwright/parallel/studies/serial_pi_arm_motion.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "linkwright/parallel/tool/motion.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
