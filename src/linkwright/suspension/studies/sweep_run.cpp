@@ -190,7 +190,7 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
        {"carrier_pitch_rad", "carrier pitch (rad)"},
        {"hits", "random starts that ended here"}}};
   for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
-  result.facts.push_back({"assembly modes found", fmt::format("{}", table.rows())});
+  result.facts.push_back({"assembly modes found", say("{}", table.rows())});
   result.tables.push_back(std::move(table));
 }
 
