@@ -83,7 +83,7 @@ class Merger {
                                                                 : Fact::Verdict::plain});
       if (out_.status == Status::done) out_.status = result.status;
       for (Diagnostic d : result.diagnostics) {
-        d.message = fmt::format("{}: {}", all_[i].name, d.message);
+        d.message = say("{}: {}", all_[i].name, d.message);
         out_.diagnostics.push_back(std::move(d));
       }
     }

@@ -143,8 +143,8 @@ Value to_value(const Diagnostic& diagnostic) {
     v["column"] = diagnostic.position.column;
   }
   if (!diagnostic.key.empty()) v["key"] = diagnostic.key;
-  v["message"] = diagnostic.message;
-  if (!diagnostic.hint.empty()) v["hint"] = diagnostic.hint;
+  v["message"] = to_string(diagnostic.message);
+  if (!diagnostic.hint.empty()) v["hint"] = to_string(diagnostic.hint);
   return v;
 }
 

@@ -49,8 +49,8 @@ Value diagnostics_document(const Diagnostics& diagnostics) {
       v["column"] = d.position.column;
     }
     if (!d.key.empty()) v["key"] = d.key;
-    v["message"] = d.message;
-    if (!d.hint.empty()) v["hint"] = d.hint;
+    v["message"] = to_string(d.message);
+    if (!d.hint.empty()) v["hint"] = to_string(d.hint);
     out.push_back(std::move(v));
   }
   return out;

@@ -40,8 +40,8 @@ std::string to_string(const Diagnostic& d) {
   }
   text += d.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
   if (!d.key.empty()) text += d.key + ": ";
-  text += d.message;
-  if (!d.hint.empty()) text += "; " + d.hint;
+  text += to_string(d.message);
+  if (!d.hint.empty()) text += "; " + to_string(d.hint);
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/value.h"
 
 namespace linkwright {
@@ -12,11 +13,11 @@ namespace linkwright {
 struct Diagnostic {
   enum class Severity { error, warning };
   Severity severity = Severity::error;
-  std::string file;     ///< empty = not from a file
-  Position position;    ///< line 0 = unknown
-  std::string key;      ///< path of the key: "mechanism.parameters.crank_m"
-  std::string message;  ///< what was found and what is allowed, with the numbers
-  std::string hint;     ///< how to fix it; may be empty
+  std::string file;   ///< empty = not from a file
+  Position position;  ///< line 0 = unknown
+  std::string key;    ///< path of the key: "mechanism.parameters.crank_m"
+  Sentence message;   ///< what was found and what is allowed, with the numbers
+  Sentence hint;      ///< how to fix it; may be empty
 };
 
 using Diagnostics = std::vector<Diagnostic>;

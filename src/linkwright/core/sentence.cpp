@@ -13,17 +13,6 @@ namespace {
 
 constexpr Unit percent_unit{"%", 1, 100};
 
-std::string with_signs(std::string text) {
-  for (const auto& [letters, sign] : {std::pair<std::string_view, std::string_view>{"deg", "°"},
-                                      {"um", "µm"},
-                                      {"2", "²"},
-                                      {"3", "³"},
-                                      {"4", "⁴"}})
-    for (std::size_t at = 0; (at = text.find(letters, at)) != std::string::npos; at += sign.size())
-      text.replace(at, letters.size(), sign);
-  return text;
-}
-
 std::string digits_of(const Measured& m) {
   const double value = m.value() + 0.0;  // no negative zero
   if (m.has_sign)
@@ -35,9 +24,7 @@ std::string digits_of(const Measured& m) {
 
 std::string Measured::symbol() const {
   if (!unit) return {};
-  if (unit->suffix == "per_min") return "1/min";
-  std::string text = readable_unit(unit->suffix);
-  return is_spelled ? text : with_signs(std::move(text));
+  return is_spelled ? readable_unit(unit->suffix) : unit_sign(unit->suffix);
 }
 
 std::string Measured::unit_words() const { return unit ? readable_unit(unit->suffix) : std::string(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "linkwright/core/numbers.h"
 
@@ -118,6 +119,18 @@ std::string readable_unit(std::string_view suffix) {
   std::string text(suffix);
   if (const std::size_t at = text.find("_per_"); at != std::string::npos) text.replace(at, 5, "/");
   std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string unit_sign(std::string_view suffix) {
+  if (suffix == "deg") return "°";
+  if (suffix == "um") return "µm";
+  if (suffix == "per_min") return "1/min";
+  if (suffix == "deg_per_100mm") return "°/100 mm";
+  std::string text = readable_unit(suffix);
+  for (const auto& [plain, shown] : {std::pair{"deg", "°"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}})
+    if (const std::size_t at = text.find(plain); at != std::string::npos)
+      text.replace(at, std::string_view(plain).size(), shown);
   return text;
 }
 

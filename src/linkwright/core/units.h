@@ -53,4 +53,7 @@ std::string_view describe(Dimension dimension);
 /// A unit suffix as people write it: "m_per_s2" -> "m/s2", "N_m" -> "N m".
 std::string readable_unit(std::string_view suffix);
 
+/// The same with signs for letters: "m_per_s2" -> "m/s²", "deg" -> "°".
+std::string unit_sign(std::string_view suffix);
+
 }  // namespace linkwright

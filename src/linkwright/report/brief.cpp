@@ -20,7 +20,8 @@ std::size_t letters(std::string_view text) {
 // Of numbers that share a unit only the last one has it: "at 0, 322.5 mm", "at 56.3°, -34.4°".
 bool between_numbers(std::string_view before, std::string_view after) {
   const bool ends = !before.empty() && (digit(before.back()) || before.ends_with("°"));
-  if (after.starts_with("-")) after.remove_prefix(1);
+  for (const std::string_view minus : {"-", "−"})
+    if (after.starts_with(minus)) after.remove_prefix(minus.size());
   return ends && !after.empty() && digit(after.front());
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <string>
+#include <variant>
 
 namespace linkwright::report {
 namespace {
@@ -69,6 +72,60 @@ std::string number(double value, int digits) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
   return fmt::format("{:.{}g}", value == 0 ? 0.0 : value, digits);
+}
+
+namespace {
+
+constexpr std::string_view narrow_space = "\u202f";
+
+std::string replace_all(std::string text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+// "-3.1e-09" -> "−3.1×10⁻⁹"
+std::string typeset_digits(const std::string& plain) {
+  constexpr std::string_view powers[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const std::size_t e = plain.find('e');
+  std::string out = replace_all(plain.substr(0, e), "-", "−");
+  if (out.find("inf") != std::string::npos) return replace_all(std::move(out), "inf", "∞");
+  if (out == "nan") return "–";
+  if (e == std::string::npos) return out;
+  const int exponent = std::stoi(plain.substr(e + 1));
+  out += exponent < 0 ? "×10⁻" : "×10";
+  for (const char digit : std::to_string(std::abs(exponent))) out += powers[digit - '0'];
+  return out;
+}
+
+// In a sentence about a machine smaller numbers come from rounding.
+bool is_rounding(const Measured& m) {
+  const double size = std::abs(m.value());
+  const std::string_view unit = m.unit ? m.unit->suffix : "%";
+  return size > 0 && unit != "%" && size < (unit == "um" ? 1e-6 : unit == "mm" ? 1e-9 : 1e-12);
+}
+
+std::string typeset(const Measured& m) {
+  Measured bare = m;
+  bare.unit = nullptr, bare.si = m.value(), bare.is_spelled = false;
+  Measured sign = m;
+  sign.is_spelled = false;
+  const bool rounding = is_rounding(m);
+  const std::string digits = rounding ? "0" : typeset_digits(to_string(bare));
+  if (!m.unit || m.shares_unit) return digits;
+  const std::string symbol = replace_all(sign.symbol(), " ", narrow_space);
+  return digits + std::string(symbol.starts_with("°") ? "" : narrow_space) + symbol +
+         (rounding ? " (rounding)" : "");
+}
+
+}  // namespace
+
+std::string typeset(const Sentence& sentence) {
+  std::string out;
+  for (const Sentence::Part& part : sentence.parts())
+    out += std::holds_alternative<Measured>(part) ? typeset(std::get<Measured>(part))
+                                                  : std::get<std::string>(part);
+  return out;
 }
 
 std::string display(const Value& value) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/core/value.h"
 
 /// Text that is safe inside HTML, SVG and script elements.
@@ -17,6 +18,10 @@ std::string escape(std::string_view text);
 
 /// A number for people: `digits` significant digits, "–" for NaN.
 std::string number(double value, int digits = 6);
+
+/// A sentence as a page shows it: true minus signs, powers of ten, spaces that do not break between a number
+/// and its unit; numbers that come from rounding alone say so.
+std::string typeset(const Sentence& sentence);
 
 /// A scalar for people: text as it is, numbers by number(), "yes"/"no"; arrays and objects joined by commas.
 std::string display(const Value& value);

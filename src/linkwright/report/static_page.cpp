@@ -58,7 +58,7 @@ void write_banner(std::string& out, const ReportInput& input) {
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header class=\"verdict {}\"><div class=\"words\"><h1>{}</h1><p class=\"headline\">{}</p></div>",
       linkwright::name_of(study::answer_of(result).verdict), escape(input.title),
-      escape(to_string(result.headline)));
+      escape(typeset(study::in_units(result.headline, page_units(input.units)))));
   put(out, "<span>status {}", to_string(result.status));
   if (!result.checks.empty())
     put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
@@ -74,11 +74,11 @@ std::string fact_text(const Brief& fact) {
   return out;
 }
 
-void write_facts(std::string& out, const study::Result& result) {
+void write_facts(std::string& out, const study::Result& result, const study::DisplayUnits& units) {
   if (result.facts.empty()) return;
   out += "<dl class=\"facts\">";
   for (const auto& fact : result.facts) {
-    const std::string whole = to_string(fact.text);
+    const std::string whole = typeset(study::in_units(fact.text, page_units(units)));
     const Brief text = brief(whole);
     put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>", whole.size() > longest_beside ? " class=\"long\"" : "",
         escape(fact.label), fact_text(text));
@@ -139,7 +139,7 @@ void write_drawing(std::string& out, const study::Scene& scene, std::size_t inde
 void write_first(std::string& out, const study::Result& result, const study::DisplayUnits& units) {
   out += "<div class=\"first\">\n";
   if (!result.scenes.empty()) write_drawing(out, result.scenes.front(), 0, units);
-  write_facts(out, result);
+  write_facts(out, result, units);
   out += "</div>\n";
 }
 

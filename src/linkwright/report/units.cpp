@@ -13,19 +13,6 @@ namespace {
 
 constexpr double degree = 180 / pi;
 
-/// "m_per_s2" -> "m/s²".
-std::string symbol_of(std::string_view suffix) {
-  if (suffix == "deg") return "°";
-  if (suffix == "um") return "µm";
-  if (suffix == "per_min") return "1/min";
-  if (suffix == "deg_per_100mm") return "°/100 mm";
-  std::string text = readable_unit(suffix);
-  for (const auto& [plain, shown] : {std::pair{"deg", "°"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}})
-    if (const std::size_t at = text.find(plain); at != std::string::npos)
-      text.replace(at, std::string_view(plain).size(), shown);
-  return text;
-}
-
 std::vector<SuffixUnit> all_suffixes() {
   // Quantities of results that no key of a study has.
   std::vector<SuffixUnit> out{{"_m3", 1, "m³"}, {"_rad_per_m2", degree, "°/m²"}};
@@ -34,7 +21,7 @@ std::vector<SuffixUnit> all_suffixes() {
     for (const Unit& unit : units(dimension)) {
       const bool radians = in_degrees && unit.suffix.starts_with("rad");
       const std::string shown = (radians ? "deg" : "") + std::string(unit.suffix.substr(radians ? 3 : 0));
-      out.push_back({"_" + std::string(unit.suffix), radians ? degree : 1, symbol_of(shown)});
+      out.push_back({"_" + std::string(unit.suffix), radians ? degree : 1, unit_sign(shown)});
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const SuffixUnit& a, const SuffixUnit& b) {
@@ -71,13 +58,20 @@ std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units) {
     shown.by_size =
         (s.suffix == "_m" || s.suffix == "_Pa") && to == parts->unit && !units.chosen(parts->dimension);
     if (to == parts->unit) continue;
-    shown.symbol = symbol_of(to->suffix);
+    shown.symbol = unit_sign(to->suffix);
     shown.factor = to->from_si(parts->unit->to_si(1));
     shown.key = "_" + std::string(to->suffix);
     shown.from = *parts->unit;
     shown.to = *to;
   }
   return out;
+}
+
+study::DisplayUnits page_units(study::DisplayUnits units) {
+  for (const auto& [dimension, suffix] :
+       {std::pair{Dimension::angle, "deg"}, {Dimension::angle_by_length, "deg_per_m"}})
+    if (!units.chosen(dimension)) units.choose({{}, find_unit(dimension, suffix), dimension});
+  return units;
 }
 
 DisplayUnit display_unit(std::string_view key, double largest) {

@@ -43,6 +43,9 @@ struct ShownSuffix {
 /// Of all units that keys carry, longer suffixes first.
 std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units);
 
+/// The units of sentences on a page: angles in degrees unless radians were chosen.
+study::DisplayUnits page_units(study::DisplayUnits units);
+
 /// Unit of a key by its suffix: degrees for `_rad`; millimetres for lengths (`_m`) when `largest`, the
 /// largest size of the numbers that are shown together, is below a metre; megapascals for stresses from 10
 /// kPa on.

@@ -185,6 +185,7 @@ Value parameters_data(const std::vector<study::Parameter>& parameters) {
 
 Value view_data(const ReportInput& input) {
   const study::Result& result = input.result;
+  const study::DisplayUnits in_sentences = page_units(input.units);
   Value out = Value::object();
   out["title"] = input.title;
   out["source"] = input.source;
@@ -192,7 +193,7 @@ Value view_data(const ReportInput& input) {
   out["command"] = input.command;
   out["study_toml"] = input.study_toml;
   out["status"] = to_string(result.status);
-  out["headline"] = to_string(result.headline);
+  out["headline"] = typeset(study::in_units(result.headline, in_sentences));
   out["verdict"] = linkwright::name_of(study::answer_of(result).verdict);
   const std::vector<ShownSuffix> units = shown_suffixes(input.units);
   out["units"] = list(units, [](Value& o, const ShownSuffix& s) {
@@ -203,9 +204,9 @@ Value view_data(const ReportInput& input) {
     o["steps"] = Value(Value::Array{s.from.multiply, s.from.divide, s.to.divide, s.to.multiply});
     o["by_size"] = s.by_size;
   });
-  out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
+  out["facts"] = list(result.facts, [&](Value& o, const study::Fact& f) {
     o["label"] = f.label;
-    const std::string whole = to_string(f.text);
+    const std::string whole = typeset(study::in_units(f.text, in_sentences));
     const Brief parts = brief(whole);
     o["text"] = std::string(parts.head);
     if (!parts.rest.empty()) o["rest"] = std::string(parts.rest);

@@ -29,7 +29,7 @@ StudyFile::Text StudyFile::read() const {
     return {{}, {}, "is not a plain file"};
   read.text = study::load_file(path_, diagnostics);
   if (has_errors(diagnostics))
-    read.problem = diagnostics.front().message;
+    read.problem = to_string(diagnostics.front().message);
   else if (report::valid_utf8(read.text) != read.text)
     read.problem = "is not UTF-8; convert it before it is edited here";
   if (!read.problem.empty()) return {{}, {}, read.problem};

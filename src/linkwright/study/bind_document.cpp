@@ -225,8 +225,9 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     if (const std::string home = elsewhere ? home_of(*member, schema_) : ""; !home.empty()) {
       const auto [first, fresh] = homes.try_emplace(home, diagnostics_.size());
       if (!fresh) {
-        std::string& said = diagnostics_[first->second].hint;
-        said += (said.find(", with ") == std::string::npos ? ", with " : ", ") + member->key;
+        Sentence& said = diagnostics_[first->second].hint;
+        const bool others = to_string(said).find(", with ") != std::string::npos;
+        said += (others ? ", " : ", with ") + member->key;
         continue;
       }
       // A table that is missing is named once.

@@ -162,7 +162,7 @@ Value read_value(std::string_view text, const std::string& origin, Diagnostics& 
     return plain;
   }
   std::string message = fmt::format("'{}' is not a value", text);
-  if (!problems.empty()) message += ": " + problems.front().message;
+  if (!problems.empty()) message += ": " + to_string(problems.front().message);
   refuse(diagnostics, origin, message, "write a number, true, false, a word, [ ... ] or { ... } as in TOML");
   return {};
 }

@@ -118,8 +118,9 @@ void text_without_quotes(const Line& line, Diagnostic& d) {
 
 void backslashes(const Line& line, Diagnostic& d) {
   const std::string_view value = line.value;
-  const bool escape = d.message.find("escape sequence") != std::string::npos ||
-                      d.message.find("unicode scalar sequence") != std::string::npos;
+  const std::string message = to_string(d.message);
+  const bool escape = message.find("escape sequence") != std::string::npos ||
+                      message.find("unicode scalar sequence") != std::string::npos;
   if (!escape || value[0] != '"') return;
   const std::size_t end = value.find('"', 1);
   if (end == std::string_view::npos) return;
@@ -163,10 +164,10 @@ int open_list(std::string_view text, Position error) {
 void explain_toml(std::string_view text, Diagnostic& d) {
   const std::string_view source = line_of(text, d.position.line);
   if (const auto line = key_and_value(source)) {
-    const std::string before = d.message;
+    const Sentence before = d.message;
     for (const auto pattern : {decimal_comma, unit_in_value, text_without_quotes, backslashes}) {
       pattern(*line, d);
-      if (d.message != before) return;
+      if (!(d.message == before)) return;
     }
   }
   if (const int begin = open_list(text, d.position); begin > 0 && begin < d.position.line)

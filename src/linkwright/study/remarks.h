@@ -26,7 +26,7 @@ struct AddWarning {
   void operator()(const Sentence& message, const Sentence& hint = {}) const { (*this)({}, message, hint); }
   void operator()(std::string key, const Sentence& message, const Sentence& hint) const {
     diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, std::move(key), to_string(message), to_string(hint)});
+        {Diagnostic::Severity::warning, {}, {}, std::move(key), message, hint});
   }
 };
 

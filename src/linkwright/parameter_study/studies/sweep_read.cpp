@@ -252,14 +252,14 @@ void check_key(study::ObjectReader& where, const ParameterStudy& s, std::size_t 
   if (!study::parse_path(key) || !study::apply_override(document, change, problems)) {
     const bool none = problems.empty();
     where.error("key", none ? fmt::format("'{}' is not the path of a key", key) : problems.front().message,
-                none ? "write it like mechanism.link[0].length_mm" : problems.front().hint);
+                none ? "write it like mechanism.link[0].length_mm" : to_string(problems.front().hint));
     return;
   }
   study::prepare(document, s.name, s.folder, kinds, problems);
   for (const Diagnostic& problem : problems)
     if (problem.severity == Diagnostic::Severity::error && problem.key == key &&
         problem.message == "unknown key")
-      where.error("key", fmt::format("the study has no key '{}'", key), problem.hint);
+      where.error("key", fmt::format("the study has no key '{}'", key), to_string(problem.hint));
 }
 
 void read_measures(study::ObjectReader& document, ParameterStudy& s) {

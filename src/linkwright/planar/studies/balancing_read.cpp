@@ -172,7 +172,7 @@ void check_initial(study::ObjectReader& document, const study::Common& common, B
   const Table table = s.mechanism->table(root, plain(common), {});
   for (const Diagnostic& d : problems)
     if (d.severity == Diagnostic::Severity::error)
-      document.document().report(d.severity, d.position, d.key, d.message, d.hint);
+      document.document().report(d.severity, d.position, d.key, to_string(d.message), to_string(d.hint));
   if (table.columns.empty()) return;
   std::vector<std::string> quantities;
   for (const BalancingGoal& o : s.objectives) quantities.push_back(o.quantity);

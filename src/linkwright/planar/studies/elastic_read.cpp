@@ -80,10 +80,10 @@ std::vector<ElasticPieces> place_elastic(study::ObjectReader& document, Linkage&
     for (study::ObjectReader& entry : entries) {
       const Value* own = entry.value().find("body");
       if (told || !own || !own->is_string() || d.key != "elastic_body." + own->as_string()) continue;
-      entry.error("body", fmt::format("'{}' {}", own->as_string(), d.message), d.hint);
+      entry.error("body", fmt::format("'{}' {}", own->as_string(), to_string(d.message)), to_string(d.hint));
       told = true;
     }
-    if (!told) document.error("elastic", d.message, d.hint);
+    if (!told) document.error("elastic", to_string(d.message), to_string(d.hint));
   }
   for (std::size_t e = 0; e < made.pieces.size(); ++e)
     give_mass(entries[e], l.bodies[at(made.pieces[e].beam.body)], made.pieces[e]);

@@ -70,15 +70,15 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
         // "crank.point.A" belongs to "crank", "crank + arm" to the first of them.
         const std::string& candidate = own->as_string();
         if (name == candidate || name.starts_with(candidate + ".") || name.starts_with(candidate + " + ")) {
-          entry.error("name", d.message, d.hint);
+          entry.error("name", to_string(d.message), to_string(d.hint));
           told = true;
         }
       }
     if (told) continue;
     if (list == "drive" || list == "environment")
-      document.error(list, d.message, d.hint);
+      document.error(list, to_string(d.message), to_string(d.hint));
     else
-      mechanism.error(list, d.message, d.hint);
+      mechanism.error(list, to_string(d.message), to_string(d.hint));
   }
 }
 
@@ -229,9 +229,9 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
       good = false;
       auto entries = mechanism->tables(p.list);
       if (p.index < entries.size())
-        entries[p.index].error(p.key, p.message, p.hint);
+        entries[p.index].error(p.key, to_string(p.message), to_string(p.hint));
       else
-        mechanism->error(p.list, p.message, p.hint);
+        mechanism->error(p.list, to_string(p.message), to_string(p.hint));
     }
   }
   if (!good) return std::nullopt;

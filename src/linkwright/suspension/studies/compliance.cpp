@@ -249,7 +249,7 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
   }
   if (!good) return;
   for (const Diagnostic& d : check(guide, elasticity_of(description, form)))
-    table->error("joint", d.message, d.hint);
+    table->error("joint", to_string(d.message), to_string(d.hint));
 }
 
 void add_compliance(study::Result& result, const GuideDescription& description, const ComplianceForm& form) {

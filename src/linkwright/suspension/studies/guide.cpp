@@ -337,11 +337,13 @@ void report(study::ObjectReader& mechanism, const Diagnostics& problems) {
       for (study::ObjectReader& entry : mechanism.tables(list)) {
         const Value* own = entry.value().find("name");
         if (told || !own || !own->is_string() || own->as_string() != d.key.substr(dot + 1)) continue;
-        warning ? entry.warning("name", d.message, d.hint) : entry.error("name", d.message, d.hint);
+        warning ? entry.warning("name", to_string(d.message), to_string(d.hint))
+                : entry.error("name", to_string(d.message), to_string(d.hint));
         told = true;
       }
     if (!told)
-      warning ? mechanism.warning(list, d.message, d.hint) : mechanism.error(list, d.message, d.hint);
+      warning ? mechanism.warning(list, to_string(d.message), to_string(d.hint))
+              : mechanism.error(list, to_string(d.message), to_string(d.hint));
   }
 }
 

@@ -90,8 +90,8 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     target.error(key,
                  fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), most_poses));
   for (const Diagnostic& d : implausible(task.targets))
-    d.severity == Diagnostic::Severity::error ? target.error(key, d.message, d.hint)
-                                              : target.warning(key, d.message, d.hint);
+    d.severity == Diagnostic::Severity::error ? target.error(key, to_string(d.message), to_string(d.hint))
+                                              : target.warning(key, to_string(d.message), to_string(d.hint));
   const bool elsewhere = std::any_of(
       task.targets.poses.begin(), task.targets.poses.end(),
       [&](const CarrierTarget& p) { return !(p.centre == task.targets.wheel.centre && p.rack == 0); });

@@ -223,7 +223,7 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
   out.classification["status"] = to_string(run.answer.status);
   out.defects = Value::array();
   for (const Diagnostic& d : run.answer.findings)
-    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
+    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(to_string(d.message));
   if (!scene.empty()) out.study = study_of(s, run.answer.guide);
   out.scene = std::move(scene);
   return out;
