@@ -114,7 +114,7 @@ std::string typeset(const Measured& m) {
   const std::string digits = rounding ? "0" : typeset_digits(to_string(bare));
   if (!m.unit || m.shares_unit) return digits;
   const std::string symbol = replace_all(sign.symbol(), " ", narrow_space);
-  return digits + std::string(symbol.starts_with("°") ? "" : narrow_space) + symbol +
+  return digits + std::string(symbol == "°" ? "" : narrow_space) + symbol +
          (rounding ? " (rounding)" : "");
 }
 
