@@ -102,6 +102,7 @@
 #include "linkwright/planar/serial_arm/reactions.h"
 #include "linkwright/planar/serial_arm/samples.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
+#include "linkwright/planar/simulation/balance.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/simulation/elastic_body.h"
 #include "linkwright/planar/simulation/simulation.h"

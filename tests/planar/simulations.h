@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "linkwright/planar/linkage/dynamics.h"
@@ -19,6 +20,7 @@ struct SimulationRun {
     std::vector<InputMotion> inputs;
     double kinetic, potential, work, drift;
     std::vector<PartState<double>> parts;
+    std::optional<LinkageForces> held;  // while friction holds the linkage
   };
   SimulationReport report;
   std::vector<Row> rows;
@@ -40,7 +42,8 @@ inline SimulationRun simulated(const Linkage& l, const LinkagePlan& plan,
                             now.potential,
                             now.work,
                             now.drift,
-                            now.motion->parts});
+                            now.motion->parts,
+                            now.held ? std::optional(*now.held) : std::nullopt});
         return true;
       },
       nullptr);

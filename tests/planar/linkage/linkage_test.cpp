@@ -96,10 +96,10 @@ TEST(LinkageCheck, WantsDrivesOnPinsAndSlides) {
   EXPECT_THAT(after([](Linkage& l) { l.driven.push_back(9); }),
               ElementsAre("drive: joint number 9 does not exist; "));
   EXPECT_THAT(after([](Linkage& l) { l.driven.push_back(0); }),
-              ElementsAre("drive: joint 'O' is driven twice; one drive per joint is enough"));
+              ElementsAre("drive: joint 'O' has two drives; one [[drive]] a joint is enough"));
   EXPECT_THAT(
       after([](Linkage& l) { l.joints[0].type = JointType::fixed; }),
-      ElementsAre("drive: joint 'O' is of type fixed: only revolute and prismatic joints are driven; "));
+      ElementsAre("drive: joint 'O' is of type fixed: only revolute and prismatic joints take a drive; "));
 }
 TEST(LinkageCheck, WantsLinksOfSomeLength) {
   EXPECT_THAT(after([](Linkage& l) { l.bodies[3].points[1].at = 0; }),

@@ -343,11 +343,102 @@ TEST(Simulate, StaysAtRestWhereFrictionHolds) {
   EXPECT_EQ(run.report.time, 0);
   ASSERT_EQ(run.rows.size(), 1u);
   EXPECT_EQ(run.rows[0].inputs[0].value, 0.5);
+  EXPECT_EQ(run.rows[0].inputs[0].acceleration, 0);
+  ASSERT_TRUE(run.rows[0].held);
+  EXPECT_NEAR(run.rows[0].held->joints[0].force.y, 2 * 9.81, 1e-12);
+  EXPECT_NEAR(run.rows[0].held->loads[0].force.x, -4, 1e-12) << "friction bears the weight along the slide";
   // With less it goes: 2 - 0.1 * 9.81.
   l.joints[0].friction = 0.1;
   run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 2, 21));
   EXPECT_EQ(run.report.status, Status::done);
   EXPECT_NEAR(run.rows.back().inputs[0].value, (2 - 0.981) * 2, 1e-6);
+}
+
+// A push on a block that rubs: friction holds until the push passes 5.886 N, and again once the block stops.
+Linkage pushed_slider(std::vector<double> times, std::vector<double> newtons) {
+  Linkage l = slider();
+  l.joints[0].friction = 0.3;
+  l.forces.push_back({.name = "push",
+                      .point = point_named(l, "block.B"),
+                      .force = {1, 0},
+                      .factor = {LoadArgument::time, std::move(times), std::move(newtons)}});
+  return l;
+}
+
+TEST(Simulate, WaitsAtRestForALoadThatGrows) {
+  const Linkage l = pushed_slider({0, 2}, {0, 20});
+  const LinkagePlan p = planned(l);
+  const SimulationRun run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 2, 21));
+  ASSERT_EQ(run.report.status, Status::done) << run.report.message;
+  ASSERT_EQ(run.rows.size(), 21u);
+  EXPECT_EQ(run.report.rests.count, 1);
+  EXPECT_EQ(run.report.rests.first_from, 0);
+  EXPECT_NEAR(run.report.rests.first_to, 0.5886, 1e-9);
+  for (const auto& row : run.rows) {
+    SCOPED_TRACE(row.time);
+    const double sliding = std::max(0.0, row.time - 0.5886);  // acceleration 5 t
+    EXPECT_NEAR(row.inputs[0].value, 5 * std::pow(sliding, 3) / 6, 1e-8);
+    EXPECT_NEAR(row.inputs[0].rate, 2.5 * sliding * sliding, 1e-8);
+    EXPECT_NEAR(row.inputs[0].acceleration, 5 * sliding, 1e-8);
+    EXPECT_EQ(row.held.has_value(), row.time < 0.5886);
+    // The push comes first, then friction on the block and on the ground.
+    if (row.held) EXPECT_NEAR(row.held->loads[1].force.x, -10 * row.time, 1e-9);
+  }
+}
+
+// To and fro: from 0.5886 s it slides, stops at 1.99320 s while the push is small, goes back by the same way
+// from 2.5886 s on and stops at 3.99320 s where it started. The instant of the stop is the larger root of
+// 2.5 u^2 - 2.057 u - 0.42313 = 0 after 1 s.
+TEST(Simulate, SticksAndSlides) {
+  const Linkage l = pushed_slider({0, 1, 2, 3, 4}, {0, 10, 0, -10, 0});
+  const LinkagePlan p = planned(l);
+  const SimulationRun run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 4, 41));
+  ASSERT_EQ(run.report.status, Status::done) << run.report.message;
+  const double speed = 2.5 * 0.4114 * 0.4114, stop = (2.057 + std::sqrt(2.057 * 2.057 + 10 * speed)) / 5;
+  EXPECT_EQ(run.report.rests.count, 3);
+  EXPECT_NEAR(run.report.rests.total, 0.5886 + (1.5886 - stop) + (1 - stop), 1e-6);
+  EXPECT_NEAR(run.rows.back().inputs[0].value, 0, 1e-7);
+  EXPECT_EQ(run.rows.back().inputs[0].rate, 0);
+  EXPECT_LT(run.report.largest_drift, 1e-8);
+  // The load that ended cannot free it any more.
+  const SimulationRun longer = simulated(l, p, {{{}, 0, 0}}, evenly(0, 6, 61));
+  EXPECT_EQ(longer.report.status, Status::done);
+  EXPECT_NEAR(longer.rows.back().inputs[0].value, 0, 1e-7);
+  const Linkage short_push = pushed_slider({0, 1, 1.2}, {0, 10, 0});
+  EXPECT_EQ(simulated(short_push, planned(short_push), {{{}, 0, 0}}, evenly(0, 6, 61)).report.status,
+            Status::at_rest);
+}
+
+// The joint forces at rest lead to those of the motion where it begins: friction of both pins and of the
+// slide bears a torque on the crank that grows.
+TEST(Simulate, ForcesAtRestMeetThoseOfTheMotion) {
+  Linkage l = slider_crank_sample().linkage;
+  for (LinkageJoint& j : l.joints) {
+    j.friction = 0.2;
+    if (j.type == JointType::revolute) j.pin_radius = 0.01;
+  }
+  l.torques.push_back(
+      {.name = "pull", .body = 1, .torque = 100, .factor = {LoadArgument::time, {0, 1}, {0, 1}}});
+  const LinkagePlan p = planned(l);
+  const std::vector<InputDrive> free{{{}, 1.0, 0}};
+  const double release = simulated(l, p, free, {0, 1}).report.rests.first_to;
+  ASSERT_GT(release, 0.01);
+  ASSERT_LT(release, 1);
+  const SimulationRun run = simulated(l, p, free, {0, release - 1e-9, release + 1e-6});
+  ASSERT_EQ(run.rows.size(), 3u);
+  ASSERT_TRUE(run.rows[1].held);
+  EXPECT_FALSE(run.rows[2].held);
+  LinkageMotion motion(p);
+  solve_motion(p, run.rows[2].inputs, motion);
+  LinkageForces moving;
+  solve_forces(l, p, motion, run.rows[2].time, run.rows[2].inputs[0].value, moving);
+  double largest = 0;
+  for (const JointReaction& r : moving.joints) largest = std::max(largest, norm(r.force));
+  ASSERT_GT(largest, 1);
+  for (std::size_t j = 0; j < l.joints.size(); ++j)
+    EXPECT_LT(norm(run.rows[1].held->joints[j].force - moving.joints[j].force), 1e-4 * largest)
+        << l.joints[j].name;
+  EXPECT_LT(std::abs(run.rows[1].held->drives[0]), 1e-9 * largest) << "nothing else holds it";
 }
 
 // Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is reported soon, by name.

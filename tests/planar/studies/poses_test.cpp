@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -133,6 +134,42 @@ TEST(PoseStudy, FourPosesHaveTheirCurves) {
   EXPECT_EQ(result.plots.back().name, "burmester");
   ASSERT_FALSE(result.solutions.empty());
   EXPECT_FALSE(result.solutions[0].study.is_null());
+}
+
+// By Grashof's rule, from the links alone: the drive turns fully where it, or the ground, is the shortest
+// link and the sum of the shortest and the longest is not the greater one.
+TEST(PoseStudy, LeavesOutDrivesThatDoNotTurnFully) {
+  const std::string only_links = "dyads = [\"RR\"]\n";
+  const study::Result all = run_text(pose_study(some_poses(4), only_links)),
+                      turning =
+                          run_text(pose_study(some_poses(4), only_links + "crank_rotates_fully = true\n"));
+  EXPECT_EQ(turning.status, Status::done);
+  ASSERT_TRUE(all.table("linkages") && turning.table("linkages"));
+  const std::vector<double>& any = all.table("linkages")->find("drive_turns_fully")->values;
+  const std::vector<double>& kept = turning.table("linkages")->find("drive_turns_fully")->values;
+  EXPECT_TRUE(std::count(any.begin(), any.end(), 0.0) > 0) << "there are some to leave out";
+  EXPECT_FALSE(kept.empty());
+  EXPECT_EQ(std::count(kept.begin(), kept.end(), 1.0), static_cast<long>(kept.size()));
+  EXPECT_NE(test::fact(turning, "left out, the crank does not rotate fully"), "0");
+  ASSERT_FALSE(turning.solutions.empty());
+  for (const study::Solution& s : turning.solutions) {
+    // The body lies at the origin at the first pose.
+    const auto pivot = [&](const std::string& name) {
+      std::complex<double> out;
+      for (const study::Parameter& p : s.parameters) {
+        if (p.key == name + "_x_m") out.real(p.value);
+        if (p.key == name + "_y_m") out.imag(p.value);
+      }
+      return out;
+    };
+    const double crank = std::abs(pivot("drive_fixed") - pivot("drive_moving")),
+                 rocker = std::abs(pivot("guide_fixed") - pivot("guide_moving")),
+                 ground = std::abs(pivot("drive_fixed") - pivot("guide_fixed")),
+                 coupler = std::abs(pivot("drive_moving") - pivot("guide_moving"));
+    const auto [least, most] = std::minmax({crank, coupler, rocker, ground});
+    EXPECT_LE(least + most, (crank + coupler + rocker + ground) / 2 * (1 + 1e-9));
+    EXPECT_TRUE(least == crank || least == ground);
+  }
 }
 
 TEST(PoseStudy, DrawsThePosesBehindTheLinkage) {

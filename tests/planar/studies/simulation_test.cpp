@@ -85,6 +85,102 @@ samples = 11
   EXPECT_THAT(to_string(r.headline), HasSubstr("at rest from 1.01937 s with guide at 1019.4 mm on"));
 }
 
+// One bar on a pin; `drive` and `body` are what is added to these tables.
+std::string one_bar(const std::string& drive, const std::string& body = "") {
+  return R"(
+schema = 1
+kind = "simulation"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name = "ground"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name = "bar"
+points_mm = { O = [0, 0], tip = [1000, 0] }
+mass_kg = 1
+inertia_kg_m2 = 0.3333
+centre_mm = [500, 0]
+)" + body +
+         R"(
+[[mechanism.joint]]
+name = "pin"
+first = "ground.O"
+second = "bar.O"
+[[drive]]
+joint = "pin"
+free = true
+)" + drive +
+         R"(
+[simulation]
+to_s = 1
+samples = 11
+)";
+}
+
+// What is said while the study is read and when it has run.
+std::string remarks_of(const std::string& text) {
+  std::string messages;
+  const auto study = prepare(text, messages);
+  EXPECT_TRUE(study) << messages;
+  RunContext context;
+  return study ? messages + linkwright::test::lines_of(study::run_study(*study, context).diagnostics)
+               : messages;
+}
+
+TEST(LinkageSimulationStudy, SaysThatRoundingDecidesInUnstableBalance) {
+  EXPECT_THAT(remarks_of(one_bar("start_deg = 90")),
+              HasSubstr("starts at rest in unstable balance: rounding decides when it leaves it"));
+  EXPECT_THAT(remarks_of(one_bar("start_deg = 89")), IsEmpty());
+}
+
+TEST(LinkageSimulationStudy, SaysWhichStartOfABodyIsNotItsPlace) {
+  EXPECT_THAT(remarks_of(one_bar("start_deg = 30", "start = { x_mm = 0, y_mm = 0, angle_deg = 60 }")),
+              HasSubstr("body 'bar' does not start there: its place follows from the drives, which put it at "
+                        "(0, 0) m, 30 deg; give the start of the joint in its [[drive]]"));
+  EXPECT_THAT(remarks_of(one_bar("start_deg = 60", "start = { x_mm = 0, y_mm = 0, angle_deg = 60 }")),
+              IsEmpty());
+}
+
+TEST(LinkageSimulationStudy, SaysHowLongFrictionHeldTheLinkage) {
+  const study::Result r = run_text(R"(
+schema = 1
+kind = "simulation"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name = "ground"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name = "block"
+points_mm = { B = [0, 0] }
+mass_kg = 2
+inertia_kg_m2 = 1
+centre_mm = [0, 0]
+[[mechanism.joint]]
+name = "guide"
+type = "prismatic"
+first = "ground.O"
+second = "block.B"
+friction = 0.3
+[[mechanism.force]]
+name = "push"
+point = "block.B"
+force_N = [10, 0]
+against = "time"
+argument = [0, 2]
+factor = [0, 2]
+[[drive]]
+joint = "guide"
+free = true
+[simulation]
+to_s = 2
+samples = 21
+)");
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_EQ(fact(r, "held by friction"), "from 0 s to 0.5886 s, 0.5886 s in all");
+}
+
 // Both routes, from the file.
 TEST(LinkageSimulationStudy, TakesEitherRoute) {
   const std::string text =

@@ -44,6 +44,10 @@ class Facts {
       if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     }
     fact("integration", say("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
+    if (r_.sections.size() == ClearanceRecording::most_sections)
+      warn(say("of {} periods of the drives the first {} have a row in the sections",
+               count_of(std::floor((r_.time - s_.from) / s_.period) + 1), r_.sections.size()),
+           "a shorter simulation has a row for each of them");
     if (!r_.message.empty()) warn(r_.message, "");
   }
   void headline() {

@@ -110,10 +110,10 @@ class Checker {
       }
       const LinkageJoint& j = l_.joints[static_cast<std::size_t>(d)];
       if (!seen.insert(d).second)
-        error("drive", fmt::format("joint '{}' is driven twice", j.name), "one drive per joint is enough");
+        error("drive", fmt::format("joint '{}' has two drives", j.name), "one [[drive]] a joint is enough");
       if (j.type != JointType::revolute && j.type != JointType::prismatic)
         error("drive",
-              fmt::format("joint '{}' is of type {}: only revolute and prismatic joints are driven", j.name,
+              fmt::format("joint '{}' is of type {}: only revolute and prismatic joints take a drive", j.name,
                           words_[static_cast<std::size_t>(j.type)]),
               {});
     }

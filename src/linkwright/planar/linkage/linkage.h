@@ -135,7 +135,7 @@ struct TorsionSpring {
 enum class LoadArgument { constant, input, time, x, y, speed };
 constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
-           {LoadArgument::input, "input", "the coordinate of the first driven joint"},
+           {LoadArgument::input, "input", "the coordinate of the first joint with a drive"},
            {LoadArgument::time, "time", "the time"},
            {LoadArgument::x, "x", "x of the point, global"},
            {LoadArgument::y, "y", "y of the point, global"},

@@ -64,7 +64,10 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
   tolerances.push_back(work_tolerance());
   std::vector<math::OdeEvent> events;
   if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});
-  if (watches_rest()) events.push_back({.crossing = math::OdeCrossing::either});
+  if (watches_rest()) {
+    events.push_back({.crossing = math::OdeCrossing::either});
+    events.push_back({.crossing = math::OdeCrossing::rising});
+  }
   if (friction_ && !watches_rest())
     for (std::size_t j = 0; j < l_.joints.size(); ++j)
       if (l_.joints[j].friction > 0) rubbing_.push_back(static_cast<int>(j));
@@ -85,7 +88,11 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
         values[i++] = std::min(now[0] - below_, 1.0);
         values[i++] = std::min(above_ - now[0], 1.0);
       }
-      if (watches_rest()) values[i] = now[1];
+      if (watches_rest()) {
+        values[i] = resting_ ? 1 : now[1];
+        put(t, now);
+        values[i + 1] = resting_ ? push_from_rest(t).acceleration : -1;
+      }
       if (!rubbing_.empty()) rubbing_rates(t, now);
       std::copy(rates_.begin(), rates_.end(),
                 values.begin() + static_cast<std::ptrdiff_t>(first_watched_ - rates_.size()));
@@ -141,6 +148,7 @@ double Simulation::work_tolerance() const {
 }
 
 Simulation::Answer Simulation::solve(double t) {
+  if (resting_) return solve_at_rest(t);
   if (!branch_) {
     const Status status = dynamics_.solve(t, inputs_);
     return {status == Status::done && changed_side() ? Status::branch_lost : status, dynamics_.power,
@@ -216,9 +224,11 @@ bool Simulation::start(double t) {
   }
   Answer answer = solve(t);
   if (watches_rest() && inputs_[dynamics_.free()[0]].rate == 0) {
-    const InputMotion here = inputs_[dynamics_.free()[0]];
-    stuck_ = holds(t);
-    inputs_[dynamics_.free()[0]] = here;
+    const InputMotion here = free_input();
+    resting_ = holds(t);
+    free_input() = here;
+    stuck_ = resting_ && !may_be_freed(t);
+    resting_since_ = t;
     answer = solve(t);
   }
   if (answer.status != Status::done) {
@@ -254,6 +264,7 @@ bool Simulation::show(double t, std::span<const double> y) {
   if (answer.status != Status::done) return true;  // beyond what the step hook will end
   const LinkageMotion& motion = placed();
   SimulationInstant now{.time = t, .status = motion.status, .inputs = inputs_, .motion = &motion};
+  if (resting_ && motion.status == Status::done) now.held = &forces_at_rest(t);
   now.kinetic = kinetic(answer.inertia);
   now.work = y.back() + kinks_;
   if (motion.status == Status::done || motion.status == Status::singular) {
@@ -287,7 +298,7 @@ bool Simulation::after_step(double t, std::span<const double> y) {
   last_time_ = t;
   last_ = inputs_[0];
   report_.time = t;
-  if (friction_ && chatters(t)) return false;
+  if (friction_ && !resting_ && chatters(t)) return false;
   if (branch_ && branch_->path().period > 0) {
     note_passages(time_before, before);
     return true;
@@ -357,26 +368,26 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
       action = math::OdeAction::restart;  // friction changes its sign
       continue;
     }
-    if (!stops_at_changes() || event >= 2) {
+    if (event >= stop_event()) {
+      action = math::OdeAction::restart;  // friction changes its sign, or begins or ends to hold
       put(t, y);
-      if (holds(t)) {
-        stuck_ = true;
+      if (event > stop_event())
+        set_free(t, y);
+      else if (holds(t) && come_to_rest(t, y) == math::OdeAction::stop)
         return math::OdeAction::stop;
-      }
-      action = math::OdeAction::restart;  // friction changes its sign
       continue;
     }
     const double value = event == 0 ? below_ : above_, sense = event == 0 ? -1 : 1;
     const SmoothBranch::Near here = branch_->nearest(value);
     if (options_.at_change_point == AtChangePoint::stop) {
-      report_.passages.push_back({t, value, here.end->groups, 0});
+      note_passage({t, value, here.end->groups, 0});
       report_.group = here.end->groups.empty() ? -1 : here.end->groups.front();
       at_change_ = true;
       return math::OdeAction::stop;
     }
     const std::vector<int> groups = here.end->groups;
     const std::optional<double> lost = kink(value, sense, y[1]);
-    report_.passages.push_back({t, value, groups, lost.value_or(0)});
+    note_passage({t, value, groups, lost.value_or(0)});
     if (!lost) {
       report_.group = groups.empty() ? -1 : groups.front();
       at_change_ = true;

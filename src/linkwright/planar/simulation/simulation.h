@@ -11,6 +11,7 @@
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::planar {
 
@@ -44,6 +45,8 @@ struct SimulationInstant {
   double work = 0;
   double drift = 0;  ///< J: kinetic + potential - work less its value at the start; zero but for errors
   const LinkageMotion* motion = nullptr;  ///< velocities and accelerations included
+  /// Joint forces while friction holds the linkage at rest, which do not follow from its motion; else null.
+  const LinkageForces* held = nullptr;
 };
 /// false ends the simulation.
 using SimulationOutput = std::function<bool(const SimulationInstant&)>;
@@ -66,19 +69,28 @@ struct ChangePassage {
   double energy_lost = 0;   ///< J: in the kink of `keep_sign`
 };
 
+/// Times during which friction holds a linkage at rest although a load over time or a drive may free it.
+struct FrictionRests {
+  long count = 0;
+  double first_from = 0, first_to = 0;  ///< s
+  double total = 0;                     ///< s, of all of them
+};
+
 struct SimulationReport {
   /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
   /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
-  /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and holds it;
-  /// self_locking: friction jams it while it moves (see settle_friction); not_converged; cancelled, deadline.
-  /// Rows so far are kept.
+  /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and nothing can
+  /// free it later; self_locking: friction jams it while it moves (see settle_friction); not_converged;
+  /// cancelled, deadline. Rows so far are kept.
   Status status = Status::done;
   Sentence message;          ///< why it is not `done`, in plain words; else empty
   double time = 0;           ///< reached, s
   int group = -1;            ///< of the plan, where a limit or start failed
   double largest_drift = 0;  ///< J, over the rows
   double peak_energy = 0;    ///< J: largest kinetic energy, change of potential energy or work of a row
-  std::vector<ChangePassage> passages;
+  std::vector<ChangePassage> passages;  ///< the first 1000
+  long passage_count = 0;
+  FrictionRests rests;
   long steps = 0, evaluations = 0;
 };
 
@@ -93,6 +105,10 @@ struct SimulationReport {
 /// branch does not meet this one; `stop` ends. Within 0.08 rad (or sizes) of a change point, where the closed
 /// forms lose digits, the acceleration is interpolated between positions on both sides, to about 1e-11. With
 /// more inputs, and in general groups, change points count as limits.
+///
+/// With one free input, a linkage that friction holds at rest waits there while loads over time or drives may
+/// still free it, and moves on when the force along the free input passes what friction can hold. Where
+/// several joints hold it, each bears the same part of what its friction could bear.
 ///
 /// Throws ContractError when there is no free input, drives or times do not fit, a law is no motion, or a
 /// body has no mass.

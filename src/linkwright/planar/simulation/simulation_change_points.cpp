@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -9,6 +10,11 @@
 
 // What a simulation does at change points: passes them smoothly, or turns onto the other branch.
 namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t kept_passages = 1000;
+
+}  // namespace
 
 Simulation::Answer Simulation::interpolated(double t, double centre, double x) {
   const ChangeZone::Weights weights = ChangeZone::interpolation(x);
@@ -52,6 +58,12 @@ void Simulation::neighbours(double value) {
   if (up.end) above_ = up.value;
 }
 
+void Simulation::note_passage(ChangePassage passage) {
+  ++report_.passage_count;
+  changed_at_ = passage.value;
+  if (report_.passages.size() < kept_passages) report_.passages.push_back(std::move(passage));
+}
+
 void Simulation::note_passages(double from, const InputMotion& before) {
   if (!branch_->has_change_points() || options_.at_change_point != AtChangePoint::smooth) return;
   const InputMotion& now = inputs_[0];
@@ -68,7 +80,7 @@ void Simulation::note_passages(double from, const InputMotion& before) {
       return (there - value) * sense < 0;
     };
     const double share = math::bisect(yet_before, 0, 1, {.halvings = 50}).inside;
-    report_.passages.push_back({from + span * share, value, next.end->groups, 0});
+    note_passage({from + span * share, value, next.end->groups, 0});
   }
 }
 

@@ -46,7 +46,8 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
     const auto most = std::max_element(turns_.begin(), turns_.end());
     if (*most >= 5) chattering_ = static_cast<int>(most - turns_.begin());
   }
-  if (stuck_ || (chattering_ >= 0 && rests_)) {
+  if (resting_ && !stuck_) end_rest(ode.t);
+  if (stuck_ || (chattering_ >= 0 && rests_ && !may_be_freed(ode.t))) {
     report_.status = Status::at_rest;
     report_.message = say("friction holds the linkage at rest from {} on", where);
   } else if (jammed_) {
@@ -55,9 +56,10 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   } else if (chattering_ >= 0) {
     report_.status = Status::limit_reached;
     report_.message = say(
-        "the motion cannot be followed beyond {}: the friction of joint '{}' holds it while others move on "
+        "the motion cannot be followed beyond {}: the friction of joint '{}' holds it while {} "
         "(sticking joints are not computed)",
-        where, l_.joints[at(chattering_)].name);
+        where, l_.joints[at(chattering_)].name,
+        rests_ ? "loads or drives may free it later" : "others move on");
   } else if (at_change_) {
     report_.status = Status::limit_reached;
     report_.message =
@@ -99,7 +101,7 @@ Sentence Simulation::stands() const {
   for (const std::size_t k : dynamics_.free()) {
     double value = inputs_[k].value;
     if (at_limit_ && branch_) value = nearer_end().value;
-    if (at_change_) value = report_.passages.back().value;
+    if (at_change_) value = changed_at_;
     out += (out.empty() ? "" : ", ") + place(l_, plan_, k, value);
   }
   return out;

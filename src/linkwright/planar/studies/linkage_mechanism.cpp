@@ -255,8 +255,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
       for (const int d : l.driven) driven.push_back(l.joints[static_cast<std::size_t>(d)].name);
       drive.error(
           "joint",
-          fmt::format("this mechanism is driven at {}, not at '{}'", fmt::join(driven, " and "), joint),
-          "drive it there, or give its bodies and joints instead, which may be driven anywhere");
+          fmt::format("this mechanism takes a drive at {}, not at '{}'", fmt::join(driven, " and "), joint),
+          "name that joint, or give bodies and joints instead, of which any may have the drive");
       good = false;
     }
   }
@@ -456,7 +456,7 @@ std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l
     return l.driven.size() == 1 && !table.has("joint") ? std::optional<std::size_t>(0) : std::nullopt;
   for (std::size_t i = 0; i < l.driven.size(); ++i)
     if (input_joint(l, i).name == joint) return i;
-  table.error("joint", fmt::format("joint '{}' is not driven", joint), "add a [[drive]] for it");
+  table.error("joint", fmt::format("joint '{}' has no drive", joint), "add a [[drive]] for it");
   return std::nullopt;
 }
 

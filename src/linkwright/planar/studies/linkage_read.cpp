@@ -265,23 +265,6 @@ void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQualit
 
 }  // namespace
 
-namespace {
-
-// Rows are played in their order: a joint that runs against a rising sweep is seen to run backward.
-void remark_on_direction(study::ObjectReader& document, const Linkage& l, const LinkageStudy& s) {
-  const auto& inputs = std::get<InputGrid>(s.sweep).inputs;
-  for (std::size_t i = 0; i < inputs.size() && i < s.drives.size(); ++i)
-    if (inputs[i].to > inputs[i].from && s.drives[i].rate < 0)
-      document.warning(
-          "drive",
-          fmt::format("'{}' runs with negative speed while its sweep rises: the report plays the motion "
-                      "backward",
-                      input_joint(l, i).name),
-          "exchange from and to of the sweep to see it as it runs");
-}
-
-}  // namespace
-
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
                                                LinkageType type, Value* canonical,
                                                WithoutMasses without_masses) {
@@ -327,7 +310,6 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   } else if (how == SweepType::grid) {
     read_grid(*sweep, l, description->plan, type, common.units, s, canonical_sweep);
     read_drives(document, l, type, false, s, drives);
-    remark_on_direction(document, l, s);
   } else {
     study::TimeSamples times;
     if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {

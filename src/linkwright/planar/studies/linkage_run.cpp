@@ -80,6 +80,7 @@ class Runner {
     modes_ = solver_.motion.modes;
     evaluate();
     finish_table();
+    if (runs_against_the_sweep()) std::reverse(recorded_.begin(), recorded_.end());
     result_.scenes.push_back(
         linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
     if (s_.quantities.dynamic()) add_mass_centres(result_.scenes[0], s_.linkage, s_.plan, recorded_);
@@ -98,6 +99,12 @@ class Runner {
   std::size_t shown_rows() const {
     if (over_time()) return rows_.inputs.size();
     return at(std::get<InputGrid>(s_.sweep).inputs.back().samples);
+  }
+  // The scene is played in the order of its rows: as the drive runs, whatever the order of the sweep.
+  bool runs_against_the_sweep() const {
+    if (over_time() || scene_axis() >= s_.drives.size()) return false;
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[scene_axis()];
+    return s_.drives[scene_axis()].rate * (axis.to - axis.from) < 0;
   }
   std::size_t scene_axis() const { return s_.plan.inputs() - 1; }
   std::string scene_input_key() const {

@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/elastic.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
@@ -155,6 +157,33 @@ bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescrip
   return true;
 }
 
+// Bodies that the inputs alone place stand where these start, whatever their own `start` says.
+void warn_of_unused_starts(study::ObjectReader& document, const LinkageDescription& d,
+                           const std::vector<InputDrive>& drives, double time) {
+  constexpr double typed = 1e-3;  // rad, and sizes of the linkage: as exactly as poses are typed
+  if (!d.sample.empty() || !d.shorthand.is_null()) return;
+  const LinkagePlan& plan = d.plan;
+  LinkageMotion motion(plan);
+  solve_position(plan, inputs_at(drives, time), motion);
+  for (std::size_t b = 1; b < d.linkage.bodies.size(); ++b) {
+    const LinkageBody& body = d.linkage.bodies[b];
+    const int part = plan.bodies[b].part, group = plan.group_of_part[at(part)];
+    // A drawing has all its bodies at the pose zero.
+    if (!body.start || *body.start == math::Pose{} || group < 0 || !plan.groups[at(group)].as<Driver>())
+      continue;
+    const PartState<double> state = body_state(plan, motion, static_cast<int>(b));
+    const double turned = math::wrap_angle(angle_of(state.direction) - body.start->angle),
+                 moved = norm(state.origin - Vec<double>{body.start->x, body.start->y});
+    if (std::abs(turned) <= typed && moved <= typed * plan.size) continue;
+    document.warning(
+        "mechanism.body",
+        fmt::format("body '{}' does not start there: its place follows from the drives, which "
+                    "put it at ({:.5g}, {:.5g}) m, {:.5g} deg",
+                    body.name, state.origin.x, state.origin.y, math::degrees(angle_of(state.direction))),
+        "give the start of the joint in its [[drive]]");
+  }
+}
+
 study::Prepared prepare_simulation(study::ObjectReader& document, const study::Common& common,
                                    LinkageType type) {
   study::Prepared prepared;
@@ -191,6 +220,8 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
   Value::Array drives, beams;
   s.drives = read_input_drives(document, *description, drives);
   s.elastic = read_elastic(document, description->linkage, beams);
+  if (!document.document().has_errors())
+    warn_of_unused_starts(document, *description, s.drives, s.from - s.settle);
   const bool any_free =
       std::any_of(s.drives.begin(), s.drives.end(), [](const InputDrive& c) { return !c.law; });
   if (!any_free && !elastic && !document.document().has_errors())

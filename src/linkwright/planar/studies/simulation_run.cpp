@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/simulation/balance.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/simulation.h"
@@ -49,7 +50,10 @@ class SimulationRunner {
 
   bool add(const SimulationInstant& now) {
     const bool dynamic = s_.quantities.dynamic() && now.status == Status::done;
-    if (dynamic) solve_forces(s_.linkage, s_.plan, *now.motion, now.time, now.inputs[0].value, forces_);
+    if (dynamic && now.held)
+      forces_ = *now.held;
+    else if (dynamic)
+      solve_forces(s_.linkage, s_.plan, *now.motion, now.time, now.inputs[0].value, forces_);
     const Status status = dynamic ? forces_.status : now.status;
     times_.push_back(now.time);
     statuses_.push_back(status);
@@ -148,16 +152,28 @@ class SimulationRunner {
     }
     fact("integration",
          say("{} steps, {} evaluations of the equations of motion", report_.steps, report_.evaluations));
+    if (!times_.empty() && in_unstable_balance(s_.linkage, s_.plan, s_.drives, s_.from))
+      warn(
+          "the linkage starts at rest in unstable balance: rounding decides when it leaves it and to which "
+          "side",
+          "start it a little beside the balance, or with a small speed");
+    if (const FrictionRests& rests = report_.rests; rests.count > 0) {
+      const Sentence first = say("from {} to {}", at_place("from", seconds(rests.first_from, 6)),
+                                 at_place("to", seconds(rests.first_to, 6)));
+      fact("held by friction", rests.count == 1 ? say("{}, {} in all", first, seconds(rests.total))
+                                                : say("{} times, {} in all; the first {}", rests.count,
+                                                      seconds(rests.total), first));
+    }
     if (!report_.passages.empty()) {
       const ChangePassage& first = report_.passages.front();
       fact("change points",
-           say("{}, the first at {} with {} at {} ({} groups); taken: {}", report_.passages.size(),
+           say("{}, the first at {} with {} at {} ({} groups); taken: {}", report_.passage_count,
                at_place("time", seconds(first.time)), input_joint(s_.linkage, 0).name, place(0, first.value),
                first.groups.size(), name_of(s_.options.at_change_point)));
       if (s_.options.at_change_point == AtChangePoint::smooth)
         warn(say("the linkage went through {} change points, where it can continue in either assembly mode: "
                  "it went on smoothly",
-                 report_.passages.size()),
+                 report_.passage_count),
              "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise");
     }
     if (!times_.empty()) {

@@ -39,6 +39,11 @@ class Simulation {
     return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
   }
   bool watches_rest() const { return friction_ && dynamics_.free().size() == 1; }
+  // Events of rest come after those of change points: the free input stops, friction lets it go.
+  std::size_t stop_event() const { return stops_at_changes() ? 2 : 0; }
+  InputMotion& free_input() { return inputs_[dynamics_.free()[0]]; }
+  // A rate that gives friction a sense and is as good as none.
+  double slowest() const { return 1e-9 * (plan_.rotary[dynamics_.free()[0]] ? 1 : plan_.size); }
 
   // ---- state: values and rates of the free inputs, work -------------------------------------------------
 
@@ -93,6 +98,7 @@ class Simulation {
   void neighbours(double value);
   // Change points between the ends of the last step, at the times of the cubic through them.
   void note_passages(double from, const InputMotion& before);
+  void note_passage(ChangePassage passage);
 
   math::OdeAction act(double t, std::span<const std::size_t> which, std::span<double> y);
 
@@ -118,8 +124,24 @@ class Simulation {
   // A joint that has come to rest sticks when friction stops it either way. inputs_ are those of the moment.
   bool sticks(double t, int joint);
 
-  // Friction holds a linkage at rest when it stops motion either way.
-  bool holds(double t);
+  // How strongly the linkage starts to move from rest in the sense that is easier: acceleration of the free
+  // input in that sense, negative when friction stops motion either way.
+  struct Push {
+    double acceleration, sense;
+  };
+  Push push_from_rest(double t);
+  bool holds(double t) { return push_from_rest(t).acceleration < 0; }
+  // Whether something changes with time while the linkage is at rest.
+  bool may_be_freed(double t) const;
+  // What friction has begun to hold: to the end, or until something frees it.
+  math::OdeAction come_to_rest(double t, std::span<double> y);
+  void set_free(double t, std::span<double> y);
+  void end_rest(double t);
+  // With the free input at rest; drives may move the others.
+  Answer solve_at_rest(double t);
+  // Joint forces at rest: of the joints that the free input moves, each bears the same part of the friction
+  // that it could bear.
+  const LinkageForces& forces_at_rest(double t);
 
   // ---- end ----------------------------------------------------------------------------------------------
 
@@ -152,7 +174,13 @@ class Simulation {
   InputMotion last_;
   double horizon_ = infinity, limit_time_ = 0;
   double below_ = -infinity, above_ = infinity;
-  bool at_limit_ = false, at_change_ = false, stuck_ = false;
+  double changed_at_ = 0;  // value of the input at the last change point
+  bool at_limit_ = false, at_change_ = false;
+  bool resting_ = false;  // friction holds the free input
+  bool stuck_ = false;    // for good
+  double resting_since_ = 0;
+  std::optional<Linkage> yielding_;  // the linkage with a part of its friction
+  LinkageForces held_;
   std::vector<int> rubbing_;             // joints with friction, when several inputs are free
   std::vector<double> rates_;            // of these joints
   std::vector<double> breaks_, senses_;  // senses of joints with friction, one a joint
