@@ -441,6 +441,29 @@ TEST(Simulate, ForcesAtRestMeetThoseOfTheMotion) {
   EXPECT_LT(std::abs(run.rows[1].held->drives[0]), 1e-9 * largest) << "nothing else holds it";
 }
 
+// The audit of energies counts the turns of a torsion spring by the speeds of its bodies: a torque that goes
+// by wrong turns shows. The disc winds the spring up by 10 / sqrt(2) rad, more than a turn.
+TEST(Simulate, AuditsTorsionSpringsByTheirSpeeds) {
+  Linkage l = pendulum(1);
+  l.gravity = 0;
+  l.bodies[1].mass = BodyMass{1, 1, 0};
+  l.torsion_springs.push_back({.name = "s", .first = 0, .second = 1, .stiffness = 2});
+  LinkagePlan p = planned(l);
+  const std::vector<InputDrive> thrown{{{}, 0, 10}};
+  const SimulationRun right = simulated(l, p, thrown, evenly(0, 10, 11));
+  EXPECT_LT(right.report.largest_drift, 1e-6);
+  for (const auto& row : right.rows) {
+    const double angle = 10 / std::sqrt(2) * std::sin(std::sqrt(2) * row.time);
+    EXPECT_NEAR(row.potential, angle * angle, 1e-5);
+  }
+  ASSERT_TRUE(p.twists.at(0).counted);
+  p.twists[0].gains[0] = 0.5;
+  const SimulationRun wrong = simulated(l, p, thrown, evenly(0, 10, 11));
+  EXPECT_GT(wrong.report.largest_drift, 1);
+  for (const auto& row : wrong.rows)
+    EXPECT_NEAR(row.potential, row.inputs[0].value * row.inputs[0].value, 1e-9);
+}
+
 // Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is reported soon, by name.
 TEST(Simulate, NamesAJointThatSticksWhileOthersMove) {
   Linkage l = pendulum(2);

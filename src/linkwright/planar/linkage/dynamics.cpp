@@ -53,6 +53,10 @@ double kinetic_energy(const LinkagePlan& plan, const LinkageMotion& motion) {
 }
 
 double potential_energy(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion) {
+  return potential_energy(l, plan, motion, motion.twists);
+}
+double potential_energy(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                        std::span<const double> twists) {
   const Vec<double> gravity = vec(l.gravity);
   double sum = 0;
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
@@ -63,9 +67,9 @@ double potential_energy(const Linkage& l, const LinkagePlan& plan, const Linkage
     const double stretch = state_of(l, plan, motion, s).stretch;
     sum += s.stiffness * stretch * stretch / 2;
   }
-  for (const TorsionSpring& s : l.torsion_springs) {
-    const double angle = state_of(l, plan, motion, s).stretch;
-    sum += s.stiffness * angle * angle / 2;
+  for (std::size_t k = 0; k < l.torsion_springs.size(); ++k) {
+    const double angle = twists[k] - l.torsion_springs[k].free_angle;
+    sum += l.torsion_springs[k].stiffness * angle * angle / 2;
   }
   return sum;
 }

@@ -14,6 +14,9 @@ double kinetic_energy(const LinkagePlan& plan, const LinkageMotion& motion);
 /// Energy of weight and springs, J: zero for masses at the global origin and springs at their free lengths
 /// and angles.
 double potential_energy(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion);
+/// The same with other twists of the torsion springs (rad, one a spring) than those of the motion.
+double potential_energy(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                        std::span<const double> twists);
 /// Power of the loads at the present motion, W, without what weight and springs take or give back.
 double lasting_power(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
                      std::span<const AppliedLoad> loads);

@@ -242,6 +242,9 @@ bool Simulation::start(double t) {
   const LinkageMotion& m = placed();
   start_kinetic_ = kinetic(answer.inertia);
   start_potential_ = potential_energy(l_, plan_, m);
+  for (std::size_t k = 0; k < l_.torsion_springs.size(); ++k) twists_.push_back({m.twists[k], nan, 0});
+  twists_ = audited_twists(t);
+  twists_at_ = t;
   last_time_ = t;
   last_ = inputs_[0];
   return true;
@@ -268,8 +271,7 @@ bool Simulation::show(double t, std::span<const double> y) {
   now.kinetic = kinetic(answer.inertia);
   now.work = y.back() + kinks_;
   if (motion.status == Status::done || motion.status == Status::singular) {
-    now.potential =
-        motion.status == Status::done ? potential_energy(l_, plan_, motion) : interpolated_potential();
+    now.potential = motion.status == Status::done ? audited_potential(t) : interpolated_potential();
     now.drift = (now.kinetic - start_kinetic_) + (now.potential - start_potential_) - now.work;
     report_.largest_drift = std::max(report_.largest_drift, std::abs(now.drift));
     report_.peak_energy = std::max(
@@ -277,6 +279,28 @@ bool Simulation::show(double t, std::span<const double> y) {
   }
   report_.time = t;
   return !output_ || output_(now);
+}
+
+std::vector<Simulation::AuditedTwist> Simulation::audited_twists(double t) const {
+  std::vector<AuditedTwist> out = twists_;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const TorsionSpring& s = l_.torsion_springs[k];
+    const PartState<double> first = body_state(plan_, dynamics_.motion, s.first),
+                            second = body_state(plan_, dynamics_.motion, s.second);
+    const double angle = angle_of(second.direction) - angle_of(first.direction),
+                 rate = second.speed - first.speed;
+    AuditedTwist& now = out[k];
+    const double turned = std::isnan(now.angle) ? 0 : angle - now.angle,
+                 expected = (now.rate + rate) / 2 * (t - twists_at_);
+    now = {now.twist + turned + full_turn * std::round((expected - turned) / full_turn), angle, rate};
+  }
+  return out;
+}
+
+double Simulation::audited_potential(double t) const {
+  std::vector<double> twists;
+  for (const AuditedTwist& now : audited_twists(t)) twists.push_back(now.twist);
+  return potential_energy(l_, plan_, dynamics_.motion, twists);
 }
 
 const SimulationInstant& Simulation::watched(double t, std::span<const double> y) {
@@ -293,6 +317,10 @@ const SimulationInstant& Simulation::watched(double t, std::span<const double> y
 bool Simulation::after_step(double t, std::span<const double> y) {
   if (watch_.note && watched(t, y).status == Status::done && !watch_.note(instant_, {})) return false;
   put(t, y);
+  if (!twists_.empty() && solve(t).status == Status::done && placed().status == Status::done) {
+    twists_ = audited_twists(t);
+    twists_at_ = t;
+  }
   const double time_before = last_time_;
   const InputMotion before = last_;
   last_time_ = t;

@@ -80,6 +80,13 @@ class Simulation {
   double kinetic(double inertia) const;
 
   bool show(double t, std::span<const double> y);
+  // Twists of the torsion springs for the audit of energies: their turns are counted by the speeds of the
+  // bodies from step to step, not by the inputs that the torques go by.
+  struct AuditedTwist {
+    double twist, angle, rate;
+  };
+  std::vector<AuditedTwist> audited_twists(double t) const;
+  double audited_potential(double t) const;
   // An instant for those who watch.
   const SimulationInstant& watched(double t, std::span<const double> y);
   // Exactly at a change point the parts behind it have no place of their own.
@@ -169,6 +176,8 @@ class Simulation {
   std::size_t first_watched_ = 0;  // among the events
   std::vector<double> watched_;    // last values
   SimulationInstant instant_;
+  std::vector<AuditedTwist> twists_;  // at the last step
+  double twists_at_ = 0;              // s
   double start_kinetic_ = 0, start_potential_ = 0, kinks_ = 0;
   double last_time_ = 0;
   InputMotion last_;
