@@ -153,6 +153,8 @@ export interface View {
   units: ShownSuffix[];
   verdict: "passed" | "doubtful" | "incomplete" | "failed";
   facts: Fact[];
+  /** Diagnostics of the result, in their order. */
+  remarks: { message: string; hint?: string }[];
   parameters: Parameter[][]; // one list a solution
   solution_scenes: string[];
   designs: Design[];
@@ -213,7 +215,7 @@ export function readView(carried: Carried): View {
   carries = carried;
   const { view } = carried;
   useUnits(view.units);
-  return { ...view, headline: prose(view.headline), facts: view.facts.map((f) => ({ ...f, label: prose(f.label), text: prose(f.text), rest: f.rest && prose(f.rest) })) };
+  return { ...view, facts: view.facts.map((f) => ({ ...f, label: prose(f.label) })) };
 }
 
 /** A property whose value is made when it is first asked for. */
@@ -244,7 +246,8 @@ export const readResult = (carried: Carried): Result => {
     statistics: result.statistics ?? null,
     log: result.log ?? null,
     tables: (result.tables ?? []).map(readTable),
-    diagnostics: (result.diagnostics ?? []).map((d) => ({ ...d, message: prose(d.message), hint: said(d.hint) })),
+    // As the program has typeset them.
+    diagnostics: (result.diagnostics ?? []).map((d, i) => ({ ...d, ...carried.view.remarks[i] })),
   };
 };
 

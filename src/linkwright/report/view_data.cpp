@@ -212,6 +212,10 @@ Value view_data(const ReportInput& input) {
     if (!parts.rest.empty()) o["rest"] = std::string(parts.rest);
     o["verdict"] = linkwright::name_of(f.verdict);
   });
+  out["remarks"] = list(result.diagnostics, [&](Value& o, const Diagnostic& d) {
+    o["message"] = typeset(study::in_units(d.message, in_sentences));
+    if (!d.hint.empty()) o["hint"] = typeset(study::in_units(d.hint, in_sentences));
+  });
   out["parameters"] = Value::array();
   out["solution_scenes"] = Value::array();
   for (const auto& s : result.solutions) {

@@ -31,6 +31,8 @@ Result in_units(Result result, const DisplayUnits& units) {
   result.statistics = in_units(result.statistics, units);
   result.headline = in_units(result.headline, units);
   for (Fact& fact : result.facts) fact.text = in_units(fact.text, units);
+  for (Diagnostic& d : result.diagnostics)
+    d.message = in_units(d.message, units), d.hint = in_units(d.hint, units);
   return result;
 }
 

@@ -6,8 +6,8 @@
 // Results in the units of people.
 namespace linkwright::study {
 
-/// What a result says in numbers, in these units: headline and facts, tables with their diagrams, solutions,
-/// changes, troubles and statistics. Scenes stay.
+/// What a result says in numbers, in these units: headline, facts and remarks, tables with their diagrams,
+/// solutions, changes, troubles and statistics. Scenes stay.
 Result in_units(Result result, const DisplayUnits& units);
 
 /// In which units people are shown a study: those that it lists for its files, else those of its own keys.
