@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <complex>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -94,7 +97,8 @@ const Arc arcs[] = {
     {"half sine", [](double t) { return std::complex(pi * t, std::sin(pi * t)); }, 25, 1.18e-7},
     {"S-curve", [](double t) { return std::complex(2 * t - 1, 0.4 * std::tanh(3 * (2 * t - 1))); }, 25,
      7.6e-6},
-    {"half circle", [](double t) { return std::polar(1.0, pi * t); }, 24, 1e-20}};
+    {"half circle", [](double t) { return std::polar(1.0, pi * t); }, 24, 1e-20},
+    {"flat half sine", [](double t) { return std::complex(t, 0.25 * std::sin(pi * t)); }, 13, 3.1e-8}};
 
 PathProblem arc_problem(const Arc& arc) {
   PathProblem p;
@@ -124,24 +128,39 @@ TEST(SearchFreeTiming, DoesNotStopShortOnSmoothOpenPaths) {
       EXPECT_LE(best_of(arc_problem(arc), seed), arc.reached) << arc.name << " " << seed;
 }
 
-// What is found under a limit is allowed without it. For the full turn of the crank the search makes sure of
-// it; for the others it has to find what they find.
-TEST(SearchFreeTiming, ALimitNeverImprovesTheAnswer) {
-  for (const Arc& arc : arcs) {
-    const PathProblem free = arc_problem(arc);
-    const double unlimited = best_of(free, 1);
-    const double zero = 1e-20 * path_size(free) * path_size(free);
-    PathProblem turning = free;
+// What is found under a limit is allowed without it, and so it must be found. For the full turn of the crank
+// and the usual transmission angle the search makes sure of it; for other limits it has to find what they
+// find.
+class LimitedArc : public ::testing::TestWithParam<Arc> {};
+
+TEST_P(LimitedArc, ALimitNeverImprovesTheAnswer) {
+  const PathProblem free = arc_problem(GetParam());
+  const double zero = 1e-20 * path_size(free) * path_size(free);
+  for (const std::uint64_t seed : {1, 3}) {
+    const double unlimited = best_of(free, seed);
+    PathProblem turning = free, transmitting = free;
     turning.crank_rotates_fully = true;
-    EXPECT_LE(unlimited, best_of(turning, 1) + zero) << arc.name;
-    PathProblem transmitting = turning;
+    const double turned = best_of(turning, seed);
+    EXPECT_LE(unlimited, turned + zero) << "seed " << seed;
     transmitting.min_transmission_angle = pi / 6;
-    EXPECT_LE(unlimited, best_of(transmitting, 1) + zero) << arc.name;
+    EXPECT_LE(unlimited, best_of(transmitting, seed) + zero) << "seed " << seed;
+    transmitting.crank_rotates_fully = true;
+    const double both = best_of(transmitting, seed);
+    EXPECT_LE(unlimited, both + zero) << "seed " << seed;
+    EXPECT_LE(turned, both + zero) << "seed " << seed;
     PathProblem bounded = free;
     const double reach = 5 * path_size(free);
     for (std::size_t j = 0; j < 8; ++j) bounded.bounds[j] = {j < 4 ? free.bounds[j].lower : -reach, reach};
-    EXPECT_LE(unlimited, best_of(bounded, 1) + zero) << arc.name;
+    EXPECT_LE(unlimited, 1.01 * best_of(bounded, seed) + zero) << "seed " << seed;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Arcs, LimitedArc, ::testing::ValuesIn(arcs), [](const auto& tested) {
+  std::string name = tested.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -270,36 +272,66 @@ class TimingSearch {
   PathSynthesis out_;
 };
 
+// A problem and those with more limits, each searched by itself in the same way, and each going on from the
+// best that those with one limit more have come to: so none of them has a better answer than the problem.
+class LadderOfLimits {
+ public:
+  LadderOfLimits(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
+      : problem_(problem), options_(options), context_(context) {}
+
+  PathSynthesis run() { return answer(problem_.crank_rotates_fully, false); }
+
+ private:
+  // With the full turn of the crank and the usual transmission angle as limits, or as the problem has them.
+  PathSynthesis& answer(bool turns, bool transmits) {
+    const auto [entry, fresh] = answers_.try_emplace({turns, transmits});
+    PathSynthesis& out = entry->second;
+    if (!fresh) {
+      out.evaluations = 0;  // counted already
+      return out;
+    }
+    PathProblem limited = problem_;
+    limited.crank_rotates_fully = turns;
+    if (transmits) limited.min_transmission_angle = usual_transmission;
+    PathSynthesisOptions options = options_;
+    options.progress = options.progress && answers_.size() == 1;
+    out = TimingSearch(limited, options, context_).run();
+    if (!turns) go_on(limited, answer(true, transmits), out);
+    if (!transmits && problem_.min_transmission_angle < usual_transmission)
+      go_on(limited, answer(turns, true), out);
+    rank(out.designs);
+    return out;
+  }
+
+  void go_on(const PathProblem& problem, const PathSynthesis& limited, PathSynthesis& out) {
+    if (limited.status == Status::deadline || limited.status == Status::cancelled)
+      out.status = limited.status;
+    out.evaluations += limited.evaluations;
+    std::size_t carried_on = 0;
+    for (const PathDesign& found : limited.designs) {
+      PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
+      if (carried_on++ < carried_beyond_limits && out.status == Status::done)
+        out.designs.push_back(polish_free_timing(problem, design, out.evaluations));
+      out.designs.push_back(std::move(design));
+    }
+    for (const PathDesign& design : out.designs)
+      if (design.violations.empty() && (out.history.empty() || design.error < out.history.back().best))
+        out.history.push_back({out.evaluations, design.error});
+  }
+
+  const PathProblem& problem_;
+  const PathSynthesisOptions& options_;
+  RunContext& context_;
+  std::map<std::pair<bool, bool>, PathSynthesis> answers_;
+};
+
 }  // namespace
 
 PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesisOptions& options,
                                  RunContext& context) {
   require_valid(problem);
   LINKWRIGHT_REQUIRE(problem.timing == Timing::free, "the timing is {}", name_of(problem.timing));
-  PathSynthesis answer = TimingSearch(problem, options, context).run();
-  if (problem.crank_rotates_fully || answer.status == Status::deadline || answer.status == Status::cancelled)
-    return answer;
-  // Where any linkage will do, those that turn fully are searched in the same way, and from the best of them
-  // the search goes on without that limit: it cannot have a better answer than this one.
-  PathProblem turning = problem;
-  turning.crank_rotates_fully = true;
-  PathSynthesisOptions quiet = options;
-  quiet.progress = false;
-  PathSynthesis more = TimingSearch(turning, quiet, context).run();
-  if (more.status != Status::done) answer.status = more.status;
-  answer.evaluations += more.evaluations;
-  std::size_t carried_on = 0;
-  rank(more.designs);
-  for (const PathDesign& found : more.designs) {
-    PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
-    if (carried_on++ < carried_beyond_limits)
-      answer.designs.push_back(polish_free_timing(problem, design, answer.evaluations));
-    answer.designs.push_back(std::move(design));
-  }
-  for (const PathDesign& design : answer.designs)
-    if (design.violations.empty() && (answer.history.empty() || design.error < answer.history.back().best))
-      answer.history.push_back({answer.evaluations, design.error});
-  return answer;
+  return LadderOfLimits(problem, options, context).run();
 }
 
 PathDesign polish_free_timing(const PathProblem& problem, PathDesign design, std::int64_t& evaluations) {

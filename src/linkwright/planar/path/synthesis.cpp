@@ -244,6 +244,21 @@ bool best_turning_is_usable(const PathProblem& problem, const std::vector<PathDe
   return false;
 }
 
+// The best design without drawbacks, gone on from under no more than what keeps them away; false where there
+// is none. Free timing has searched under limits and is likely to have one.
+bool improve_usable(const PathProblem& problem, PathSynthesis& answer) {
+  const auto found = std::find_if(answer.designs.begin(), answer.designs.end(), [&](const PathDesign& d) {
+    return d.violations.empty() && drawbacks(problem, d).empty();
+  });
+  if (problem.timing != Timing::free || found == answer.designs.end()) return false;
+  const PathProblem usable = usable_problem(problem);
+  const PathDesign on = polish_free_timing(
+      usable, measure(usable, found->linkage, found->sense, found->angles), answer.evaluations);
+  keep_distinct(answer.designs, measure(problem, on.linkage, on.sense, on.angles));
+  rank(answer.designs);
+  return true;
+}
+
 // The best design has drawbacks: looks for the best one without them. What that search finds is allowed in
 // the first one, too, which goes on from there: so a limit of this kind never improves the answer.
 void add_usable(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context,
@@ -286,7 +301,8 @@ PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOpt
   LINKWRIGHT_REQUIRE(options.starts >= 0 && options.max_solutions >= 1, "starts {}, max_solutions {}",
                      options.starts, options.max_solutions);
   PathSynthesis answer = Search(problem, options, context).run();
-  if (answer.status == Status::done && !best_turning_is_usable(problem, answer.designs))
+  if (answer.status == Status::done && !best_turning_is_usable(problem, answer.designs) &&
+      !improve_usable(problem, answer))
     add_usable(problem, options, context, answer);
   keep_first(problem, answer.designs, static_cast<std::size_t>(options.max_solutions));
   return answer;

@@ -47,7 +47,7 @@ struct PathSynthesis {
 /// tracing point) are eliminated (variable projection), full crank rotation holds by construction, and
 /// Levenberg-Marquardt with the exact Jacobian runs from many starts. Free timing: see
 /// search_free_timing. Where a bound or limit is active, an augmented Lagrangian finishes. When the best
-/// design has drawbacks (path_usability.h), the best one without them is looked for and stands beside it.
+/// design has drawbacks (usability.h), the best one without them is looked for and stands beside it.
 PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOptions& options,
                               RunContext& context);
 
