@@ -40,3 +40,15 @@ export function Copy({ text, label }: { text: string | (() => string); label?: s
   };
   return <button type="button" class="copy screen-only" aria-label={done ? undefined : label} onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
 }
+
+/** Arrows, Home and End move the focus along what a list, a menu or a toolbar holds. */
+export function moveFocus(event: KeyboardEvent, of: string): void {
+  const all = [...(event.currentTarget as HTMLElement).querySelectorAll<HTMLElement>(of)];
+  const now = all.indexOf(event.target as HTMLElement);
+  const end = all.length - 1;
+  const to = ({ ArrowDown: now + 1, ArrowRight: now + 1, ArrowUp: now < 0 ? end : now - 1, ArrowLeft: now < 0 ? end : now - 1, Home: 0, End: end } as Record<string, number>)[event.key];
+  if (to === undefined || end < 0 || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  all[(to + all.length) % all.length].focus();
+}

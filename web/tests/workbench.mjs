@@ -656,30 +656,44 @@ test("the gallery is walked by keyboard alone", async () => {
   await close();
 });
 
+/** Where a place of the drawing board (mm) is on the screen. */
+const onBoard = (page, x, y) => page.locator("#board").evaluate((svg, [x, y]) => {
+  const m = svg.getScreenCTM();
+  return { x: m.a * x + m.e, y: -m.d * y + m.f };
+}, [x, y]);
+async function pressBoard(page, x, y, modifier) {
+  const at = await onBoard(page, x, y);
+  if (modifier) await page.keyboard.down(modifier);
+  await page.mouse.click(at.x, at.y);
+  if (modifier) await page.keyboard.up(modifier);
+}
+/** With one tool after the other, at places. */
+async function pressTools(page, ...presses) {
+  for (const [tool, ...places] of presses) {
+    await page.locator(`[data-tool="${tool}"]`).click();
+    for (const [x, y] of places) await pressBoard(page, x, y);
+  }
+}
+async function dragBoard(page, from, to) {
+  const [a, b] = [await onBoard(page, ...from), await onBoard(page, ...to)];
+  await page.mouse.move(a.x, a.y);
+  await page.mouse.down();
+  await page.mouse.move(b.x, b.y, { steps: 5 });
+  await page.mouse.up();
+}
+
 test("a slider-crank with offset is drawn from nothing, and moves as computed", async () => {
   const { page, errors, close } = await open({ example: "hoeken" });
   const before = await studyText(page);
   await page.locator("#draw").click();
   assert.match(await page.locator("#draw-said").innerText(), /Draw a link/);
-  const press = async (x, y, modifier) => {
-    const at = await page.locator("#board").evaluate((svg, [x, y]) => {
-      const m = svg.getScreenCTM();
-      return { x: m.a * x + m.e, y: -m.d * y + m.f };
-    }, [x, y]);
-    if (modifier) await page.keyboard.down(modifier);
-    await page.mouse.click(at.x, at.y);
-    if (modifier) await page.keyboard.up(modifier);
-  };
-  for (const [x, y] of [[1, -1], [0, 51], [139, 20]]) await press(x, y);
-  await press(70, 60, "Shift");
-  for (const [tool, x, y] of [["ground", 0, 0], ["guide", 140, 20], ["drive", 0, 0], ["trace", 70, 60]]) {
-    await page.locator(`[data-tool="${tool}"]`).click();
-    await press(x, y);
-  }
+  for (const [x, y] of [[1, -1], [0, 51], [139, 20]]) await pressBoard(page, x, y);
+  await pressBoard(page, 70, 60, "Shift");
+  await pressTools(page, ["ground", [0, 0]], ["guide", [140, 20]], ["drive", [0, 0]], ["trace", [70, 60]]);
   assert.equal(await page.locator("#draw-said").innerText(), "1 degree of freedom, and it is driven.");
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => globalThis.axe.run(document.querySelector(".draw")));
-  assert.deepEqual(violations.map((v) => v.id), []);
+  assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), []);
   await page.locator("#draw-use").click();
   await until(async () => (await page.locator("h1").innerText()) === "My linkage");
   await settled(page);
@@ -698,6 +712,150 @@ test("a slider-crank with offset is drawn from nothing, and moves as computed", 
   await holds(page, async () => (await resultOf(page)).study.mechanism.body[1].points_m.B[1] > 0.051);
   await page.locator("#undo").click();
   await settled(page);
+  await page.locator("#undo").click();
+  await holds(page, async () => (await studyText(page)) === before);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a place on a link is traced, and springs, loads and gears are drawn", async () => {
+  const { page, errors, close } = await open({ example: "hoeken" });
+  await page.locator("#draw").click();
+  const said = () => page.locator("#draw-said").innerText();
+  // A geared five-bar.
+  for (const [x, y] of [[-60, -40], [-80, 20], [0, 90], [90, 30], [60, -40]]) await pressBoard(page, x, y);
+  await pressTools(page, ["ground", [-60, -40], [60, -40]], ["drive", [-60, -40]]);
+  assert.match(await said(), /2 ways/);
+  await pressTools(page, ["gear", [-60, -40], [60, -40]]);
+  assert.equal(await said(), "1 degree of freedom, and it is driven.");
+  // A press on the second link, away from its pins, is a point of it that is traced; undo takes it away, a drag moves it.
+  await pressTools(page, ["trace", [-41, 54]]);
+  assert.equal(await page.locator('#board [data-pin="F"] .traced').count(), 1);
+  await page.locator("#draw-undo").click();
+  assert.equal(await page.locator("#board .traced").count(), 0);
+  await pressTools(page, ["trace", [-41, 54]], ["move"]);
+  const point = await page.locator('#board [data-pin="F"]').evaluate((e) => [e.transform.baseVal[0].matrix.e, -e.transform.baseVal[0].matrix.f]);
+  await dragBoard(page, point, [-30, 80]);
+  // A spring from there to the paper, a damper beside it, a force on the crank that a drag aims.
+  await pressTools(page, ["spring", [-30, 80], [-150, 80]], ["damper", [-30, 80], [-150, 80]], ["torsion_spring", [60, -40]], ["force"]);
+  await dragBoard(page, [-80, 20], [-50, -20]);
+  assert.deepEqual(await page.locator("#board [data-element]").evaluateAll((all) => all.map((e) => e.dataset.element)), ["gear 1", "spring 1", "force 1"]);
+  assert.equal(await said(), "1 degree of freedom, and it is driven.");
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document.querySelector(".draw")));
+  assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), []);
+  // Numbers of what is drawn are typed.
+  await page.locator(".sketch-numbers summary").click();
+  for (const [name, value] of [["spring 1.stiffness", "0"], ["spring 1.damping", "0"], ["torsion spring 1.stiffness", "0"], ["gear 1.ratio", "-2"]]) {
+    await page.locator(`[data-number="${name}"]`).fill(value);
+    await page.locator(`[data-number="${name}"]`).press("Tab");
+  }
+  await page.locator("#draw-use").click();
+  await until(async () => (await page.locator("h1").innerText()) === "My linkage");
+  await settled(page);
+  const result = await resultOf(page);
+  assert.equal(result.status, "done");
+  const { mechanism, trace } = result.study;
+  assert.deepEqual(trace, [{ point: "link 2.F" }]);
+  assert.deepEqual(mechanism.body[2].points_m.F.map((v) => Math.round(1e6 * v)), [-30000, 80000]);
+  assert.deepEqual([mechanism.spring.length, mechanism.torsion_spring.length, mechanism.force[0].point, mechanism.force[0].force_N], [1, 1, "link 1.B", [30, -40]]);
+  assertSameTables(result, asTheProgram(await studyText(page)));
+  // The only force that does work acts on the crank: its moment is the drive's, and the other wheel turns twice as fast.
+  const [table] = result.tables;
+  const column = (key) => table.data[table.columns.findIndex((c) => c.key === key)];
+  const [torque, first, second] = ["A_drive_torque_N_m", "link_1_angle_rad", "link_4_angle_rad"].map(column);
+  assert.ok(torque.length > 100);
+  torque.forEach((t, i) => {
+    const [c, s] = [Math.cos(first[i]), Math.sin(first[i])];
+    const arm = [-0.02 * c - 0.06 * s, -0.02 * s + 0.06 * c];
+    assert.ok(Math.abs(t + arm[0] * -40 - arm[1] * 30) < 1e-9, `${i}: ${t}`);
+    assert.ok(Math.abs(second[i] + 2 * first[i]) < 1e-9, `${i}: ${second[i]} of ${first[i]}`);
+  });
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a linkage is driven at a pin between its links", async () => {
+  const { page, errors, close } = await open({ example: "hoeken" });
+  await page.locator("#draw").click();
+  for (const [x, y] of [[-60, -40], [-80, 20], [40, 60], [60, -40]]) await pressBoard(page, x, y);
+  await pressTools(page, ["ground", [-60, -40], [60, -40]], ["drive", [40, 60]]);
+  assert.equal(await page.locator("#draw-said").innerText(), "1 degree of freedom, and it is driven.");
+  await page.locator("#draw-use").click();
+  await until(async () => (await page.locator("h1").innerText()) === "My linkage");
+  await settled(page);
+  const result = await resultOf(page);
+  assert.equal(result.status, "done");
+  assert.equal(result.study.drive[0].joint, "C");
+  assert.ok(result.tables[0].data[0].length > 100);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+/** What has the focus: its id, or what it is for. */
+const focused = (page) => page.evaluate(() => {
+  const { id, dataset, tagName } = document.activeElement;
+  return id || dataset.tool || dataset.copy || dataset.download || dataset.export || dataset.add || tagName.toLowerCase();
+});
+
+test("the drawing board is worked by keyboard alone", async () => {
+  const { page, errors, close } = await open({});
+  const before = await studyText(page);
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+  };
+  const isOpen = () => page.locator(".draw").evaluate((e) => e.open);
+  const tabTo = async (what) => {
+    for (let tries = 0; (await focused(page)) !== what; ++tries) {
+      assert.ok(tries < 20, `Tab comes to ${what}`);
+      await press("Tab");
+    }
+  };
+  const chooseTool = async (name) => {
+    for (let tries = 0; (await page.evaluate(() => document.activeElement.getAttribute("data-tool"))) === null; ++tries) {
+      assert.ok(tries < 20, "Shift and Tab come to the tools");
+      await press("Shift+Tab");
+    }
+    while ((await focused(page)) !== name) await press("ArrowRight");
+    await press("Enter");
+    await tabTo("board");
+  };
+  await page.locator("#draw").focus();
+  await press("Enter");
+  await until(isOpen);
+  assert.equal(await focused(page), "link", "the focus goes in, to the tool that is at hand");
+  await tabTo("board");
+  // A crank from (0, 0) to (0, 40).
+  await press("Enter", "ArrowUp", "ArrowUp", "ArrowUp", "ArrowUp", "Enter");
+  assert.equal(await page.locator("#board .pin.last").getAttribute("data-pin"), "B");
+  assert.match(await page.locator(".cursor-said").innerText(), /B, x 0 mm, y 40 mm/);
+  // Escape ends the chain, and the next one closes.
+  await press("Escape");
+  assert.equal(await isOpen(), true);
+  assert.equal(await page.locator("#board .pin.last").count(), 0);
+  await press("Escape");
+  await until(async () => !(await isOpen()));
+  assert.equal(await focused(page), "draw");
+  // What has been drawn is there again.
+  await press("Enter");
+  await until(isOpen);
+  await chooseTool("ground");
+  await press("Enter");
+  await chooseTool("drive");
+  await press("Enter");
+  // A force of 30 N to the right: arrows aim it until Enter.
+  await chooseTool("force");
+  await press("ArrowUp", "ArrowUp", "ArrowUp", "ArrowUp", "Enter", "ArrowRight", "ArrowRight", "ArrowRight", "Enter", "ArrowLeft");
+  assert.match(await page.locator('#board [data-element="force 1"]').textContent(), /^30 N$/);
+  await press("Control+z");
+  assert.equal(await page.locator("#board [data-element]").count(), 0);
+  assert.equal(await page.locator("#draw-said").innerText(), "1 degree of freedom, and it is driven.");
+  await tabTo("draw-use");
+  await press("Enter");
+  await until(async () => (await page.locator("h1").innerText()) === "My linkage");
+  assert.equal(await focused(page), "draw");
+  await settled(page);
+  assert.deepEqual((await resultOf(page)).study.mechanism.body[1].points_m, { A: [0, 0], B: [0, 0.04] });
   await page.locator("#undo").click();
   await holds(page, async () => (await studyText(page)) === before);
   assert.deepEqual(errors, []);
@@ -748,10 +906,7 @@ test("a finger on a phone means the pin beside it", async () => {
   const { page, errors, close } = await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
   await page.locator("#draw").click();
   const tap = async (x, y, beside = 0) => {
-    const at = await page.locator("#board").evaluate((svg, [x, y]) => {
-      const m = svg.getScreenCTM();
-      return { x: m.a * x + m.e, y: -m.d * y + m.f };
-    }, [x, y]);
+    const at = await onBoard(page, x, y);
     await page.touchscreen.tap(at.x + beside, at.y);
   };
   for (const [x, y] of [[-100, 0], [-40, 80]]) await tap(x, y);

@@ -8,7 +8,6 @@ import { gripPoint, gripTarget, guided, moveTo, valueOf, within } from "../src/w
 import { places, possible, withLoad } from "../src/workbench/loads";
 import { numbersOf, unitKey } from "../src/workbench/numbers";
 import { along, listOf, pastedRows, tidy, withoutPoint, withPoint, withPose } from "../src/workbench/points";
-import { blank, freedom, missing, pinName, studyOf, withoutPin, type Pin } from "../src/workbench/sketch";
 import { absent, nodeAt, ruleAt, ruleOf } from "../src/workbench/schema";
 
 const paper = { name: "a.toml", text: "one", files: {} };
@@ -248,45 +247,6 @@ test("what is locked stays while its neighbours are dragged", () => {
   const grip = gripPoint(fourBar, 5, 0, 4, new Set(["coupler"]))!;
   expect(moveTo(fourBar, grip, { x: 4, y: 2 }).map((e) => e.key)).toEqual(["rocker"]);
   expect(gripPoint(fourBar, 5, 0, 4, new Set(["coupler", "rocker"]))).toBeNull();
-});
-
-const pinned = (x: number, y: number, more: Partial<Pin> = {}): Pin => ({ x, y, ground: false, guide: null, traced: false, ...more });
-const sliderCrank = { pins: [pinned(0, 0, { ground: true }), pinned(0, 50), pinned(140, 20, { guide: 0 }), pinned(70, 60, { traced: true })], links: [[0, 1], [1, 2, 3]], drive: 0 };
-
-test("a sketch says what it lacks until it moves", () => {
-  expect(missing(blank)).toMatch(/Draw a link/);
-  const bar = { ...blank, pins: [pinned(0, 0), pinned(0, 50)], links: [[0, 1]] };
-  expect(missing(bar)).toMatch(/to the ground/);
-  const crank = { ...bar, pins: [pinned(0, 0, { ground: true }), bar.pins[1]] };
-  expect(freedom(crank)).toBe(1);
-  expect(missing(crank)).toMatch(/driven/);
-  expect(missing({ ...crank, drive: 0 })).toBe("");
-  const open = { ...sliderCrank, pins: sliderCrank.pins.map((p) => ({ ...p, guide: null })) };
-  expect(freedom(open)).toBe(2);
-  expect(missing(open)).toMatch(/2 ways/);
-  const stiff = { pins: [pinned(0, 0, { ground: true }), pinned(10, 0, { ground: true }), pinned(5, 5)], links: [[0, 2], [1, 2]], drive: 0 };
-  expect(missing(stiff)).toMatch(/cannot move/);
-  expect(missing({ ...sliderCrank, pins: [...sliderCrank.pins, pinned(1, 1)] })).toBe("Pin E is on no link.");
-  expect([freedom(sliderCrank), missing(sliderCrank)]).toEqual([1, ""]);
-});
-
-test("a sketch makes a study with its pins, guides and drive", () => {
-  const text = studyOf(sliderCrank);
-  expect(text).toContain("points_mm = { B = [0, 50], C = [140, 20], D = [70, 60] }");
-  expect(text).toContain('first  = "ground.A"\nsecond = "link 1.A"');
-  expect(text).toContain('first         = "ground.C"\nsecond        = "slider C.C"\ndirection_deg = 0');
-  expect(text).toContain('joint     = "A"\nspeed_rpm = 60.0');
-  expect(text).toContain('point = "link 2.D"');
-  expect(studyOf({ ...sliderCrank, drive: 2 })).toContain('joint          = "guide C"\nspeed_mm_per_s = 100.0');
-  // Three bodies on a pin are two joints.
-  const three = { pins: [pinned(0, 0, { ground: true }), pinned(1, 0), pinned(2, 0), pinned(3, 1)], links: [[0, 1], [1, 2], [1, 3]], drive: 0 };
-  expect(studyOf(three)).toContain('name   = "B 2"\nfirst  = "link 1.B"\nsecond = "link 3.B"');
-});
-
-test("a pin goes with its links and the drive on it", () => {
-  expect(withoutPin(sliderCrank, 0)).toEqual({ pins: sliderCrank.pins.slice(1), links: [[0, 1, 2]], drive: null });
-  expect(withoutPin(sliderCrank, 3)).toEqual({ pins: sliderCrank.pins.slice(0, 3), links: [[0, 1], [1, 2]], drive: 0 });
-  expect([pinName(0), pinName(25), pinName(26), pinName(53)]).toEqual(["A", "Z", "A1", "B2"]);
 });
 
 test("target points are set by hand", () => {

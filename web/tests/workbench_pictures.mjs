@@ -18,20 +18,21 @@ async function choose(page, example) {
   await page.waitForFunction((name) => document.querySelector(".bar .name").textContent === name, `${example}.toml`);
   await settled(page);
 }
-/** A slider-crank on the board. */
+/** On the board: a geared five-bar with a traced place of a link, a spring with a damper, and a force. */
 async function sketch(page) {
   await page.locator("#draw").click();
+  const at = (x, y) => page.locator("#board").evaluate((svg, [x, y]) => {
+    const m = svg.getScreenCTM();
+    return { x: m.a * x + m.e, y: -m.d * y + m.f };
+  }, [x, y]);
   const press = async (x, y) => {
-    const at = await page.locator("#board").evaluate((svg, [x, y]) => {
-      const m = svg.getScreenCTM();
-      return { x: m.a * x + m.e, y: -m.d * y + m.f };
-    }, [x, y]);
-    await page.mouse.click(at.x, at.y);
+    const { x: left, y: top } = await at(x, y);
+    await page.mouse.click(left, top);
   };
-  for (const [x, y] of [[-110, 0], [-70, 60], [100, -30]]) await press(x, y);
-  for (const [name, x, y] of [["ground", -110, 0], ["guide", 100, -30], ["drive", -110, 0], ["trace", -70, 60]]) {
-    await page.locator(`[data-tool="${name}"]`).click();
-    await press(x, y);
+  for (const [tool, ...places] of [["link", [-50, -60], [-80, 10], [0, 90], [90, 20], [60, -60]], ["ground", [-50, -60], [60, -60]], ["drive", [-50, -60]], ["gear", [-50, -60], [60, -60]],
+    ["trace", [-41, 49]], ["spring", [45, 55], [120, 120]], ["damper", [45, 55], [120, 120]], ["force", [0, 90]]]) {
+    await page.locator(`[data-tool="${tool}"]`).click();
+    for (const [x, y] of places) await press(x, y);
   }
 }
 const screens = {

@@ -1,92 +1,212 @@
-// A linkage as it is drawn with the pointer: pins and links in one position, in millimetres; and the study that it makes.
+// A linkage as it is drawn with the pointer, in one position, in millimetres: points on links, and what holds, drives and loads them;
+// and the study that it makes.
 
-export interface Pin {
+export interface Place {
   x: number;
   y: number;
+}
+/** A point that is drawn: a pin where bodies meet, or a point of one body alone. */
+export interface Pin extends Place {
   ground: boolean;
   /** Direction of the guide of a slider on this pin (deg); null = there is none. */
   guide: number | null;
   traced: boolean;
 }
+
+export type ElementKind = "drive" | "gear" | "spring" | "torsion_spring" | "force";
+/** A machine element or load on the points of a sketch. */
+export interface SketchElement {
+  kind: ElementKind;
+  pins: number[];
+  /** Of a drive or torsion spring: which of the joints at its pin. */
+  joint: number;
+  /** By the keys that a study has for them; what is left out begins as the kind says. */
+  values: Record<string, number>;
+}
+
 export interface Sketch {
   pins: Pin[];
   links: number[][]; // pins of each
-  drive: number | null; // the pin on the ground, or on a guide, that is driven
+  elements: SketchElement[];
 }
 
-export const blank: Sketch = { pins: [], links: [], drive: null };
+export const blank: Sketch = { pins: [], links: [], elements: [] };
 
 /** "A", "B", ..., "Z", "A1", ... */
 export const pinName = (i: number) => String.fromCharCode(65 + (i % 26)) + (i < 26 ? "" : String(Math.floor(i / 26)));
-
-/** Ground, links and sliders on a pin: the bodies that meet there. */
-function bodiesAt(sketch: Sketch, i: number): string[] {
-  const { ground, guide } = sketch.pins[i];
-  const links = sketch.links.flatMap((pins, k) => (pins.includes(i) ? [linkName(k)] : []));
-  return [...(guide !== null ? [`slider ${pinName(i)}`] : ground ? ["ground"] : []), ...links];
-}
 const linkName = (k: number) => `link ${k + 1}`;
+export const sliderName = (i: number) => `slider ${pinName(i)}`;
 
-/** Degrees of freedom by counting: three for each link and slider, less two for each pin between two bodies and each guide. */
-export function freedom(sketch: Sketch): number {
-  const sliders = sketch.pins.filter((p) => p.guide !== null).length;
-  const pins = sketch.pins.reduce((sum, _, i) => sum + Math.max(0, bodiesAt(sketch, i).length - 1), 0);
-  return 3 * (sketch.links.length + sliders) - 2 * (pins + sliders);
+/** The bodies that meet at a point: a slider or the ground, then links. */
+export function bodiesAt({ pins, links }: Sketch, i: number): string[] {
+  const { ground, guide } = pins[i];
+  return [...(guide !== null ? [sliderName(i)] : ground ? ["ground"] : []), ...links.flatMap((on, k) => (on.includes(i) ? [linkName(k)] : []))];
+}
+/** The links and sliders. */
+export const movingBodies = ({ pins, links }: Sketch): string[] =>
+  [...links.map((_, k) => linkName(k)), ...pins.flatMap((p, i) => (p.guide === null ? [] : [sliderName(i)]))];
+/** The body that what is put on a point acts on: a link, where there is one. */
+export function bodyOf(sketch: Sketch, i: number): string {
+  const [first, second] = bodiesAt(sketch, i);
+  return first?.startsWith("link") ? first : (second ?? first ?? "ground");
 }
 
-/** What is still missing before it moves; "" = nothing. */
-export function missing(sketch: Sketch): string {
-  if (!sketch.links.length) return "Draw a link: press where its pins are.";
-  if (!sketch.pins.some((p) => p.ground || p.guide !== null)) return "Fix a pin to the ground, or put it on a guide.";
-  const loose = sketch.pins.findIndex((_, i) => bodiesAt(sketch, i).length === 0);
-  if (loose >= 0) return `Pin ${pinName(loose)} is on no link.`;
-  const free = freedom(sketch);
-  if (free < 1) return "It cannot move: there are more pins than links leave room for.";
-  if (free > 1) return `It moves in ${free} ways: close it with a link, a pin to the ground or a guide, so that one is left.`;
-  if (sketch.drive === null) return "Choose the pin that is driven.";
-  return "";
+export interface Joint {
+  name: string;
+  slides: boolean;
+  first: string;
+  second: string;
+}
+/** The joints at a point: its guide, and a pin between its first body and each other. */
+export function jointsAt(sketch: Sketch, i: number): Joint[] {
+  const [first, ...others] = bodiesAt(sketch, i);
+  const name = pinName(i);
+  return [...(sketch.pins[i].guide === null ? [] : [{ name: `guide ${name}`, slides: true, first: "ground", second: sliderName(i) }]),
+    ...others.map((second, k) => ({ name: k ? `${name} ${k + 1}` : name, slides: false, first, second }))];
+}
+export const jointOf = (sketch: Sketch, { pins, joint }: SketchElement): Joint | undefined => jointsAt(sketch, pins[0])[joint];
+
+/** The two bodies that a gear couples, and the one that carries their axes; null where the points have none. */
+export function wheelsOf(sketch: Sketch, { pins: [i, j] }: SketchElement): { first: string; second: string; carrier: string } | null {
+  const [at, there] = [bodiesAt(sketch, i), bodiesAt(sketch, j)];
+  const carrier = at.find((body) => there.includes(body));
+  const wheel = (bodies: string[]) => bodies.filter((body) => body !== carrier && !body.startsWith("slider")).sort((a, b) => Number(a === "ground") - Number(b === "ground"))[0];
+  const [first, second] = [wheel(at), wheel(there)];
+  return carrier && first && second && first !== second ? { first, second, carrier } : null;
+}
+/** Radii of its pitch circles (mm), negative away from the other centre: their sum is the distance of the centres. */
+export function radiiOf(sketch: Sketch, gear: SketchElement): [number, number] {
+  const [a, b] = gear.pins.map((i) => sketch.pins[i]);
+  const [distance, ratio] = [Math.hypot(b.x - a.x, b.y - a.y), valueOf(sketch, gear, "ratio")];
+  return [(-ratio / (1 - ratio)) * distance, distance / (1 - ratio)];
 }
 
-/** Without a pin, and the links and the drive that were on it; links of one pin go as well. */
-export function withoutPin(sketch: Sketch, i: number): Sketch {
+export const driveOf = ({ elements }: Sketch) => elements.find((e) => e.kind === "drive");
+const distanceOf = ({ pins }: Sketch, [i, j]: number[]) => Math.hypot(pins[i].x - pins[j].x, pins[i].y - pins[j].y);
+
+/** A number of an element: its key in a study, and what it is where nothing else is said. */
+export interface ElementNumber {
+  key: string;
+  label: string;
+  unit: string;
+  start: (sketch: Sketch, element: SketchElement) => number;
+}
+interface Kind {
+  word: string;
+  /** Its table in a study. */
+  table: string;
+  numbers: (sketch: Sketch, element: SketchElement) => ElementNumber[];
+  /** The other lines of its table. */
+  lines: (sketch: Sketch, element: SketchElement) => [string, string][];
+  /** What is wrong with it where it is; "" = nothing. */
+  problem: (sketch: Sketch, element: SketchElement) => string;
+}
+const number = (key: string, label: string, unit: string, start: number): ElementNumber => ({ key, label, unit, start: () => start });
+const point = (sketch: Sketch, i: number) => `${bodyOf(sketch, i)}.${pinName(i)}`;
+const sharedBody = (sketch: Sketch, [i, j]: number[]) => bodiesAt(sketch, i).find((body) => bodiesAt(sketch, j).includes(body));
+
+export const kinds: Record<ElementKind, Kind> = {
+  drive: {
+    word: "drive",
+    table: "drive",
+    numbers: (s, e) => [jointOf(s, e)?.slides ? number("speed_mm_per_s", "speed", "mm/s", 100) : number("speed_rpm", "speed", "rpm", 60)],
+    lines: (s, e) => [["joint", jointOf(s, e)!.name]],
+    problem: (s, e) => (jointOf(s, e) ? "" : "has no second link, slider or ground on its pin"),
+  },
+  gear: {
+    word: "gear",
+    table: "mechanism.joint",
+    numbers: () => [number("ratio", "ratio", "", -1)],
+    lines: (s, e) => Object.entries({ type: "gear", ...wheelsOf(s, e)! }),
+    problem: (s, e) => (!wheelsOf(s, e) ? "needs two pins on one link, or on the ground, each with a link that is its wheel" : valueOf(s, e, "ratio") === 0 ? "has the ratio 0" : ""),
+  },
+  spring: {
+    word: "spring",
+    table: "mechanism.spring",
+    numbers: () => [number("stiffness_N_per_mm", "stiffness", "N/mm", 0), number("damping_N_s_per_m", "damping", "N s/m", 0),
+      { key: "free_length_mm", label: "free length", unit: "mm", start: (s, e) => distanceOf(s, e.pins) }],
+    lines: (s, e) => [["first", point(s, e.pins[0])], ["second", point(s, e.pins[1])]],
+    problem: (s, e) => {
+      const shared = sharedBody(s, e.pins);
+      return shared ? `has both ends on ${shared === "ground" ? "the ground" : shared}, where it does nothing` : distanceOf(s, e.pins) < least ? "has both ends in one place" : "";
+    },
+  },
+  torsion_spring: {
+    word: "torsion spring",
+    table: "mechanism.torsion_spring",
+    numbers: () => [number("stiffness_N_m_per_rad", "stiffness", "N m/rad", 1), number("damping_N_m_s_per_rad", "damping", "N m s/rad", 0), number("free_angle_deg", "free angle", "°", 0)],
+    lines: (s, e) => [["first", jointOf(s, e)!.first], ["second", jointOf(s, e)!.second]],
+    problem: (s, e) => (jointOf(s, e)?.slides === false ? "" : "needs a pin with two bodies that turn against each other"),
+  },
+  force: {
+    word: "force",
+    table: "mechanism.force",
+    numbers: () => [number("x_N", "x", "N", 0), number("y_N", "y", "N", -50)],
+    lines: (s, e) => [["point", point(s, e.pins[0])]],
+    problem: (s, e) => (bodyOf(s, e.pins[0]) === "ground" ? "acts on the ground, where it does nothing" : ""),
+  },
+};
+/** mm: what lies closer is one place in a study. */
+export const least = 1e-3;
+
+export const valueOf = (sketch: Sketch, element: SketchElement, key: string): number =>
+  element.values[key] ?? kinds[element.kind].numbers(sketch, element).find((n) => n.key === key)!.start(sketch, element);
+/** "spring 2"; there is one drive. */
+export function elementName({ elements }: Sketch, element: SketchElement): string {
+  const { word } = kinds[element.kind];
+  return element.kind === "drive" ? word : `${word} ${elements.filter((e) => e.kind === element.kind).indexOf(element) + 1}`;
+}
+
+/** Without a point, and what was on it; links of one point go as well. */
+export function withoutPin({ pins, links, elements }: Sketch, i: number): Sketch {
   const shift = (k: number) => (k > i ? k - 1 : k);
   return {
-    pins: sketch.pins.filter((_, k) => k !== i),
-    links: sketch.links.map((pins) => pins.filter((k) => k !== i).map(shift)).filter((pins) => pins.length > 1),
-    drive: sketch.drive === null || sketch.drive === i ? null : shift(sketch.drive),
+    pins: pins.filter((_, k) => k !== i),
+    links: links.map((on) => on.filter((k) => k !== i).map(shift)).filter((on) => on.length > 1),
+    elements: elements.filter((e) => !e.pins.includes(i)).map((e) => ({ ...e, pins: e.pins.map(shift) })),
   };
 }
 
-const number = (value: number) => String(Number(value.toFixed(4)));
-const place = ({ x, y }: Pin) => `[${number(x)}, ${number(y)}]`;
-const body = (name: string, points: string[]) => `[[mechanism.body]]\nname      = "${name}"\npoints_mm = { ${points.join(", ")} }\n`;
+const digits = (value: number) => String(Number(value.toFixed(4)));
+const place = ({ x, y }: Place) => `[${digits(x)}, ${digits(y)}]`;
+const quoted = (text: string) => `"${text}"`;
+/** A table of a study, its values one below the other. */
+function table(name: string, lines: [string, string][]): string {
+  const width = Math.max(...lines.map(([key]) => key.length));
+  return `[[${name}]]\n${lines.map(([key, value]) => `${key.padEnd(width)} = ${value}\n`).join("")}`;
+}
+function elementTable(sketch: Sketch, element: SketchElement): string {
+  const { table: list, numbers, lines } = kinds[element.kind];
+  const values = numbers(sketch, element).map(({ key }): [string, string] => [key, String(Number(valueOf(sketch, element, key).toPrecision(9)))]);
+  return table(list, [
+    ...(element.kind === "drive" ? [] : [["name", quoted(elementName(sketch, element))] as [string, string]]),
+    ...lines(sketch, element).map(([key, word]): [string, string] => [key, quoted(word)]),
+    ...(element.kind === "force" ? [["force_N", `[${values.map(([, value]) => value).join(", ")}]`] as [string, string]] : values),
+  ]);
+}
 
-/** The study of a sketch of which nothing is missing: its motion over a turn or a stroke. */
+const loads: ElementKind[] = ["spring", "torsion_spring", "force"];
+
+/** The study of a sketch of which nothing is missing: its motion over a turn or a stroke, and the forces of its springs and loads. */
 export function studyOf(sketch: Sketch, title = "My linkage"): string {
-  const { pins, links, drive } = sketch;
-  const point = (i: number) => `${pinName(i)} = ${place(pins[i])}`;
+  const { pins, links, elements } = sketch;
+  const loaded = elements.some((e) => loads.includes(e.kind));
   const all = pins.map((_, i) => i);
-  const parts = [
-    body("ground", all.filter((i) => pins[i].ground || pins[i].guide !== null).map(point)),
-    ...links.map((on, k) => body(linkName(k), on.map(point))),
-    ...all.filter((i) => pins[i].guide !== null).map((i) => body(`slider ${pinName(i)}`, [point(i)])),
-  ];
-  for (const i of all) {
-    const [first, ...others] = bodiesAt(sketch, i);
-    others.forEach((other, k) =>
-      parts.push(`[[mechanism.joint]]\nname   = "${pinName(i)}${k ? ` ${k + 1}` : ""}"\nfirst  = "${first}.${pinName(i)}"\nsecond = "${other}.${pinName(i)}"\n`));
-    if (pins[i].guide !== null)
-      parts.push(`[[mechanism.joint]]\nname          = "guide ${pinName(i)}"\ntype          = "prismatic"\nfirst         = "ground.${pinName(i)}"\nsecond        = "slider ${pinName(i)}.${pinName(i)}"\ndirection_deg = ${number(pins[i].guide!)}\n`);
-  }
-  const traces = all.flatMap((i) => {
-    const on = links.findIndex((l) => l.includes(i));
-    return pins[i].traced && on >= 0 ? [`[[trace]]\npoint = "${linkName(on)}.${pinName(i)}"\n`] : [];
-  });
-  // From the drawn position on: once round, or as far as it assembles to both sides.
-  const guided = drive !== null && pins[drive].guide !== null;
-  const driven = drive === null ? [] : [guided ? `[[drive]]\njoint          = "guide ${pinName(drive)}"\nspeed_mm_per_s = 100.0\n` : `[[drive]]\njoint     = "${pinName(drive)}"\nspeed_rpm = 60.0\n`,
-    `[sweep]\ntype  = "grid"\nrange = "assembled"\n`];
-  return [`schema = 1\nkind   = "analysis"\ntitle  = "${title}"\n\n[mechanism]\ntype  = "planar.linkage"\ndrawn = true\n`, ...parts, ...driven, ...traces,
-    // Nothing that is drawn has a mass.
-    `[output]\nquantities = ["position", "rates", "transmission_angle"]\n`].join("\n");
+  const body = (name: string, on: number[]) => table("mechanism.body", [["name", quoted(name)], ["points_mm", `{ ${on.map((i) => `${pinName(i)} = ${place(pins[i])}`).join(", ")} }`],
+    ...(loaded && name !== "ground" ? [["mass_kg", "0.0"] as [string, string]] : [])]);
+  const joint = (i: number) => ({ name, slides, first, second }: Joint) => table("mechanism.joint", [["name", quoted(name)], ...(slides ? [["type", '"prismatic"'] as [string, string]] : []),
+    ["first", quoted(`${first}.${pinName(i)}`)], ["second", quoted(`${second}.${pinName(i)}`)], ...(slides ? [["direction_deg", digits(pins[i].guide!)] as [string, string]] : [])]);
+  const tables = (chosen: (kind: ElementKind) => boolean) => elements.filter((e) => chosen(e.kind)).map((e) => elementTable(sketch, e));
+  return [`schema = 1\nkind   = "analysis"\ntitle  = "${title}"\n\n[mechanism]\ntype  = "planar.linkage"\ndrawn = true\n`,
+    body("ground", all.filter((i) => pins[i].ground || pins[i].guide !== null)),
+    ...links.map((on, k) => body(linkName(k), on)),
+    ...all.filter((i) => pins[i].guide !== null).map((i) => body(sliderName(i), [i])),
+    ...all.flatMap((i) => jointsAt(sketch, i).map(joint(i))),
+    ...tables((kind) => kind !== "drive"),
+    ...tables((kind) => kind === "drive"),
+    // From the drawn position on: once round, or as far as it assembles to both sides.
+    '[sweep]\ntype  = "grid"\nrange = "assembled"\n',
+    ...all.filter((i) => pins[i].traced && bodyOf(sketch, i) !== "ground").map((i) => table("trace", [["point", quoted(point(sketch, i))]])),
+    // Nothing that is drawn has a mass: forces are those of springs and loads alone.
+    table("output", [["quantities", loaded ? '["position", "rates", "reactions", "drive", "transmission_angle"]' : '["position", "rates", "transmission_angle"]']]).replace("[[output]]", "[output]")].join("\n");
 }
