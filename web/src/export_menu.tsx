@@ -1,9 +1,10 @@
 // What can be taken out of the report at the place where it stands.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
 import { drawingSvg, dxf, png, save, slug } from "./exports";
 import { oneStudy, type Design } from "./data";
 import { fragment } from "./link";
+import { Menu } from "./menu";
 import { pack } from "./packed";
 import { isAssembled } from "./motion";
 import { space, still } from "./space_stage";
@@ -35,22 +36,12 @@ async function copyDesign(design: Design): Promise<string> {
 }
 
 export function ExportMenu() {
-  const box = useRef<HTMLDetailsElement>(null);
   const [said, say] = useState("");
   const [busy, setBusy] = useState(false);
-  useEffect(() => {
-    const outside = (event: PointerEvent) => {
-      if (!box.current?.contains(event.target as Node)) box.current!.open = false;
-    };
-    document.addEventListener("pointerdown", outside);
-    return () => document.removeEventListener("pointerdown", outside);
-  }, []);
   const name = slug(view.title);
   const design = designShown.value;
-  /** Runs a choice; the menu closes, and what went wrong is said beside it. */
+  /** Runs a choice, and what went wrong is said beside the menu. */
   const choose = async (act: () => string | void | Promise<string | void>) => {
-    box.current!.open = false;
-    box.current!.querySelector("summary")!.focus();
     setBusy(true);
     try {
       say((await act()) ?? "");
@@ -65,25 +56,17 @@ export function ExportMenu() {
   return (
     <>
       <span class="said" role="status">{said}</span>
-      <details class="menu" ref={box} onKeyDown={(e) => {
-        if (e.key !== "Escape" || !box.current!.open) return;
-        e.stopPropagation();
-        box.current!.open = false;
-        box.current!.querySelector("summary")!.focus();
-      }}>
-        <summary aria-disabled={busy} onClick={(e) => busy && e.preventDefault()}>Export</summary>
-        <div class="choices">
-          <button type="button" data-export="link" onClick={() => choose(copyLink)}>Copy link to this position</button>
-          <button type="button" class="get" data-download="svg" onClick={() => choose(() => save(`${name}.svg`, svg(), "image/svg+xml"))}>Drawing (SVG)</button>
-          <button type="button" class="get" data-download="png" onClick={() => choose(async () => save(`${name}.png`, await picture()))}>Picture (PNG)</button>
-          <button type="button" class="get" data-download="dxf" onClick={() => choose(() => save(`${name}.dxf`, dxf(scene.value!, sample()), "application/dxf"))}>Drawing (DXF, 1:1 mm)</button>
-          {moves && <button type="button" class="get" data-download="gif" onClick={() => choose(film(gif, "gif"))}>Animation (GIF)</button>}
-          {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
-          {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
-          {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
-          {oneStudy(view) && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
-        </div>
-      </details>
+      <Menu label="Export" busy={busy}>
+        <button type="button" data-export="link" onClick={() => choose(copyLink)}>Copy link to this position</button>
+        <button type="button" class="get" data-download="svg" onClick={() => choose(() => save(`${name}.svg`, svg(), "image/svg+xml"))}>Drawing (SVG)</button>
+        <button type="button" class="get" data-download="png" onClick={() => choose(async () => save(`${name}.png`, await picture()))}>Picture (PNG)</button>
+        <button type="button" class="get" data-download="dxf" onClick={() => choose(() => save(`${name}.dxf`, dxf(scene.value!, sample()), "application/dxf"))}>Drawing (DXF, 1:1 mm)</button>
+        {moves && <button type="button" class="get" data-download="gif" onClick={() => choose(film(gif, "gif"))}>Animation (GIF)</button>}
+        {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
+        {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
+        {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
+        {oneStudy(view) && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
+      </Menu>
     </>
   );
 }

@@ -271,7 +271,11 @@ test("a link holds the study", async () => {
 
 test("the command that is copied runs the study", async () => {
   const { page, close } = await open({ example: "path-gates", permissions: ["clipboard-read", "clipboard-write"] });
-  await page.locator("#copy").selectOption("command line");
+  const copyAs = async (form) => {
+    await page.locator("#copy summary").click();
+    await page.locator(`[data-copy="${form}"]`).click();
+  };
+  await copyAs("command line");
   await until(async () => (await page.locator(".state").innerText()) === "command line copied");
   const copied = await page.evaluate(() => navigator.clipboard.readText());
   const run = spawnSync("sh", ["-c", copied.replace("linkwright run -", '"$0" check -'), program], { cwd: scratch, encoding: "utf8" });
@@ -279,7 +283,7 @@ test("the command that is copied runs the study", async () => {
   // A program in Python has the same text; its module is tested elsewhere.
   const text = await studyText(page);
   await writeText(page, `${text}# """ and a \\ and "`);
-  await page.locator("#copy").selectOption("Python");
+  await copyAs("Python");
   await until(async () => (await page.locator(".state").innerText()) === "Python copied");
   const stub = "import sys, types\nm = types.ModuleType('linkwright')\ndef study(text):\n  sys.stdout.write(text)\n  sys.exit()\nm.Study = study\nsys.modules['linkwright'] = m\nexec(sys.stdin.read())";
   const python = spawnSync("python3", ["-c", stub], { cwd: scratch, encoding: "utf8", input: await page.evaluate(() => navigator.clipboard.readText()) });
@@ -858,6 +862,70 @@ test("the drawing board is worked by keyboard alone", async () => {
   assert.deepEqual((await resultOf(page)).study.mechanism.body[1].points_m, { A: [0, 0], B: [0, 0.04] });
   await page.locator("#undo").click();
   await holds(page, async () => (await studyText(page)) === before);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("menus and tabs are worked by keyboard alone", async () => {
+  const { page, errors, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] });
+  const press = async (...keys) => {
+    for (const key of keys) await page.keyboard.press(key);
+  };
+  const stays = await page.locator("#drawing .pose").getAttribute("data-position");
+  for (const [menu, first, second, last] of [["#copy", "command line", "Python", "C++"], [".machine .menu", "link", "svg", null]]) {
+    const box = page.locator(menu);
+    const isOpen = () => box.evaluate((e) => e.open);
+    await box.locator("summary").focus();
+    // Arrows alone choose nothing.
+    await press("ArrowUp");
+    assert.equal(await isOpen(), false);
+    for (const key of ["Enter", "ArrowDown"]) {
+      await press(key);
+      await until(async () => (await focused(page)) === first);
+      await press("ArrowDown");
+      assert.equal(await focused(page), second);
+      await press("ArrowUp", "ArrowUp");
+      if (last) assert.equal(await focused(page), last);
+      await press("Home");
+      assert.equal(await focused(page), first);
+      await press("Escape");
+      assert.equal(await isOpen(), false);
+      assert.equal(await focused(page), "summary");
+    }
+    // It closes when the focus goes on.
+    await press("Enter");
+    await until(async () => (await focused(page)) === first);
+    await press("End", "Tab");
+    await until(async () => !(await isOpen()));
+    await box.locator("summary").focus();
+    await press("Enter");
+    await until(async () => (await focused(page)) === first);
+  }
+  assert.equal(await page.locator("#drawing .pose").getAttribute("data-position"), stays, "arrows of a menu do not move the mechanism");
+  // Enter runs what has the focus, and the focus comes back.
+  const [file] = await Promise.all([page.waitForEvent("download"), press("ArrowDown", "Enter")]);
+  assert.match(file.suggestedFilename(), /\.svg$/);
+  assert.equal(await focused(page), "summary");
+  await page.locator("#copy summary").focus();
+  await press("Enter");
+  await until(async () => (await focused(page)) === "command line");
+  await press("ArrowDown", "Enter");
+  await until(async () => (await page.locator(".state").innerText()) === "Python copied");
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), /import linkwright/);
+  // What can be added to a table of the study.
+  await writeText(page, spawnSync(program, ["new", "analysis/planar.linkage", "-"], { encoding: "utf8" }).stdout);
+  await settled(page);
+  await page.locator("#tab-text").focus();
+  await press("ArrowLeft");
+  assert.equal(await focused(page), "tab-numbers");
+  await press("Enter");
+  const add = page.locator(".add.menu").first();
+  await add.locator("summary").focus();
+  await press("Enter");
+  await until(async () => (await add.evaluate((e) => e.open)) && (await focused(page)) !== "summary");
+  await press("Escape");
+  assert.equal(await add.evaluate((e) => e.open), false);
+  assert.equal(await focused(page), "summary");
   assert.deepEqual(errors, []);
   await close();
 });

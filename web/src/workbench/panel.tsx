@@ -2,7 +2,9 @@
 import { computed, signal } from "@preact/signals";
 import { Fragment, type JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { moveFocus } from "../controls";
 import type { JsonObject } from "../data";
+import { Menu } from "../menu";
 import { spatial } from "../state";
 import { format, nameOf, unitOf } from "../units";
 import { change, document_ } from "./document";
@@ -107,14 +109,12 @@ function Add({ path }: { path: string }) {
   const more = path ? absent(schema.value, pacedStudy.value!, path) : [];
   if (!more.length) return null;
   return (
-    <select class="add" data-add={path} aria-label={`Add to ${path}`} value="" onChange={(e) => {
-      const found = more.find((m) => m.key === e.currentTarget.value);
-      e.currentTarget.value = "";
-      if (found) edit([{ key: found.key, value: found.start as Edit["value"] }]);
-    }}>
-      <option value="">add …</option>
-      {more.map((m) => <option key={m.key} value={m.key} title={m.rule.help}>{nameOf(m.name)}{m.rule.help && ` – ${m.rule.help}`}</option>)}
-    </select>
+    <Menu kind="add" label="add …" title={`Add to ${path}`}>
+      {more.map((m) => (
+        <button type="button" key={m.key} data-add={m.key} onClick={() => edit([{ key: m.key, value: m.start as Edit["value"] }])}>
+          {nameOf(m.name)}{m.rule.help && <small>{m.rule.help}</small>}
+        </button>))}
+    </Menu>
   );
 }
 
@@ -197,7 +197,7 @@ export function Panel() {
   const errors = diagnostics.value.filter((d) => d.severity === "error").length;
   return (
     <aside class={folded.value ? "panel folded" : "panel"} aria-label="The study">
-      <div class="tabs" role="tablist">
+      <div class="tabs" role="tablist" onKeyDown={(e) => moveFocus(e, "button")}>
         <button type="button" role="tab" id="tab-numbers" aria-selected={tab.value === "numbers" || (tab.value === "points" && !showPoints.value)} onClick={() => turnTo("numbers")}>Numbers</button>
         {showPoints.value && <button type="button" role="tab" id="tab-points" aria-selected={tab.value === "points"} onClick={() => turnTo("points")}>Points</button>}
         <button type="button" role="tab" id="tab-text" aria-selected={tab.value === "text"} onClick={() => turnTo("text")}>

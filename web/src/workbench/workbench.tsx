@@ -3,6 +3,7 @@ import { decompress } from "fzstd";
 import { render } from "preact";
 import { signal } from "@preact/signals";
 import { Switch } from "../controls";
+import { Menu } from "../menu";
 import { bytesOf, inflate } from "../packed";
 import { Report } from "../report";
 import * as state from "../state";
@@ -90,14 +91,9 @@ function Bar() {
       <button type="button" id="redo" disabled={!canRedo.value} title="Redo (Ctrl Y)" onClick={redo}>Redo</button>
       <button type="button" id="compare" aria-pressed={state.behind.value !== null} disabled={!shown.value} title="Keep the curves of now in the diagrams, behind those of what is changed; once more lets them go" onClick={compareWithNow}>Compare</button>
       <button type="button" id="share" title="Copy a link that holds the study" onClick={() => void share()}>Share</button>
-      <select id="copy" value="" aria-label="Copy the study as" title="Copy what runs this study: a command for a terminal, or a program" onChange={(e) => {
-        const form = e.currentTarget.value as keyof typeof copies;
-        e.currentTarget.value = "";
-        void copyAs(form);
-      }}>
-        <option value="" hidden>Copy as</option>
-        {Object.keys(copies).map((form) => <option key={form} value={form}>{form}</option>)}
-      </select>
+      <Menu id="copy" label="Copy as" title="Copy what runs this study: a command for a terminal, or a program">
+        {(Object.keys(copies) as (keyof typeof copies)[]).map((form) => <button type="button" key={form} data-copy={form} onClick={() => void copyAs(form)}>{form}</button>)}
+      </Menu>
       <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text={isPoses(targetKey.value) ? "Add poses" : "Add points"} hint={isPoses(targetKey.value) ? "Press for one more pose, and drag to turn it; Alt and a press on the origin of a pose removes it" : "Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it"} />}</span>
       <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
       <span class="spring" />
