@@ -70,6 +70,15 @@ test("gears take a freedom, and turn links that have one carrier", () => {
   const [first, second] = radiiOf(geared, geared.elements[1]);
   expect([first, second].map((r) => Math.round(r * 1e6) / 1e6)).toEqual([66.666667, 33.333333]);
   expect(studyOf(geared)).toContain('[[mechanism.joint]]\nname    = "gear 1"\ntype    = "gear"\nfirst   = "link 1"\nsecond  = "link 4"\ncarrier = "ground"\nratio   = -2\n');
+  // Where a second link turns on the pin, the same press once more makes it the wheel.
+  const two: Sketch = { pins: [...fiveBar.pins, pinned(-40, 60)], links: [...fiveBar.links, [0, 5]], elements: [] };
+  let s = two;
+  const wheels: string[] = [];
+  for (let k = 0; k < 3; ++k) {
+    s = press(s, "gear", 100, 0, 0).sketch;
+    wheels.push(wheelsOf(s, s.elements[0])!.first);
+  }
+  expect(wheels).toEqual(["link 1", "link 5", "link 1"]);
   // A planet on its arm, round a wheel that is the ground.
   const planet: Sketch = { pins: [pinned(0, 0, { ground: true }), pinned(60, 0), pinned(60, 25, { traced: true })], links: [[0, 1], [1, 2]], elements: [on("drive", [0]), on("gear", [0, 1], { ratio: -3 })] };
   expect([freedom(planet), missing(planet)]).toEqual([1, ""]);

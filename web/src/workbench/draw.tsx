@@ -6,7 +6,7 @@ import { moveFocus } from "../controls";
 import { format } from "../units";
 import { replace } from "./document";
 import { freedom, missing } from "./mobility";
-import { blank, bodiesAt, elementName, jointOf, kinds, pinName, radiiOf, studyOf, valueOf, type Place, type Sketch, type SketchElement } from "./sketch";
+import { blank, bodiesAt, elementName, jointOf, kinds, pinName, radiiOf, studyOf, valueOf, wheelsOf, type Place, type Sketch, type SketchElement } from "./sketch";
 import { cornersOf, gripAt, pinAt, pitchOf, tipOf, tools, withElement, withPin, type Drag, type Press } from "./tools";
 
 export const showDraw = signal(false);
@@ -79,9 +79,10 @@ function Element({ element: e }: { element: SketchElement }) {
   }
   if (e.kind === "gear") {
     const meet = pitchOf(s, e);
+    const wheels = wheelsOf(s, e);
     return (
       <g class="gear" data-element={name}>
-        {radiiOf(s, e).map((r, k) => Number.isFinite(r) && <circle key={k} cx={[a, b][k].x} cy={-[a, b][k].y} r={Math.abs(r)} />)}
+        {radiiOf(s, e).map((r, k) => Number.isFinite(r) && <circle key={k} cx={[a, b][k].x} cy={-[a, b][k].y} r={Math.abs(r)} style={wheels ? { stroke: colourOf([wheels.first, wheels.second][k]) } : undefined} />)}
         <path d={d([a, b])} />
         <circle class="mark" cx={meet.x} cy={-meet.y} r="3" />
         <text x={meet.x + 6} y={-meet.y - 6}>{format(valueOf(s, e, "ratio"), 3)}</text>
@@ -100,6 +101,9 @@ function Element({ element: e }: { element: SketchElement }) {
   );
 }
 
+/** A torsion spring: two turns about its pin. */
+const spiral = d(Array.from({ length: 41 }, (_, k) => ({ x: (6 + k / 5) * Math.cos((k * Math.PI) / 10), y: (6 + k / 5) * Math.sin((k * Math.PI) / 10) })), [{ x: 14, y: 0 }, { x: 20, y: 0 }]);
+
 function PinSign({ i }: { i: number }) {
   const s = sketch.value;
   const p = s.pins[i];
@@ -110,9 +114,9 @@ function PinSign({ i }: { i: number }) {
     <g class={`pin${from.value === i ? " last" : ""}${bodiesAt(s, i).length > 1 || !p.traced ? "" : " tracer"}`} data-pin={pinName(i)} transform={`translate(${p.x} ${-p.y})`}>
       {p.ground && <path class="ground" d="M0 0L-9 13H9ZM-13 13H13M-10 13l-4 5M-4 13l-4 5M2 13l-4 5M8 13l-4 5" />}
       {p.guide !== null && <rect class="block" x="-10" y="-6" width="20" height="12" transform={`rotate(${-p.guide})`} />}
-      {twist && <path class="twist" d="M20 0H13A13 13 0 1 0 0 13A9 9 0 0 0 0 -5" />}
+      {twist && <path class="twist" d={spiral} />}
       <circle r={bodiesAt(s, i).length > 1 ? 4.5 : 3} />
-      {drive && joint?.slides && <path class="drive" transform={`rotate(${-p.guide!})`} d="M-20 -12H20M20 -12l-6 -4M20 -12l-6 4" />}
+      {drive && joint?.slides && <path class="drive" transform={`rotate(${-p.guide!})`} d="M-20 13H20M20 13l-6 -4M20 13l-6 4" />}
       {drive && !joint?.slides && <path class="drive" style={joint && { stroke: colourOf(joint.second) }} d="M12 4A12.6 12.6 0 1 0 -12 4M-12 4l-3 -6M-12 4l5.5 -3" />}
       {p.traced && <circle class="traced" r="8" />}
       <text x="8" y="-8">{pinName(i)}</text>
@@ -289,9 +293,13 @@ export function Draw() {
         </span>
       </div>
       <p class="note hint">{tool.value.hint}</p>
-      <Board />
-      <p class="note" role="status"><span id="draw-said">{lacks || `${freedoms(freedom(sketch.value))}, and it is driven.`}</span>{cursor.value && <span class="cursor-said"> {underCursor()}</span>}</p>
-      <Numbers />
+      <div class="sheet">
+        <div>
+          <Board />
+          <p class="note" role="status"><span id="draw-said">{lacks || `${freedoms(freedom(sketch.value))}, and it is driven.`}</span>{cursor.value && <span class="cursor-said"> {underCursor()}</span>}</p>
+        </div>
+        <Numbers />
+      </div>
     </dialog>
   );
 }

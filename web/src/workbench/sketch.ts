@@ -18,7 +18,7 @@ export type ElementKind = "drive" | "gear" | "spring" | "torsion_spring" | "forc
 export interface SketchElement {
   kind: ElementKind;
   pins: number[];
-  /** Of a drive or torsion spring: which of the joints at its pin. */
+  /** Of a drive or torsion spring: which of the joints at its pin; of a gear: which of the bodies there are its wheels. */
   joint: number;
   /** By the keys that a study has for them; what is left out begins as the kind says. */
   values: Record<string, number>;
@@ -66,13 +66,14 @@ export function jointsAt(sketch: Sketch, i: number): Joint[] {
 }
 export const jointOf = (sketch: Sketch, { pins, joint }: SketchElement): Joint | undefined => jointsAt(sketch, pins[0])[joint];
 
-/** The two bodies that a gear couples, and the one that carries their axes; null where the points have none. */
-export function wheelsOf(sketch: Sketch, { pins: [i, j] }: SketchElement): { first: string; second: string; carrier: string } | null {
+/** The two bodies that a gear couples, and the one that carries their axes; null where the points have none. Where several bodies could be
+ *  the wheel, links come first, and `joint` counts the choices. */
+export function wheelsOf(sketch: Sketch, { pins: [i, j], joint }: SketchElement): { first: string; second: string; carrier: string } | null {
   const [at, there] = [bodiesAt(sketch, i), bodiesAt(sketch, j)];
   const carrier = at.find((body) => there.includes(body));
-  const wheel = (bodies: string[]) => bodies.filter((body) => body !== carrier && !body.startsWith("slider")).sort((a, b) => Number(a === "ground") - Number(b === "ground"))[0];
-  const [first, second] = [wheel(at), wheel(there)];
-  return carrier && first && second && first !== second ? { first, second, carrier } : null;
+  const wheels = (bodies: string[]) => bodies.filter((body) => body !== carrier && !body.startsWith("slider")).sort((a, b) => Number(a === "ground") - Number(b === "ground"));
+  const pairs = wheels(at).flatMap((first) => wheels(there).filter((second) => second !== first).map((second) => ({ first, second })));
+  return carrier && pairs.length ? { ...pairs[joint % pairs.length], carrier } : null;
 }
 /** Radii of its pitch circles (mm), negative away from the other centre: their sum is the distance of the centres. */
 export function radiiOf(sketch: Sketch, gear: SketchElement): [number, number] {

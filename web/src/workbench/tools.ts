@@ -151,7 +151,9 @@ const between = (kind: "spring" | "gear", values: Record<string, number>): Press
   if (from === null) return { sketch: point.sketch, from: point.i };
   const pins = [from, point.i];
   const same = s.elements.findIndex((e) => e.kind === kind && pins.every((i) => e.pins.includes(i)));
-  return { sketch: same < 0 ? added(point.sketch, kind, pins, values) : withElement(s, same, { values: { ...s.elements[same].values, ...values } }), from: null };
+  if (same < 0) return { sketch: added(point.sketch, kind, pins, values), from: null };
+  const { joint, values: before } = s.elements[same];
+  return { sketch: withElement(s, same, { joint: kind === "gear" ? joint + 1 : joint, values: { ...before, ...values } }), from: null };
 };
 /** Points of a link go with it where nothing else holds them. */
 function withoutLink(s: Sketch, k: number): Sketch {
@@ -209,7 +211,7 @@ export const tools: Tool[] = [
   { name: "drive", text: "Drive", group: "Motion", sign: "M7 4A7.8 7.8 0 1 0 -7 4M-7 4l-2.5 -4.5M-7 4l4.5 -2.5", press: onJoint("drive"),
     hint: "Press the pin that is driven: one on the ground, on a guide, or between two links. Where several links meet, press again for the next of them." },
   { name: "gear", text: "Gears", group: "Motion", sign: "M-5 0m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0M5.5 0m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0", press: between("gear", {}),
-    hint: "Press the pins of two wheels, which are on one link or on the ground. The links that turn there become the wheels; Move sets their ratio." },
+    hint: "Press the pins of two wheels, which are on one link or on the ground. The links that turn there become the wheels, where there are several once more for the next; Move sets their ratio." },
   { name: "trace", text: "Trace", group: "Motion", sign: "M-10 5C-8 -9 6 -9 10 1M10 1m-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0", press: pressTrace,
     hint: "Press a pin, or any place of a link, to see its path; press again to leave it out." },
   { name: "spring", text: "Spring", group: "Loads", sign: "M-12 0H-8L-6 -5L-2 5L2 -5L6 5L8 0H12", press: between("spring", { stiffness_N_per_mm: 1 }),
