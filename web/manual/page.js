@@ -44,12 +44,20 @@
     found.append(said, list);
   }
   box.addEventListener("input", search);
-  box.addEventListener("keydown", (event) => {
+  // Arrows go down to what is found and up again, Enter opens it, Escape leads back to an empty search.
+  function onKey(event) {
+    const all = [box, ...found.querySelectorAll("a")];
+    const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (event.key === "Escape") {
       box.value = "";
       search();
-    } else if (event.key === "Enter") found.querySelector("a")?.click();
-  });
+      box.focus();
+    } else if (event.key === "Enter" && event.target === box) all[1]?.click();
+    else if (way) all[Math.min(all.length - 1, Math.max(0, all.indexOf(event.target) + way))].focus();
+    else return;
+    event.preventDefault();
+  }
+  for (const part of [box, found]) part.addEventListener("keydown", onKey);
   document.addEventListener("keydown", (event) => {
     if (event.key !== "/" || event.target instanceof HTMLInputElement) return;
     event.preventDefault();

@@ -2,7 +2,7 @@
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { hasResult, isObject, resultText, type Change, type Design, type Fact, type Json, type JsonObject, type Num } from "./data";
-import { Copy } from "./controls";
+import { Copy, moveFocus } from "./controls";
 import { save, targetTable } from "./exports";
 import { Masonry } from "./masonry";
 import { positionOfTurn } from "./motion";
@@ -155,7 +155,7 @@ export function SolutionPicker() {
   return (
     <div class="card side">
       <h2>{choices.length} {result.solutions.length && !others.length ? "solutions" : result.solutions.length ? "designs" : "scenes"}</h2>
-      <div class="picker" role="radiogroup" aria-label="Solution shown">
+      <div class="picker" role="radiogroup" aria-label="Solution shown" onKeyDown={(e) => ["ArrowUp", "ArrowDown"].includes(e.key) && moveFocus(e, "button:not(:disabled)")}>
         {choices.map((c) => (
           <button type="button" role="radio" aria-checked={c.scene === sceneIndex.value} disabled={c.scene < 0} data-solution={c.i} onClick={() => showScene(c.scene)}>
             <b>{c.i + 1}</b><span>{c.label}<small>{c.note}{c.defects.length > 0 && <em> · {c.defects.join(", ")}</em>}</small></span>

@@ -170,6 +170,30 @@ test("a joint can be dragged along its motion", async () => {
   await close();
 });
 
+test("solutions and exports are chosen by keyboard", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce" });
+  const focused = () => page.evaluate(() => document.activeElement.dataset.solution ?? document.activeElement.dataset.export ?? document.activeElement.tagName);
+  await page.locator('[data-solution="0"]').focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("ArrowDown");
+  await equal(focused, "2");
+  await page.keyboard.press("ArrowUp");
+  await equal(focused, "1");
+  await page.keyboard.press("Enter");
+  await equal(() => page.locator('[data-solution="1"]').getAttribute("aria-checked"), "true");
+  await page.locator(".menu summary").focus();
+  await page.keyboard.press("Enter");
+  await equal(focused, "link");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("ArrowDown");
+  await equal(focused, "link");
+  await page.keyboard.press("Escape");
+  await equal(focused, "SUMMARY");
+  await equal(() => page.locator(".menu").evaluate((e) => e.open), false);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("another solution can be shown; what does not assemble is hatched", async () => {
   const { page, errors, close } = await open("report.html");
   await equal(() => page.locator(".gap").count(), 0);

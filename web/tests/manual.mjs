@@ -88,6 +88,21 @@ test("search finds keys, words and nothing, without a network", async () => {
   assert.ok((await page.locator("#found a").evaluateAll((links) => links.map((l) => l.getAttribute("href")))).some((href) => /messages\.html#error-/.test(href)));
   await page.locator("#search").fill("nosuchwordanywhere");
   assert.match(await page.locator("#found").innerText(), /Nothing has all of/);
+  // Arrows go along what is found, Escape leads back.
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.getAttribute("href"));
+  await page.locator("#search").fill("jacobian");
+  const [first, second] = await page.locator("#found a").evaluateAll((links) => links.map((l) => l.getAttribute("href")));
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await focused(), first);
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await focused(), second);
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("ArrowUp");
+  assert.equal(await focused(), "search");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Escape");
+  assert.equal(await focused(), "search");
+  assert.equal(await page.locator("#found a").count(), 0);
   await page.locator("#search").fill("jacobian");
   await page.locator("#search").press("Enter");
   await page.waitForURL((url) => !url.href.endsWith("index.html"));
