@@ -7,7 +7,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { missing } from "../src/workbench/mobility.ts";
-import { bodiesAt, studyOf, withoutPin } from "../src/workbench/sketch.ts";
+import { bodiesAt, kinds, studyOf } from "../src/workbench/sketch.ts";
 import { tools } from "../src/workbench/tools.ts";
 
 const [program, count = "300", seed = "1"] = process.argv.slice(2);
@@ -44,7 +44,6 @@ function board() {
       const share = 0.3 + 0.4 * random();
       return { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
     },
-    clear: () => (now = { sketch: withoutPin(now.sketch, now.sketch.pins.length - 1), from: null }),
   };
 }
 function chain(b, ...places) {
@@ -85,7 +84,9 @@ function linkage() {
     if (["spring", "damper", "gear", "link"].includes(tool)) b.press(tool, b.drawn());
     b.lift();
   }
-  return b.sketch;
+  // Numbers as they may be typed.
+  const typed = (least) => pick([0, 1, 1e-3, 20 * random(), least < 0 ? -20 * random() : 1000 * random(), 1e6]);
+  return { ...b.sketch, elements: b.sketch.elements.map((e) => ({ ...e, values: { ...e.values, ...Object.fromEntries(kinds[e.kind].numbers(b.sketch, e).filter(() => random() < 0.3).map(({ key, least }) => [key, typed(least)])) } })) };
 }
 
 const folder = mkdtempSync(join(tmpdir(), "linkwright-sketches-"));

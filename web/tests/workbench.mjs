@@ -748,8 +748,11 @@ test("a place on a link is traced, and springs, loads and gears are drawn", asyn
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => globalThis.axe.run(document.querySelector(".draw")));
   assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), []);
-  // Numbers of what is drawn are typed.
+  // Numbers of what is drawn are typed; one that cannot be is left as it was.
   await page.locator(".sketch-numbers summary").click();
+  await page.locator('[data-number="spring 1.stiffness"]').fill("-3");
+  await page.locator('[data-number="spring 1.stiffness"]').press("Tab");
+  assert.equal(await page.locator('[data-number="spring 1.stiffness"]').inputValue(), "1");
   for (const [name, value] of [["spring 1.stiffness", "0"], ["spring 1.damping", "0"], ["torsion spring 1.stiffness", "0"], ["gear 1.ratio", "-2"]]) {
     await page.locator(`[data-number="${name}"]`).fill(value);
     await page.locator(`[data-number="${name}"]`).press("Tab");
@@ -984,6 +987,12 @@ test("a finger on a phone means the pin beside it", async () => {
   await tap(-100, 0, 40);
   assert.equal(await page.locator("#board .ground").count(), 1, "what is further away is none");
   assert.equal(await page.locator("#board .pin").count(), 2);
+  // And the link beside it, of which it traces a place.
+  await page.locator('[data-tool="trace"]').tap();
+  await tap(-70, 40, 14);
+  await until(async () => (await page.locator('#board [data-pin="C"] .traced').count()) === 1);
+  await tap(-70, 40, 60);
+  assert.equal(await page.locator("#board .traced").count(), 1);
   assert.deepEqual(errors, []);
   await close();
 });

@@ -6,7 +6,7 @@ import { moveFocus } from "../controls";
 import { format } from "../units";
 import { replace } from "./document";
 import { freedom, missing } from "./mobility";
-import { blank, bodiesAt, elementName, jointOf, kinds, pinName, radiiOf, studyOf, valueOf, wheelsOf, type Place, type Sketch, type SketchElement } from "./sketch";
+import { blank, bodiesAt, elementName, jointOf, kinds, most, pinName, radiiOf, studyOf, valueOf, wheelsOf, type Place, type Sketch, type SketchElement } from "./sketch";
 import { cornersOf, gripAt, pinAt, pitchOf, tipOf, tools, withElement, withPin, type Drag, type Press } from "./tools";
 
 export const showDraw = signal(false);
@@ -183,13 +183,14 @@ function Board() {
   );
 }
 
-function NumberField({ label, name, value, unit, set: to }: { label: string; name: string; value: number; unit: string; set: (value: number) => void }) {
+function NumberField({ label, name, value, unit, least = -most, set: to }: { label: string; name: string; value: number; unit: string; least?: number; set: (value: number) => void }) {
   return (
     <label class="number">
       <span class="label">{label}</span>
       <input type="number" step="any" value={Number(value.toFixed(4))} data-number={name} aria-label={`${label} of ${name.split(".")[0]}`} onChange={(e) => {
         const typed = Number(e.currentTarget.value);
-        if (e.currentTarget.value !== "" && Number.isFinite(typed)) to(typed);
+        if (e.currentTarget.value !== "" && typed >= least && typed <= most) to(typed);
+        else e.currentTarget.value = String(value); // what it was
       }} />
       <em>{unit}</em>
     </label>
@@ -199,17 +200,18 @@ function NumberField({ label, name, value, unit, set: to }: { label: string; nam
 /** The same by keyboard: where the points are, and the numbers of what is on them. */
 function Numbers() {
   const s = sketch.value;
-  if (!s.pins.length) return null;
+  // It is there from the start: the board must not move under the hand.
   return (
     <details class="sketch-numbers">
       <summary>Numbers</summary>
+      {!s.pins.length && <p class="note">Nothing is drawn yet.</p>}
       {s.elements.map((e, k) => {
         const name = elementName(s, e);
         return (
           <fieldset key={`e${k}`}>
             <legend>{`${name}, ${e.kind === "drive" ? (jointOf(s, e)?.name ?? pinName(e.pins[0])) : e.pins.map(pinName).join("–")}`}</legend>
-            {kinds[e.kind].numbers(s, e).map(({ key, label, unit }) => (
-              <NumberField key={key} label={label} name={`${name}.${label}`} unit={unit} value={valueOf(s, e, key)} set={(value) => set(withElement(sketch.value, k, { values: { ...e.values, [key]: value } }))} />))}
+            {kinds[e.kind].numbers(s, e).map(({ key, label, unit, least }) => (
+              <NumberField key={key} label={label} name={`${name}.${label}`} unit={unit} least={least} value={valueOf(s, e, key)} set={(value) => set(withElement(sketch.value, k, { values: { ...e.values, [key]: value } }))} />))}
             <button type="button" onClick={() => set(withElement(sketch.value, k, null))}>Remove</button>
           </fieldset>
         );

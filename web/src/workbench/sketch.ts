@@ -85,13 +85,16 @@ export function radiiOf(sketch: Sketch, gear: SketchElement): [number, number] {
 export const driveOf = ({ elements }: Sketch) => elements.find((e) => e.kind === "drive");
 const distanceOf = ({ pins }: Sketch, [i, j]: number[]) => Math.hypot(pins[i].x - pins[j].x, pins[i].y - pins[j].y);
 
-/** A number of an element: its key in a study, and what it is where nothing else is said. */
+/** A number of an element: its key in a study, between what it may lie, and what it is where nothing else is said. */
 export interface ElementNumber {
   key: string;
   label: string;
   unit: string;
+  least: number;
   start: (sketch: Sketch, element: SketchElement) => number;
 }
+/** No number that is typed may be larger. */
+export const most = 1e6;
 interface Kind {
   word: string;
   /** Its table in a study. */
@@ -102,7 +105,8 @@ interface Kind {
   /** What is wrong with it where it is; "" = nothing. */
   problem: (sketch: Sketch, element: SketchElement) => string;
 }
-const number = (key: string, label: string, unit: string, start: number): ElementNumber => ({ key, label, unit, start: () => start });
+const number = (key: string, label: string, unit: string, start: number | ElementNumber["start"], least = -most): ElementNumber =>
+  ({ key, label, unit, least, start: typeof start === "number" ? () => start : start });
 const point = (sketch: Sketch, i: number) => `${bodyOf(sketch, i)}.${pinName(i)}`;
 const sharedBody = (sketch: Sketch, [i, j]: number[]) => bodiesAt(sketch, i).find((body) => bodiesAt(sketch, j).includes(body));
 
@@ -124,8 +128,8 @@ export const kinds: Record<ElementKind, Kind> = {
   spring: {
     word: "spring",
     table: "mechanism.spring",
-    numbers: () => [number("stiffness_N_per_mm", "stiffness", "N/mm", 0), number("damping_N_s_per_m", "damping", "N s/m", 0),
-      { key: "free_length_mm", label: "free length", unit: "mm", start: (s, e) => distanceOf(s, e.pins) }],
+    numbers: () => [number("stiffness_N_per_mm", "stiffness", "N/mm", 0, 0), number("damping_N_s_per_m", "damping", "N s/m", 0, 0),
+      number("free_length_mm", "free length", "mm", (s, e) => distanceOf(s, e.pins), 0)],
     lines: (s, e) => [["first", point(s, e.pins[0])], ["second", point(s, e.pins[1])]],
     problem: (s, e) => {
       const shared = sharedBody(s, e.pins);
@@ -135,7 +139,7 @@ export const kinds: Record<ElementKind, Kind> = {
   torsion_spring: {
     word: "torsion spring",
     table: "mechanism.torsion_spring",
-    numbers: () => [number("stiffness_N_m_per_rad", "stiffness", "N m/rad", 1), number("damping_N_m_s_per_rad", "damping", "N m s/rad", 0), number("free_angle_deg", "free angle", "°", 0)],
+    numbers: () => [number("stiffness_N_m_per_rad", "stiffness", "N m/rad", 1, 0), number("damping_N_m_s_per_rad", "damping", "N m s/rad", 0, 0), number("free_angle_deg", "free angle", "°", 0)],
     lines: (s, e) => [["first", jointOf(s, e)!.first], ["second", jointOf(s, e)!.second]],
     problem: (s, e) => (jointOf(s, e)?.slides === false ? "" : "needs a pin with two bodies that turn against each other"),
   },
