@@ -21,9 +21,11 @@ using test::prepare;
 using test::problems_of;
 using test::replaced;
 using test::run_text;
+using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 const char* const four_bar_text = R"(schema = 1
 kind = "analysis"
@@ -425,6 +427,17 @@ TEST(LinkageStudy, RemarksOnADrawingThatIsNotCalledOne) {
   said.clear();
   EXPECT_TRUE(test::prepare(replaced(body, "DRAWN", "drawn = true\n"), said)) << said;
   EXPECT_THAT(said, ::testing::Not(HasSubstr("coincide")));
+}
+
+TEST(LinkageStudy, TellsTheInertiaThatItAssumesOfBodiesWithAMass) {
+  const std::string assumed =
+      replaced(replaced(four_bar_text, "inertia_kg_m2 = 4.13e-4\n", ""), "inertia_kg_m2 = 9.85e-3\n", "");
+  constexpr const char* label = "inertia of uniform bars and plates, where left out";
+  EXPECT_THAT(test::fact(run_text(assumed), label),
+              AllOf(StartsWith("crank 0.0003 kg m²"), HasSubstr("; rocker 0.0089259 kg m²")));
+  // A body without mass has no inertia to tell of.
+  EXPECT_THAT(test::fact(run_text(replaced(assumed, "mass_kg = 0.36", "mass_kg = 0")), label),
+              StartsWith("rocker"));
 }
 
 TEST(LinkageStudy, PlaysTheMotionAsTheDriveRuns) {

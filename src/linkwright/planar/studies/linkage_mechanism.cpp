@@ -299,7 +299,7 @@ void tell_assumed_masses(const Linkage& l, study::Result& result) {
   Sentence text;
   std::size_t told = 0, more = 0;
   for (const LinkageBody& b : l.bodies) {
-    if (!b.mass || !b.mass->assumed) continue;
+    if (!b.mass || !b.mass->assumed || b.mass->mass == 0) continue;
     if (told == most) {
       ++more;
       continue;
