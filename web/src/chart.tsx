@@ -396,6 +396,7 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
     const stop = effect(() => {
       state.position.value;
       state.row.value;
+      state.playing.value; // at rest it is right out of sight, too
       update();
     });
     const stopMark = effect(() => {

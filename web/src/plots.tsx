@@ -225,7 +225,8 @@ function Diagram({ plot, table }: { plot: Plot; table: Table }) {
   return plot.group || plot.bands?.length || plot.baseline || behindOf(table) ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />;
 }
 
-/** A diagram in a card. Out of sight, as most are, it is not drawn anew before it comes into sight. */
+/** A diagram in a card. Out of sight, as most are, it is not drawn anew before it comes into sight; until then it is there for nobody, for
+ *  what it says is of the study before. */
 function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
   const card = useRef<HTMLDivElement>(null);
   const inSight = useRef(true);
@@ -245,12 +246,12 @@ function DiagramCard({ plot, table }: { plot: Plot; table: Table }) {
   return (
     <div class="card plot" data-plot={plot.name} ref={card}>
       <h3 title={plot.style === "map" ? mapHint : gestureHint}>{plot.title}</h3>
-      {drawn.current}
+      <div style={{ visibility: stale.current ? "hidden" : undefined }}>{drawn.current}</div>
     </div>
   );
 }
 
-const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot, table }) => <DiagramCard key={`${plot.name}/${plot.scene}`} plot={plot} table={table} />)}</>;
+const Cards = ({ plots }: { plots: Plot[] }) => <>{withTable(plots).map(({ plot, table }) => <DiagramCard key={`${state.subject} ${plot.name}/${plot.scene}`} plot={plot} table={table} />)}</>;
 
 /** Plots over the input of the scene that is shown. */
 export function Plots() {

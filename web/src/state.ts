@@ -9,6 +9,8 @@ import { readLog, type Run } from "./log";
 export let view: View;
 export let result: Result;
 export let runs: Run[];
+/** Counts the subjects that there have been: what is of one is not gone on with for another. */
+export let subject = 0;
 /** There are scenes, and nothing of them exists: the mechanism assembles nowhere. */
 export let nowhere = false;
 export let reason: Result["diagnostics"][number] | undefined;
@@ -67,6 +69,7 @@ export function load(carried: Carried, same = false): void {
     const before = whole.peek();
     revision.value++;
     if (!same) {
+      ++subject;
       crowded = view.scenes.some((s) => isSpatial(s)) ? 12 : 24;
       showLabels.value = (view.scenes[0]?.joints.length ?? 0) <= crowded;
       const forces = view.scenes.some((s) => s.moments.length > 0 || s.vectors.some((v) => v.quantity === "force"));
