@@ -40,13 +40,20 @@ TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
 }
 
 TEST(Catalogue, EveryKindHasAGroup) {
-  EXPECT_EQ(group_of("balancing", "planar.four_bar"), "Balancing");
-  EXPECT_EQ(group_of("analysis", "suspension.corner"), "Wheel suspensions");
-  EXPECT_EQ(group_of("analysis", "sample.wheel"), "Other studies");
-  EXPECT_LT(place_of_group("Balancing"), place_of_group("Wheel suspensions"));
+  EXPECT_EQ(group_of("analysis", "planar.linkage", ""), "Find motion and forces");
+  EXPECT_EQ(group_of("analysis", "planar.serial_arm", ""), "Robots and Pi-joints");
+  EXPECT_EQ(group_of("balancing", "planar.four_bar", ""), "Balance a machine");
+  EXPECT_EQ(group_of("synthesis", "planar.slider_crank", "path_points"), "Follow a path");
+  EXPECT_EQ(group_of("synthesis", "planar.four_bar", "poses"), "Guide a body");
+  EXPECT_EQ(group_of("synthesis", "planar.six_bar", "dwell"), "Generate a function");
+  EXPECT_EQ(group_of("analysis", "suspension.corner", ""), "Wheel suspensions");
+  EXPECT_EQ(group_of("analysis", "sample.wheel", ""), "Other studies");
+  EXPECT_EQ(place_of_group(well_known), 0u);
+  EXPECT_LT(place_of_group("Find motion and forces"), place_of_group("Follow a path"));
+  EXPECT_LT(place_of_group("Balance a machine"), place_of_group("Wheel suspensions"));
   EXPECT_LT(place_of_group("Flexible links"), place_of_group("Other studies"));
   for (const study::Kind& kind : catalogue())
-    EXPECT_NE(group_of(kind.kind, kind.mechanism), "Other studies") << study::name_of(kind);
+    EXPECT_NE(group_of(kind.kind, kind.mechanism, kind.target), "Other studies") << study::name_of(kind);
 }
 
 TEST(Catalogue, ListsHoldEveryWordWhateverItsCase) {

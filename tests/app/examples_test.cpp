@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace linkwright::app {
 namespace {
@@ -31,6 +34,25 @@ TEST(Examples, AreTheFilesOfTheRepository) {
     EXPECT_FALSE(example.title.empty()) << example.name;
     EXPECT_NE(example.group, "Other studies") << example.name;
   }
+}
+
+TEST(Examples, BeginWithADozenMachinesThatEverybodyKnows) {
+  std::vector<std::string> first;
+  std::set<std::string> closed;
+  std::string group;
+  for (const Example& example : examples()) {
+    if (example.group != group) {
+      EXPECT_TRUE(closed.insert(group).second) << group << " stands twice";
+    }
+    group = example.group;
+    if (group == "Well-known machines") first.push_back(example.name);
+  }
+  EXPECT_EQ(examples()[0].name, "fourbar-reactions");
+  EXPECT_EQ(examples()[0].group, "Well-known machines");
+  EXPECT_GE(first.size(), 12u);
+  EXPECT_LE(first.size(), 15u);
+  for (const char* name : {"engine-slider-crank", "hoeken", "jansen-leg", "toggle-press", "sweep"})
+    EXPECT_NE(std::find(first.begin(), first.end(), name), first.end()) << name;
 }
 
 TEST(Examples, CarryTheFilesThatTheyRead) {

@@ -51,8 +51,8 @@ TEST_F(Lists, CatalogueInGroupsFilteredAndForMachines) {
 
 TEST_F(RealLists, TheCatalogueIsInUsersWords) {
   EXPECT_EQ(run({"catalogue"}), 0);
-  for (const char* group : {"Synthesis of linkages\n", "\nBalancing\n", "\nWheel suspensions\n",
-                            "\nParallel robots and Pi-joints\n", "\nFlexible links\n"})
+  for (const char* group : {"Find motion and forces\n", "\nFollow a path\n", "\nBalance a machine\n",
+                            "\nWheel suspensions\n", "\nRobots and Pi-joints\n", "\nFlexible links\n"})
     EXPECT_THAT(out_, HasSubstr(group));
 }
 
@@ -131,9 +131,9 @@ TEST_F(RealLists, TablesAtOnceAreShownInTheirOrder) {
 TEST_F(RealLists, ExamplesByPartAndCopied) {
   EXPECT_EQ(run({"examples", "hoek"}), 0);
   EXPECT_EQ(out_,
-            "Linkages: motion and forces\n"
+            "Well-known machines\n"
             "  hoeken             Hoeken straight-line linkage\n"
-            "\nJoint clearance and tolerances\n"
+            "\nReal joints: clearance and tolerances\n"
             "  tolerances-hoeken  Hoeken's straight line with joint clearances\n"
             "\nTo try one: linkwright examples --copy NAME\n");
   EXPECT_EQ(run({"examples", "--copy", "bump", "new/folder"}), 0) << err_;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -28,25 +28,38 @@ namespace {
 
 using Kinds = std::vector<study::Kind>;
 
-/// In the order of lists; of a kind and mechanism, the first that fits counts.
+// What users want to do, in the order of lists.
+constexpr std::string_view find_motion = "Find motion and forces", follow_path = "Follow a path",
+                           guide_body = "Guide a body", generate_function = "Generate a function",
+                           balance = "Balance a machine", suspensions = "Wheel suspensions",
+                           robots = "Robots and Pi-joints",
+                           real_joints = "Real joints: clearance and tolerances",
+                           flexible_links = "Flexible links", parameter_studies = "Parameter studies",
+                           no_group = "Other studies";
+constexpr std::array titles{well_known,        find_motion,    follow_path,       guide_body,
+                            generate_function, balance,        suspensions,       robots,
+                            real_joints,       flexible_links, parameter_studies, no_group};
+
+/// Of a study, the first that fits counts.
 struct Group {
   std::string_view kind;       ///< empty = any
   std::string_view mechanism;  ///< its beginning
+  std::string_view target;     ///< empty = any
   std::string_view title;
 };
 constexpr Group groups[] = {
-    {"synthesis", "planar.", "Synthesis of linkages"},
-    {"analysis", "planar.", "Linkages: motion and forces"},
-    {"simulation", "planar.", "Linkages that move under forces"},
-    {"speed_fluctuation", "planar.", "Linkages that move under forces"},
-    {"balancing", "planar.", "Balancing"},
-    {"", "suspension.", "Wheel suspensions"},
-    {"", "parallel.", "Parallel robots and Pi-joints"},
-    {"", "clearance.", "Joint clearance and tolerances"},
-    {"", "flexible.", "Flexible links"},
-    {"sweep", "", "Parameter studies"},
+    {"synthesis", "planar.", "path_points", follow_path},
+    {"synthesis", "planar.", "poses", guide_body},
+    {"synthesis", "planar.", "", generate_function},
+    {"balancing", "planar.", "", balance},
+    {"analysis", "planar.serial_arm", "", robots},
+    {"", "planar.", "", find_motion},
+    {"", "suspension.", "", suspensions},
+    {"", "parallel.", "", robots},
+    {"", "clearance.", "", real_joints},
+    {"", "flexible.", "", flexible_links},
+    {"sweep", "", "", parameter_studies},
 };
-constexpr std::string_view no_group = "Other studies";
 
 std::string lower_case(std::string_view text) {
   std::string out(text);
@@ -71,17 +84,16 @@ std::span<const study::Kind> catalogue() {
   return kinds;
 }
 
-std::string_view group_of(std::string_view kind, std::string_view mechanism) {
+std::string_view group_of(std::string_view kind, std::string_view mechanism, std::string_view target) {
   for (const Group& group : groups)
-    if ((group.kind.empty() || group.kind == kind) && mechanism.starts_with(group.mechanism))
+    if ((group.kind.empty() || group.kind == kind) && mechanism.starts_with(group.mechanism) &&
+        (group.target.empty() || group.target == target))
       return group.title;
   return no_group;
 }
 
 std::size_t place_of_group(std::string_view title) {
-  const auto* place = std::find_if(std::begin(groups), std::end(groups),
-                                   [&](const Group& group) { return group.title == title; });
-  return static_cast<std::size_t>(place - std::begin(groups));
+  return static_cast<std::size_t>(std::find(titles.begin(), titles.end(), title) - titles.begin());
 }
 
 bool holds_words(std::span<const std::string> words, std::initializer_list<std::string_view> texts) {

@@ -15,8 +15,10 @@ namespace linkwright::app {
 /// Every kind of study that this program can run: the one list of all domains' kinds.
 std::span<const study::Kind> catalogue();
 
-/// What users call the studies of a kind and a mechanism: "Wheel suspensions".
-std::string_view group_of(std::string_view kind, std::string_view mechanism);
+/// What users want from the studies of a kind, a mechanism and a target: "Follow a path".
+std::string_view group_of(std::string_view kind, std::string_view mechanism, std::string_view target);
+/// The first group: a dozen examples that everybody knows, whatever kind they are of.
+inline constexpr std::string_view well_known = "Well-known machines";
 /// Where a group stands in lists.
 std::size_t place_of_group(std::string_view group);
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/study/read.h"
@@ -16,6 +17,27 @@ namespace {
 std::string_view folder_of(std::string_view path) { return path.substr(0, path.rfind('/') + 1); }
 std::string_view file_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
+/// Machines that everybody knows, in the order of lists.
+constexpr std::string_view known_machines[] = {"fourbar-reactions",
+                                               "engine-slider-crank",
+                                               "whitworth-quick-return",
+                                               "scotch-yoke",
+                                               "toggle-press",
+                                               "pantograph",
+                                               "hoeken",
+                                               "peaucellier",
+                                               "jansen-leg",
+                                               "klann-leg",
+                                               "excavator",
+                                               "scissor-lift",
+                                               "sweep",
+                                               "packing-line"};
+
+std::size_t place_among_known(std::string_view name) {
+  return static_cast<std::size_t>(std::find(std::begin(known_machines), std::end(known_machines), name) -
+                                  std::begin(known_machines));
+}
+
 /// A text of a document; empty if it has none.
 std::string text_at(const Value* value) { return value && value->is_string() ? value->as_string() : ""; }
 
@@ -23,15 +45,21 @@ Example example_of(const EmbeddedFile& file) {
   Diagnostics diagnostics;
   const Value document =
       study::read_text(file.text, study::Syntax::toml, std::string(file.path), diagnostics);
-  const Value* mechanism = document.find("mechanism");
+  const auto type_of = [&](std::string_view table) {
+    const Value* found = document.find(table);
+    return found ? text_at(found->find("type")) : std::string();
+  };
   std::string_view name = file_of(file.path);
   name.remove_suffix(std::string_view(".toml").size());
-  Example example{std::string(name),
-                  text_at(document.find("title")),
-                  std::string(group_of(text_at(document.find("kind")),
-                                       mechanism ? text_at(mechanism->find("type")) : "")),
-                  file.text,
-                  {}};
+  const bool known = place_among_known(name) < std::size(known_machines);
+  Example example{
+      std::string(name),
+      text_at(document.find("title")),
+      std::string(known ? well_known
+                        : group_of(text_at(document.find("kind")), type_of("mechanism"), type_of("target"))),
+      {},
+      file.text,
+      {}};
   // A study names what it reads as a text of its own, and so do the studies that it names.
   std::vector<std::string_view> texts{file.text};
   for (std::size_t i = 0; i < texts.size(); ++i)
@@ -56,7 +84,10 @@ std::span<const Example> examples() {
     for (const EmbeddedFile& file : example_files())
       if (file.path.ends_with(".toml")) found.push_back(example_of(file));
     std::stable_sort(found.begin(), found.end(), [](const Example& a, const Example& b) {
-      return place_of_group(a.group) < place_of_group(b.group);
+      const auto place = [](const Example& e) {
+        return std::pair(place_of_group(e.group), place_among_known(e.name));
+      };
+      return place(a) < place(b);
     });
     return found;
   }();

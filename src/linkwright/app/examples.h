@@ -21,12 +21,13 @@ std::span<const EmbeddedFile> example_files();
 struct Example {
   std::string name;   ///< "hoeken"; no other example has it
   std::string title;  ///< of the study
-  std::string group;  ///< group_of its kind
+  std::string group;  ///< group_of its kind, or well_known
+  std::string words;  ///< further words by which it is found
   std::string_view text;
   std::vector<EmbeddedFile> beside;  ///< the files that it reads, under their names alone
 };
 
-/// All examples, group by group.
+/// All examples, group by group, the well-known ones first.
 std::span<const Example> examples();
 
 /// The example of that name, or those whose name or title holds it, whatever its case; all for an empty text.

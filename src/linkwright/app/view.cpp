@@ -143,7 +143,7 @@ Value catalogue_document() {
     Value v = Value::object();
     v["name"] = study::name_of(kind);
     v["summary"] = kind.summary;
-    v["group"] = group_of(kind.kind, kind.mechanism);
+    v["group"] = group_of(kind.kind, kind.mechanism, kind.target);
     v["template"] = kind.example;
     out["kinds"].push_back(std::move(v));
   }
@@ -153,6 +153,7 @@ Value catalogue_document() {
     v["name"] = example.name;
     v["title"] = example.title;
     v["group"] = example.group;
+    v["words"] = example.words;
     v["text"] = example.text;
     v["beside"] = Value::object();
     for (const EmbeddedFile& file : example.beside) v["beside"][file.path] = file.text;

@@ -46,7 +46,7 @@ View run_text(std::string_view text, std::string_view edits, const std::string& 
               Sharing sharing = {});
 
 /// What there is to begin with: `version`, `kinds` (name, summary, group), `examples` (name, title, group,
-/// text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).
+/// words, text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).
 Value catalogue_document();
 
 /// The JSON Schema of the studies of a kind, "analysis/planar.four_bar"; null when there is no such kind.

@@ -228,7 +228,7 @@ int list_catalogue(const Arguments& arguments, std::span<const study::Kind> kind
   std::vector<Entry> entries;
   Value::Array json;
   for (const study::Kind& kind : kinds) {
-    const std::string group(app::group_of(kind.kind, kind.mechanism)), name = name_of(kind);
+    const std::string group(app::group_of(kind.kind, kind.mechanism, kind.target)), name = name_of(kind);
     if (!app::holds_words(arguments.words, {group, name, kind.summary})) continue;
     entries.push_back({group, name, kind.summary});
     Value one;

@@ -30,6 +30,7 @@ export interface Example {
   name: string;
   title: string;
   group: string;
+  words: string; // further ones by which it is found
   text: string;
   beside: Record<string, string>;
 }
