@@ -2,7 +2,8 @@
 //   node workbench.mjs SCRIPTS_FOLDER OUT.html ENGINE_FOLDER    one page with the engine inside, to be opened from disk
 //   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               one page without, to be served by the program, which is the engine
 //   node workbench.mjs SCRIPTS_FOLDER OUT/ ENGINE_FOLDER        a folder of files for any web host, which browsers keep one by one
-// SCRIPTS_FOLDER has workbench.js, workbench.css, space.js and, for the first, worker.js; ENGINE_FOLDER engine.js and engine.wasm.
+// SCRIPTS_FOLDER has workbench.js, workbench.css, space.js, pictures.json (draw_examples.mjs) and, for those with an engine, worker.js;
+// ENGINE_FOLDER engine.js and engine.wasm.
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -24,10 +25,27 @@ const carried = !engine ? ""
 ` : `<script type="text/plain" id="engine-wasm">${packedTight(read(engine, "engine.wasm"))}</script>
 <script type="text/plain" id="engine-script">${packed(workerScript)}</script>
 `;
+// What is seen until the engine answers: the study that a page with an engine in it opens with, unless it opens with another one.
+const pictures = read(scripts, "pictures.json").toString("utf8").replaceAll("<", "\\u003c");
+const { picture, viewBox, ...first } = JSON.parse(pictures).first;
+const title = first.title.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+const opening = engine ? `<div class="opening">
+<header class="verdict"><div class="words"><h1>${title}</h1><p class="headline" role="status">The engine starts.</p></div></header>
+<div class="hero alone"><section class="card" aria-label="Mechanism"><svg viewBox="${viewBox}" class="thumbnail" role="img" aria-label="${title}">${picture}</svg></section></div>
+</div>` : "";
+const unless = `
+try {
+  const { text } = JSON.parse(localStorage.getItem("linkwright.workbench")) ?? {};
+  if (/^#(study|example)=/.test(location.hash) || (text && text !== JSON.parse(document.getElementById("pictures").textContent).first.text)) document.querySelector(".opening").remove();
+} catch {
+  // nowhere to keep a study
+}
+`;
+const hash = (script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`;
 // The worker of the engine inherits what the page allows; a page without one allows its own two scripts and its own server.
-const allowed = folder ? "script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'"
+const allowed = folder ? `script-src 'self' 'wasm-unsafe-eval' ${hash(unless)}; worker-src 'self'; connect-src 'self'`
   : engine ? "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:"
-    : `script-src ${own.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`).join(" ")}; connect-src 'self'`;
+    : `script-src ${own.map(hash).join(" ")}; connect-src 'self'`;
 const style = folder ? '<link rel="stylesheet" href="workbench.css">' : `<style>
 ${read(scripts, "workbench.css").toString("utf8")}</style>`;
 const code = folder ? '<script src="space.js"></script>\n<script src="workbench.js"></script>' : own.map((script) => `<script>${script}</script>`).join("\n");
@@ -44,8 +62,10 @@ const page = `<!doctype html>
 ${style}
 </head>
 <body>
-<div id="app"></div>
 <noscript><p>The workbench needs JavaScript${engine ? " and WebAssembly" : ""}.</p></noscript>
+<div id="app"><header class="bar bench-bar"><b class="brand">Linkwright</b></header><div class="bench"><main class="page">${opening}</main><aside class="panel"></aside></div></div>
+<script type="application/json" id="pictures">${pictures}</script>
+${engine ? `<script>${unless}</script>` : ""}
 ${carried}${code}
 </body>
 </html>

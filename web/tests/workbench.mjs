@@ -624,6 +624,78 @@ test("a number of a search is fixed and set free", async () => {
   await close();
 });
 
+test("the gallery opens with a picture of every machine, the well-known ones first", async () => {
+  const { page, errors, close } = await open({});
+  await page.evaluate(() => (globalThis.asked = 0));
+  // Whatever asks the engine for something counts.
+  await page.evaluate(() => {
+    const post = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function (...words) {
+      ++globalThis.asked;
+      return post.apply(this, words);
+    };
+    const given = globalThis.fetch;
+    globalThis.fetch = (...words) => (++globalThis.asked, given(...words));
+  });
+  await page.locator("#examples").click();
+  await page.locator(".example").first().waitFor();
+  const cards = await page.locator(".example").evaluateAll((all) => all.map((card) => ({ name: card.dataset.example, drawn: card.querySelectorAll("svg path[d], svg circle").length, group: card.closest("section").querySelector("h3").textContent })));
+  assert.ok(cards.length > 100, `${cards.length} cards`);
+  assert.deepEqual(cards.filter(({ drawn }) => drawn < 3).map(({ name }) => name), []);
+  assert.equal(await page.evaluate(() => globalThis.asked), 0);
+  assert.equal(cards[0].group, "Well-known machines");
+  const known = cards.filter(({ group }) => group === cards[0].group).map(({ name }) => name);
+  assert.ok(known.length >= 12 && known.length <= 15, known.join());
+  for (const name of ["engine-slider-crank", "jansen-leg", "hoeken"]) assert.ok(known.includes(name), name);
+  // As `linkwright examples` lists them.
+  assert.deepEqual(cards.map(({ name }) => name), JSON.parse(spawnSync(program, ["examples", "--json"], { encoding: "utf8" }).stdout).map(({ name }) => name));
+  // A word of the group finds them, too.
+  await page.locator(".gallery input").fill("balance machine");
+  await holds(page, async () => (await page.locator(".example").count()) > 4);
+  assert.deepEqual(await page.locator(".gallery h3").allInnerTexts(), ["Balance a machine"]);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("the first mechanism is seen before the engine is there, and no other study's", async () => {
+  if (served) return; // the program answers at once
+  const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !hosted, bypassCSP: !hosted });
+  const page = await context.newPage();
+  // As long as nothing can be compiled.
+  await page.addInitScript(() => (WebAssembly.compile = () => new Promise(() => {})));
+  const before = async (hash = "") => {
+    await page.goto("about:blank");
+    await page.goto(address + hash);
+    await page.locator("#examples").waitFor();
+    return page.locator(".opening .thumbnail path[d]").count();
+  };
+  assert.ok((await before()) > 8);
+  assert.equal(await page.locator("h1").innerText(), "Jansen leg of a Strandbeest");
+  const { width, height } = await page.locator(".opening .thumbnail").boundingBox();
+  assert.ok(width > 600 && height > 400, `${width} x ${height}`);
+  assert.equal(await before("#example=hoeken"), 0);
+  await page.evaluate(() => localStorage.setItem("linkwright.workbench", JSON.stringify({ name: "mine.toml", text: "schema = 1" })));
+  assert.equal(await before(), 0);
+  await context.close();
+});
+
+test("what is below the fold says nothing of the study before", async () => {
+  const { page, errors, close } = await open({ example: "scotch-yoke" });
+  const below = () => page.locator(".plot").evaluateAll((all) => all.filter((card) => card.getBoundingClientRect().top > innerHeight + 200).map((card) => card.innerText).join("\n"));
+  assert.match(await below(), /yoke/);
+  await choose(page, "bicycle-rear-linkage");
+  assert.doesNotMatch(await page.locator(".bench").evaluate((e) => e.textContent), /yoke/i);
+  // Of the study as it is now, or nothing.
+  assert.match(await below(), /seatstay/);
+  await writeText(page, (await studyText(page)).replaceAll("seatstay", "swing arm"));
+  await holds(page, async () => !/seatstay/.test(await below()));
+  const last = page.locator(".plot").last();
+  await last.scrollIntoViewIfNeeded();
+  await until(async () => (await last.innerText()) !== (await last.locator("h3").innerText()));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("the gallery is walked by keyboard alone", async () => {
   const { page, errors, close } = await open({});
   const focused = () => page.evaluate(() => document.activeElement?.dataset?.example ?? document.activeElement?.id ?? "");

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "linkwright/app/example_scene.h"
+#include "linkwright/app/examples.h"
 #include "linkwright/app/view.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
@@ -78,6 +80,15 @@ EMSCRIPTEN_KEEPALIVE int engine_numbers_count() { return static_cast<int>(answer
 /// app::catalogue_document()
 EMSCRIPTEN_KEEPALIVE void engine_catalogue() {
   give([] { return app::View{study::to_json(app::catalogue_document()), {}}; });
+}
+
+/// app::example_scene() of the example at a place of the list; null behind the last.
+EMSCRIPTEN_KEEPALIVE void engine_example_scene(int place) {
+  give([&] {
+    const auto all = app::examples();
+    const bool there = place >= 0 && place < static_cast<int>(all.size());
+    return app::View{study::to_json(there ? app::example_scene(all[place], "/study") : Value()), {}};
+  });
 }
 
 /// app::schema_document()

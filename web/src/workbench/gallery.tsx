@@ -1,62 +1,24 @@
-// What there is to begin with, with pictures that the engine draws as they come into sight.
+// What there is to begin with.
 import { signal } from "@preact/signals";
-import { useEffect, useRef, useState } from "preact/hooks";
-import type { Scene } from "../data";
-import type { Engine, Example } from "./engine";
+import { useEffect, useRef } from "preact/hooks";
+import type { Example } from "./engine";
+import { pictures } from "./pictures";
 import { catalogue, open } from "./session";
-import { Thumbnail } from "./thumbnail";
+import { small, viewBox } from "./thumbnail";
 
 export const showGallery = signal(false);
 const words = signal("");
-const pictures = signal<Record<string, Scene | null>>({});
 
-/** Draws one picture after the other, beside the work on the study. */
-let painter: Engine;
-let queue: Example[] = [];
-let painting = false;
-export const paintWith = (engine: Engine) => (painter = engine);
-
-async function paint(): Promise<void> {
-  if (painting) return;
-  painting = true;
-  for (let next = queue.shift(); next; next = queue.shift()) {
-    if (next.name in pictures.value) continue;
-    try {
-      // Of a search this is the best that is found in so long.
-      const { carried } = await painter.run({ text: next.text, files: next.beside, seconds: 0.5 });
-      pictures.value = { ...pictures.value, [next.name]: carried?.view.scenes[0] ?? null };
-    } catch {
-      pictures.value = { ...pictures.value, [next.name]: null };
-    }
-  }
-  painting = false;
-}
-
-function Card({ example }: { example: Example }) {
-  const box = useRef<HTMLButtonElement>(null);
-  const [seen, setSeen] = useState(false);
-  useEffect(() => {
-    const observer = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && setSeen(true), { rootMargin: "200px" });
-    observer.observe(box.current!);
-    return () => observer.disconnect();
-  }, []);
-  useEffect(() => {
-    if (!seen) return;
-    queue.push(example);
-    void paint();
-  }, [seen]);
-  const scene = pictures.value[example.name];
-  return (
-    <button type="button" class="example" ref={box} data-example={example.name} onClick={() => {
-      open({ name: `${example.name}.toml`, text: example.text, files: example.beside });
-      showGallery.value = false;
-    }}>
-      <span class="picture">{scene ? <Thumbnail scene={scene} /> : null}</span>
-      <b>{example.title}</b>
-      <small>{example.name}</small>
-    </button>
-  );
-}
+const Card = ({ example }: { example: Example }) => (
+  <button type="button" class="example" data-example={example.name} onClick={() => {
+    open({ name: `${example.name}.toml`, text: example.text, files: example.beside });
+    showGallery.value = false;
+  }}>
+    <svg class="thumbnail" viewBox={viewBox(small)} aria-hidden="true" dangerouslySetInnerHTML={{ __html: pictures().examples[example.name] ?? "" }} />
+    <b>{example.title}</b>
+    <small>{example.name}</small>
+  </button>
+);
 
 /** The card next to this one in a direction: along the row, or the nearest one of the row above or below. */
 function neighbour(cards: HTMLElement[], from: HTMLElement, key: string): HTMLElement | undefined {
@@ -95,7 +57,7 @@ export function Gallery() {
   }, [showGallery.value]);
   const all = catalogue.value?.examples ?? [];
   const asked = words.value.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = all.filter((e) => asked.every((w) => `${e.name} ${e.title} ${e.group}`.toLowerCase().includes(w)));
+  const found = all.filter((e) => asked.every((w) => `${e.name} ${e.title} ${e.group} ${e.words}`.toLowerCase().includes(w)));
   const groups = [...new Set(found.map((e) => e.group))];
   return (
     <dialog class="gallery" ref={box} aria-label="Examples" onClose={() => {
@@ -113,7 +75,7 @@ export function Gallery() {
           <div class="examples">{found.filter((e) => e.group === group).map((e) => <Card key={e.name} example={e} />)}</div>
         </section>
       ))}
-      {found.length === 0 && <p>No example has these words.</p>}
+      {found.length === 0 && <p>{catalogue.value ? "No example has these words." : "The examples are being read."}</p>}
     </dialog>
   );
 }

@@ -142,7 +142,7 @@ function Numbers() {
     const [all, one] = [list.getBoundingClientRect(), number.getBoundingClientRect()];
     if (one.top < all.top || one.bottom > all.bottom) list.scrollTop += one.top - all.top - all.height / 3;
   }, [keys]);
-  if (!study) return <p class="note">The numbers are listed as soon as the study has no errors.</p>;
+  if (!study) return diagnostics.value.length ? <p class="note">The numbers are listed as soon as the study has no errors.</p> : null;
   const groups = numbersOf(study, schema.value);
   return (
     <div class="numbers" ref={box}>

@@ -88,7 +88,8 @@ const schemas = new Map<string, Promise<JsonObject | null>>();
 async function learn(study: JsonObject): Promise<void> {
   const start = `${study.kind as string}/${(study.mechanism as JsonObject).type as string}`;
   const task = (study.target as JsonObject | undefined)?.type;
-  const known = (catalogue.value?.kinds ?? []).map((k) => k.name).filter((k) => k === start || k.startsWith(`${start}/`));
+  if (!catalogue.peek()) return; // learnt when it is there
+  const known = catalogue.peek()!.kinds.map((k) => k.name).filter((k) => k === start || k.startsWith(`${start}/`));
   const name = known.find((k) => k === `${start}/${String(task)}`) ?? known[0] ?? "";
   if (name === kind) return;
   kind = name;
@@ -349,6 +350,9 @@ export function connect(to: Engine, other: Engine): void {
   [engine, second] = [to, other];
   state.hand.now = hand;
   state.goOn.now = (name, text) => replace({ name, text, files: {} });
+  effect(() => {
+    if (catalogue.value && canonical.peek()) void learn(canonical.peek()!);
+  });
   effect(() => {
     const { text, files } = document_.value;
     if (text === "") return;

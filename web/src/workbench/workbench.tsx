@@ -13,11 +13,12 @@ import "./workbench.css";
 import "./lists.css";
 import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo, type Document } from "./document";
 import { Draw, showDraw } from "./draw";
-import { workerEngine, type Engine, type Example, type Progress } from "./engine";
+import { workerEngine, type Catalogue, type Engine, type Example, type Progress } from "./engine";
 import { sortOut } from "./files";
-import { Gallery, paintWith, showGallery } from "./gallery";
+import { Gallery, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
+import { pictures } from "./pictures";
 import { isPoses } from "./points";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
 import { adding, busy, catalogue, compareWithNow, connect, editing, ending, open, progress, shown, stop, stopped, takePoints, targetKey, took, trouble, waiting } from "./session";
@@ -95,19 +96,22 @@ function Bar() {
         {(Object.keys(copies) as (keyof typeof copies)[]).map((form) => <button type="button" key={form} data-copy={form} onClick={() => void copyAs(form)}>{form}</button>)}
       </Menu>
       <span class="together"><Switch flag={editing} text="Change lengths" hint="Dragging a pin changes the links on it, or the pivot alone with Alt; off: dragging moves the mechanism" />{targetKey.value && <Switch flag={adding} text={isPoses(targetKey.value) ? "Add poses" : "Add points"} hint={isPoses(targetKey.value) ? "Press for one more pose, and drag to turn it; Alt and a press on the origin of a pose removes it" : "Press for one more target point, or drag to draw the whole path; Alt and a press on a point removes it"} />}</span>
-      <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.name}</span>
+      <span class={unsaved.value ? "name unsaved" : "name"}>{document_.value.text && document_.value.name}</span>
       <span class="spring" />
       <State />
     </header>
   );
 }
 
+/** What stands in the page until the engine answers; the page has it from the start, so that it is seen at once. */
+const opening = document.querySelector(".opening")?.innerHTML ?? '<p class="note">The engine starts.</p>';
+
 function Workbench() {
   return (
     <>
       <Bar />
       <div class="bench">
-        <main class="page">{shown.value ? <Report /> : <p class="note">{catalogue.value ? "The study is being read." : "The engine starts."}</p>}</main>
+        <main class="page">{shown.value ? <Report /> : <div class="opening" dangerouslySetInnerHTML={{ __html: opening }} />}</main>
         <Panel />
       </div>
       <Gallery />
@@ -127,15 +131,17 @@ function onKey(event: KeyboardEvent): void {
   act();
 }
 
-const first = "jansen-leg";
 const asDocument = (e: Example) => ({ name: `${e.name}.toml`, text: e.text, files: e.beside });
 
 /** The study that an address asks for: the one that it holds, or an example by its name. */
-async function asked(hash: string): Promise<Document | null> {
+async function asked(hash: string, known: Promise<Catalogue>): Promise<Document | null> {
   const name = /^#example=([\w-]+)$/.exec(hash)?.[1];
-  const example = catalogue.value?.examples.find((e) => e.name === name);
+  const example = name && (await known).examples.find((e) => e.name === name);
   return example ? asDocument(example) : fromFragment(hash);
 }
+
+/** After the page has been painted; a page in the background is not. */
+const painted = () => new Promise((resolve) => (document.hidden ? resolve(null) : requestAnimationFrame(() => setTimeout(resolve))));
 
 /** What answers this page: the engine that it carries, or the program that serves it. */
 interface Source {
@@ -169,18 +175,20 @@ async function main(): Promise<void> {
     if (event.dataTransfer?.files.length) void openFiles(event.dataTransfer.files);
   });
   render(<Workbench />, document.getElementById("app")!);
+  await painted();
   const { engine: make, file } = await source();
-  const engine = make();
-  const known = engine.catalogue();
-  connect(engine, make());
-  catalogue.value = await known;
-  const shared = await asked(location.hash);
+  const [engine, second] = [make(), make()];
+  connect(engine, second);
+  // By the second engine, while the first one runs the study.
+  const known = second.catalogue();
+  const shared = await asked(location.hash, known);
   if (!shared) opened.value = file;
   const own = file && { name: file.file.name, text: file.file.text, files: {} };
-  begin(shared ?? own ?? kept() ?? asDocument(catalogue.value.examples.find((e) => e.name === first)!));
-  addEventListener("hashchange", () => void asked(location.hash).then((study) => study && open(study)));
-  paintWith(make());
+  const { name, text } = pictures().first;
+  begin(shared ?? own ?? kept() ?? { name: `${name}.toml`, text, files: {} });
+  addEventListener("hashchange", () => void asked(location.hash, known).then((study) => study && open(study)));
   state.start();
+  catalogue.value = await known;
 }
 
 main().catch((error: unknown) => (trouble.value = `The engine cannot be started: ${error instanceof Error ? error.message : error}`));

@@ -1,0 +1,2 @@
+/** The example that a page opens with. */
+export const first = "jansen-leg";
