@@ -47,7 +47,7 @@ IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& ta
 }
 
 /// What an answer is worth, turned to the side of the suspension.
-SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
+SeedRun seed_run_of(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
   out.answer = std::move(answer);
   // Measured by the equations of the mechanism, not by the fit.
@@ -58,9 +58,9 @@ SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
 }
 
 SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunContext& context) {
-  return measured(s,
-                  std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
-                             s.optimiser.method));
+  return seed_run_of(
+      s, std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
+                    s.optimiser.method));
 }
 
 /// A link or coupler that was found, of one of these places; or none.
@@ -166,7 +166,7 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
   }
   ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
   ended.generations = static_cast<int>(kept_integer(value, "generations", 0, 1000000000, what));
-  return measured(s, completed(s.task, ended));
+  return seed_run_of(s, completed(s.task, ended));
 }
 
 using IndirectRuns = study::SeedRuns<SeedRun>;
