@@ -213,10 +213,10 @@ TEST(EditStudy, WhatCannotBeChangedLeavesTheTextAndSaysWhy) {
   const std::vector<Edit> nowhere{{"mechanism.body[7].mass_kg", 1.0}};
   EXPECT_EQ(edited(linkage, nowhere, diagnostics), linkage);
   ASSERT_EQ(diagnostics.size(), 1u);
-  EXPECT_EQ(diagnostics[0].message, "'body' has 2 entries, counted from 0");
+  EXPECT_EQ(to_string(diagnostics[0].message), "'body' has 2 entries, counted from 0");
   const std::vector<Edit> path{{"mechanism..x", 1.0}};
   EXPECT_EQ(edited(linkage, path, diagnostics), linkage);
-  EXPECT_EQ(diagnostics.back().message, "is not the path of a key");
+  EXPECT_EQ(to_string(diagnostics.back().message), "is not the path of a key");
   const std::string broken = "schema = = 1\n";
   const std::vector<Edit> mass{{"mechanism.mass_kg", 1.0}};
   EXPECT_EQ(edited(broken, mass, diagnostics), broken);

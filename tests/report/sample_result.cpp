@@ -539,8 +539,8 @@ std::string sample_json(const study::Result& result) {
     Value v;
     v["severity"] = "warning";
     v["key"] = d.key;
-    v["message"] = d.message;
-    v["hint"] = d.hint;
+    v["message"] = to_string(d.message);
+    v["hint"] = to_string(d.hint);
     doc["diagnostics"].push_back(v);
   }
   return study::to_json_readable(doc);

@@ -270,7 +270,7 @@ std::optional<ComparisonInput> load_compared(const fs::path& path, std::span<con
       if (!study)
         return refuse(file,
                       fmt::format("holds a study that cannot be run again ({}: {})", problems.front().key,
-                                  problems.front().message),
+                                  to_string(problems.front().message)),
                       "compare the study file that it comes from");
       return ComparisonInput{std::move(*study), file.parent_path()};
     }

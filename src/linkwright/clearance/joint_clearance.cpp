@@ -210,7 +210,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
   const planar::PlanResult ideal = planar::plan_linkage(linkage);
   if (!ideal.problems.empty()) {
     out.status = Status::infeasible;
-    out.message = ideal.problems.front().message;
+    out.message = to_string(ideal.problems.front().message);
     return out;
   }
   LinkageMotion motion(ideal.plan);
@@ -262,7 +262,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
   planar::PlanResult planned = planar::plan_linkage(l);
   if (!planned.problems.empty()) {
     out.status = Status::infeasible;
-    out.message = planned.problems.front().message;
+    out.message = to_string(planned.problems.front().message);
     return out;
   }
   out.plan = std::move(planned.plan);

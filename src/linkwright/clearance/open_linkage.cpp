@@ -104,7 +104,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& pro
     for (std::size_t k = 0; k < candidates.size(); ++k)
       if (chosen[k]) l.driven.push_back(candidates[k]);
     planar::PlanResult result = planar::plan_linkage(l);
-    if (!result.problems.empty()) problem = result.problems.front().message;
+    if (!result.problems.empty()) problem = to_string(result.problems.front().message);
     if (result.problems.empty()) {
       int score = 0;
       for (const planar::Group& g : result.plan.groups)
@@ -157,7 +157,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   const planar::PlanResult whole = planar::plan_linkage(linkage);
   if (!whole.problems.empty()) {
     out.status = Status::infeasible;
-    out.message = whole.problems.front().message;
+    out.message = to_string(whole.problems.front().message);
     return out;
   }
   LinkageMotion motion(whole.plan);

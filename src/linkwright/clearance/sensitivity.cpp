@@ -94,7 +94,7 @@ class Solver {
       : outputs_(o), samples_(samples), times_(times), forces_wanted_(!o.forces.empty() || o.drives) {
     planar::PlanResult result = planar::plan_linkage(l);
     LINKWRIGHT_REQUIRE(result.problems.empty(), "the linkage cannot be planned: {}",
-                       result.problems.front().message);
+                       to_string(result.problems.front().message));
     plan_ = std::move(result.plan);
     const std::size_t inputs = plan_.inputs();
     LinkageMotion motion(plan_);

@@ -105,7 +105,7 @@ bool is_rounding(const Measured& m) {
   return size > 0 && unit != "%" && size < (unit == "um" ? 1e-6 : unit == "mm" ? 1e-9 : 1e-12);
 }
 
-std::string typeset(const Measured& m) {
+std::string typeset_number(const Measured& m) {
   Measured bare = m;
   bare.unit = nullptr, bare.si = m.value(), bare.is_spelled = false;
   Measured sign = m;
@@ -114,8 +114,7 @@ std::string typeset(const Measured& m) {
   const std::string digits = rounding ? "0" : typeset_digits(to_string(bare));
   if (!m.unit || m.shares_unit) return digits;
   const std::string symbol = replace_all(sign.symbol(), " ", narrow_space);
-  return digits + std::string(symbol == "°" ? "" : narrow_space) + symbol +
-         (rounding ? " (rounding)" : "");
+  return digits + std::string(symbol == "°" ? "" : narrow_space) + symbol + (rounding ? " (rounding)" : "");
 }
 
 }  // namespace
@@ -123,7 +122,7 @@ std::string typeset(const Measured& m) {
 std::string typeset(const Sentence& sentence) {
   std::string out;
   for (const Sentence::Part& part : sentence.parts())
-    out += std::holds_alternative<Measured>(part) ? typeset(std::get<Measured>(part))
+    out += std::holds_alternative<Measured>(part) ? typeset_number(std::get<Measured>(part))
                                                   : std::get<std::string>(part);
   return out;
 }

@@ -14,7 +14,7 @@ namespace {
 // "key: message; hint" of every problem.
 std::vector<std::string> told(const Linkage& l) {
   std::vector<std::string> out;
-  for (const Diagnostic& d : check(l)) out.push_back(d.key + ": " + d.message + "; " + d.hint);
+  for (const Diagnostic& d : check(l)) out.push_back(to_string(d.key + ": " + d.message + "; " + d.hint));
   return out;
 }
 // What is reported of the four-bar sample after a change.

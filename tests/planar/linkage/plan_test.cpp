@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 std::vector<std::string> problems_told(const Linkage& l) {
   std::vector<std::string> out;
   for (const Diagnostic& d : plan_linkage(l).problems)
-    out.push_back(d.key + ": " + d.message + "; " + d.hint);
+    out.push_back(to_string(d.key + ": " + d.message + "; " + d.hint));
   return out;
 }
 Linkage four_bar() { return four_bar_sample().linkage; }

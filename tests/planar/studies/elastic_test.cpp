@@ -216,7 +216,7 @@ TEST(LinkageElasticStudy, KeepsRowsWhenStepsAreUsedUp) {
   EXPECT_THAT(to_string(r.headline), HasSubstr("It ends at "));
   ASSERT_THAT(r.diagnostics, SizeIs(1));
   EXPECT_THAT(
-      r.diagnostics[0].hint,
+      to_string(r.diagnostics[0].hint),
       AllOf(HasSubstr("the fastest vibration of the pieces has "),
             HasSubstr("take fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"")));
 }

@@ -69,7 +69,7 @@ TEST(ExactFindings, TheOrderThatMostPassIsOffered) {
   Diagnostics diagnostics;
   offer_order(study::AddWarning{diagnostics}, three_of_ten(), {{}, {0, 2, 1}, {1, 0, 2}, {0, 2, 1}});
   ASSERT_EQ(diagnostics.size(), 1U);
-  EXPECT_EQ(diagnostics[0].message,
+  EXPECT_EQ(to_string(diagnostics[0].message),
             "in the order 1, 3, 2 2 of these four-bars would pass the points in one motion");
   offer_order(study::AddWarning{diagnostics}, three_of_ten(), {{}, {}});
   EXPECT_EQ(diagnostics.size(), 1U);

@@ -488,11 +488,10 @@ TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
               HasSubstr("has no length: its joints O1 and O2 lie in one point"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "joint = \"O1\"\nspeed_rpm", "joint = \"O9\"\nspeed_rpm")),
               HasSubstr("there is no joint 'O9'; did you mean 'O1'?"));
-  EXPECT_THAT(
-      problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\nsample = "
-                  "\"hoeken\"\n[[drive]]\njoint = \"B0\"\n"),
-      HasSubstr("drive[0].joint: this mechanism takes a drive at O, not at 'B0'; name that joint, or "
-                "give bodies and joints instead"));
+  EXPECT_THAT(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\nsample = "
+                          "\"hoeken\"\n[[drive]]\njoint = \"B0\"\n"),
+              HasSubstr("drive[0].joint: this mechanism takes a drive at O, not at 'B0'; name that joint, or "
+                        "give bodies and joints instead"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "mass_kg = 1.046", "#")),
               HasSubstr("forces and torques need the mass of every body: 'rocker' has none"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "[[drive]]\njoint = \"O1\"",

@@ -190,7 +190,7 @@ TEST(PoseStudy, KeepsDefectiveLinkagesAndSaysWhatToRelax) {
   const study::Result result = run_text(pose_study(scattered));
   EXPECT_EQ(result.status, Status::infeasible);
   ASSERT_FALSE(result.diagnostics.empty());
-  EXPECT_THAT(result.diagnostics[0].message, HasSubstr("five poses leave at most four dyads"));
+  EXPECT_THAT(to_string(result.diagnostics[0].message), HasSubstr("five poses leave at most four dyads"));
   if (!result.solutions.empty()) {
     EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
     EXPECT_THAT(to_string(result.headline), HasSubstr("passes them in one motion"));

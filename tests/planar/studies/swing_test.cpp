@@ -146,7 +146,7 @@ TEST(SwingStudy, WithoutImbalanceTheCouplerIsAsLongAsAllowed) {
 TEST(SwingStudy, WarnsOfSmallTransmissionAngles) {
   const study::Result result = run_text(swing_study("swing_angle_deg = 40\ntime_ratio = 2\n"));
   ASSERT_FALSE(result.diagnostics.empty());
-  EXPECT_THAT(result.diagnostics[0].message, HasSubstr("is below 40°, the largest possible"));
+  EXPECT_THAT(to_string(result.diagnostics[0].message), HasSubstr("is below 40°, the largest possible"));
   // The diagram of the choice has its best where the design is.
   const Table& choice = *result.table("choice");
   const auto& angle = choice.find("least_transmission_angle_rad")->values;

@@ -251,8 +251,9 @@ void check_key(study::ObjectReader& where, const ParameterStudy& s, std::size_t 
   const study::Override change{key, key, value_of(alone, 0, 0)};
   if (!study::parse_path(key) || !study::apply_override(document, change, problems)) {
     const bool none = problems.empty();
-    where.error("key", none ? fmt::format("'{}' is not the path of a key", key) : problems.front().message,
-                none ? "write it like mechanism.link[0].length_mm" : to_string(problems.front().hint));
+    where.error(
+        "key", none ? fmt::format("'{}' is not the path of a key", key) : to_string(problems.front().message),
+        none ? "write it like mechanism.link[0].length_mm" : to_string(problems.front().hint));
     return;
   }
   study::prepare(document, s.name, s.folder, kinds, problems);

@@ -41,7 +41,7 @@ bool run_trial(const ParameterStudy& s, std::span<const study::Kind> kinds, std:
       return d.severity == Diagnostic::Severity::error;
     });
     if (error != problems.end())
-      out.problem[i] = error->key + (error->key.empty() ? "" : ": ") + error->message;
+      out.problem[i] = error->key + (error->key.empty() ? "" : ": ") + to_string(error->message);
     return true;
   }
   RunContext own;
