@@ -134,7 +134,7 @@ TEST(CountedTurns, ALoadOverWholeTurnsRepeats) {
   const study::Result held = run_text(loaded("[0, 1.5707963267948966]", "[0, 1]"));
   EXPECT_NEAR(table(held, "sweep").find("O_drive_torque_N_m")->values[20], -1, 1e-9);
   std::string warnings;
-  for (const Diagnostic& d : held.diagnostics) warnings += d.message;
+  for (const Diagnostic& d : held.diagnostics) warnings += to_string(d.message);
   EXPECT_THAT(warnings,
               HasSubstr("the table of 'load' ends within the motion, from -360° to 1440° of O: beyond it the "
                         "load keeps its last value"));

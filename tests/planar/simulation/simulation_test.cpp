@@ -369,7 +369,7 @@ TEST(Simulate, WaitsAtRestForALoadThatGrows) {
   const Linkage l = pushed_slider({0, 2}, {0, 20});
   const LinkagePlan p = planned(l);
   const SimulationRun run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 2, 21));
-  ASSERT_EQ(run.report.status, Status::done) << run.report.message;
+  ASSERT_EQ(run.report.status, Status::done) << to_string(run.report.message);
   ASSERT_EQ(run.rows.size(), 21u);
   EXPECT_EQ(run.report.rests.count, 1);
   EXPECT_EQ(run.report.rests.first_from, 0);
@@ -382,7 +382,9 @@ TEST(Simulate, WaitsAtRestForALoadThatGrows) {
     EXPECT_NEAR(row.inputs[0].acceleration, 5 * sliding, 1e-8);
     EXPECT_EQ(row.held.has_value(), row.time < 0.5886);
     // The push comes first, then friction on the block and on the ground.
-    if (row.held) EXPECT_NEAR(row.held->loads[1].force.x, -10 * row.time, 1e-9);
+    if (row.held) {
+      EXPECT_NEAR(row.held->loads[1].force.x, -10 * row.time, 1e-9);
+    }
   }
 }
 
@@ -393,7 +395,7 @@ TEST(Simulate, SticksAndSlides) {
   const Linkage l = pushed_slider({0, 1, 2, 3, 4}, {0, 10, 0, -10, 0});
   const LinkagePlan p = planned(l);
   const SimulationRun run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 4, 41));
-  ASSERT_EQ(run.report.status, Status::done) << run.report.message;
+  ASSERT_EQ(run.report.status, Status::done) << to_string(run.report.message);
   const double speed = 2.5 * 0.4114 * 0.4114, stop = (2.057 + std::sqrt(2.057 * 2.057 + 10 * speed)) / 5;
   EXPECT_EQ(run.report.rests.count, 3);
   EXPECT_NEAR(run.report.rests.total, 0.5886 + (1.5886 - stop) + (1 - stop), 1e-6);

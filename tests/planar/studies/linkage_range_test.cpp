@@ -207,7 +207,7 @@ TEST(LinkageRange, RowsOnAnotherCircuitDoNotCount) {
     EXPECT_EQ(std::isnan(table.find("crank_angle_rad")->values[i]), table.status[i] != "done") << degrees;
   }
   std::string messages;
-  for (const Diagnostic& d : r.diagnostics) messages += d.message + "; " + d.hint + "\n";
+  for (const Diagnostic& d : r.diagnostics) messages += to_string(d.message + "; " + d.hint + "\n");
   EXPECT_THAT(messages,
               HasSubstr("75 of 361 positions, the first at -180° are on another circuit: the linkage does "
                         "not come there from the drawn position without being taken apart"));

@@ -177,7 +177,7 @@ free = true
 to_s = 2
 samples = 21
 )");
-  ASSERT_EQ(r.status, Status::done) << r.headline;
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
   EXPECT_EQ(fact(r, "held by friction"), "from 0 s to 0.5886 s, 0.5886 s in all");
 }
 
