@@ -101,7 +101,7 @@ interface Kind {
   table: string;
   numbers: (sketch: Sketch, element: SketchElement) => ElementNumber[];
   /** The other lines of its table. */
-  lines: (sketch: Sketch, element: SketchElement) => [string, string][];
+  lines: (sketch: Sketch, element: SketchElement) => Line[];
   /** What is wrong with it where it is; "" = nothing. */
   problem: (sketch: Sketch, element: SketchElement) => string;
 }
@@ -175,19 +175,18 @@ export function withoutPin({ pins, links, elements }: Sketch, i: number): Sketch
 const digits = (value: number) => String(Number(value.toFixed(4)));
 const place = ({ x, y }: Place) => `[${digits(x)}, ${digits(y)}]`;
 const quoted = (text: string) => `"${text}"`;
+type Line = [key: string, value: string];
 /** A table of a study, its values one below the other. */
-function table(name: string, lines: [string, string][]): string {
+function table(name: string, lines: Line[]): string {
   const width = Math.max(...lines.map(([key]) => key.length));
-  return `[[${name}]]\n${lines.map(([key, value]) => `${key.padEnd(width)} = ${value}\n`).join("")}`;
+  return `${name}\n${lines.map(([key, value]) => `${key.padEnd(width)} = ${value}\n`).join("")}`;
 }
 function elementTable(sketch: Sketch, element: SketchElement): string {
   const { table: list, numbers, lines } = kinds[element.kind];
-  const values = numbers(sketch, element).map(({ key }): [string, string] => [key, String(Number(valueOf(sketch, element, key).toPrecision(9)))]);
-  return table(list, [
-    ...(element.kind === "drive" ? [] : [["name", quoted(elementName(sketch, element))] as [string, string]]),
-    ...lines(sketch, element).map(([key, word]): [string, string] => [key, quoted(word)]),
-    ...(element.kind === "force" ? [["force_N", `[${values.map(([, value]) => value).join(", ")}]`] as [string, string]] : values),
-  ]);
+  const values = numbers(sketch, element).map(({ key }): Line => [key, String(Number(valueOf(sketch, element, key).toPrecision(9)))]);
+  const name: Line[] = element.kind === "drive" ? [] : [["name", quoted(elementName(sketch, element))]];
+  const vector: Line[] = [["force_N", `[${values.map(([, value]) => value).join(", ")}]`]];
+  return table(`[[${list}]]`, [...name, ...lines(sketch, element).map(([key, word]): Line => [key, quoted(word)]), ...(element.kind === "force" ? vector : values)]);
 }
 
 const loads: ElementKind[] = ["spring", "torsion_spring", "force"];
@@ -197,10 +196,14 @@ export function studyOf(sketch: Sketch, title = "My linkage"): string {
   const { pins, links, elements } = sketch;
   const loaded = elements.some((e) => loads.includes(e.kind));
   const all = pins.map((_, i) => i);
-  const body = (name: string, on: number[]) => table("mechanism.body", [["name", quoted(name)], ["points_mm", `{ ${on.map((i) => `${pinName(i)} = ${place(pins[i])}`).join(", ")} }`],
-    ...(loaded && name !== "ground" ? [["mass_kg", "0.0"] as [string, string]] : [])]);
-  const joint = (i: number) => ({ name, slides, first, second }: Joint) => table("mechanism.joint", [["name", quoted(name)], ...(slides ? [["type", '"prismatic"'] as [string, string]] : []),
-    ["first", quoted(`${first}.${pinName(i)}`)], ["second", quoted(`${second}.${pinName(i)}`)], ...(slides ? [["direction_deg", digits(pins[i].guide!)] as [string, string]] : [])]);
+  const body = (name: string, on: number[]) => {
+    const massless: Line[] = loaded && name !== "ground" ? [["mass_kg", "0.0"]] : [];
+    return table("[[mechanism.body]]", [["name", quoted(name)], ["points_mm", `{ ${on.map((i) => `${pinName(i)} = ${place(pins[i])}`).join(", ")} }`], ...massless]);
+  };
+  const joint = (i: number) => ({ name, slides, first, second }: Joint) => {
+    const ends: Line[] = [["first", quoted(`${first}.${pinName(i)}`)], ["second", quoted(`${second}.${pinName(i)}`)]];
+    return table("[[mechanism.joint]]", slides ? [["name", quoted(name)], ["type", quoted("prismatic")], ...ends, ["direction_deg", digits(pins[i].guide!)]] : [["name", quoted(name)], ...ends]);
+  };
   const tables = (chosen: (kind: ElementKind) => boolean) => elements.filter((e) => chosen(e.kind)).map((e) => elementTable(sketch, e));
   return [`schema = 1\nkind   = "analysis"\ntitle  = "${title}"\n\n[mechanism]\ntype  = "planar.linkage"\ndrawn = true\n`,
     body("ground", all.filter((i) => pins[i].ground || pins[i].guide !== null)),
@@ -210,8 +213,9 @@ export function studyOf(sketch: Sketch, title = "My linkage"): string {
     ...tables((kind) => kind !== "drive"),
     ...tables((kind) => kind === "drive"),
     // From the drawn position on: once round, or as far as it assembles to both sides.
-    '[sweep]\ntype  = "grid"\nrange = "assembled"\n',
-    ...all.filter((i) => pins[i].traced && bodyOf(sketch, i) !== "ground").map((i) => table("trace", [["point", quoted(point(sketch, i))]])),
+    table("[sweep]", [["type", quoted("grid")], ["range", quoted("assembled")]]),
+    ...all.filter((i) => pins[i].traced && bodyOf(sketch, i) !== "ground").map((i) => table("[[trace]]", [["point", quoted(point(sketch, i))]])),
     // Nothing that is drawn has a mass: forces are those of springs and loads alone.
-    table("output", [["quantities", loaded ? '["position", "rates", "reactions", "drive", "transmission_angle"]' : '["position", "rates", "transmission_angle"]']]).replace("[[output]]", "[output]")].join("\n");
+    table("[output]", [["quantities", JSON.stringify(["position", "rates", ...(loaded ? ["reactions", "drive"] : []), "transmission_angle"]).replace(/,/g, ", ")]]),
+  ].join("\n");
 }

@@ -15,7 +15,7 @@ export interface Outcome {
   from?: number | null;
   drag?: Drag;
 }
-type Press1 = (sketch: Sketch, at: Press, from: number | null) => Outcome | null;
+type OnPress = (sketch: Sketch, at: Press, from: number | null) => Outcome | null;
 export interface Tool {
   name: string;
   text: string;
@@ -23,7 +23,7 @@ export interface Tool {
   /** Its sign, 24 wide and 16 high about (0, 0). */
   sign: string;
   hint: string;
-  press: Press1;
+  press: OnPress;
 }
 
 const pin = (place: Place, more: Partial<Pin> = {}): Pin => ({ x: place.x, y: place.y, ground: false, guide: null, traced: false, ...more });
@@ -129,7 +129,7 @@ export function gripAt(s: Sketch, at: Press): Drag | null {
 }
 
 /** On a point that there is. */
-const onPin = (change: (s: Sketch, i: number) => Sketch | Outcome): Press1 => (s, at) => {
+const onPin = (change: (s: Sketch, i: number) => Sketch | Outcome): OnPress => (s, at) => {
   const i = pinAt(s, at);
   if (i < 0) return null;
   const done = change(s, i);
@@ -145,7 +145,7 @@ const onJoint = (kind: "drive" | "torsion_spring") => onPin((s, i) => {
   return next === undefined ? without : added(without, kind, [i], {}, next);
 });
 /** From one point to the next. */
-const between = (kind: "spring" | "gear", values: Record<string, number>): Press1 => (s, at, from) => {
+const between = (kind: "spring" | "gear", values: Record<string, number>): OnPress => (s, at, from) => {
   const point = kind === "gear" ? { sketch: s, i: pinAt(s, at) } : pointAt(s, at, true);
   if (!point || point.i < 0 || point.i === from) return null;
   if (from === null) return { sketch: point.sketch, from: point.i };
@@ -161,7 +161,7 @@ function withoutLink(s: Sketch, k: number): Sketch {
   return [...s.links[k]].sort((a, b) => b - a).reduce((now, i) => (bodiesAt(now, i).length ? now : withoutPin(now, i)), left);
 }
 
-const pressLink: Press1 = (s, at, from) => {
+const pressLink: OnPress = (s, at, from) => {
   const found = pinAt(s, at);
   const pins = found < 0 ? [...s.pins, pin(snapped(at))] : s.pins;
   const i = found < 0 ? s.pins.length : found;
@@ -174,7 +174,7 @@ const pressLink: Press1 = (s, at, from) => {
   return { sketch: { ...s, pins, links }, from: i };
 };
 const pressGuide = onPin((s, i) => (s.pins[i].guide === null ? { sketch: withPin(s, i, { guide: 0, ground: false }), drag: turnGuide(i) } : withPin(s, i, { guide: null })));
-const pressTrace: Press1 = (s, at) => {
+const pressTrace: OnPress = (s, at) => {
   const found = pinAt(s, at);
   if (found < 0) {
     const point = pointAt(s, at, false, { traced: true });
@@ -185,13 +185,13 @@ const pressTrace: Press1 = (s, at) => {
   const alone = traced && !ground && guide === null && bodiesAt(s, found).length === 1 && s.links.some((on) => on.length > 2 && on.includes(found)) && !s.elements.some((e) => e.pins.includes(found));
   return { sketch: alone ? withoutPin(s, found) : withPin(s, found, { traced: !traced }) };
 };
-const pressForce: Press1 = (s, at) => {
+const pressForce: OnPress = (s, at) => {
   const point = pointAt(s, at, false);
   if (!point) return null;
   const now = s.elements.findIndex((e) => e.kind === "force" && e.pins[0] === point.i);
   return now < 0 ? { sketch: added(point.sketch, "force", [point.i]), drag: aim(s.elements.length) } : { sketch: s, drag: aim(now) };
 };
-const pressErase: Press1 = (s, at) => {
+const pressErase: OnPress = (s, at) => {
   const [i, k, link] = [pinAt(s, at), elementAt(s, at), linkAt(s, at)];
   if (i < 0 && k < 0 && link < 0) return null;
   return { sketch: i >= 0 ? withoutPin(s, i) : k >= 0 ? withElement(s, k, null) : withoutLink(s, link), from: null };
