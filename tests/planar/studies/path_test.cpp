@@ -409,7 +409,7 @@ TEST(PathStudyRun, TheTransmissionAngleOfAnOpenPathIsThatOfThePath) {
   EXPECT_THAT(test::fact(result, "minimum transmission angle"), HasSubstr("° over the path ("));
   EXPECT_THAT(test::fact(result, "minimum transmission angle"), HasSubstr("° over the whole motion)"));
   for (const Diagnostic& d : result.diagnostics)
-    EXPECT_THAT(d.message, ::testing::Not(HasSubstr("falls to")));
+    EXPECT_THAT(to_string(d.message), ::testing::Not(HasSubstr("falls to")));
 }
 
 // A linkage that locks at both ends of its motion is an answer, but no good news: the headline says so, and

@@ -83,7 +83,7 @@ TEST(Structure, EqualLinksLoseRank) {
   const Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::error);
-  EXPECT_THAT(found[0].message,
+  EXPECT_THAT(to_string(found[0].message),
               ::testing::StartsWith(
                   "the ball joints of 'upper front rod' and 'double' at the carrier are in one place: "
                   "the count is right, yet the links do not constrain the carrier when the height of "
@@ -134,7 +134,7 @@ TEST(Structure, TrailingLinkWithALateralHingeHardlyHoldsPitch) {
   const Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::warning);
-  EXPECT_THAT(found[0].message,
+  EXPECT_THAT(to_string(found[0].message),
               ::testing::StartsWith("the links hardly constrain the carrier when the height of the "
                                     "wheel centre is fixed: turning about y"));
 }
