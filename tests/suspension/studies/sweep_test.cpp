@@ -221,10 +221,10 @@ TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
   const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
   RunContext context;
-  EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, context).positions.size(), 6U);
+  EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, &context).positions.size(), 6U);
   RunContext cancelled;
   cancelled.cancel();
-  EXPECT_TRUE(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, cancelled).positions.empty());
+  EXPECT_TRUE(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, &cancelled).positions.empty());
 }
 
 TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
@@ -234,7 +234,7 @@ TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
   RunContext context;
   const LooksAllowed looks(2);  // one at the rack, one after 256 positions; the next one ends it
   const GridPositions some =
-      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, &context);
   // Downwards from the middle, all 300, and then upwards.
   EXPECT_EQ(some.first_travel, 0U);
   ASSERT_EQ(some.travels, 512U);
@@ -250,7 +250,7 @@ TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
   RunContext context;
   const LooksAllowed looks(3);  // at both racks and after 256 positions: ended by that after 512
   const GridPositions some =
-      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, &context);
   EXPECT_EQ(some.travels, 300U);
   EXPECT_EQ(some.positions.size(), 300U);
 }

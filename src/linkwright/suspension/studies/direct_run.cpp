@@ -176,9 +176,8 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
 Table direct_sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string name,
                          std::span<const double> travels) {
   Table table{.name = std::move(name)};
-  RunContext nobody;
   const std::array<double, 1> racks{0};
-  const GridPositions grid = solve_grid(prepare_guide(guide), s.task.driver, travels, racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(guide), s.task.driver, travels, racks);
   table.add("travel_m", "travel (m)", {travels.begin(), travels.end()});
   for (const GuideColumn& c : guide_columns()) {
     std::vector<double> values;
@@ -235,9 +234,7 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
            {"caster_rad", "Caster over travel"},
            {"motion_ratio", "Motion ratio of the spring over travel"}})
     plot(std::string("sweep-") + key, title, {key});
-  RunContext nobody;
-  const GridPositions grid =
-      solve_grid(prepare_guide(best.guide), s.task.driver, range.travels, range.racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(best.guide), s.task.driver, range.travels, range.racks);
   result.scenes.push_back(
       guide_scene(best.guide, "solution-1", "the design found",
                   {s.task.driver, range.travels, range.racks, grid.positions, grid.wheels, s.lock}));

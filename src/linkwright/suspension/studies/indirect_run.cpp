@@ -331,8 +331,7 @@ study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std
   constexpr int steps = 20;  // each way
   for (int i = -steps; i <= steps; ++i) travels.push_back((i < 0 ? -low : high) * i / steps);
   travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
-  RunContext nobody;
-  const GridPositions grid = solve_grid(prepare_guide(guide), Driver::wheel_centre_z, travels, racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(guide), Driver::wheel_centre_z, travels, racks);
   return guide_scene(
       guide, name, "wheel travel and rack",
       {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});

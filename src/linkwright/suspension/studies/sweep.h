@@ -90,7 +90,7 @@ struct GridPositions {
 };
 /// Interrupted: the racks so far; in the first of them the travels so far, about the one next to zero.
 GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
-                         std::span<const double> racks, RunContext& context);
+                         std::span<const double> racks, const RunContext* context = nullptr);
 
 /// The tables of an analysis of a suspension that was found for a description, over these values (m); with
 /// the rack centred alone where it does not reach all of their combinations.

@@ -167,8 +167,7 @@ Value sweep_of_found(const GuideDescription& description, const WheelGuide& foun
         std::unique(values->begin(), values->end(), [](double a, double b) { return b - a < same; }),
         values->end());
   }
-  RunContext nobody;
-  const GridPositions grid = solve_grid(prepare_guide(found), travel, travels, racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(found), travel, travels, racks);
   const bool all = grid.positions.size() == travels.size() * racks.size() &&
                    std::all_of(grid.positions.begin(), grid.positions.end(),
                                [](const GuidePosition& p) { return p.status == Status::done; });

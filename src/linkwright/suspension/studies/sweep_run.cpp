@@ -233,7 +233,7 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
     return;
   }
   GridPositions solved =
-      solve_grid(prepare_guide(other.description.guide), s.travel, s.travels, s.racks, context);
+      solve_grid(prepare_guide(other.description.guide), s.travel, s.travels, s.racks, &context);
   const std::size_t positions = solved.positions.size();
   if (positions < s.travels.size() * s.racks.size()) result.status = context.interruption();
   if (positions == 0) return;
@@ -356,7 +356,7 @@ std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
 }
 
 GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
-                         std::span<const double> racks, RunContext& context) {
+                         std::span<const double> racks, const RunContext* context) {
   constexpr std::size_t between_looks = 256;
   GridPositions out;
   const GuidePosition reference = reference_position(plan, travel);
@@ -367,7 +367,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
   std::size_t solved = 0;
   bool stopped = false;
   for (const double rack : racks) {
-    if (context.interrupted()) break;
+    if (context && context->interrupted()) break;
     std::ptrdiff_t first = middle, last = middle;  // what the row has, first <= i < last
     const auto from = [&](const GuidePosition& start, std::ptrdiff_t at) {
       const auto i = static_cast<std::size_t>(at);
@@ -381,7 +381,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
       }
       first = std::min(first, at);
       last = std::max(last, at + 1);
-      if (++solved % between_looks == 0 && context.interrupted()) stopped = true;
+      if (++solved % between_looks == 0 && context && context->interrupted()) stopped = true;
       return there;
     };
     from(reference, middle);
@@ -408,7 +408,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
 study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   study::Result result;
   const GuidePlan plan = prepare_guide(asked.description.guide);
-  GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, context);
+  GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, &context);
   const std::size_t positions = solved.positions.size();
   if (positions < asked.travels.size() * asked.racks.size()) result.status = context.interruption();
   if (positions == 0) {
