@@ -75,9 +75,10 @@ TEST(SentencesOfExamples, NumbersWithUnitsAreNoText) {
   for (const Told& t : told())
     for (const Sentence& sentence : sentences_of(t.result))
       for (const Sentence::Part& part : sentence.parts())
-        if (const auto* text = std::get_if<std::string>(&part))
+        if (const auto* text = std::get_if<std::string>(&part)) {
           EXPECT_FALSE(std::regex_search(*text, number_with_unit))
               << t.example << ": " << to_string(sentence);
+        }
 }
 
 // In every system of units the numbers of one dimension in one sentence have one unit.
@@ -96,8 +97,9 @@ TEST(SentencesOfExamples, HaveOneUnitForEachDimension) {
               number && number->dimension != Dimension::none)
             written[number->dimension].insert(number->unit_words());
         for (const auto& [dimension, suffixes] : written)
-          if (units.chosen(dimension))
+          if (units.chosen(dimension)) {
             EXPECT_EQ(suffixes.size(), 1u) << t.example << " in " << system[0] << ": " << to_string(sentence);
+          }
       }
   }
 }

@@ -11,7 +11,7 @@ namespace {
 std::string only(const WheelGuide& guide) {
   const Diagnostics found = check(guide);
   if (found.size() != 1) return std::to_string(found.size()) + " findings";
-  return found[0].key + ": " + found[0].message;
+  return to_string(found[0].key + ": " + found[0].message);
 }
 
 TEST(WheelGuide, NumbersOfPoints) {

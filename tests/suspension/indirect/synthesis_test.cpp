@@ -162,8 +162,9 @@ TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
   EXPECT_EQ(found.status, Status::infeasible);
   ASSERT_FALSE(found.findings.empty());
   EXPECT_EQ(found.findings[0].key, "link.link 3");
-  EXPECT_TRUE(found.findings[0].message.starts_with("cannot keep its length at position 8: it misses by 0.0"))
-      << found.findings[0].message;
+  EXPECT_TRUE(to_string(found.findings[0].message)
+                  .starts_with("cannot keep its length at position 8: it misses by 0.0"))
+      << to_string(found.findings[0].message);
 }
 
 TEST(IndirectSynthesis, LinksAndCarrierPitchesTogether) {
