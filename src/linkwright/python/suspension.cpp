@@ -71,7 +71,7 @@ class WheelSuspension {
     // Ctrl-C ends what takes long.
     work_beside_python(
         [&] {
-          grid = suspension::solve_grid(plan_, study_.travel, travels, racks, context);
+          grid = suspension::solve_grid(plan_, study_.travel, travels, racks, &context);
           fill(grid, travels, racks, columns, *table);
         },
         [] {}, [&] { context.cancel(); });

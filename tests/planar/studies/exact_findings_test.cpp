@@ -49,20 +49,21 @@ TEST(ExactFindings, TheVerdictNamesWhatIsMissing) {
 
 TEST(ExactFindings, TheTextsCountMechanisms) {
   ExactFindings f = three_of_ten();
-  EXPECT_EQ(found_text(f), "All 10 solutions; 3 of them are real.");
-  EXPECT_EQ(answer_text(f, "their", "a crank-rocker"),
+  EXPECT_EQ(to_string(found_text(f)), "All 10 solutions; 3 of them are real.");
+  EXPECT_EQ(to_string(answer_text(f, "their", "a crank-rocker")),
             "1 of their 3 four-bars passes the points in one motion and in their order; the best is a "
             "crank-rocker.");
   f.mechanism = "slider-crank";
   f.answers = 0;
-  EXPECT_THAT(answer_text(f, "these", ""), HasSubstr("None of the 1 slider-cranks that pass the points"));
+  EXPECT_THAT(to_string(answer_text(f, "these", "")),
+              HasSubstr("None of the 1 slider-cranks that pass the points"));
   f.defect_free = 0;
   EXPECT_THAT(
-      answer_text(f, "these", ""),
+      to_string(answer_text(f, "these", "")),
       HasSubstr(
           "None of these 3 slider-cranks passes the points in one motion and in their order: 2 change"));
   f.designs = 0;
-  EXPECT_EQ(answer_text(f, "these", ""), "There is no slider-crank to build.");
+  EXPECT_EQ(to_string(answer_text(f, "these", "")), "There is no slider-crank to build.");
 }
 
 TEST(ExactFindings, TheOrderThatMostPassIsOffered) {
