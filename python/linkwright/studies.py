@@ -424,7 +424,7 @@ def catalogue() -> list[Kind]:
 
 
 def examples(text: str = "") -> list[Example]:
-    """The examples whose name or title holds a text: list of Example."""
+    """The examples that are called so, or that all words of the text fit, as `linkwright examples` finds them: list of Example."""
     return [Example(*row[:3]) for row in _linkwright.examples(text)]
 
 

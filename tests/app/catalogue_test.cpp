@@ -63,7 +63,7 @@ TEST(Catalogue, ListsHoldEveryWordWhateverItsCase) {
   EXPECT_TRUE(holds_words({}, {"anything"}));
 }
 
-TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
+TEST(Catalogue, EveryExampleReadsAndThoseThatTakeMillisecondsPassTheirChecks) {
   int read = 0, ran = 0;
   for (const char* name : {"robots", "studies", "suspension"}) {
     const std::filesystem::path folder = std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples" / name;
@@ -75,7 +75,8 @@ TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
       EXPECT_TRUE(diagnostics.empty()) << to_string(diagnostics[0]);
       ASSERT_TRUE(study) << entry.path();
       ++read;
-      if (!study->kind->mechanism.starts_with("suspension")) continue;  // they run in milliseconds
+      const bool motion = study->kind->kind == "analysis" && study->kind->mechanism.starts_with("planar.");
+      if (!motion && !study->kind->mechanism.starts_with("suspension")) continue;
       RunContext context;
       const study::Result result = study::run_study(*study, context);
       EXPECT_EQ(result.status, Status::done) << entry.path() << to_string(result.headline);
@@ -85,7 +86,7 @@ TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
     }
   }
   EXPECT_GE(read, 40);
-  EXPECT_GE(ran, 6);
+  EXPECT_GE(ran, 40);
 }
 
 TEST(Catalogue, TablesAreFoundByIdByBeginningOrAllTogether) {

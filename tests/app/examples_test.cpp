@@ -8,7 +8,9 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace linkwright::app {
@@ -83,6 +85,116 @@ TEST(Examples, AreFoundByNameOrByPart) {
   EXPECT_EQ(names("HOEKEN"), "hoeken tolerances-hoeken ");
   EXPECT_EQ(names("no such thing"), "");
   EXPECT_EQ(find_examples("").size(), examples().size());
+}
+
+// What people look for, in their words; each must find these examples, and perhaps more.
+constexpr std::pair<std::string_view, std::string_view> trade_words[] = {
+    {"excavator", "excavator-arm excavator-bucket"},
+    {"backhoe", "excavator-arm excavator-bucket"},
+    {"Diggers", "excavator-arm excavator-bucket"},
+    {"loader", "excavator-bucket loading-arm"},
+    {"hydraulic cylinder", "excavator-arm inverted-slider-crank tipper"},
+    {"gripper", "gripper-poses-and-points parallel-gripper"},
+    {"jaws", "gripper-poses-and-points parallel-gripper"},
+    {"windshield wiper", "windscreen-wiper"},
+    {"wipers", "windscreen-wiper"},
+    {"hood", "bonnet-hinge bonnet-hinge-in-a-box"},
+    {"bonnet", "bonnet-hinge bonnet-hinge-in-a-box"},
+    {"trunk", "tailgate"},
+    {"scissor lift", "scissor-lift"},
+    {"scissor-lifts", "scissor-lift"},
+    {"lazy tongs", "scissor-lift"},
+    {"landing gear", "landing-gear"},
+    {"undercarriage", "landing-gear"},
+    {"retraction", "landing-gear"},
+    {"quick return", "quick-return shaper whitworth-quick-return"},
+    {"quickreturn", "quick-return shaper whitworth-quick-return"},
+    {"walking", "jansen-leg klann-leg nine-points-leg"},
+    {"legs", "jansen-leg klann-leg nine-points-leg"},
+    {"crane", "level-luffing-crane"},
+    {"level luffing", "level-luffing-crane"},
+    {"dump truck", "tipper"},
+    {"lorry", "tipper"},
+    {"lorries", "tipper"},
+    {"garage door", "garage-door"},
+    {"up-and-over", "garage-door"},
+    {"toggle clamp", "toggle-clamp"},
+    {"toggle", "toggle-clamp toggle-press"},
+    {"pumpjack", "pump-jack"},
+    {"oil well", "pump-jack"},
+    {"nodding donkey", "pump-jack"},
+    {"robot arm", "arm-pick-and-place five-bar-robot"},
+    {"SCARA", "arm-pick-and-place five-bar-robot"},
+    {"folding chair", "folding-chair"},
+    {"door closer", "door-closer"},
+    {"umbrella", "umbrella"},
+    {"sewing machine", "sewing-machine"},
+    {"film advance", "film-claw"},
+    {"straight line", "beam-engine chebyshev hoeken line-6-points peaucellier"},
+    {"straight-line", "beam-engine chebyshev hoeken line-6-points peaucellier"},
+    {"steering", "ackermann-steering bump-steer strut-suspension-sweep"},
+    {"Ackerman", "ackermann-steering"},
+    {"bicycle suspension", "bicycle-rear-linkage"},
+    {"mountain bikes", "bicycle-rear-linkage"},
+    {"crank press", "flywheel-press"},
+    {"knuckle press", "toggle-press"},
+    {"presses", "flywheel-press toggle-press"},
+    {"shaper", "shaper"},
+    {"shaping machines", "shaper whitworth-quick-return"},
+    {"beam engine", "beam-engine"},
+    {"Watt", "beam-engine watt-1-six-bar watt-2-six-bar"},
+    {"parallel motion", "beam-engine"},
+    {"elliptical trammel", "elliptical-trammel"},
+    {"ellipse", "ellipse-10-points elliptical-trammel"},
+    {"cam", "dwell"},
+    {"geneva", "dwell"},
+    {"gear", "geared-five-bar landing-gear"},
+    {"sixbar", "watt-1-six-bar stephenson-3-six-bar"},
+    {"fourbar", "fourbar-reactions fourbar-18-points"},
+    {"piston", "engine-slider-crank balance-engine"},
+    {"MacPherson", "strut-suspension-sweep"},
+    {"multilink", "suspension-5us-synthesis"},
+    {"hexapod", "hexa-pi-joints"},
+};
+
+TEST(Examples, AreFoundByTheWordsOfTheTrade) {
+  for (const auto& [words, expected] : trade_words) {
+    std::set<std::string> found;
+    for (const Example* example : find_examples(words)) found.insert(example->name);
+    std::istringstream names{std::string(expected)};
+    for (std::string name; names >> name;)
+      EXPECT_TRUE(found.count(name)) << words << " does not find " << name;
+    EXPECT_LE(found.size(), examples().size() / 4) << words;
+  }
+}
+
+TEST(Examples, AreNotFoundByChance) {
+  const auto finds = [](std::string_view words, std::string_view name) {
+    for (const Example* example : find_examples(words))
+      if (example->name == name) return true;
+    return false;
+  };
+  EXPECT_FALSE(finds("cam", "film-claw"));  // of a camera
+  EXPECT_FALSE(finds("arm", "clearance-four-bar-lengths-swarm"));
+  EXPECT_FALSE(finds("excavator umbrella", "umbrella"));  // every word counts
+  EXPECT_TRUE(find_examples("helicopter").empty());
+}
+
+TEST(Examples, UnknownWordsHaveANearest) {
+  EXPECT_EQ(nearest_example_words("excavater"), "excavator");
+  EXPECT_EQ(nearest_example_words("Wndscreen wipers"), "windscreen wipers");
+  EXPECT_EQ(nearest_example_words("excavator"), "");   // is known
+  EXPECT_EQ(nearest_example_words("helicopter"), "");  // nothing is near
+  EXPECT_EQ(nearest_example_words(""), "");
+}
+
+TEST(Examples, WordsAreAList) {
+  for (const Example& example : examples()) {
+    EXPECT_EQ(example.words.empty(), example.text.find("# words:") == std::string_view::npos) << example.name;
+    EXPECT_EQ(example.words.find_first_of(".;\r\n"), std::string::npos) << example.name;
+  }
+  EXPECT_EQ(find_examples("tailgate").front()->words,
+            "boot, trunk, hatchback, liftgate, car, lid, body guidance, motion generation");
 }
 
 TEST(WriteNew, NeverOverAnotherFile) {

@@ -64,8 +64,8 @@ TEST(Arguments, TheOtherCommands) {
   const Arguments copy = parse({"examples", "--copy", "hoeken", "here"});
   EXPECT_EQ(copy.command, Command::examples);
   EXPECT_TRUE(copy.copy);
-  EXPECT_EQ(copy.example, "hoeken");
-  EXPECT_EQ(copy.folder, "here");
+  EXPECT_EQ(copy.words, (std::vector<std::string>{"hoeken", "here"}));
+  EXPECT_EQ(parse({"examples", "quick", "return"}).words, (std::vector<std::string>{"quick", "return"}));
   const Arguments compare = parse({"compare", "a", "b", "c", "-o", "d"});
   EXPECT_EQ(compare.command, Command::compare);
   EXPECT_EQ(compare.inputs, (std::vector<std::string>{"a", "b", "c"}));

@@ -155,10 +155,43 @@ TEST_F(RealLists, ExamplesByPartAndCopied) {
             "error: several examples fit 'balance-arm'; write one of:\n"
             "  balance-arm-counterweights: Counterweights of an arm of two links\n"
             "  balance-arm-law: Motion law of an arm of two links\n");
-  EXPECT_EQ(run({"examples", "--copy", "sewing machine"}), 2);
-  EXPECT_EQ(err_, "error: there is no example 'sewing machine'; `linkwright examples` lists them\n");
+  EXPECT_EQ(run({"examples", "--copy", "submarine"}), 2);
+  EXPECT_EQ(err_, "error: there is no example 'submarine'; `linkwright examples` lists all\n");
+  EXPECT_EQ(run({"examples", "--copy", "scisor-lift"}), 2);
+  EXPECT_EQ(err_, "error: there is no example 'scisor-lift'; did you mean 'scissor lift'?\n");
   EXPECT_EQ(run({"examples", "--copy"}), 2);
-  EXPECT_EQ(err_, "error: --copy needs the name of an example; `linkwright examples` lists them\n");
+  EXPECT_EQ(err_, "error: --copy needs the name of an example; `linkwright examples` lists all\n");
+  EXPECT_EQ(run({"examples", "--copy", "scissor", "lift", "here"}), 2);
+  EXPECT_EQ(
+      err_,
+      "error: --copy takes an example and a folder, not 3 words; `linkwright examples scissor lift here` "
+      "finds the name\n");
+}
+
+TEST_F(RealLists, ExamplesByTheWordsOfTheTrade) {
+  EXPECT_EQ(run({"examples", "windshield", "Wipers"}), 0);
+  EXPECT_EQ(out_,
+            "Linkages: motion and forces\n"
+            "  windscreen-wiper  Windscreen wiper: two arms from one crank\n"
+            "\nTo try one: linkwright examples --copy NAME\n");
+  // A word that nobody has: the nearest that somebody has.
+  EXPECT_EQ(run({"examples", "excavater"}), 2);
+  EXPECT_EQ(err_, "error: nothing in the list holds 'excavater'; did you mean 'excavator'?\n");
+  EXPECT_EQ(run({"examples", "helicopter"}), 2);
+  EXPECT_EQ(err_, "error: nothing in the list holds 'helicopter'; `linkwright examples` lists all\n");
+  // What is not modelled, or is called otherwise here, is answered as the catalogue does.
+  for (const char* word : {"ratchet", "pulley", "drawers"}) {
+    EXPECT_EQ(run({"catalogue", word}), 0) << word;
+    const std::string answer = out_;
+    EXPECT_EQ(run({"examples", word}), 0) << word;
+    EXPECT_EQ(out_, answer);
+  }
+  EXPECT_EQ(run({"examples", "cam"}), 0);
+  EXPECT_THAT(out_, HasSubstr("  dwell  Dwell: "));
+  EXPECT_THAT(out_, HasSubstr("\n\ncam: cams are not modelled. Nearest: "));
+  EXPECT_EQ(run({"examples", "gear"}), 0);
+  EXPECT_THAT(out_, HasSubstr("  geared-five-bar "));
+  EXPECT_THAT(out_, HasSubstr("\n\ngear: a pair of gears is a joint of type \"gear\""));
 }
 
 TEST_F(RealLists, SamplesSayWhichMechanismTakesThem) {

@@ -41,6 +41,60 @@ std::size_t place_among_known(std::string_view name) {
 /// A text of a document; empty if it has none.
 std::string text_at(const Value* value) { return value && value->is_string() ? value->as_string() : ""; }
 
+/// What follows "# words: " at the beginning of a line.
+std::string_view words_comment(std::string_view text) {
+  constexpr std::string_view mark = "\n# words: ";
+  const std::size_t at = text.find(mark);
+  if (at == std::string_view::npos) return {};
+  text.remove_prefix(at + mark.size());
+  return text.substr(0, text.find_first_of("\r\n"));
+}
+
+/// The words of a text in small letters; what is neither letter nor digit separates them.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (c >= 'A' && c <= 'Z')
+      words.back() += static_cast<char>(c - 'A' + 'a');
+    else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80)
+      words.back() += c;
+    else if (c != '\'' && !words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+/// All words of an example, one after the other.
+std::vector<std::string> words_of(const Example& example) {
+  return words_of(example.name + " " + example.title + " " + example.group + " " + example.words);
+}
+
+/// A word and what it may be the plural of.
+std::vector<std::string> singulars(const std::string& word) {
+  std::vector<std::string> out{word};
+  if (word.size() > 3 && word.ends_with("s") && !word.ends_with("ss")) {
+    out.push_back(word.substr(0, word.size() - 1));
+    if (word.ends_with("es")) out.push_back(word.substr(0, word.size() - 2));
+    if (word.ends_with("ies")) out.push_back(word.substr(0, word.size() - 3) + "y");
+  }
+  return out;
+}
+
+/// Whether the word is among them, also in part, in the plural, or as two of them in one.
+bool has_word(const std::vector<std::string>& words, const std::string& word) {
+  constexpr std::size_t whole = 3;  // letters; a part of so few is found everywhere: cam in camera
+  const auto fits = [&](std::string_view one, std::string_view asked) {
+    return asked.size() > whole ? one.starts_with(asked)
+                                : one == asked || (one.size() == asked.size() + 1 && one.ends_with('s') &&
+                                                   one.starts_with(asked));
+  };
+  for (const std::string& asked : singulars(word))
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (fits(words[i], asked) || (i + 1 < words.size() && words[i] + words[i + 1] == asked)) return true;
+  return false;
+}
+
 Example example_of(const EmbeddedFile& file) {
   Diagnostics diagnostics;
   const Value document =
@@ -57,7 +111,7 @@ Example example_of(const EmbeddedFile& file) {
       text_at(document.find("title")),
       std::string(known ? well_known
                         : group_of(text_at(document.find("kind")), type_of("mechanism"), type_of("target"))),
-      {},
+      std::string(words_comment(file.text)),
       file.text,
       {}};
   // A study names what it reads as a text of its own, and so do the studies that it names.
@@ -95,12 +149,35 @@ std::span<const Example> examples() {
 }
 
 std::vector<const Example*> find_examples(std::string_view text) {
+  const std::vector<std::string> asked = words_of(text);
   std::vector<const Example*> found;
   for (const Example& example : examples()) {
     if (example.name == text) return {&example};
-    if (holds_words({{std::string(text)}}, {example.name, example.title})) found.push_back(&example);
+    const std::vector<std::string> words = words_of(example);
+    if (example.name.starts_with(text) ||
+        std::all_of(asked.begin(), asked.end(),
+                    [&](const std::string& word) { return has_word(words, word); }))
+      found.push_back(&example);
   }
   return found;
+}
+
+std::string nearest_example_words(std::string_view text) {
+  std::vector<std::vector<std::string>> known;
+  for (const Example& example : examples()) known.push_back(words_of(example));
+  std::vector<std::string_view> allowed;
+  for (const auto& words : known) allowed.insert(allowed.end(), words.begin(), words.end());
+  std::string nearest;
+  bool replaced = false;
+  for (const std::string& word : words_of(text)) {
+    const bool there =
+        std::any_of(known.begin(), known.end(), [&](const auto& words) { return has_word(words, word); });
+    const std::string_view meant = there ? std::string_view(word) : nearest_word(word, allowed);
+    if (meant.empty()) return {};
+    replaced = replaced || !there;
+    nearest += (nearest.empty() ? "" : " ") + std::string(meant);
+  }
+  return replaced ? nearest : std::string();
 }
 
 Copied write_new(const std::string& file, std::string_view text, Diagnostics& diagnostics) {

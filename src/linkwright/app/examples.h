@@ -22,7 +22,7 @@ struct Example {
   std::string name;   ///< "hoeken"; no other example has it
   std::string title;  ///< of the study
   std::string group;  ///< group_of its kind, or well_known
-  std::string words;  ///< further words by which it is found
+  std::string words;  ///< what else people call it: "backhoe, digger"; the comment `# words:` of the file
   std::string_view text;
   std::vector<EmbeddedFile> beside;  ///< the files that it reads, under their names alone
 };
@@ -30,8 +30,14 @@ struct Example {
 /// All examples, group by group, the well-known ones first.
 std::span<const Example> examples();
 
-/// The example of that name, or those whose name or title holds it, whatever its case; all for an empty text.
+/// The example of that name; or those whose names begin so; or those with every word of the text among the
+/// words of their name, title, group and `words`. There case and plural do not matter, a word of more than
+/// three letters is enough in part ("excav"), and "fourbar" is "four-bar". All for an empty text.
 std::vector<const Example*> find_examples(std::string_view text);
+
+/// The text with every word that no example has replaced by the nearest that one has: "excavater arms" is
+/// "excavator arms". Empty where no word is unknown, or nothing is near.
+std::string nearest_example_words(std::string_view text);
 
 /// What writing a file for somebody came to; unwritten: the system would not.
 enum class Copied { written, unchanged, refused, unwritten };

@@ -145,8 +145,11 @@ class Grammar {
   void example_commands() {
     CLI::App& examples =
         add("examples", "list the examples that come with the program, or copy one", Command::examples);
-    value(examples, "EXAMPLE", arguments_.example, "name of an example, or a part of its name or title");
-    value(examples, "FOLDER", arguments_.folder, "with --copy: where to (default: here)");
+    value(examples, "EXAMPLE", arguments_.words,
+          "name of an example, or words of what you look for, such as excavator; with --copy: its name, and "
+          "the "
+          "folder where to (default: here)")
+        ->expected(0, 16);
     examples.add_flag("--copy", arguments_.copy,
                       "write the study and the files that it reads; what exists is left unchanged");
     examples.add_flag("--json", arguments_.json, "print for machines");

@@ -33,9 +33,8 @@ struct Arguments {
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
 
   std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders
-  std::vector<std::string> words;   ///< catalogue, samples: what each line of the list must hold
-  std::string example;              ///< examples: name or a part of it; empty = all
-  std::string folder;               ///< examples --copy: where to; empty = here
+  std::vector<std::string> words;   ///< catalogue, samples, examples: what each line of the list must hold;
+                                    ///< examples --copy: an example and, if not here, the folder where to
   bool copy = false;                ///< of examples
 
   std::string table;  ///< reproduce: id, beginning of ids or "all"; empty = list them

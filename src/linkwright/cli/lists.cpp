@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/app/catalogue.h"
@@ -52,17 +53,19 @@ std::string grouped(const std::vector<Entry>& entries, bool beside) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
+
 std::string with_dashes(std::string name) {
   std::replace(name.begin(), name.end(), '/', '-');
   return name;
 }
 
-int nothing_holds(const std::vector<std::string>& words, std::string_view command) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
+/// Says so, with a hint and with which other lists hold the words.
+int nothing_holds(const std::vector<std::string>& words, std::string hint) {
+  const std::string all = joined(words);
   Diagnostic problem;
   problem.message = fmt::format("nothing in the list holds '{}'", all);
-  problem.hint = fmt::format("`linkwright {}` lists all", command);
+  problem.hint = std::move(hint);
   // A six-bar is no kind of study, but there are six-bars.
   const auto samples = app::samples();
   const auto of_samples = std::count_if(samples.begin(), samples.end(), [&](const app::Sample& s) {
@@ -103,6 +106,13 @@ constexpr std::array concepts{
     Concept{"cylinder actuator ram hydraulic",
             "a cylinder is two bodies with a joint of type \"prismatic\" that is driven "
             "(analysis/planar.linkage)"},
+    Concept{
+        "rope ropes cable pulley pulleys winch tendon",
+        "ropes and pulleys are not modelled. Nearest: the force of the rope, or its torque on the drum "
+        "([[mechanism.force]], [[mechanism.torque]]), as in the examples level-luffing-crane and pump-jack"},
+    Concept{
+        "drawer drawers telescope",
+        "what is drawn out is a joint of type \"prismatic\", one for each stage (analysis/planar.linkage)"},
     Concept{"stewart gough hexapod",
             "platforms on six legs of variable length are not modelled. Nearest: analysis/parallel.hexa, six "
             "arms with "
@@ -154,28 +164,37 @@ int renamed(bool json) {
   return 0;
 }
 
+/// "did you mean 'excavator'?", or where all examples are listed.
+std::string examples_hint(std::string_view text) {
+  const std::string near = app::nearest_example_words(text);
+  return near.empty() ? "`linkwright examples` lists all" : fmt::format("did you mean '{}'?", near);
+}
+
 int copy_example(const Arguments& arguments) {
   const auto refuse = [](std::string message, std::string hint) {
     print_diagnostics({{Diagnostic::Severity::error, {}, {}, {}, std::move(message), std::move(hint)}});
     return bad_input;
   };
-  const std::vector<const app::Example*> found = app::find_examples(arguments.example);
-  if (arguments.example.empty())
-    return refuse("--copy needs the name of an example", "`linkwright examples` lists them");
-  if (found.empty())
-    return refuse(fmt::format("there is no example '{}'", arguments.example),
-                  "`linkwright examples` lists them");
+  if (arguments.words.empty())
+    return refuse("--copy needs the name of an example", "`linkwright examples` lists all");
+  const std::string& name = arguments.words[0];
+  if (arguments.words.size() > 2)
+    return refuse(fmt::format("--copy takes an example and a folder, not {} words", arguments.words.size()),
+                  fmt::format("`linkwright examples {}` finds the name", joined(arguments.words)));
+  const std::string folder = arguments.words.size() == 2 ? arguments.words[1] : std::string();
+  const std::vector<const app::Example*> found = app::find_examples(name);
+  if (found.empty()) return refuse(fmt::format("there is no example '{}'", name), examples_hint(name));
   if (found.size() > 1) {
     std::string hint = "write one of:";
     for (const app::Example* example : found)
       hint += fmt::format("\n  {}: {}", example->name, example->title);
-    return refuse(fmt::format("several examples fit '{}'", arguments.example), hint);
+    return refuse(fmt::format("several examples fit '{}'", name), hint);
   }
   Diagnostics diagnostics;
   std::error_code error;
-  if (!arguments.folder.empty()) fs::create_directories(arguments.folder, error);
+  if (!folder.empty()) fs::create_directories(folder, error);
   if (error) {
-    print_diagnostics({unwritten(arguments.folder, error.message())});
+    print_diagnostics({unwritten(folder, error.message())});
     return not_written;
   }
   const app::Example& example = *found.front();
@@ -183,7 +202,7 @@ int copy_example(const Arguments& arguments) {
   const std::string study = example.name + ".toml";
   files.push_back({study, example.text});
   for (const app::EmbeddedFile& file : files) {
-    const std::string path = (fs::path(arguments.folder) / file.path).string();
+    const std::string path = (fs::path(folder) / file.path).string();
     const app::Copied copied = app::write_new(path, file.text, diagnostics);
     switch (copied) {
       case app::Copied::written:
@@ -198,7 +217,7 @@ int copy_example(const Arguments& arguments) {
         return copied == app::Copied::unwritten ? not_written : bad_input;
     }
   }
-  fmt::print("run it with: linkwright run {}\n", (fs::path(arguments.folder) / study).string());
+  fmt::print("run it with: linkwright run {}\n", (fs::path(folder) / study).string());
   return 0;
 }
 
@@ -246,7 +265,7 @@ int list_catalogue(const Arguments& arguments, std::span<const study::Kind> kind
     fmt::print("{}: {}\n", arguments.words[0], known);
     return 0;
   }
-  if (entries.empty()) return nothing_holds(arguments.words, "catalogue");
+  if (entries.empty()) return nothing_holds(arguments.words, "`linkwright catalogue` lists all");
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return app::place_of_group(a.group) < app::place_of_group(b.group);
   });
@@ -273,7 +292,7 @@ int list_samples(const Arguments& arguments) {
     fmt::print("{}", study::to_json_readable(Value(std::move(json))));
     return 0;
   }
-  if (entries.empty()) return nothing_holds(arguments.words, "samples");
+  if (entries.empty()) return nothing_holds(arguments.words, "`linkwright samples` lists all");
   fmt::print("{}\n`sample = \"NAME\"` in [mechanism] takes one of them, with its dimensions and masses.\n",
              grouped(entries, true));
   return 0;
@@ -281,22 +300,27 @@ int list_samples(const Arguments& arguments) {
 
 int list_examples(const Arguments& arguments) {
   if (arguments.copy) return copy_example(arguments);
+  const std::string asked = joined(arguments.words);
   std::vector<Entry> entries;
   Value::Array json;
-  for (const app::Example* example : app::find_examples(arguments.example)) {
+  for (const app::Example* example : app::find_examples(asked)) {
     entries.push_back({example->group, example->name, example->title});
     Value one;
     one["name"] = example->name;
     one["title"] = example->title;
     one["group"] = example->group;
+    one["words"] = example->words;
     json.push_back(std::move(one));
   }
   if (arguments.json) {
     fmt::print("{}", study::to_json_readable(Value(std::move(json))));
     return 0;
   }
-  if (entries.empty()) return nothing_holds({arguments.example}, "examples");
-  fmt::print("{}\nTo try one: linkwright examples --copy NAME\n", grouped(entries, true));
+  const std::string_view known = answer_for(arguments.words);
+  if (entries.empty() && known.empty()) return nothing_holds(arguments.words, examples_hint(asked));
+  if (!entries.empty())
+    fmt::print("{}\nTo try one: linkwright examples --copy NAME\n", grouped(entries, true));
+  if (!known.empty()) fmt::print("{}{}: {}\n", entries.empty() ? "" : "\n", asked, known);
   return 0;
 }
 

@@ -57,7 +57,7 @@ export function Gallery() {
   }, [showGallery.value]);
   const all = catalogue.value?.examples ?? [];
   const asked = words.value.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = all.filter((e) => asked.every((w) => `${e.name} ${e.title} ${e.group} ${e.words}`.toLowerCase().includes(w)));
+  const found = all.filter((e) => asked.every((w) => [w, w.length > 3 ? w.replace(/(ie)?e?s$/, "") : w].some((s) => `${e.name} ${e.title} ${e.group} ${e.words}`.toLowerCase().includes(s))));
   const groups = [...new Set(found.map((e) => e.group))];
   return (
     <dialog class="gallery" ref={box} aria-label="Examples" onClose={() => {
