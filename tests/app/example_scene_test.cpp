@@ -43,5 +43,10 @@ TEST_F(ExampleScene, OfASearchIsTheSameEachTime) {
   EXPECT_EQ(study::to_json(once), study::to_json(of("fourbar-18-points-grey-wolf")));
 }
 
+// A motion that shows nothing before its end is run to its end.
+TEST_F(ExampleScene, OfALongMotionIsThere) {
+  EXPECT_TRUE(of("clearance-four-bar-regime").find("scene")->is_object());
+}
+
 }  // namespace
 }  // namespace linkwright::app

@@ -687,7 +687,7 @@ test("what is below the fold says nothing of the study before", async () => {
   assert.doesNotMatch(await page.locator(".bench").evaluate((e) => e.textContent), /yoke/i);
   // Of the study as it is now, or nothing.
   assert.match(await below(), /seatstay/);
-  await writeText(page, (await studyText(page)).replaceAll("seatstay", "swing arm"));
+  await writeText(page, (await studyText(page)).replaceAll("seatstay", "swingarm"));
   await holds(page, async () => !/seatstay/.test(await below()));
   const last = page.locator(".plot").last();
   await last.scrollIntoViewIfNeeded();

@@ -19,7 +19,7 @@
 namespace linkwright::app {
 namespace {
 
-constexpr std::int64_t steps = 500;  // half a second or so of the slowest searches
+constexpr std::int64_t least_steps = 500;  // half a second or so of the slowest searches
 
 Value first_scene(const Example& example, const std::string& folder) {
   Diagnostics diagnostics;
@@ -27,13 +27,18 @@ Value first_scene(const Example& example, const std::string& folder) {
   const std::optional<study::Study> study =
       study::prepare(document, example.name, folder, catalogue(), diagnostics);
   if (!study) return {};
-  const LooksAllowed allowed(steps);
-  RunContext context;
-  context.set_threads(1);
-  const study::Result shown = presented(*study, study::run_study(*study, context));
-  if (shown.scenes.empty()) return {};
-  const Value view = report::view_data(report_input(*study, shown, {}, {}));
-  return view.find("scenes")->as_array().front();
+  // What has nothing to show by then goes on for longer.
+  for (std::int64_t steps = least_steps;; steps *= 10) {
+    const LooksAllowed allowed(steps);
+    RunContext context;
+    context.set_threads(1);
+    const study::Result shown = presented(*study, study::run_study(*study, context));
+    if (!shown.scenes.empty()) {
+      const Value view = report::view_data(report_input(*study, shown, {}, {}));
+      return view.find("scenes")->as_array().front();
+    }
+    if (allowed.made() <= steps) return {};
+  }
 }
 
 }  // namespace
