@@ -53,7 +53,7 @@ TEST(ResultJson, CarriesTheAnswer) {
       R"({"headline":"The lever turns","verdict":"passed","reasons":[],)"
       R"("first_trouble":{"what":"no_assembly","where":{"angle_rad":0.7853981633974483},"why":"1 of 3 rows of 'sweep' are no_assembly"},)"
       R"("worst_trouble":{"what":"no_assembly","where":{"angle_rad":0.7853981633974483},"why":"1 of 3 rows of 'sweep' are no_assembly"},)"
-      R"("facts":[{"label":"length","text":"0.4 m","value":0.4,"unit":"m","verdict":"good"}]})");
+      R"("facts":[{"key":"length","label":"length","text":"0.4 m","value":0.4,"unit":"m","verdict":"good"}]})");
 }
 
 TEST(ResultJson, InTheUnitsAndDigitsThatTheStudyAsksFor) {

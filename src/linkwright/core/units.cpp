@@ -129,7 +129,7 @@ std::string unit_sign(std::string_view suffix) {
   if (suffix == "deg_per_100mm") return "°/100 mm";
   std::string text = readable_unit(suffix);
   for (const auto& [plain, shown] : {std::pair{"deg", "°"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}})
-    if (const std::size_t at = text.find(plain); at != std::string::npos)
+    for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at))
       text.replace(at, std::string_view(plain).size(), shown);
   return text;
 }

@@ -25,8 +25,7 @@ struct AddWarning {
   Diagnostics& diagnostics;
   void operator()(const Sentence& message, const Sentence& hint = {}) const { (*this)({}, message, hint); }
   void operator()(std::string key, const Sentence& message, const Sentence& hint) const {
-    diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, std::move(key), message, hint});
+    diagnostics.push_back({Diagnostic::Severity::warning, {}, {}, std::move(key), message, hint});
   }
 };
 

@@ -120,9 +120,9 @@ TEST(WorkspaceStudy, SaysABodyInOneUnit) {
       "[workspace]\nlower_mm = [-600, -600, 0]\nupper_mm = [600, 600, 0]\nstep_mm = 40\n"
       "[workspace.inscribed]\nshape = \"box\"\n");
   EXPECT_THAT(body_text(plane, "largest box", "mm"),
-              ContainsRegex("^[0-9.]+ x [0-9.]+ mm, at -?[0-9.]+, [0-9.]+ mm"));
+              ContainsRegex("^[0-9.]+ x [0-9.]+ mm, at -?[0-9.]+, -?[0-9.]+ mm"));
   EXPECT_THAT(body_text(plane, "largest box", "in"),
-              ContainsRegex("^[0-9.]+ x [0-9.]+ in, at -?[0-9.]+, [0-9.]+ in"));
+              ContainsRegex("^[0-9.]+ x [0-9.]+ in, at -?[0-9.]+, -?[0-9.]+ in"));
 }
 
 TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {

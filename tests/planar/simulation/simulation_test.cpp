@@ -424,9 +424,9 @@ TEST(Simulate, ForcesAtRestMeetThoseOfTheMotion) {
   const LinkagePlan p = planned(l);
   const std::vector<InputDrive> free{{{}, 1.0, 0}};
   const double release = simulated(l, p, free, {0, 1}).report.rests.first_to;
-  ASSERT_GT(release, 0.01);
+  ASSERT_GT(release, 1e-4);
   ASSERT_LT(release, 1);
-  const SimulationRun run = simulated(l, p, free, {0, release - 1e-9, release + 1e-6});
+  const SimulationRun run = simulated(l, p, free, {0, release - 1e-9, release + 1e-7});
   ASSERT_EQ(run.rows.size(), 3u);
   ASSERT_TRUE(run.rows[1].held);
   EXPECT_FALSE(run.rows[2].held);
@@ -436,7 +436,7 @@ TEST(Simulate, ForcesAtRestMeetThoseOfTheMotion) {
   solve_forces(l, p, motion, run.rows[2].time, run.rows[2].inputs[0].value, moving);
   double largest = 0;
   for (const JointReaction& r : moving.joints) largest = std::max(largest, norm(r.force));
-  ASSERT_GT(largest, 1);
+  ASSERT_GT(largest, 0.01);
   for (std::size_t j = 0; j < l.joints.size(); ++j)
     EXPECT_LT(norm(run.rows[1].held->joints[j].force - moving.joints[j].force), 1e-4 * largest)
         << l.joints[j].name;

@@ -12,8 +12,8 @@ namespace linkwright::planar {
 ///
 /// Balance means accelerations below those of a displacement by 1e-9 rad (or sizes of the linkage);
 /// displacements are tried at 1e-4. False with friction, which holds such a linkage, where a drive moves an
-/// input, and where the start cannot be assembled. Throws ContractError when the drives do not fit the plan or
-/// a body has no mass.
+/// input, and where the start cannot be assembled. Throws ContractError when the drives do not fit the plan
+/// or a body has no mass.
 bool in_unstable_balance(const Linkage& linkage, const LinkagePlan& plan, std::span<const InputDrive> drives,
                          double time);
 

@@ -55,11 +55,11 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
     report_.message = say("friction locks the linkage at {}: {}", where, jams);
   } else if (chattering_ >= 0) {
     report_.status = Status::limit_reached;
-    report_.message = say(
-        "the motion cannot be followed beyond {}: the friction of joint '{}' holds it while {} "
-        "(sticking joints are not computed)",
-        where, l_.joints[at(chattering_)].name,
-        rests_ ? "loads or drives may free it later" : "others move on");
+    report_.message =
+        say("the motion cannot be followed beyond {}: the friction of joint '{}' holds it while {} "
+            "(sticking joints are not computed)",
+            where, l_.joints[at(chattering_)].name,
+            rests_ ? "loads or drives may free it later" : "others move on");
   } else if (at_change_) {
     report_.status = Status::limit_reached;
     report_.message =

@@ -188,7 +188,9 @@ const LinkageForces& Simulation::forces_at_rest(double t) {
     solve_forces(*yielding_, plan_, motion, t, inputs_[0].value, held_);
     return held_.drives[k];
   };
-  const double without = missing(0, 0), sense = without > 0 ? -1 : 1;
+  const double without = missing(0, 0);
+  if (without == 0) return held_;  // nothing pushes
+  const double sense = without > 0 ? -1 : 1;
   const double with_all = missing(1, sense);
   // At the moment at which friction gives way rounding may leave it too small by a digit.
   if (held_.status == Status::done && (with_all < 0) != (without < 0)) {
