@@ -252,8 +252,9 @@ TEST(PageView, TheCatalogueHoldsWhatThereIsToBeginWith) {
   const Value out = catalogue_document();
   EXPECT_GT(out.find("examples")->as_array().size(), 80u);
   for (const Value& example : out.find("examples")->as_array())  // the gallery looks for them
-    if (example.find("name")->as_string() == "tailgate")
+    if (example.find("name")->as_string() == "tailgate") {
       EXPECT_TRUE(example.find("words")->as_string().starts_with("boot, trunk, "));
+    }
   EXPECT_GT(out.find("kinds")->as_array().size(), 30u);
   EXPECT_GT(out.find("samples")->as_array().size(), 20u);
 }
