@@ -171,7 +171,7 @@ TEST_F(RealLists, ExamplesByPartAndCopied) {
 TEST_F(RealLists, ExamplesByTheWordsOfTheTrade) {
   EXPECT_EQ(run({"examples", "windshield", "Wipers"}), 0);
   EXPECT_EQ(out_,
-            "Linkages: motion and forces\n"
+            "Find motion and forces\n"
             "  windscreen-wiper  Windscreen wiper: two arms from one crank\n"
             "\nTo try one: linkwright examples --copy NAME\n");
   // A word that nobody has: the nearest that somebody has.

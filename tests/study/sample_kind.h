@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/kind.h"
 
@@ -51,7 +52,7 @@ inline Result run(const Lever& lever, const Angle& angle, const Common& common, 
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (lever.mode == Mode::wait) result.status = context.interruption();
   result.headline = "The lever turns";
-  result.facts = {{"length", "0.4 m", Fact::Verdict::good}};
+  result.facts = {{"length", metres(0.4), Fact::Verdict::good}};
   Solution solution;
   solution.label = "lever";
   solution.parameters = {{"length_m", "length", lever.length.upper, lever.length.lower, lever.length.upper}};
