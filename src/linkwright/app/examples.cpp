@@ -28,7 +28,7 @@ constexpr std::string_view known_machines[] = {"fourbar-reactions",
                                                "peaucellier",
                                                "jansen-leg",
                                                "klann-leg",
-                                               "excavator",
+                                               "excavator-arm",
                                                "scissor-lift",
                                                "sweep",
                                                "packing-line"};
