@@ -244,7 +244,7 @@ test("an error in the text says where, keeps the picture and mends", async () =>
   const text = await studyText(page);
   await writeText(page, text.replace("sample ", "sampel "));
   await page.locator(".problems .error").first().waitFor();
-  assert.match(await page.locator(".problems").innerText(), /line 9[\s\S]*did you mean 'sample'\?/);
+  assert.match(await page.locator(".problems").innerText(), /line 10[\s\S]*did you mean 'sample'\?/);
   assert.match(await page.locator(".stale").innerText(), /the last one without/);
   assert.equal(await page.locator("#drawing .pose").count(), 1);
   await page.locator("textarea.study").fill(text);
@@ -496,14 +496,14 @@ test("points that the timing does not allow are not taken, and it says why", asy
 test("a search that is stopped keeps its best", async () => {
   const { page, errors, close } = await open({ example: "fourbar-18-points-grey-wolf" });
   const text = await studyText(page);
-  await writeText(page, text.replace(/count = \d+/, "count = 10000"));
+  await writeText(page, text.replace(/count = \d+/, "count = 100000"));
   await until(async () => /best \d/.test(await page.locator(".state").innerText()));
   await page.locator("#stop").click();
   await settled(page);
   const result = await resultOf(page);
   assert.match(result.status, /^(cancelled|deadline)$/);
   assert.ok(result.solutions.length > 0 && result.solutions[0].parameters.crank_m > 0);
-  assert.match(await studyText(page), /count = 10000/);
+  assert.match(await studyText(page), /count = 100000/);
   assert.deepEqual(errors, []);
   await close();
 });
@@ -531,7 +531,7 @@ if (!served)
 test("the best so far moves while a search goes on", async () => {
   const { page, errors, close } = await open({ example: "fourbar-18-points-grey-wolf" });
   const text = await studyText(page);
-  await writeText(page, text.replace(/count = \d+/, "count = 10000").replace(/^title .*$/m, 'title = "For long"'));
+  await writeText(page, text.replace(/count = \d+/, "count = 100000").replace(/^title .*$/m, 'title = "For long"'));
   await until(async () => (await page.locator("h1").innerText()) === "For long");
   assert.equal(await page.locator("#stop").count(), 1);
   assert.equal(await page.locator("#drawing .pose").count(), 1);
