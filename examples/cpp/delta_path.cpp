@@ -22,7 +22,7 @@ int main() {
     const parallel::Pose pose{tool.position, tool.rotation};
     const parallel::ArmAngles arms = parallel::inverse(robot, pose);
     if (arms.status != Status::done) {
-      std::printf("%.3f s: %s\n", time, parallel::reason(arms).c_str());
+      std::printf("%.3f s: %s\n", time, to_string(parallel::reason(arms)).c_str());
       return 1;
     }
     for (int leg = 0; leg < 3; ++leg) {

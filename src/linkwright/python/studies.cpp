@@ -332,8 +332,11 @@ void bind_sources(py::module_& module) {
       .def_property_readonly(
           "column", [](const Diagnostic& d) { return d.position.column; }, "in characters, from 1")
       .def_readonly("key", &Diagnostic::key, "path of the key: 'mechanism.parameters.crank_m'")
-      .def_readonly("message", &Diagnostic::message, "what was found, and what is allowed")
-      .def_readonly("hint", &Diagnostic::hint, "how to fix it; may be empty")
+      .def_property_readonly(
+          "message", [](const Diagnostic& d) { return to_string(d.message); },
+          "what was found, and what is allowed")
+      .def_property_readonly(
+          "hint", [](const Diagnostic& d) { return to_string(d.hint); }, "how to fix it; may be empty")
       .def("__str__", [](const Diagnostic& d) { return to_string(d); })
       .def("__repr__", [](const Diagnostic& d) { return "<" + to_string(d) + ">"; });
 
