@@ -126,7 +126,7 @@ ${written.join("")}  Diagnostics problems;
   if (!study) return 2;
   RunContext context;
   const study::Result result = study::run_study(*study, context);
-  std::printf("%s\\n", result.headline.c_str());
+  std::printf("%s\\n", to_string(result.headline).c_str());
   for (const Table& table : result.tables)
     std::printf("%s: %zu columns\\n", table.name.c_str(), table.columns.size());
 }
