@@ -54,6 +54,7 @@ NO_TEST = {
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
     "optimise/detail/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
     "optimise/detail/differential_evolution_base.h": "shared part of both forms, tested through them",
+    "planar/path/detail/target_kernel.h": "part of both objectives, compiled once per instruction set and compared by their tests",
     "planar/four_bar/detail/sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
     "optimise/population_methods.h": "choices of studies; read and run by the tests of path and balancing studies",
     "planar/function/detail/six_bar_synthesis.h": "the search of both six-bar generators, tested through them",

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
@@ -133,6 +135,60 @@ TEST(SliderPathFitter, ReachesTheFreeTimingOptimumFromNearIt) {
   const SliderPathDesign d = measure(p, fit.mechanism, 1, fit.angles);
   EXPECT_THAT(d.violations, IsEmpty());
   EXPECT_LE(d.error, number_at(design, "sse_m2") * (1 + 1e-3));
+}
+
+SliderPathDesign timed_optimum(const SliderPathProblem& p) {
+  const SliderPathFit fit = SliderPathFitter(p, 1).fit(published(), angles_of(p, 0.53607), thorough);
+  return measure(p, fit.mechanism, 1, fit.angles);
+}
+SliderCrankMechanism moved(SliderCrankMechanism m) {
+  m.parameters.rod *= 1.005;
+  m.parameters.rod_u += 0.01;
+  m.parameters.pivot_y -= 0.01;
+  return m;
+}
+
+// Within a tolerance an error costs nothing: the best error falls to zero as soon as the tolerance takes in
+// the largest miss of the optimum, and no sooner than a fifth of it.
+TEST(SliderPathFitter, MeetsTolerancesAtNoCost) {
+  SliderPathProblem p = printed_eighteen_slider_points();
+  const SliderPathDesign optimum = timed_optimum(p);
+  const PathErrors misses = path_errors(p, optimum);
+  const double largest = *std::max_element(misses.distance.begin(), misses.distance.end());
+  for (const bool free : {false, true}) {
+    p.free_timing = free;
+    p.tolerance.assign(18, largest);
+    const SliderPathFit wide = SliderPathFitter(p, 1).fit(moved(optimum.mechanism), optimum.angles, thorough);
+    EXPECT_LT(wide.error, 1e-12) << free;
+    p.tolerance.assign(18, 0.2 * largest);
+    const SliderPathFit narrow = SliderPathFitter(p, 1).fit(optimum.mechanism, optimum.angles, thorough);
+    EXPECT_GT(narrow.error, 0) << free;
+    EXPECT_LT(narrow.error, optimum.error) << free;
+    EXPECT_NEAR(measure(p, narrow.mechanism, 1, narrow.angles).error, narrow.error, 1e-12);
+  }
+}
+
+// Gates along the normals of a curve that some slider-crank traces are passed from a start nearby.
+TEST(SliderPathFitter, PassesThroughGates) {
+  SliderPathProblem p = printed_eighteen_slider_points();
+  const SliderPathDesign optimum = timed_optimum(p);
+  const auto point = [&](double angle) { return slider_crank_pose(optimum.mechanism, angle).point; };
+  for (std::size_t k = 0; k < 18; ++k) {
+    const double angle = optimum.angles[k];
+    const auto along = point(angle + 1e-4) - point(angle - 1e-4);
+    const auto normal = 0.1 * std::complex(0.0, 1.0) * along / std::abs(along);
+    p.gate_x.push_back(normal.real());
+    p.gate_y.push_back(normal.imag());
+    // The posts lie on both sides, the target in the middle is somewhere else.
+    const auto middle = point(angle) + (k % 2 ? 0.5 : -0.3) * normal;
+    p.x[k] = middle.real();
+    p.y[k] = middle.imag();
+  }
+  for (const bool free : {false, true}) {
+    p.free_timing = free;
+    const SliderPathFit fit = SliderPathFitter(p, 1).fit(moved(optimum.mechanism), optimum.angles, thorough);
+    EXPECT_LT(fit.error, 1e-16) << free;
+  }
 }
 
 TEST(SliderPathFitter, AStartThatDoesNotAssembleHasNoError) {

@@ -42,6 +42,11 @@ SliderPathProblem objective_problem(const ObjectiveCase& c) {
     p.x.push_back(std::cos(t) + 0.1 * std::sin(3 * t));
     p.y.push_back(0.6 * std::sin(t));
     p.offsets.push_back(0.4 + (c.turning ? 1.0 : 0.25) * t);
+    if (c.limits && c.closed) {  // some gates, some points, some with a tolerance
+      p.gate_x.push_back(k % 3 == 0 ? 0 : 0.3);
+      p.gate_y.push_back(k % 3 == 0 ? 0 : 0.2 * static_cast<double>(k) - 0.5);
+      p.tolerance.push_back(k % 2 == 0 ? 0 : 0.25);
+    }
   }
   p.closed = c.closed;
   p.free_timing = c.free;

@@ -12,8 +12,8 @@ namespace linkwright::planar {
 namespace {
 
 // One target of each kind: point, point with tolerance, gate, gate with tolerance.
-PathProblem targets() {
-  PathProblem p;
+PathTargets targets() {
+  PathTargets p;
   p.x = {1, 2, 3, 4};
   p.y = {0, 1, -1, 0.5};
   p.gate_x = {0, 0, 0.3, -0.5};
@@ -23,7 +23,7 @@ PathProblem targets() {
 }
 
 // Distance to the nearest of many places between the posts, beyond the tolerance.
-double sampled(const PathProblem& p, std::size_t k, double px, double py) {
+double sampled(const PathTargets& p, std::size_t k, double px, double py) {
   double least = infinity;
   for (int i = -2000; i <= 2000; ++i)
     least = std::min(least,
@@ -32,7 +32,7 @@ double sampled(const PathProblem& p, std::size_t k, double px, double py) {
 }
 
 TEST(PathTargets, MissIsTheDistanceBeyondTheTolerance) {
-  const PathProblem p = targets();
+  const PathTargets p = targets();
   int met = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     RandomStream r({.seed = seed});
@@ -48,7 +48,7 @@ TEST(PathTargets, MissIsTheDistanceBeyondTheTolerance) {
 }
 
 TEST(PathTargets, ItsDerivativeIsThatOfDifferences) {
-  const PathProblem p = targets();
+  const PathTargets p = targets();
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     RandomStream r({.seed = seed});
     for (std::size_t k = 0; k < 4; ++k) {
@@ -68,10 +68,10 @@ TEST(PathTargets, ItsDerivativeIsThatOfDifferences) {
 }
 
 TEST(PathTargets, OffsetTakesNoNoticeOfTheTolerance) {
-  const PathProblem p = targets();
+  const PathTargets p = targets();
   EXPECT_EQ(target_offset(p, 1, 2.1, 1).x, 2.1 - 2.0);
   EXPECT_EQ(target_miss(p, 1, 2.1, 1).x, 0);
-  PathProblem plain = p;
+  PathTargets plain = p;
   plain.gate_x.clear(), plain.gate_y.clear(), plain.tolerance.clear();
   EXPECT_TRUE(has_bands(p));
   EXPECT_FALSE(has_bands(plain));

@@ -16,6 +16,7 @@ struct ReadPoints {
   std::vector<double> x, y;
   std::string problems;
 };
+// `rotation`: of the crank from the first point to the last, in equal steps; nothing = free timing.
 ReadPoints read(const std::string& text, bool closed, std::optional<double> rotation = 1) {
   Diagnostics diagnostics;
   const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
@@ -23,11 +24,13 @@ ReadPoints read(const std::string& text, bool closed, std::optional<double> rota
   study::ObjectReader root = reader.root();
   ReadPoints out;
   if (auto target = root.table("target")) {
-    PathPointsForm form;
+    PathTargetForm form;
     target->read(form);
-    PathPoints points;
-    read_path_targets(*target, {}, form, points);
-    leave_out_closing_target(*target, "points", closed, rotation, points);
+    form.closed = closed;
+    if (rotation && form.points && form.points->size() > 1)
+      form.timing = {.mode = Timing::equal_steps,
+                     .step = *rotation / static_cast<double>(form.points->size() - 1)};
+    const PathTargets points = read_path_targets(*target, {}, form);
     out.x = points.x, out.y = points.y;
   }
   reader.finish();

@@ -51,14 +51,6 @@ TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
   }
 }
 
-TEST(PointTable, HoldsTheDistances) {
-  const PathDesign design = boskovic();
-  const Table table = point_table(eighteen_points(), design, "points");
-  double sum = 0;
-  for (double d : table.find("distance_m")->values) sum += d * d;
-  EXPECT_NEAR(sum, design.error, 1e-15);
-}
-
 TEST(MotionTable, AnglesRunOnWithoutJumps) {
   const Table table = motion_table(boskovic(), "motion", 181);
   EXPECT_EQ(table.rows(), 181u);

@@ -38,15 +38,6 @@ TEST(SliderPathScene, DrawsTheCurveThatTheTableLists) {
   EXPECT_EQ(scene.targets[0].x.size(), 18u);
 }
 
-TEST(SliderPathScene, PointsTellTheirDistance) {
-  const SliderPathProblem p = printed_eighteen_slider_points();
-  const SliderPathDesign d = published(p);
-  const Table points = slider_point_table(p, d, "points");
-  double sum = 0;
-  for (const double distance : points.find("distance_m")->values) sum += distance * distance;
-  EXPECT_NEAR(sum, d.error, 1e-15);
-}
-
 TEST(SliderPathScene, ACrankThatRocksIsShownOverWhatItReaches) {
   SliderPathProblem p = printed_eighteen_slider_points();
   p.crank_rotates_fully = p.closed = false;

@@ -157,6 +157,38 @@ TEST(SliderPathStudyRun, AnswersWithEvidence) {
   EXPECT_EQ(cognates->columns[0].values.size(), 2u);
 }
 
+// The same points with room around them: gates that hold the answer for the points cost nothing, tolerances
+// less than the points alone; by prescribed and by free timing.
+TEST(SliderPathStudyRun, MeetsGatesAndTolerances) {
+  const std::string one = "[optimiser]\nstarts = 12\n";
+  std::string gates = "closed = true\ntiming = { mode = \"equal_steps\", step_deg = 90 }\ngates_m = [";
+  for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 1}, {0, 1}})
+    gates += "{ from = [" + std::to_string(x) + ", " + std::to_string(y) + "], to = [" +
+             std::to_string(x + (x ? 0.5 : -0.5)) + ", " + std::to_string(y) + "] }, ";
+  const study::Result passed = run_text(target(gates + "]\n") + one);
+  ASSERT_EQ(passed.status, Status::done);
+  EXPECT_THAT(passed.headline, HasSubstr("passes the 4 gates"));
+  EXPECT_EQ(passed.scenes[0].targets.size(), 2u);
+  for (const char* timing : {"mode = \"equal_steps\", step_deg = 20.0", "mode = \"free\""}) {
+    std::string points = eighteen;
+    const std::size_t from = points.find("mode"), to = points.find(" }", from);
+    points.replace(from, to - from, timing);
+    const auto error = [&](const std::string& more) {
+      const study::Result r = run_text(target(points + more) + one);
+      EXPECT_EQ(r.status, Status::done);
+      return r.solutions.at(0).objectives.find("path_error_sum_sq_m2")->as_number();
+    };
+    const double exact = error(""), near = error("tolerance_m = 0.01\n"), wide = error("tolerance_m = 0.1\n");
+    EXPECT_LT(near, exact) << timing;
+    EXPECT_GT(near, 0) << timing;
+    EXPECT_EQ(wide, 0) << timing;
+  }
+  EXPECT_THAT(problems_of(target("fit = \"exact\"\n" + gates + "]\n")),
+              HasSubstr("fit = \"exact\" passes points, not gates"));
+  EXPECT_THAT(problems_of(target(std::string("fit = \"exact\"\ntolerance_m = 0.1\n") + square)),
+              HasSubstr("fit = \"exact\" passes its points without tolerance"));
+}
+
 // What the study finds, put into a study of the analysis: the same path and the same stroke.
 TEST(SliderPathStudyRun, TheAnalysisOfTheAnswerGivesItsPathAndStroke) {
   const study::Result r = run_text(target(eighteen) + "[optimiser]\nseeds = { first = 1, count = 1 }\n");

@@ -5,16 +5,13 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
 KernelSet<PathKernel> path_kernels() { return LINKWRIGHT_KERNEL_SET(evaluate_path); }
 
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense) {
   LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
-  PathObjective o;
-  o.x = problem.x;
-  o.y = problem.y;
+  PathObjective o{lay_out(problem)};
   o.free_timing = problem.timing == Timing::free;
   o.start_is_variable = starts_anywhere(problem.timing);
   o.closed = problem.closed;
@@ -33,13 +30,6 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
     const PackagingBox& box = *problem.rocker_pivot;
     o.rocker_pivot = {std::max(box.x_min, -far), std::min(box.x_max, far), std::max(box.y_min, -far),
                       std::min(box.y_max, far)};
-  }
-  if (has_bands(problem)) {
-    o.banded = true;
-    const std::vector<double> none(problem.x.size(), 0.0);
-    o.gate_x = problem.gate_x.empty() ? none : problem.gate_x;
-    o.gate_y = problem.gate_y.empty() ? none : problem.gate_y;
-    o.tolerance = problem.tolerance.empty() ? none : problem.tolerance;
   }
   if (!o.free_timing) {
     o.least_offset = infinity;

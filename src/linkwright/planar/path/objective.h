@@ -10,11 +10,8 @@
 namespace linkwright::planar {
 
 /// A path problem on one branch and sense, laid out for the kernels.
-struct PathObjective {
+struct PathObjective : TargetLayout {
   std::size_t points = 0;  ///< number of target points; the arrays repeat the last one up to a multiple of 4
-  std::vector<double> x, y;                       ///< target points (m)
-  bool banded = false;                            ///< gates or tolerances count
-  std::vector<double> gate_x, gate_y, tolerance;  ///< when banded, as many as x (see PathProblem)
   std::vector<double> ux,
       uy;  ///< prescribed timing: direction e^(i angle) of each point before the start angle is added
   double least_offset = 0, greatest_offset = 0;  ///< prescribed timing: extremes of those angles (rad)

@@ -45,11 +45,7 @@ std::string_view name(FourBarParameter parameter) {
 }
 
 void require_valid(const PathProblem& p) {
-  LINKWRIGHT_REQUIRE(p.x.size() >= 3 && p.x.size() == p.y.size(),
-                     "needs at least 3 points, got {} x and {} y", p.x.size(), p.y.size());
-  for (std::size_t k = 0; k < p.x.size(); ++k)
-    LINKWRIGHT_REQUIRE(std::isfinite(p.x[k]) && std::isfinite(p.y[k]), "point {} is ({}, {})", k + 1, p.x[k],
-                       p.y[k]);
+  require_valid_targets(p);
   if (p.timing == Timing::given || p.timing == Timing::increments) {
     LINKWRIGHT_REQUIRE(p.angles.size() == p.x.size(), "{} angles for {} points", p.angles.size(), p.x.size());
     for (std::size_t k = 0; k < p.angles.size(); ++k)
@@ -78,21 +74,7 @@ void require_valid(const PathProblem& p) {
         p.rocker_pivot->x_min <= p.rocker_pivot->x_max && p.rocker_pivot->y_min <= p.rocker_pivot->y_max,
         "the box of the rocker pivot is {} to {} by {} to {}", p.rocker_pivot->x_min, p.rocker_pivot->x_max,
         p.rocker_pivot->y_min, p.rocker_pivot->y_max);
-  LINKWRIGHT_REQUIRE(p.gate_x.size() == p.gate_y.size() &&
-                         (p.gate_x.empty() || p.gate_x.size() == p.x.size()) &&
-                         (p.tolerance.empty() || p.tolerance.size() == p.x.size()),
-                     "{} x and {} y of gates and {} tolerances for {} points", p.gate_x.size(),
-                     p.gate_y.size(), p.tolerance.size(), p.x.size());
-  for (double tolerance : p.tolerance)
-    LINKWRIGHT_REQUIRE(tolerance >= 0 && std::isfinite(tolerance), "a tolerance is {}", tolerance);
   LINKWRIGHT_REQUIRE(p.least_step > 0 && p.least_step < 2 * pi, "the least step is {}", p.least_step);
-  LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
-}
-
-double path_size(const PathProblem& p) {
-  const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
-  const auto [y0, y1] = std::minmax_element(p.y.begin(), p.y.end());
-  return std::hypot(*x1 - *x0, *y1 - *y0);
 }
 
 std::array<Range, four_bar_parameter_count> derive_bounds(const std::vector<double>& x,
@@ -152,15 +134,7 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
     }
     add_violation(d, "transmission_angle", std::cos(mu.minimum) - std::cos(problem.min_transmission_angle));
   }
-  if (problem.timing == Timing::free) {
-    double turned = 0, back = 0;
-    for (std::size_t k = 0; k + 1 < d.angles.size(); ++k) {
-      const double step = sense * (d.angles[k + 1] - d.angles[k]);
-      turned += step;
-      back += std::max(0.0, -step);
-    }
-    add_violation(d, "order", back + std::max(0.0, turned - 2 * pi));
-  }
+  if (problem.timing == Timing::free) add_violation(d, "order", out_of_order(d.angles, sense));
   const auto outside = [&](const PackagingBox& box, const std::complex<double>& pivot) {
     return (std::max({0.0, box.x_min - pivot.real(), pivot.real() - box.x_max}) +
             std::max({0.0, box.y_min - pivot.imag(), pivot.imag() - box.y_max})) /
@@ -221,18 +195,13 @@ void rank(std::vector<PathDesign>& designs) {
 }
 
 PathErrors path_errors(const PathProblem& problem, const PathDesign& design) {
-  PathErrors out;
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
-    const FourBarPosition pose = position(design.linkage, design.angles[k]);
-    const bool there = pose.status != Status::no_assembly;
-    out.x.push_back(there ? pose.coupler_point.real() : nan);
-    out.y.push_back(there ? pose.coupler_point.imag() : nan);
-    const TargetMiss miss = target_miss(problem, k, out.x[k], out.y[k]);
-    out.excess.push_back(std::hypot(miss.x, miss.y));
-    const TargetMiss offset = target_offset(problem, k, out.x[k], out.y[k]);
-    out.distance.push_back(std::hypot(offset.x, offset.y));
+  std::vector<std::complex<double>> reached;
+  for (const double angle : design.angles) {
+    const FourBarPosition pose = position(design.linkage, angle);
+    reached.push_back(pose.status != Status::no_assembly ? pose.coupler_point
+                                                         : std::complex<double>(nan, nan));
   }
-  return out;
+  return path_errors(problem, reached);
 }
 
 optimise::Problem path_population_problem(const PathProblem& problem, Branch branch, double sense) {

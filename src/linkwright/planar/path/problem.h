@@ -10,6 +10,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
 
@@ -52,17 +53,10 @@ struct PackagingBox {
 };
 
 /// A four-bar is to trace points with its coupler point.
-struct PathProblem {
-  std::vector<double> x,
-      y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
-  bool closed = true;
+struct PathProblem : PathTargets {
   Timing timing = Timing::free;
-  /// Targets that are gates: half of the distance from one gate post to the other (m), so that target k is
-  /// met anywhere on the segment from (x - gate_x, y - gate_y) to (x + gate_x, y + gate_y). Empty = points.
-  std::vector<double> gate_x, gate_y;
-  std::vector<double> tolerance;  ///< a target is met as near as this (m, >= 0), at no cost; empty = exactly
-  double least_step = 1e-4;       ///< crank rotation that free timing keeps between two points (rad, > 0)
-  double step = 0;                ///< rad, equal_steps
+  double least_step = 1e-4;  ///< crank rotation that free timing keeps between two points (rad, > 0)
+  double step = 0;           ///< rad, equal_steps
   /// rad, one a point; given: relative to the ground link, increments: from the first point, 0 there
   std::vector<double> angles;
 
@@ -84,14 +78,10 @@ struct PathProblem {
 /// Keys of the parameters without unit, in their order: "ground", ..., "start_angle".
 std::string_view name(FourBarParameter parameter);
 
-/// Throws ContractError unless there are at least 3 finite points that do not all coincide (and as many
-/// angles when they are given), the bounds are ordered and finite, lengths may be positive, the transmission
-/// limit lies in [0, pi/2), the packaging box is ordered and finite, the box of the rocker pivot ordered, and
-/// gates and tolerances, where there are any, are as many as the points.
+/// Throws ContractError unless the targets are valid (and there are as many angles when they are given), the
+/// bounds are ordered and finite, lengths may be positive, the transmission limit lies in [0, pi/2), the
+/// packaging box is ordered and finite, and the box of the rocker pivot ordered.
 void require_valid(const PathProblem& problem);
-
-/// Diagonal of the bounding box of the target points (m): the characteristic length of the problem.
-double path_size(const PathProblem& problem);
 
 /// Bounds that follow from the path when the study gives none: links from 1/1000 to 50 times the size of the
 /// path (its bounding-box diagonal), pivots and coupler point up to 50 times as far from its middle, angles
@@ -130,11 +120,6 @@ bool same_linkage(const FourBar& a, const FourBar& b);
 /// Best first, by the feasibility rules; among equals, as timed cognates are, the open branch first.
 void rank(std::vector<PathDesign>& designs);
 
-/// Coupler point at each target (m), its distance to the point or gate (m), and how far that is beyond the
-/// tolerance (m; the distance where there is none); NaN where it does not assemble.
-struct PathErrors {
-  std::vector<double> x, y, distance, excess;
-};
 PathErrors path_errors(const PathProblem& problem, const PathDesign& design);
 
 /// The ten-unknown problem (nine when the angles are given; 9 + points when timing is free, then every crank

@@ -174,7 +174,9 @@ bool SliderPathFitter::evaluate(const Shared& q, const std::vector<double>& angl
     const Vec<double> direction = rod_direction(closure, side_);
     const Complex v(direction.x, direction.y), arm = distance * toward * v,
                                                pin = crank * guide * Complex(c, s);
-    const Complex off = w * (pivot + pin + arm - Complex(problem_.x[k], problem_.y[k]));
+    const Complex point = pivot + pin + arm;
+    const TargetMiss miss = target_miss(problem_, k, point.real(), point.imag());
+    const Complex off(w * miss.x, w * miss.y);
     sum += std::norm(off);
     if (!derivatives) continue;
     // theta3 - delta changes by d sine / cosine.
@@ -191,8 +193,15 @@ bool SliderPathFitter::evaluate(const Shared& q, const std::vector<double>& angl
     by[index(P::pivot_y)] = i;
     by[index(P::start_angle)] = problem_.free_timing ? 0 : by_phase;
     Shared x_by{}, y_by{};
-    for (std::size_t j = 0; j < count; ++j) x_by[j] = w * by[j].real(), y_by[j] = w * by[j].imag();
-    const Complex own = problem_.free_timing ? w * by_phase : 0;
+    const auto missed_by = [&](const Complex& moved) {
+      return Complex(w * (miss.xx * moved.real() + miss.xy * moved.imag()),
+                     w * (miss.xy * moved.real() + miss.yy * moved.imag()));
+    };
+    for (std::size_t j = 0; j < count; ++j) {
+      const Complex column = missed_by(by[j]);
+      x_by[j] = column.real(), y_by[j] = column.imag();
+    }
+    const Complex own = problem_.free_timing ? missed_by(by_phase) : 0;
     equations_.add_point(k, off.real(), off.imag(), x_by, y_by, own.real(), own.imag());
   }
   error_ = sum * size_ * size_;

@@ -11,10 +11,8 @@ KernelSet<SliderPathKernel> slider_path_kernels() { return LINKWRIGHT_KERNEL_SET
 
 SliderPathObjective slider_path_objective(const SliderPathProblem& problem, SliderSide side, double sense) {
   LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
-  SliderPathObjective o;
+  SliderPathObjective o{lay_out(problem)};
   o.points = problem.x.size();
-  o.x = problem.x;
-  o.y = problem.y;
   o.free_timing = problem.free_timing;
   o.closed = problem.closed;
   o.side = sign(side);

@@ -11,9 +11,8 @@
 namespace linkwright::planar {
 
 /// A path problem of the slider-crank on one side and sense, laid out for the kernels.
-struct SliderPathObjective {
+struct SliderPathObjective : TargetLayout {
   std::size_t points = 0;
-  std::vector<double> x, y;    ///< target points (m)
   std::vector<double> ux, uy;  ///< prescribed timing: direction of the offset of each point, sense included
   double least_offset = 0, greatest_offset = 0;  ///< extremes of those offsets (rad)
   bool free_timing = false;

@@ -33,11 +33,7 @@ std::string_view name(SliderParameter parameter) {
 }
 
 void require_valid(const SliderPathProblem& p) {
-  LINKWRIGHT_REQUIRE(p.x.size() >= 3 && p.x.size() == p.y.size(),
-                     "needs at least 3 points, got {} x and {} y", p.x.size(), p.y.size());
-  for (std::size_t k = 0; k < p.x.size(); ++k)
-    LINKWRIGHT_REQUIRE(std::isfinite(p.x[k]) && std::isfinite(p.y[k]), "point {} is ({}, {})", k + 1, p.x[k],
-                       p.y[k]);
+  require_valid_targets(p);
   if (!p.free_timing) {
     LINKWRIGHT_REQUIRE(p.offsets.size() == p.x.size(), "{} angles for {} points", p.offsets.size(),
                        p.x.size());
@@ -56,13 +52,6 @@ void require_valid(const SliderPathProblem& p) {
                      "the stroke is limited to {} to {}", p.stroke.lower, p.stroke.upper);
   LINKWRIGHT_REQUIRE(p.crank_rotates_fully || (p.stroke.lower == 0 && p.stroke.upper == infinity),
                      "the stroke is limited, but the crank need not rotate fully");
-  LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
-}
-
-double path_size(const SliderPathProblem& p) {
-  const auto [x0, x1] = std::minmax_element(p.x.begin(), p.x.end());
-  const auto [y0, y1] = std::minmax_element(p.y.begin(), p.y.end());
-  return std::hypot(*x1 - *x0, *y1 - *y0);
 }
 
 std::array<Range, slider_parameter_count> derive_slider_bounds(const std::vector<double>& x,
@@ -170,7 +159,8 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
   for (std::size_t k = 0; k < problem.x.size(); ++k) {
     const SliderCrankPose pose = slider_crank_pose(mechanism, d.angles[k]);
     gap = std::max(gap, pose.gap);
-    const double square = std::norm(pose.point - Complex(problem.x[k], problem.y[k]));
+    const TargetMiss miss = target_miss(problem, k, pose.point.real(), pose.point.imag());
+    const double square = miss.x * miss.x + miss.y * miss.y;
     d.error += std::isnan(square) ? infinity : square;
   }
   // Whatever the tolerance of the other constraints: an error that does not exist is never feasible.
@@ -188,15 +178,7 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
     const double outside = std::max(d.stroke - problem.stroke.upper, problem.stroke.lower - d.stroke);
     add_violation(d, "stroke", std::isnan(d.stroke) ? 1 : outside / path_size(problem));
   }
-  if (problem.free_timing) {
-    double turned = 0, back = 0;
-    for (std::size_t k = 0; k + 1 < d.angles.size(); ++k) {
-      const double step = sense * (d.angles[k + 1] - d.angles[k]);
-      turned += step;
-      back += std::max(0.0, -step);
-    }
-    add_violation(d, "order", back + std::max(0.0, turned - 2 * pi));
-  }
+  if (problem.free_timing) add_violation(d, "order", out_of_order(d.angles, sense));
 
   const auto values = parameter_values(problem, d);
   double out_of_bounds = 0;
@@ -272,15 +254,11 @@ SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& m, double 
   return out;
 }
 
-SliderPathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design) {
-  SliderPathErrors out;
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
-    const SliderCrankPose pose = slider_crank_pose(design.mechanism, design.angles[k]);
-    out.x.push_back(pose.point.real());
-    out.y.push_back(pose.point.imag());
-    out.distance.push_back(std::hypot(out.x[k] - problem.x[k], out.y[k] - problem.y[k]));
-  }
-  return out;
+PathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design) {
+  std::vector<Complex> reached;
+  for (const double angle : design.angles)
+    reached.push_back(slider_crank_pose(design.mechanism, angle).point);
+  return path_errors(problem, reached);
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/linkage/slider_crank.h"
+#include "linkwright/planar/path/targets.h"
 
 // Path synthesis of the slider-crank with an inclined, offset guide: Boskovic 2018, section 4.3.
 namespace linkwright::planar {
@@ -39,10 +40,7 @@ constexpr bool is_angle(SliderParameter p) {
 }
 
 /// A slider-crank is to trace points with a point of its rod.
-struct SliderPathProblem {
-  std::vector<double> x,
-      y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
-  bool closed = true;
+struct SliderPathProblem : PathTargets {
   /// Each point is met at any crank angle, in the order of the points; else at start angle + sense offset.
   bool free_timing = false;
   std::vector<double> offsets;  ///< rad, one a point, not used by free timing
@@ -64,13 +62,10 @@ struct SliderPathProblem {
   Range stroke{0, infinity};
 };
 
-/// Throws ContractError unless there are at least 3 finite points that do not all coincide, as many finite
-/// offsets when timing is prescribed, bounds that are ordered, finite and leave lengths positive, a pressure
+/// Throws ContractError unless the targets are valid, with as many finite offsets when timing is prescribed,
+/// bounds that are ordered, finite and leave lengths positive, a pressure
 /// limit in (0, pi/2], and a stroke range that is ordered, not negative, and asked of a full turn only.
 void require_valid(const SliderPathProblem& problem);
-
-/// Diagonal of the bounding box of the target points (m).
-double path_size(const SliderPathProblem& problem);
 
 /// Bounds that follow from the path, as for the four-bar: links from 1/1000 to 50 times the size of the path,
 /// point, offset and pivot up to 50 times the size away, angles over a full turn.
@@ -106,9 +101,10 @@ struct SliderPathDesign {
   SliderCrankMechanism mechanism;
   double sense = 1;            ///< +1 or -1: sense of crank rotation along the order of the points
   std::vector<double> angles;  ///< crank angle at each target point (rad, from the x axis), unwrapped
-  double error = 0;  ///< sum of squared distances (m2), Boskovic 2018, Eqs. (4.13), (4.18); infinite when the
-                     ///< tracing point does not exist at a target
-  double stroke = 0;                            ///< m, see stroke()
+  double error = 0;   ///< sum of squared distances (m2), Boskovic 2018, Eqs. (4.13), (4.18), from gates where
+                      ///< targets are gates, and beyond the tolerances; infinite when the tracing point does
+                      ///< not exist at a target
+  double stroke = 0;  ///< m, see stroke()
   std::vector<optimise::Violation> violations;  ///< of the constraints of the problem; empty = feasible
   std::vector<std::string> active_bounds;       ///< names of parameters at a bound
 };
@@ -138,11 +134,7 @@ void rank(std::vector<SliderPathDesign>& designs);
 /// ContractError when the tracing point is the crank pin, which leaves no cognate.
 SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& mechanism, double crank_angle);
 
-/// Tracing point at each target (m), and its distance to it (m); NaN where it does not assemble.
-struct SliderPathErrors {
-  std::vector<double> x, y, distance;
-};
-SliderPathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design);
+PathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design);
 
 /// What the two objectives are divided by when they stand side by side: squared size and size of the path.
 struct SliderPathScales {

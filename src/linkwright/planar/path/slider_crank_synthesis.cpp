@@ -315,13 +315,14 @@ class SliderSearch {
     return taken;
   }
 
-  // Those that meet everything are taken as they are, the others go through the constrained search.
+  // Those that meet everything are taken as they are, the others go through the constrained search, as does
+  // what the separable form has brought to points that are gates or have tolerances.
   void finish_candidates(std::vector<SliderCandidate> found, double sense) {
     SliderPathFitter fitter(problem_, sense);
     for (const SliderCandidate& candidate : distinct(std::move(found), slider_finished_starts)) {
       if (!problem_.free_timing) {
         SliderPathDesign design = measure(problem_, candidate.mechanism, sense, candidate.angles);
-        if (design.violations.empty()) {
+        if (design.violations.empty() && !has_bands(problem_)) {
           keep(std::move(design));
           continue;
         }
@@ -376,7 +377,7 @@ class SliderSearch {
       if (at[i].empty()) continue;
       const SliderPathProblem here = limited_problem(strokes[i]);
       SliderPathDesign design = search.projection().design(here, at[i]);
-      if (!design.violations.empty()) {
+      if (!design.violations.empty() || has_bands(problem_)) {
         fitter.limit_stroke(here.stroke);
         const SliderPathFit fit =
             fitter.fit(design.mechanism, design.angles, {.iterations = 200, .passes = 30});

@@ -1,14 +1,44 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 #include <cstddef>
-
-#include "linkwright/planar/path/problem.h"
+#include <vector>
 
 namespace linkwright::planar {
 
-/// Whether some target of a problem is more than a point: a gate, or a point with a tolerance.
-inline bool has_bands(const PathProblem& p) { return !p.gate_x.empty() || !p.tolerance.empty(); }
+/// What a path asks of whatever mechanism traces it.
+struct PathTargets {
+  std::vector<double> x,
+      y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
+  /// Targets that are gates: half of the distance from one gate post to the other (m), so that target k is
+  /// met anywhere on the segment from (x - gate_x, y - gate_y) to (x + gate_x, y + gate_y). Empty = points.
+  std::vector<double> gate_x, gate_y;
+  std::vector<double> tolerance;  ///< a target is met as near as this (m, >= 0), at no cost; empty = exactly
+  bool closed = true;             ///< the last target is followed by the first
+};
+
+/// Throws ContractError unless there are at least 3 finite points that do not all coincide, and gates and
+/// tolerances, where there are any, are as many as the points.
+void require_valid_targets(const PathTargets& targets);
+
+/// Diagonal of the bounding box of the target points (m): the characteristic length of a path.
+double path_size(const PathTargets& targets);
+
+/// Whether some target is more than a point: a gate, or a point with a tolerance.
+inline bool has_bands(const PathTargets& p) { return !p.gate_x.empty() || !p.tolerance.empty(); }
+
+/// Tracing point at each target (m), its distance to the point or gate (m), and how far that is beyond the
+/// tolerance (m; the distance where there is none); NaN where it does not assemble.
+struct PathErrors {
+  std::vector<double> x, y, distance, excess;
+};
+/// Those of a tracing point that is at `reached` at the targets, in their order.
+PathErrors path_errors(const PathTargets& targets, const std::vector<std::complex<double>>& reached);
+
+/// By how much crank angles (rad, one a target, unwrapped) run backwards in a sense of rotation or on beyond
+/// a turn: 0 = the targets are met one after the other within one turn.
+double out_of_order(const std::vector<double>& angles, double sense);
 
 /// How a tracing point misses a target: the vector (m) from the nearest place that counts as met, zero where
 /// it is met, and its symmetric derivative for the tracing point.
@@ -19,7 +49,7 @@ struct TargetMiss {
 
 /// Miss of target `k` by the point (px, py), whatever the tolerance: from the target point, or from the
 /// nearest place of the gate.
-inline TargetMiss target_offset(const PathProblem& p, std::size_t k, double px, double py) {
+inline TargetMiss target_offset(const PathTargets& p, std::size_t k, double px, double py) {
   TargetMiss m{px - p.x[k], py - p.y[k]};
   if (p.gate_x.empty()) return m;
   const double hx = p.gate_x[k], hy = p.gate_y[k], square = hx * hx + hy * hy;
@@ -39,7 +69,7 @@ inline TargetMiss target_offset(const PathProblem& p, std::size_t k, double px, 
 }
 
 /// The same beyond the tolerance of the target: what counts as error.
-inline TargetMiss target_miss(const PathProblem& p, std::size_t k, double px, double py) {
+inline TargetMiss target_miss(const PathTargets& p, std::size_t k, double px, double py) {
   TargetMiss m = target_offset(p, k, px, py);
   const double t = p.tolerance.empty() ? 0 : p.tolerance[k];
   if (!(t > 0)) return m;
@@ -56,5 +86,13 @@ inline TargetMiss target_miss(const PathProblem& p, std::size_t k, double px, do
   m.y *= keep;
   return m;
 }
+
+/// Targets laid out for the kernels.
+struct TargetLayout {
+  std::vector<double> x, y;                       ///< target points (m)
+  bool banded = false;                            ///< gates or tolerances count
+  std::vector<double> gate_x, gate_y, tolerance;  ///< when banded, as many as x
+};
+TargetLayout lay_out(const PathTargets& targets);
 
 }  // namespace linkwright::planar

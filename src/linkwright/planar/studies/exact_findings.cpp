@@ -55,6 +55,22 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
   }
 }
 
+bool check_exact_targets(study::ObjectReader& target, const PathTargetForm& form, const PathTargets& targets,
+                         std::string_view instead) {
+  if (!targets.gate_x.empty()) {
+    target.error(key_of(form), "fit = \"exact\" passes points, not gates",
+                 fmt::format("give points, or use what searches: {}", instead));
+    return false;
+  }
+  if (!targets.tolerance.empty())
+    target.error(form.tolerance    ? "tolerance"
+                 : form.tolerances ? "tolerances"
+                                   : "points_file",
+                 "fit = \"exact\" passes its points without tolerance",
+                 fmt::format("leave it out, or use what searches: {}", instead));
+  return true;
+}
+
 Sentence found_text(const ExactFindings& f) {
   const Sentence real = say("{} of them {} real", f.real_classes, f.real_classes == 1 ? "is" : "are");
   switch (f.completeness) {

@@ -8,6 +8,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/core/table.h"
 #include "linkwright/planar/exact/nine_points.h"
+#include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/result.h"
@@ -32,6 +33,11 @@ struct ExactFindings {
 /// together far from the origin (m).
 void check_exact_points(study::ObjectReader& target, const char* key, const std::vector<double>& x,
                         const std::vector<double>& y);
+
+/// Reports gates and tolerances, of which exact synthesis knows none; `instead`: what to use for them. False
+/// where the targets are gates.
+bool check_exact_targets(study::ObjectReader& target, const PathTargetForm& form, const PathTargets& targets,
+                         std::string_view instead);
 
 /// How complete the set of a solver without certificates is.
 Completeness completeness_of(const ExactFindings& findings);

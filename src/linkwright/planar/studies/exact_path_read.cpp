@@ -22,10 +22,6 @@ namespace {
 constexpr std::size_t timed_with_pivots = 3;
 constexpr const char* search_instead = "fit = \"least_squares\" searches for the nearest four-bars";
 
-const char* points_key(const PathTarget& target) {
-  return target.gates ? "gates" : target.points_file ? "points_file" : "points";
-}
-
 // The four numbers that place both pivots, in the order of their keys.
 std::array<const std::optional<Range>*, 4> pivot_numbers(const PathParameters& p) {
   return {&p.ranges[index(FourBarParameter::pivot_x)], &p.ranges[index(FourBarParameter::pivot_y)],
@@ -83,7 +79,7 @@ void check_timed_count(study::ObjectReader& target, const PathStudy& s, bool wit
   const std::size_t n = s.problem.x.size();
   if (n < least_timed_points || n == timed_with_pivots || (n <= most_timed_points && !with_pivots)) return;
   target.error(
-      points_key(s.target),
+      key_of(s.target),
       fmt::format("{} points with crank angles{} are more than a four-bar passes exactly, which are {}", n,
                   with_pivots ? " and a given pivot" : "",
                   with_pivots ? timed_with_pivots : most_timed_points),
@@ -109,7 +105,7 @@ void check_count(study::ObjectReader& target, const PathStudy& s, int pivots) {
         "rocker_pivot_y as well",
         exact_points[1], exact_points[2]);
   target.error(
-      points_key(s.target),
+      key_of(s.target),
       n < wanted
           ? fmt::format("{} points {} are passed by infinitely many four-bars, fit = \"exact\" takes {}", n,
                         how, wanted)
@@ -131,17 +127,7 @@ void check_rotations(study::ObjectReader& target, const PathProblem& p) {
 
 void read_exact_path(study::ObjectReader& document, study::ObjectReader& target, PathStudy& s) {
   PathProblem& p = s.problem;
-  if (s.target.gates) {
-    target.error("gates", "fit = \"exact\" passes points, not gates",
-                 fmt::format("give points, or use what searches: {}", search_instead));
-    return;
-  }
-  if (!p.tolerance.empty())
-    target.error(s.target.tolerance    ? "tolerance"
-                 : s.target.tolerances ? "tolerances"
-                                       : "points_file",
-                 "fit = \"exact\" passes its points without tolerance",
-                 fmt::format("leave it out, or use what searches: {}", search_instead));
+  if (!check_exact_targets(target, s.target, p, search_instead)) return;
   if (!std::holds_alternative<Recommended>(s.optimiser.method))
     document.error("optimiser", "fit = \"exact\" finds all solutions, there is nothing to search",
                    "remove the method");
@@ -150,7 +136,7 @@ void read_exact_path(study::ObjectReader& document, study::ObjectReader& target,
   if (p.timing != Timing::free && p.angles.size() == p.x.size()) check_rotations(target, p);
   if (pivots && p.timing == Timing::free && p.x.size() == exact_points[at(*pivots)] &&
       p.x.size() == p.y.size())
-    check_exact_points(target, points_key(s.target), p.x, p.y);
+    check_exact_points(target, key_of(s.target), p.x, p.y);
 
   // All that solves the problem is an answer, whatever its size.
   if (p.x.size() < 3) return;

@@ -67,7 +67,8 @@ Table slider_design_table(const std::vector<ExactSliderDesign>& designs) {
 
 void read_exact_slider_path(study::ObjectReader& document, study::ObjectReader& target, SliderPathStudy& s) {
   SliderPathProblem& p = s.problem;
-  const char* key = s.target.points_file ? "points_file" : "points";
+  const char* key = key_of(s.target);
+  if (!check_exact_targets(target, s.target, p, search_sliders)) return;
   if (!std::holds_alternative<Recommended>(s.optimiser.method))
     document.error("optimiser", "fit = \"exact\" finds all solutions, there is nothing to search",
                    "remove the method");

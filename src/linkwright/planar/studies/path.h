@@ -95,59 +95,15 @@ constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
   return {{{TracingPoint::coupler, "coupler", "point (coupler_u, coupler_v) of the coupler"}}};
 }
 
-/// Two points that the path passes between, or a point where both are the same.
-struct PathGate {
-  std::array<double, 2> from{}, to{};
-};
-template <class Visitor>
-void fields(Visitor&& visit, PathGate& g) {
-  visit(Field{.key = "from",
-              .summary = "one post [x, y]",
-              .dimension = Dimension::length,
-              .required = true,
-              .inherits_unit = true},
-        g.from);
-  visit(Field{.key = "to",
-              .summary = "the other post [x, y]",
-              .dimension = Dimension::length,
-              .required = true,
-              .inherits_unit = true},
-        g.to);
-}
-
-struct PathTarget : PathPointsForm {
+struct PathTarget : PathTargetForm {
   TracingPoint point = TracingPoint::coupler;
   PathFit fit = PathFit::least_squares;
-  bool closed = false;
-  std::optional<std::vector<PathGate>> gates;
-  std::optional<double> tolerance;
-  std::optional<std::vector<double>> tolerances;
-  PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
-  visit(Field{.key = "closed",
-              .summary =
-                  "the last point is followed by the first; default: whether the last repeats the first"},
-        t.closed);
-  visit(Field{.key = "gates",
-              .summary = "instead of points: pairs of points that the path passes between, in their order",
-              .dimension = Dimension::length},
-        t.gates);
-  visit(Field{.key = "tolerance",
-              .summary = "every point or gate counts as met within this distance, at no cost",
-              .dimension = Dimension::length,
-              .minimum = 0},
-        t.tolerance);
-  visit(Field{.key = "tolerances",
-              .summary = "the same, one for each point or gate",
-              .dimension = Dimension::length,
-              .minimum = 0},
-        t.tolerances);
-  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
-  fields(visit, static_cast<PathPointsForm&>(t));
+  fields(visit, static_cast<PathTargetForm&>(t));
 }
 
 /// What is minimised.

@@ -75,7 +75,7 @@ constexpr std::array<const char*, 4> posts = {"from_x", "from_y", "to_x", "to_y"
 
 // False where something is missing, and has been reported.
 bool read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
-                      bool with_bands, PathPoints& targets) {
+                      bool with_bands, PathTargets& targets) {
   const std::optional<std::string> text = study::read_beside(reader, "points_file", common.folder, file);
   if (!text) return false;
   Diagnostics problems;
@@ -140,8 +140,40 @@ bool same_point(const std::vector<double>& x, const std::vector<double>& y, std:
   return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * farthest(x, y);
 }
 
-void read_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                  bool with_bands, PathPoints& targets) {
+// Three targets at least and none twice in a row; problems are reported at `key`.
+void check_targets(study::ObjectReader& target, const char* key, const PathTargets& targets) {
+  const std::vector<double>&x = targets.x, &y = targets.y;
+  const std::size_t n = x.size();
+  if (n == 0) {
+    target.error(key, "there are no points", "give at least 3 points [x, y]");
+    return;
+  }
+  if (n < 3) {
+    target.error(key,
+                 fmt::format("{} point{} make{} no path, at least 3 are needed", n, n == 1 ? "" : "s",
+                             n == 1 ? "s" : ""),
+                 "add points between them");
+    return;
+  }
+  if (n > most_points) {
+    target.error(key, fmt::format("{} points, at most {} are allowed", n, most_points),
+                 "keep every second or third point");
+    return;
+  }
+  const double far = farthest(x, y);
+  if (far > 1e9) {
+    target.error(key, fmt::format("a point lies {:.3g} m from the origin, at most 1e9 m are allowed", far),
+                 "check the unit");
+    return;
+  }
+  for (std::size_t k = 1; k < n; ++k)
+    if (same_point(x, y, k, k - 1))
+      target.error(key, fmt::format("point {} repeats point {}: ({}, {})", k + 1, k, x[k], y[k]),
+                   "remove one of them");
+}
+
+void read_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                 bool with_bands, PathTargets& targets) {
   const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
   const bool has_file = target.has("points_file");
   if (has_points && has_file) {
@@ -157,7 +189,7 @@ void read_targets(study::ObjectReader& target, const study::Common& common, cons
     if (form.points_file && !read_points_file(target, common, *form.points_file, with_bands, targets))
       targets = {};
     else if (form.points_file)
-      check_path_targets(target, "points_file", targets);
+      check_targets(target, "points_file", targets);
     return;
   }
   if (!form.points) return;  // reported already
@@ -165,15 +197,94 @@ void read_targets(study::ObjectReader& target, const study::Common& common, cons
     targets.x.push_back(point[0]);
     targets.y.push_back(point[1]);
   }
-  check_path_targets(target, "points", targets);
+  check_targets(target, "points", targets);
+}
+
+// The middles of gates, and half of the way from one post to the other.
+void read_gates(study::ObjectReader& target, const PathTargetForm& form, PathTargets& targets) {
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  if (has_points || target.has("points_file")) {
+    target.error("gates",
+                 fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
+                 "keep one of them; a gate whose posts agree is a point");
+    return;
+  }
+  for (const PathGate& gate : *form.gates) {
+    targets.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
+    targets.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
+    targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
+    targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
+  }
+  check_targets(target, "gates", targets);
+}
+
+void read_tolerances(study::ObjectReader& target, const PathTargetForm& form, PathTargets& targets) {
+  if (form.tolerance && form.tolerances) {
+    target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
+    return;
+  }
+  if (!form.tolerance && !form.tolerances) return;
+  if (!targets.tolerance.empty()) {
+    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file also has tolerances",
+                 "keep the key or the column");
+    return;
+  }
+  if (form.tolerance) targets.tolerance.assign(targets.x.size(), *form.tolerance);
+  if (!form.tolerances) return;
+  if (targets.x.size() >= 3 && form.tolerances->size() != targets.x.size()) {
+    target.error("tolerances",
+                 fmt::format("{} tolerances for {} targets", form.tolerances->size(), targets.x.size()),
+                 "give one for each, or tolerance for all");
+    return;
+  }
+  targets.tolerance = *form.tolerances;
+}
+
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const PathTiming& t, std::size_t points) {
+  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == Timing::increments && t.increments && t.increments->size() + 1 == points)
+    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
+  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// Leaves out what the timing says of the last point alone.
+void leave_out_closing_angle(PathTiming& t) {
+  if (t.mode == Timing::increments) t.increments->pop_back();
+  if (t.mode == Timing::given) t.angles->pop_back();
+}
+
+// Whether a crank rotation is one turn, in either sense, to rounding (rad).
+bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }
+
+// Leaves out the last target where it is the first one again and the path is closed, or is to be: then the
+// path is said to be closed. True when it was left out.
+bool leave_out_closing_target(study::ObjectReader& target, const char* key, std::optional<double> turned,
+                              PathTargets& targets) {
+  const std::size_t n = targets.x.size();
+  if (n < 4 || !repeats_first_point(targets.x, targets.y)) return false;
+  if (!targets.gate_x.empty() &&
+      (targets.gate_x.front() != targets.gate_x.back() || targets.gate_y.front() != targets.gate_y.back()))
+    return false;
+  const char* what = targets.gate_x.empty() ? "point" : "gate";
+  if (targets.closed) {
+    target.warning(key, fmt::format("the last of {} {}s repeats the first: taken once", n, what),
+                   fmt::format("closed = true joins the last {} to the first", what));
+  } else {
+    if (target.has("closed") || (turned && !is_one_turn(*turned))) return false;
+    target.warning(
+        key, fmt::format("the last of {} {}s repeats the first: taken once, and the path as closed", n, what),
+        "write closed = true, or closed = false to keep it open");
+    targets.closed = true;
+  }
+  for (auto* values : {&targets.x, &targets.y, &targets.gate_x, &targets.gate_y, &targets.tolerance})
+    if (!values->empty()) values->pop_back();
+  return true;
 }
 
 }  // namespace
-
-void PathPoints::pop_back() {
-  for (auto* values : {&x, &y, &gate_x, &gate_y, &tolerance})
-    if (!values->empty()) values->pop_back();
-}
 
 bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y) {
   return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
@@ -221,86 +332,51 @@ std::vector<double> timed_angles(study::ObjectReader& target, const study::Displ
   return out;
 }
 
-std::optional<double> turned(const PathTiming& t, std::size_t points) {
-  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
-  if (t.mode == Timing::increments && t.increments && t.increments->size() + 1 == points)
-    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
-  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
-    return t.angles->back() - t.angles->front();
-  return std::nullopt;
-}
-
-void leave_out_closing_angle(PathTiming& t) {
-  if (t.mode == Timing::increments) t.increments->pop_back();
-  if (t.mode == Timing::given) t.angles->pop_back();
-}
-
-bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }
-
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y) {
-  PathPoints targets;
-  read_targets(target, common, form, false, targets);
+  PathTargets targets;
+  read_points(target, common, form, false, targets);
   x = std::move(targets.x);
   y = std::move(targets.y);
 }
 
-void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                       PathPoints& targets) {
-  read_targets(target, common, form, true, targets);
-}
-
-void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets) {
-  const std::vector<double>&x = targets.x, &y = targets.y;
-  const std::size_t n = x.size();
-  if (n == 0) {
-    target.error(key, "there are no points", "give at least 3 points [x, y]");
-    return;
-  }
-  if (n < 3) {
-    target.error(key,
-                 fmt::format("{} point{} make{} no path, at least 3 are needed", n, n == 1 ? "" : "s",
-                             n == 1 ? "s" : ""),
-                 "add points between them");
-    return;
-  }
-  if (n > most_points) {
-    target.error(key, fmt::format("{} points, at most {} are allowed", n, most_points),
-                 "keep every second or third point");
-    return;
-  }
-  const double far = farthest(x, y);
-  if (far > 1e9) {
-    target.error(key, fmt::format("a point lies {:.3g} m from the origin, at most 1e9 m are allowed", far),
-                 "check the unit");
-    return;
-  }
-  for (std::size_t k = 1; k < n; ++k)
-    if (same_point(x, y, k, k - 1))
-      target.error(key, fmt::format("point {} repeats point {}: ({}, {})", k + 1, k, x[k], y[k]),
-                   "remove one of them");
-}
-
-bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
-                              std::optional<double> turned, PathPoints& targets) {
+PathTargets read_path_targets(study::ObjectReader& target, const study::Common& common,
+                              PathTargetForm& form) {
+  PathTargets targets;
+  if (form.gates)
+    read_gates(target, form, targets);
+  else
+    read_points(target, common, form, true, targets);
+  targets.closed = form.closed;
+  read_tolerances(target, form, targets);
   const std::size_t n = targets.x.size();
-  if (n < 4 || !repeats_first_point(targets.x, targets.y)) return false;
-  if (!targets.gate_x.empty() &&
-      (targets.gate_x.front() != targets.gate_x.back() || targets.gate_y.front() != targets.gate_y.back()))
-    return false;
-  const char* what = targets.gate_x.empty() ? "point" : "gate";
-  if (closed) {
-    target.warning(key, fmt::format("the last of {} {}s repeats the first: taken once", n, what),
-                   fmt::format("closed = true joins the last {} to the first", what));
+  if (n == 0) return targets;
+  const std::optional<double> rotation = turned(form.timing, n);
+  if (leave_out_closing_target(target, key_of(form), rotation, targets) && rotation && is_one_turn(*rotation))
+    leave_out_closing_angle(form.timing);
+  form.closed = targets.closed;
+  return targets;
+}
+
+void write_path_targets(const PathTargets& targets, PathTargetForm& form) {
+  form.points_file.reset();
+  form.points.reset();
+  form.gates.reset();
+  const std::size_t n = std::min(targets.x.size(), targets.y.size());
+  if (targets.gate_x.empty()) {
+    form.points.emplace();
+    for (std::size_t k = 0; k < n; ++k) form.points->push_back({targets.x[k], targets.y[k]});
   } else {
-    if (target.has("closed") || (turned && !is_one_turn(*turned))) return false;
-    target.warning(
-        key, fmt::format("the last of {} {}s repeats the first: taken once, and the path as closed", n, what),
-        "write closed = true, or closed = false to keep it open");
-    closed = true;
+    form.gates.emplace();
+    for (std::size_t k = 0; k < n; ++k)
+      form.gates->push_back({.from = {targets.x[k] - targets.gate_x[k], targets.y[k] - targets.gate_y[k]},
+                             .to = {targets.x[k] + targets.gate_x[k], targets.y[k] + targets.gate_y[k]}});
   }
-  targets.pop_back();
-  return true;
+  if (!form.tolerance && !targets.tolerance.empty()) form.tolerances = targets.tolerance;
+}
+
+const char* key_of(const PathTargetForm& form) {
+  return form.gates ? "gates" : form.points_file ? "points_file" : "points";
 }
 
 }  // namespace linkwright::planar

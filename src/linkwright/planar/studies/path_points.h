@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/targets.h"
 #include "linkwright/study/kind.h"
 
 // The targets of a path as studies give them, in the file or beside it.
@@ -28,32 +29,25 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// Targets in their order (m): points, or the middles of gates with half of the distance from one post to the
-/// other; `gate_x`, `gate_y` and `tolerance` are empty where there are none.
-struct PathPoints {
-  std::vector<double> x, y, gate_x, gate_y, tolerance;
-  void pop_back();
+/// Two points that the path passes between, or a point where both are the same.
+struct PathGate {
+  std::array<double, 2> from{}, to{};
 };
-
-/// The points of a target that has been read into `form` (m), three at least and none twice in a row.
-/// Problems are reported at the keys of the target.
-void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                      std::vector<double>& x, std::vector<double>& y);
-
-/// The same where targets may be gates, columns from_x, from_y, to_x, to_y of the file, and have tolerances,
-/// its column tolerance.
-void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                       PathPoints& targets);
-
-/// The same checks for targets from elsewhere; problems are reported at `key`.
-void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets);
-
-/// A path that ends where it begins is a closed one, unless the study says that it is not: its last target is
-/// the first one again, and is left out, with a warning at `key`. `turned`: crank rotation from the first
-/// target to the last one where the timing gives it (rad); a path that says nothing of being closed is so
-/// only if that is a turn. True when the last target was left out.
-bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
-                              std::optional<double> turned, PathPoints& targets);
+template <class Visitor>
+void fields(Visitor&& visit, PathGate& g) {
+  visit(Field{.key = "from",
+              .summary = "one post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.from);
+  visit(Field{.key = "to",
+              .summary = "the other post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.to);
+}
 
 /// `timing` of a `[target]`.
 struct PathTiming {
@@ -80,19 +74,59 @@ void fields(Visitor&& visit, PathTiming& t) {
       t.angles);
 }
 
+/// `[target]` of a path synthesis, whatever the mechanism that traces the path.
+struct PathTargetForm : PathPointsForm {
+  bool closed = false;
+  std::optional<std::vector<PathGate>> gates;
+  std::optional<double> tolerance;
+  std::optional<std::vector<double>> tolerances;
+  PathTiming timing;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathTargetForm& t) {
+  visit(Field{.key = "closed",
+              .summary =
+                  "the last point is followed by the first; default: whether the last repeats the first"},
+        t.closed);
+  visit(Field{.key = "gates",
+              .summary = "instead of points: pairs of points that the path passes between, in their order",
+              .dimension = Dimension::length},
+        t.gates);
+  visit(Field{.key = "tolerance",
+              .summary = "every point or gate counts as met within this distance, at no cost",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerance);
+  visit(Field{.key = "tolerances",
+              .summary = "the same, one for each point or gate",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerances);
+  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
+  fields(visit, static_cast<PathPointsForm&>(t));
+}
+
+/// The points of a target that has been read into `form` (m), three at least and none twice in a row, where
+/// points are all that a study knows. Problems are reported at the keys of the target.
+void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                      std::vector<double>& x, std::vector<double>& y);
+
+/// The targets of a form that has been read: points, the columns x, y of their file, or gates, its columns
+/// from_x, from_y, to_x, to_y; with their tolerances, its column tolerance. A path that ends where it begins
+/// is a closed one, unless the study says that it is not: its last target is the first one again, and is left
+/// out with what the timing says of it, with a warning. Problems are reported at the keys of the target.
+PathTargets read_path_targets(study::ObjectReader& target, const study::Common& common, PathTargetForm& form);
+
+/// Says of a form what its targets are in the end, for the canonical study.
+void write_path_targets(const PathTargets& targets, PathTargetForm& form);
+
+/// The key that the targets stand at.
+const char* key_of(const PathTargetForm& form);
+
 /// What the timing says of so many points (rad): given angles, else the crank rotation from the first point
 /// to each. Empty for free timing, and where a problem was reported, at the timing of the target.
 std::vector<double> timed_angles(study::ObjectReader& target, const study::DisplayUnits& units,
                                  const PathTiming& timing, std::size_t points);
-
-/// Crank rotation that the timing gives from the first to the last of so many points.
-std::optional<double> turned(const PathTiming& timing, std::size_t points);
-
-/// Leaves out what the timing says of the last point alone.
-void leave_out_closing_angle(PathTiming& timing);
-
-/// Whether a crank rotation is one turn, in either sense, to rounding (rad).
-bool is_one_turn(double turned);
 
 /// Whether the last point of a path is the first one again, to rounding.
 bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y);

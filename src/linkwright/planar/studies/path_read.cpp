@@ -23,93 +23,6 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
   s.problem.angles.clear();
 }
 
-// The key that the targets stand at.
-const char* key_of(const PathTarget& target) {
-  return target.gates ? "gates" : target.points_file ? "points_file" : "points";
-}
-
-// The points or, in their place, the middles of gates.
-PathPoints read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
-  PathPoints targets;
-  if (!s.target.gates) {
-    read_path_targets(target, common, s.target, targets);
-    return targets;
-  }
-  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
-  if (has_points || target.has("points_file")) {
-    target.error("gates",
-                 fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
-                 "keep one of them; a gate whose posts agree is a point");
-    return targets;
-  }
-  for (const PathGate& gate : *s.target.gates) {
-    targets.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
-    targets.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
-    targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
-    targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
-  }
-  check_path_targets(target, "gates", targets);
-  return targets;
-}
-
-void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPoints& targets) {
-  if (form.tolerance && form.tolerances) {
-    target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
-    return;
-  }
-  if (!form.tolerance && !form.tolerances) return;
-  if (!targets.tolerance.empty()) {
-    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file also has tolerances",
-                 "keep the key or the column");
-    return;
-  }
-  if (form.tolerance) targets.tolerance.assign(targets.x.size(), *form.tolerance);
-  if (!form.tolerances) return;
-  if (targets.x.size() >= 3 && form.tolerances->size() != targets.x.size()) {
-    target.error("tolerances",
-                 fmt::format("{} tolerances for {} targets", form.tolerances->size(), targets.x.size()),
-                 "give one for each, or tolerance for all");
-    return;
-  }
-  targets.tolerance = *form.tolerances;
-}
-
-// Targets with their tolerances; what the study gives for a closing target goes with it.
-void set_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
-  PathPoints targets = read_targets(target, common, s);
-  read_tolerances(target, s.target, targets);
-  const std::size_t n = targets.x.size();
-  if (n > 0) {
-    PathTiming& t = s.target.timing;
-    const std::optional<double> rotation = turned(t, n);
-    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) && rotation &&
-        is_one_turn(*rotation))
-      leave_out_closing_angle(t);
-  }
-  PathProblem& p = s.problem;
-  p.x = std::move(targets.x), p.y = std::move(targets.y);
-  p.gate_x = std::move(targets.gate_x), p.gate_y = std::move(targets.gate_y);
-  p.tolerance = std::move(targets.tolerance);
-}
-
-// The targets as they are met: points or gates, with one tolerance for all or one for each.
-void resolve_targets(const PathProblem& p, PathTarget& target) {
-  target.points_file.reset();
-  target.points.reset();
-  target.gates.reset();
-  const std::size_t n = std::min(p.x.size(), p.y.size());
-  if (p.gate_x.empty()) {
-    target.points.emplace();
-    for (std::size_t k = 0; k < n; ++k) target.points->push_back({p.x[k], p.y[k]});
-  } else {
-    target.gates.emplace();
-    for (std::size_t k = 0; k < n; ++k)
-      target.gates->push_back({.from = {p.x[k] - p.gate_x[k], p.y[k] - p.gate_y[k]},
-                               .to = {p.x[k] + p.gate_x[k], p.y[k] + p.gate_y[k]}});
-  }
-  if (!target.tolerance && !p.tolerance.empty()) target.tolerances = p.tolerance;
-}
-
 /// Lengths that never close: one link is longer than the others can be together.
 void require_closing(study::ObjectReader& mechanism, const study::DisplayUnits& units, const PathProblem& p) {
   constexpr std::size_t lengths = 4;
@@ -157,7 +70,6 @@ void set_rocker_pivot(PathStudy& s) {
 
 void set_search(PathStudy& s) {
   PathProblem& p = s.problem;
-  p.closed = s.target.closed;
   p.search_open = s.mechanism.branch != BranchChoice::crossed;
   p.search_crossed = s.mechanism.branch != BranchChoice::open;
   SenseChoice sense = s.mechanism.sense;
@@ -196,7 +108,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
   if (target) {
     target->read(s.target);
-    set_targets(*target, common, s);
+    static_cast<PathTargets&>(s.problem) = read_path_targets(*target, common, s.target);
     read_timing(*target, common.units, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -240,7 +152,7 @@ study::Kind path_kind() {
     for (std::size_t j = 0; j < four_bar_parameter_count && !exact; ++j)
       if (j != index(FourBarParameter::start_angle) || starts_anywhere(s.problem.timing))
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
-    resolve_targets(s.problem, resolved.target);
+    write_path_targets(s.problem, resolved.target);
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);

@@ -21,6 +21,7 @@
 #include "linkwright/planar/path/usability.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/planar/studies/path_solution.h"
@@ -147,19 +148,6 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
   }
 }
 
-// "passes the 9 points within 0.2 mm (root mean square 0.1 mm)"
-Sentence how_near(const PathProblem& p, const PathDesign& d) {
-  const PathErrors errors = path_errors(p, d);
-  const double worst = *std::max_element(errors.excess.begin(), errors.excess.end());
-  const Sentence what = say("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
-  const char* allowed = p.tolerance.empty() ? "" : " of their tolerance";
-  if (worst <= exact_share * path_size(p))
-    return p.tolerance.empty() ? say("passes the {} exactly", what)
-                               : say("passes the {} within their tolerance", what);
-  return say("passes the {} within {}{} (root mean square {})", what, length_by_size(worst), allowed,
-             length_by_size(std::sqrt(d.error / static_cast<double>(p.x.size()))));
-}
-
 std::string_view short_name(DrawbackKind kind) {
   switch (kind) {
     case DrawbackKind::transmission:
@@ -183,18 +171,8 @@ Sentence caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
   for (std::size_t i = 1; i < designs.size(); ++i)
     if (drawbacks(p, designs[i]).empty())
       return say("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
-                 called(designs[i]), how_near(p, designs[i]));
+                 called(designs[i]), how_near(p, path_errors(p, designs[i]), designs[i].error));
   return out + ". No design without such drawbacks was found.";
-}
-
-study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
-  const auto worst = std::max_element(errors.excess.begin(), errors.excess.end());
-  const bool exact = *worst <= exact_share * path_size(p);
-  if (exact && !p.tolerance.empty()) return {"worst point", "none is beyond its tolerance"};
-  if (exact) return {"worst point", "none, to rounding"};
-  const std::string what = p.gate_x.empty() ? "point" : "gate";
-  const auto number = static_cast<double>(worst - errors.excess.begin() + 1);
-  return {"worst point", say("{} at {} {}", length_by_size(*worst), what, at_place(what, count_of(number)))};
 }
 
 void warn_of_transmission(study::Result& result, const PathProblem& p, const PathDesign& d) {
@@ -267,7 +245,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   using Verdict = study::Fact::Verdict;
   const Sentence but = feasible ? caution(s.problem, designs) : Sentence();
   if (feasible) {
-    result.headline = say("A {} {}.{}", called(best), how_near(s.problem, best), but);
+    result.headline = say("A {} {}.{}", called(best), how_near(s.problem, errors, best.error), but);
   } else {
     std::string reasons;
     for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;

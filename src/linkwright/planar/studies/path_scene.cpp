@@ -1,7 +1,5 @@
 #include "linkwright/planar/studies/path_scene.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -10,7 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/studies/path_reached.h"
 
 namespace linkwright::planar {
 namespace {
@@ -81,30 +79,7 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
   study::Scene scene = linkage_over(design.linkage, shown_angles(design, samples));
   scene.name = std::move(name);
   scene.title = std::move(title);
-  const PathErrors errors = path_errors(problem, design);
-  if (problem.gate_x.empty()) {
-    scene.targets = {
-        {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};
-    for (int k = 0; k < static_cast<int>(problem.x.size()); ++k)
-      scene.handles.push_back({.key = fmt::format("target.points_m[{}]", k), .target = 0, .index = k});
-    return scene;
-  }
-  // Whiskers run to the nearest place of each gate; its posts are marked.
-  study::Scene::Target gates{"gates", {}, {}, errors.x, errors.y, design.angles, problem.closed};
-  study::Scene::Target posts{"gate posts", {}, {}, {}, {}, {}, false};
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
-    const TargetMiss miss = target_offset(problem, k, errors.x[k], errors.y[k]);
-    gates.x.push_back(std::isfinite(miss.x) ? errors.x[k] - miss.x : problem.x[k]);
-    gates.y.push_back(std::isfinite(miss.y) ? errors.y[k] - miss.y : problem.y[k]);
-    for (double side : {-1.0, 1.0}) {
-      posts.x.push_back(problem.x[k] + side * problem.gate_x[k]);
-      posts.y.push_back(problem.y[k] + side * problem.gate_y[k]);
-      posts.achieved_input.push_back(design.angles[k]);
-    }
-  }
-  posts.achieved_x = posts.x;
-  posts.achieved_y = posts.y;
-  scene.targets = {std::move(gates), std::move(posts)};
+  add_targets(scene, problem, design.angles, path_errors(problem, design));
   return scene;
 }
 
@@ -131,35 +106,6 @@ Table motion_table(const PathDesign& design, std::string name, int samples) {
   table.add("transmission_angle_rad", "transmission angle (rad)", std::move(transmission));
   table.add("coupler_x_m", "coupler point x (m)", std::move(x));
   table.add("coupler_y_m", "coupler point y (m)", std::move(y));
-  return table;
-}
-
-Table table_of(ReachedPoints points, std::string name) {
-  Table table;
-  table.name = std::move(name);
-  std::vector<double> number;
-  for (std::size_t k = 0; k < points.target_x.size(); ++k) {
-    number.push_back(static_cast<double>(k + 1));
-    table.status.emplace_back(std::isfinite(points.distance[k]) ? "done" : "no_assembly");
-  }
-  table.add("point", "point", std::move(number));
-  table.add("crank_angle_rad", "crank angle (rad)", std::move(points.angles));
-  table.add("target_x_m", "target x (m)", std::move(points.target_x));
-  table.add("target_y_m", "target y (m)", std::move(points.target_y));
-  table.add("x_m", "reached x (m)", std::move(points.x));
-  table.add("y_m", "reached y (m)", std::move(points.y));
-  table.add("distance_m", "distance (m)", std::move(points.distance));
-  return table;
-}
-
-Table point_table(const PathProblem& problem, const PathDesign& design, std::string name) {
-  const PathErrors errors = path_errors(problem, design);
-  Table table =
-      table_of({design.angles, problem.x, problem.y, errors.x, errors.y, errors.distance}, std::move(name));
-  if (!problem.tolerance.empty()) {
-    table.add("tolerance_m", "tolerance (m)", problem.tolerance);
-    table.add("excess_m", "distance beyond the tolerance (m)", errors.excess);
-  }
   return table;
 }
 

@@ -21,13 +21,4 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
 /// Motion over the shown angles: crank, coupler, rocker and transmission angles, coupler point.
 Table motion_table(const PathDesign& design, std::string name, int samples);
 
-/// Target points, the crank angles there (rad), where the design comes, and how far off; lengths in m.
-struct ReachedPoints {
-  std::vector<double> angles, target_x, target_y, x, y, distance;
-};
-Table table_of(ReachedPoints points, std::string name);
-
-/// That of a four-bar, with its tolerances.
-Table point_table(const PathProblem& problem, const PathDesign& design, std::string name);
-
 }  // namespace linkwright::planar

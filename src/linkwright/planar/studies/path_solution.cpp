@@ -14,6 +14,7 @@
 #include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/path/usability.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
@@ -97,7 +98,8 @@ void add_design_tables(study::Result& result, const PathProblem& problem,
   for (std::size_t i = 0; i < designs.size(); ++i) {
     // The best design's tables have plain names, those of the others carry the number of the solution.
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
-    result.tables.push_back(point_table(problem, designs[i], "points" + suffix));
+    result.tables.push_back(
+        point_table(problem, designs[i].angles, path_errors(problem, designs[i]), "points" + suffix));
     result.tables.push_back(motion_table(designs[i], "motion" + suffix, samples));
     const study::AddPlot of_points{
         result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},

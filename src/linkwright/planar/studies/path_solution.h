@@ -10,9 +10,6 @@
 // What reports of path synthesis say of a four-bar.
 namespace linkwright::planar {
 
-/// Distances below this share of the size of the path are rounding.
-inline constexpr double exact_share = 1e-12;
-
 /// A design as an answer of a study, the `number`-th from 1: numbers with their bounds, errors,
 /// classification, defects, and the study of its motion. Its scene is "solution-<number>".
 study::Solution path_solution(const PathProblem& problem, const PathDesign& design, std::size_t number,

@@ -79,22 +79,15 @@ constexpr std::array<EnumName<SliderPathFit>, 2> names(SliderPathFit) {
            {SliderPathFit::exact, "exact", "exactly, by all slider-cranks that pass them: eight points"}}};
 }
 
-struct SliderPathTarget : PathPointsForm {
+struct SliderPathTarget : PathTargetForm {
   SliderTracingPoint point = SliderTracingPoint::rod;
   SliderPathFit fit = SliderPathFit::least_squares;
-  bool closed = false;
-  PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
-  visit(Field{.key = "closed",
-              .summary =
-                  "the last point is followed by the first; default: whether the last repeats the first"},
-        t.closed);
-  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
-  fields(visit, static_cast<PathPointsForm&>(t));
+  fields(visit, static_cast<PathTargetForm&>(t));
 }
 
 /// What is minimised; both together give a front.

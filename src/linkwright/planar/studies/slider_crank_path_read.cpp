@@ -22,23 +22,6 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
   s.problem.offsets = timed_angles(target, units, s.target.timing, s.problem.x.size());
 }
 
-// The points; what the timing gives for a closing point goes with it.
-void set_points(study::ObjectReader& target, const study::Common& common, SliderPathStudy& s) {
-  PathPoints points;
-  read_path_points(target, common, s.target, points.x, points.y);
-  const std::size_t n = points.x.size();
-  if (n > 0) {
-    PathTiming& t = s.target.timing;
-    const std::optional<double> rotation = turned(t, n);
-    if (leave_out_closing_target(target, s.target.points_file ? "points_file" : "points", s.target.closed,
-                                 rotation, points) &&
-        rotation && is_one_turn(*rotation))
-      leave_out_closing_angle(t);
-  }
-  s.problem.x = std::move(points.x);
-  s.problem.y = std::move(points.y);
-}
-
 void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
   if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
   s.problem.bounds = derive_slider_bounds(s.problem.x, s.problem.y);
@@ -58,7 +41,6 @@ void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
 
 void set_search(SliderPathStudy& s) {
   SliderPathProblem& p = s.problem;
-  p.closed = s.target.closed;
   // A guide turned by half a turn with the opposite offset shows the same mechanism from the other side.
   const Range &guide = p.bounds[index(P::guide_angle)], &offset = p.bounds[index(P::offset)];
   const bool complete = guide.upper - guide.lower >= 2 * pi * (1 - 1e-9) && offset.lower == -offset.upper;
@@ -137,7 +119,7 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
     mechanism->read(s.mechanism);
   if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     target->read(s.target);
-    set_points(*target, common, s);
+    static_cast<PathTargets&>(s.problem) = read_path_targets(*target, common, s.target);
     read_timing(*target, common.units, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -181,10 +163,7 @@ study::Kind slider_path_kind() {
     for (std::size_t j = 0; j < slider_parameter_count && !exact; ++j)
       if (P(j) != P::start_angle || starts_anywhere(s.target.timing.mode))
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
-    resolved.target.points_file.reset();
-    resolved.target.points.emplace();
-    for (std::size_t k = 0; k < std::min(s.problem.x.size(), s.problem.y.size()); ++k)
-      resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    write_path_targets(s.problem, resolved.target);
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);

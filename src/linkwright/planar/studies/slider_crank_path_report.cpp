@@ -14,6 +14,7 @@
 #include "linkwright/planar/path/slider_crank_defects.h"
 #include "linkwright/planar/path/slider_crank_samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
 #include "linkwright/study/bind_write.h"
@@ -189,8 +190,7 @@ class Report {
 
   void facts() {
     const SliderPathDesign& best = designs_[0];
-    const SliderPathErrors errors = path_errors(p_, best);
-    const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
+    const PathErrors errors = path_errors(p_, best);
     const double pressure = greatest_pressure_angle(best.mechanism.parameters);
     const study::AddFact fact{result_.facts};
     if (!feasible_) {
@@ -208,16 +208,14 @@ class Report {
                     length_by_size(rms(best)), length_by_size(best.stroke));
     } else {
       result_.headline =
-          say("A slider-crank passes the {} points within {} (root mean square {}){}.", p_.x.size(),
-              length_by_size(*worst), length_by_size(rms(best)),
+          say("A slider-crank {}{}.", how_near(p_, errors, best.error),
               std::isnan(best.stroke) ? Sentence() : say(", stroke {}", length_by_size(best.stroke)));
     }
     fact(s_.front ? "least path error (sum of squares)" : "path error (sum of squares)",
          path_error(best.error), feasible_ ? Verdict::good : Verdict::bad);
-    fact("root mean square distance", length_by_size(rms(best)));
-    fact("worst point",
-         say("{} at point {}", length_by_size(*worst),
-             at_place("point", count_of(static_cast<double>(worst - errors.distance.begin() + 1)))));
+    fact("root mean square distance",
+         rms(best) <= exact_share * path_size(p_) ? millimetres(0) : length_by_size(rms(best)));
+    result_.facts.push_back(worst_fact(p_, errors));
     if (!std::isnan(best.stroke)) {
       fact("stroke of the slider",
            s_.front && feasible_ && designs_.size() > 1
@@ -281,10 +279,10 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
   const SliderCrankForm& f = d.mechanism.parameters;
   out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
   out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
-  const SliderPathErrors errors = path_errors(p, d);
+  const PathErrors errors = path_errors(p, d);
   out.objectives["path_error_sum_sq_m2"] = d.error;
   out.objectives["path_error_rms_m"] = rms;
-  out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
+  out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
   out.objectives["stroke_m"] = d.stroke;
   const double size = f.crank + f.rod + std::abs(f.offset);
   out.classification["branch"] = name_of(d.mechanism.branch);
@@ -315,7 +313,7 @@ void add_slider_design_tables(study::Result& result, const SliderPathProblem& p,
   for (std::size_t i = 0; i < std::min(designs.size(), most_drawn_sliders); ++i) {
     // The best design's tables have plain names, those of the others carry the number of the solution.
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
-    result.tables.push_back(slider_point_table(p, designs[i], "points" + suffix));
+    result.tables.push_back(point_table(p, designs[i].angles, path_errors(p, designs[i]), "points" + suffix));
     result.tables.push_back(slider_motion_table(designs[i], "motion" + suffix, samples));
     const study::AddPlot of_points{
         result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},

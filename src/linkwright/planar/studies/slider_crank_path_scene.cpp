@@ -10,7 +10,7 @@
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/path/slider_crank_defects.h"
 #include "linkwright/planar/studies/linkage_scene.h"
-#include "linkwright/planar/studies/path_scene.h"
+#include "linkwright/planar/studies/path_reached.h"
 
 namespace linkwright::planar {
 
@@ -52,9 +52,7 @@ study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPat
       linkage_scene(linkage, planned.plan, records, {tracing}, "crank_angle_rad", "crank angle");
   scene.name = std::move(name);
   scene.title = std::move(title);
-  const SliderPathErrors errors = path_errors(problem, design);
-  scene.targets = {
-      {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};
+  add_targets(scene, problem, design.angles, path_errors(problem, design));
   return scene;
 }
 
@@ -80,12 +78,6 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
   table.add("point_x_m", "tracing point x (m)", std::move(x));
   table.add("point_y_m", "tracing point y (m)", std::move(y));
   return table;
-}
-
-Table slider_point_table(const SliderPathProblem& problem, const SliderPathDesign& design, std::string name) {
-  const SliderPathErrors errors = path_errors(problem, design);
-  return table_of({design.angles, problem.x, problem.y, errors.x, errors.y, errors.distance},
-                  std::move(name));
 }
 
 }  // namespace linkwright::planar

@@ -21,7 +21,4 @@ study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPat
 /// point.
 Table slider_motion_table(const SliderPathDesign& design, std::string name, int samples);
 
-/// Target points, where the design comes, and how far off.
-Table slider_point_table(const SliderPathProblem& problem, const SliderPathDesign& design, std::string name);
-
 }  // namespace linkwright::planar

@@ -8,6 +8,7 @@
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/four_bar/kernel.h"
+#include "linkwright/planar/path/detail/target_kernel.h"
 #include "linkwright/planar/path/objective.h"
 
 namespace linkwright::planar {
@@ -66,25 +67,12 @@ template <class T, class Load>
 LINKWRIGHT_KERNEL T add_distance(const PathObjective& o, const PathLinkage<T>& l, const PathPoint<T>& p,
                                  const T& inverse, const Load& load, const T& sum) {
   using S = math::Scalar<T>;
-  using std::sqrt;
   const T x = load(o.x), y = load(o.y);
   const Closure<T>& c = p.closure;
   const T sx = S::multiply_add(l.mu, c.nx, -(l.mv * c.ny)), sy = S::multiply_add(l.mu, c.ny, l.mv * c.nx);
-  T ex = S::multiply_add(sx, inverse, p.wx + (l.px - x));
-  T ey = S::multiply_add(sy, inverse, p.wy + (l.py - y));
-  if (o.banded) {
-    // From the nearest place of the gate, beyond the tolerance (see target_miss).
-    const T hx = load(o.gate_x), hy = load(o.gate_y), square = hx * hx + hy * hy;
-    const T unbanded = ex * ex + ey * ey;
-    const T along = (ex * hx + ey * hy) / S::choose(square > T(0.0), square, T(1.0));
-    const T held = S::min(S::max(along, T(-1.0)), T(1.0));
-    ex = ex - held * hx;
-    ey = ey - held * hy;
-    const T miss = S::positive_part(sqrt(ex * ex + ey * ey) - load(o.tolerance));
-    // min and max may drop a NaN; a position that does not exist keeps it.
-    return S::choose(unbanded < T(1e300), S::multiply_add(miss, miss, sum), unbanded);
-  }
-  return S::multiply_add(ex, ex, S::multiply_add(ey, ey, sum));
+  const T ex = S::multiply_add(sx, inverse, p.wx + (l.px - x));
+  const T ey = S::multiply_add(sy, inverse, p.wy + (l.py - y));
+  return add_squared_miss(o, ex, ey, load, sum);
 }
 
 /// Cost and violation once the points have been gone through.

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/path/detail/slider_crank_kernel.h"
+#include "linkwright/planar/path/detail/target_kernel.h"
 #include "linkwright/planar/path/slider_crank_objective.h"
 
 namespace linkwright::planar {
@@ -46,7 +49,10 @@ LINKWRIGHT_KERNEL void evaluate_slider_candidates(const SliderPathObjective& o, 
     const Vec<T> v = rod_direction(closure, side);
     const T ex = S::multiply_add(gx, v.x, S::multiply_add(-gy, v.y, wx + (px - T(o.x[k]))));
     const T ey = S::multiply_add(gx, v.y, S::multiply_add(gy, v.x, wy + (py - T(o.y[k]))));
-    sum = S::multiply_add(ex, ex, S::multiply_add(ey, ey, sum));
+    const auto at = [k](const std::vector<double>& values) __attribute__((always_inline)) {
+      return T(values[k]);
+    };
+    sum = add_squared_miss(o, ex, ey, at, sum);
     if (!o.crank_rotates_fully) {
       low_sine = S::min(low_sine, closure.sine);
       high_sine = S::max(high_sine, closure.sine);
