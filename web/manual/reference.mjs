@@ -102,6 +102,7 @@ function kindPage(ask, { name, summary, group }) {
 ${heading("keys", "Keys")}
 <p>Lengths, angles and other quantities carry their unit in the name of the key: <code>crank_mm</code> is <code>crank_m</code> in another unit.</p>
 ${keyTable(schema)}
+${schema.absent ? `${heading("absent", "What is not here")}<p>What studies of a related kind have, and why these have not.</p><div class="table" tabindex="0"><table><thead><tr><th>key</th><th>reason</th></tr></thead><tbody>${schema.absent.map(({ key, reason }) => `<tr><td><code>${escaped(key)}</code></td><td>${escaped(reason)}</td></tr>`).join("")}</tbody></table></div>` : ""}
 ${result ? `${heading("columns", "Tables of the result")}<p>Of the study above; names of joints and bodies are those of the study.</p>${result}` : ""}`,
   };
 }

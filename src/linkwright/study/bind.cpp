@@ -286,6 +286,8 @@ std::optional<std::size_t> ObjectReader::one_of(const Found& found, std::span<co
     for (const Word& word : words)
       if (word.name == meant && !word.summary.empty())
         hint = fmt::format("did you mean '{}' ({})?", meant, word.summary);
+  if (const std::string_view reason = document_->reason_of_absence(found.path, given); !reason.empty())
+    hint = reason;
   problem(found, fmt::format("is '{}', must be one of: {}", shown(given), list_of(words)), hint);
   return std::nullopt;
 }

@@ -37,6 +37,13 @@ namespace linkwright::study {
 
 class ObjectReader;
 
+/// A key, or one of its words, that a study of a related kind has and this kind has not.
+struct Absent {
+  std::string_view key;     ///< with its tables and without unit: "target.gates", "constraint.type"
+  std::string_view word;    ///< the word of that key that is not here; empty = the key itself
+  std::string_view reason;  ///< why, and what comes nearest
+};
+
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
 /// report the unknown ones. Values that cannot be read keep what the member held before.
 ///
@@ -52,6 +59,9 @@ class DocumentReader {
   DocumentReader& operator=(const DocumentReader&) = delete;
 
   ObjectReader root();
+
+  /// What to say of keys and words that are not here, but that a related kind has; must outlive this.
+  void explain(std::span<const Absent> absent) { absent_ = absent; }
 
   /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
   /// everything has been read. Where a reader gave up because of an error, it has not asked for all keys:
@@ -94,6 +104,7 @@ class DocumentReader {
   bool has_unknown() const;
   void poison(std::string_view path);
   void drop_follow_ups();
+  std::string_view reason_of_absence(std::string_view path, std::string_view word) const;
 
   const Value& document_;
   std::string file_;
@@ -103,6 +114,7 @@ class DocumentReader {
   std::vector<Meaning> meaning_;         // which of the diagnostics may follow from others
   std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
   std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
+  std::span<const Absent> absent_;
   std::size_t unknown_ = 0;
   Value schema_;  // of the document, where it is needed to judge the unknown keys
   bool gave_up_ = false;

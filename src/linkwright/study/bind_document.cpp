@@ -151,6 +151,19 @@ void DocumentReader::poison(std::string_view path) {
   unreadable_.emplace_back(path.substr(0, path.find_first_of(".[")));
 }
 
+// Why a key, or a word of it, is not here; empty where nothing is said of it. `path` may hold indices.
+std::string_view DocumentReader::reason_of_absence(std::string_view path, std::string_view word) const {
+  std::string plain;
+  bool inside = false;
+  for (const char c : path) {
+    inside = c == '[' || (inside && c != ']');
+    if (!inside && c != ']') plain += c;
+  }
+  for (const Absent& absent : absent_)
+    if (absent.key == plain && absent.word == word) return absent.reason;
+  return {};
+}
+
 void DocumentReader::finish_object(const Value& value, const std::vector<const Value*>& schemas) {
   if (value.is_array()) {
     for (const Value& element : value.as_array()) finish_object(element, elements_of(schemas));
@@ -220,6 +233,14 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
   for (const auto& [member, meant] : all) {
     // What there is beside a choice is not known without it.
     if (misspelt_choice && meant != misspelt_choice) continue;
+    const auto unit = split_unit(member->key);
+    const std::string without_unit = join_path(record.path, unit ? unit->base : member->key);
+    if (const std::string_view reason = reason_of_absence(without_unit, {}); !reason.empty()) {
+      poison(without_unit);
+      report(Diagnostic::Severity::error, member->key_position, join_path(record.path, member->key),
+             "unknown key", std::string(reason));
+      continue;
+    }
     // A key of this table that goes with another word of it is at home already.
     const bool elsewhere = !meant && named_members_of(schemas, member->key).empty();
     if (const std::string home = elsewhere ? home_of(*member, schema_) : ""; !home.empty()) {

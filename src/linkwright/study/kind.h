@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,8 @@ struct Kind {
 
   std::vector<Word> quantities;  ///< what `output.quantities` may list; empty = the kind has no such key
   bool seeded = false;           ///< has `optimiser.seeds`
+  /// What studies of a related kind have and these have not, and why: for messages, schema and help.
+  std::span<const Absent> absent;
 
   /// Describes the domain's top-level tables: document.property(Field{.key = "mechanism", ...},
   /// schema_fields<...>()).

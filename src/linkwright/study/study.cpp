@@ -223,6 +223,7 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
   common.checks = read_checks(root);
   Prepared prepared;
   if (study.kind) {
+    reader.explain(study.kind->absent);
     if (study.kind->seeded)
       if (auto optimiser = root.table("optimiser")) (*optimiser)(seeds_field, common.seeds);
     if (study.kind->seeded) require_room_for_candidates(root, document, common);
@@ -300,6 +301,13 @@ Value schema_of(const Kind& kind) {
   document["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   document["title"] = name_of(kind);
   document["description"] = kind.summary;
+  for (const Absent& absent : kind.absent) {
+    Value one;
+    one["key"] =
+        absent.word.empty() ? std::string(absent.key) : fmt::format("{} = \"{}\"", absent.key, absent.word);
+    one["reason"] = absent.reason;
+    document["absent"].push_back(std::move(one));
+  }
   Value own = std::move(writer).finish();
   for (Value::Member& member : own.as_object()) document[member.key] = std::move(member.value);
   if (!kind.mechanism.empty()) add_property(document, "mechanism", "type", constant(kind.mechanism), true);

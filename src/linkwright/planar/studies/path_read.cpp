@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/exact_path.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/path_families.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
@@ -133,6 +134,7 @@ study::Kind path_kind() {
   kind.summary = "four-bar linkage whose coupler point traces a path";
   kind.seeded = true;
   kind.example = templates::synthesis_four_bar_path_points();
+  kind.absent = absent_from_four_bar_paths();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the four-bar"},
                       study::schema_fields<PathMechanism>());

@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/exact_slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
+#include "linkwright/planar/studies/path_families.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
@@ -143,6 +144,7 @@ study::Kind slider_path_kind() {
       "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
   kind.seeded = true;
   kind.example = templates::synthesis_slider_crank_path_points();
+  kind.absent = absent_from_slider_crank_paths();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
                       study::schema_fields<SliderPathMechanism>());
