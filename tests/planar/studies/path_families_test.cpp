@@ -61,13 +61,15 @@ std::set<std::string> names_of(std::span<const study::Absent> absent) {
     out.insert(std::string(a.key) + (a.word.empty() ? "" : " = \"" + std::string(a.word) + "\""));
   return out;
 }
-// The word that a key stands beside, if it does: "constraint.type = \"stroke\"" of
-// "constraint[\"stroke\"].max".
+// True for a key that belongs to an absent word, "constraint[\"stroke\"].max" to
+// "constraint.type = \"stroke\"", or that is part of an absent table, "parameters.rod.max" of
+// "parameters.rod".
 bool goes_with(const std::string& key, const std::set<std::string>& absent) {
   for (const std::string& name : absent) {
     const std::size_t quote = name.find('"');
     if (quote != std::string::npos && key.find("[" + name.substr(quote) + "]") != std::string::npos)
       return true;
+    if (key.starts_with(name + ".")) return true;
   }
   return false;
 }

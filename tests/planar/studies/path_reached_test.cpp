@@ -44,16 +44,16 @@ TEST(PathReached, TableHoldsDistancesAndWhatIsBeyondTheTolerance) {
 }
 
 TEST(PathReached, WordsTellHowNear) {
-  EXPECT_EQ(how_near(points(), errors(points()), 3 * 0.25),
-            "passes the 3 points within 875 mm (root mean square 500 mm)");
-  EXPECT_EQ(how_near(targets(), errors(targets()), 3 * 0.0625),
-            "passes the 3 gates within 250 mm of their tolerance (root mean square 250 mm)");
-  EXPECT_EQ(how_near(points(), path_errors(points(), {{0, 0}, {1, 1}, {3, 1}}), 0),
+  EXPECT_EQ(to_string(how_near(points(), errors(points()), 3 * 0.25)),
+            "passes the 3 points within 0.875 m (root mean square 0.5 m)");
+  EXPECT_EQ(to_string(how_near(targets(), errors(targets()), 3 * 0.0625)),
+            "passes the 3 gates within 0.25 m of their tolerance (root mean square 0.25 m)");
+  EXPECT_EQ(to_string(how_near(points(), path_errors(points(), {{0, 0}, {1, 1}, {3, 1}}), 0)),
             "passes the 3 points exactly");
-  EXPECT_EQ(how_near(targets(), path_errors(targets(), {{0, 0}, {1.25, 1}, {3, 2}}), 0),
+  EXPECT_EQ(to_string(how_near(targets(), path_errors(targets(), {{0, 0}, {1.25, 1}, {3, 2}}), 0)),
             "passes the 3 gates within their tolerance");
-  EXPECT_EQ(worst_fact(points(), errors(points())).text, "875 mm at point 3");
-  EXPECT_EQ(worst_fact(targets(), errors(targets())).text, "250 mm at gate 1");
+  EXPECT_EQ(to_string(worst_fact(points(), errors(points())).text), "0.875 m at point 3");
+  EXPECT_EQ(to_string(worst_fact(targets(), errors(targets())).text), "0.25 m at gate 1");
 }
 
 TEST(PathReached, DrawsPointsToDragAndGatesWithTheirPosts) {

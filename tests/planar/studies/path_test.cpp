@@ -346,8 +346,9 @@ TEST(PathStudyRead, ReadsGatesAndTolerancesFromCsv) {
     slider.replace(slider.find("planar.four_bar"), 15, "planar.slider_crank");
     const auto study = prepare(slider, messages, folder);
     ASSERT_TRUE(study) << messages;
+    const Value four_bar = read(lines).first;
     for (const char* key : {"points_m", "gates_m", "tolerances_m"}) {
-      const Value *ours = read(lines).first.find(key), *its = study->canonical.find("target")->find(key);
+      const Value *ours = four_bar.find(key), *its = study->canonical.find("target")->find(key);
       ASSERT_EQ(ours == nullptr, its == nullptr) << key;
       if (ours) {
         EXPECT_EQ(*ours, *its) << key;

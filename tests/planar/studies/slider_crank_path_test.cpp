@@ -167,7 +167,7 @@ TEST(SliderPathStudyRun, MeetsGatesAndTolerances) {
              std::to_string(x + (x ? 0.5 : -0.5)) + ", " + std::to_string(y) + "] }, ";
   const study::Result passed = run_text(target(gates + "]\n") + one);
   ASSERT_EQ(passed.status, Status::done);
-  EXPECT_THAT(passed.headline, HasSubstr("passes the 4 gates"));
+  EXPECT_THAT(to_string(passed.headline), HasSubstr("passes the 4 gates"));
   EXPECT_EQ(passed.scenes[0].targets.size(), 2u);
   for (const char* timing : {"mode = \"equal_steps\", step_deg = 20.0", "mode = \"free\""}) {
     std::string points = eighteen;

@@ -75,7 +75,7 @@ constexpr std::array not_of_slider_cranks{
            "not for slider-cranks: write pressure_angle, which is 90 deg less the transmission angle"},
     Absent{"constraint.type", "packaging",
            "not for slider-cranks: they have one fixed pivot; give pivot_x and pivot_y as ranges, and limit "
-           "the way of the slider by a stroke"},
+           "the travel of the slider by a stroke"},
 };
 
 }  // namespace
