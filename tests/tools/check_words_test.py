@@ -43,6 +43,25 @@ class CheckWords(ScratchCase):
                      'visit("stand_in", "the other way round");'):
             self.assertEqual(self.findings(text, "src/linkwright/core/a.cpp"), [])
 
+    def fragments(self, text, name="src/linkwright/core/a.cpp"):
+        self.write(name, text)
+        return [(count, [(number, said) for _, number, said in found])
+                for count, found in check_words.fragments(self.root).values()]
+
+    def test_comments_that_begin_as_fragments(self):
+        self.assertEqual(self.fragments("/// What it is.\nint a;  ///< of the pin\nint b;  // the length of\n"
+                                        "// Of those\n// that bend.\n\n// When it stops, the run ends.\n"),
+                         [(5, [(1, "What it is."), (2, "of the pin"), (4, "Of those")])])
+        self.assertEqual(self.fragments('f("// of");\nR"(// of)";\n}  // namespace of\n// NOLINT of\n'), [])
+        self.assertEqual(self.fragments("const a = /\\/\\/ of/;\n`// of`;\nconst b = { /* of the chart */ };\n", "web/src/a.ts"),
+                         [(1, [(3, "of the chart")])])
+        (self.root / "web/src/a.ts").unlink()
+        self.assertEqual(self.fragments('a = "# of"  # how long\n', "tools/a.py"), [(1, [(1, "how long")])])
+
+    def test_names_given_up(self):
+        self.write("src/linkwright/core/a.h", 'int tell_all, wayOf, subway, tellAll;  // told\nauto x = "kept";\n')
+        self.assertEqual(check_words.names_given_up(self.root), {"tell": 2, "way": 1})
+
     def test_binary_and_generated_files_are_left_alone(self):
         self.assertEqual(self.findings("TO" "DO", "package-lock.json"), [])
         (self.root / "picture.png").write_bytes(b"\xff\xfe TO" b"DO")
