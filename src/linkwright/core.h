@@ -1,6 +1,7 @@
 #pragma once
 
-// What all modules share: tables, statuses, diagnostics, units, random numbers, checkpoints.
+// Includes every header that all modules share: tables, statuses, diagnostics, units, random numbers,
+// checkpoints.
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"

@@ -8,7 +8,7 @@
 namespace linkwright {
 namespace {
 
-constexpr std::size_t digits = 16;  // of a double
+constexpr std::size_t digits = 16;  // hexadecimal digits of a double
 
 }  // namespace
 

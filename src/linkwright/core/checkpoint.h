@@ -12,15 +12,16 @@
 
 namespace linkwright {
 
-/// What was kept is not what a run of this study keeps: somebody changed it. The message says what is wrong.
+/// A checkpoint that a run of this study cannot have saved: somebody changed it. The message says what is
+/// wrong.
 class CheckpointError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What a run has finished so far, under names, so that a later run of the same study takes it from there
-/// and ends with the same bits. The run decides what it keeps and what the names mean; where things are kept
-/// is nothing to it. Usable from any thread.
+/// The finished parts of a run, saved under names, so that a later run of the same study loads them and ends
+/// with the same bits. The run decides what it saves and what the names mean; it does not know where the
+/// parts are saved. Usable from any thread.
 ///
 /// Names form a tree: "seed 7" stands above "seed 7/positive".
 class Checkpoint {
@@ -30,7 +31,7 @@ class Checkpoint {
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  /// What was kept under a name, null if nothing was.
+  /// Returns the value saved under a name, null if there is none.
   virtual Value find(std::string_view name) const = 0;
 
   /// Keeps a value in the place of what was kept under this name and of all below it. Numbers that must come
@@ -38,7 +39,7 @@ class Checkpoint {
   /// a run goes on without its checkpoint.
   virtual void keep(std::string_view name, const Value& value) = 0;
 
-  /// How long a loop may work before it keeps its state again: short loops would else do nothing but keep.
+  /// Shortest time between two saves of a loop: a short loop would otherwise do little but save.
   virtual std::chrono::duration<double> interval() const = 0;
 
   /// Several runs of the same study may share the pieces 0, 1, ... count - 1 of a loop that know nothing of

@@ -90,7 +90,7 @@ std::string from_windows_1252(std::string_view bytes) {
   return out;
 }
 
-/// Whether these are characters of ASCII with a zero byte before or behind each.
+/// True if these are characters of ASCII with a zero byte before or behind each.
 bool is_plain_utf16(std::string_view bytes, bool big_endian) {
   if (bytes.size() < 4 || bytes.size() % 2 != 0) return false;
   for (std::size_t i = 0; i < std::min<std::size_t>(bytes.size(), 16); i += 2)
@@ -110,7 +110,7 @@ class Scanner {
   explicit Scanner(std::string_view text) : text_(text) {}
 
   bool done() const { return at_ >= text_.size(); }
-  /// What is left of the line that begins here.
+  /// The rest of the line that begins here.
   std::string_view line() const {
     const std::string_view rest = text_.substr(at_);
     const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -235,7 +235,7 @@ bool is_number(std::string_view text) {
   return !point.empty() && std::from_chars(point.data(), end, number).ptr == end;
 }
 
-/// Whether a line is a remark; the error values of spreadsheets begin with the same character.
+/// True if a line is a remark; the error values of spreadsheets begin with the same character.
 bool is_comment(std::string_view line) {
   const std::string_view text = trimmed(line);
   if (!text.starts_with('#')) return false;
@@ -244,7 +244,7 @@ bool is_comment(std::string_view line) {
   return true;
 }
 
-/// What separates the columns of a header line.
+/// The character that separates the columns of a header line.
 char separator_of(std::string_view line) {
   std::array<int, 3> count{};
   constexpr std::string_view candidates = ";\t,";

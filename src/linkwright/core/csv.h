@@ -15,7 +15,7 @@ namespace linkwright {
 /// `problem`, for what is no text: an Excel workbook, a broken UTF-16.
 std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem);
 
-/// Whether these are the bytes of an Excel workbook (.xlsx or .xls) or of another packed file.
+/// True if these are the bytes of an Excel workbook (.xlsx or .xls) or of another packed file.
 bool is_workbook(std::string_view bytes);
 
 /// Reads a table of numbers from CSV text, RFC 4180 and as spreadsheets write it:

@@ -16,8 +16,8 @@ struct Diagnostic {
   std::string file;   ///< empty = not from a file
   Position position;  ///< line 0 = unknown
   std::string key;    ///< path of the key: "mechanism.parameters.crank_m"
-  Sentence message;   ///< what was found and what is allowed, with the numbers
-  Sentence hint;      ///< how to fix it; may be empty
+  Sentence message;   ///< says what was found and what is allowed, with the numbers
+  Sentence hint;      ///< says how to fix it; may be empty
 };
 
 using Diagnostics = std::vector<Diagnostic>;

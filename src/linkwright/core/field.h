@@ -7,7 +7,8 @@
 
 namespace linkwright {
 
-/// What a number measures; it decides which unit suffixes its key may carry in a file (see units.h).
+/// The kind of quantity that a number measures; it decides which unit suffixes its key may carry in a file
+/// (see units.h).
 enum class Dimension {
   none,
   length,
@@ -37,8 +38,8 @@ enum class Dimension {
   second_moment_of_area
 };
 
-/// What a member of a struct means to a person and to a file. A struct that appears in files has one field
-/// list,
+/// The description of a member of a struct, for people and for files. A struct that appears in files has one
+/// field list,
 ///
 ///     template <class Visitor>
 ///     void fields(Visitor&& visit, GreyWolfOptions& o) {

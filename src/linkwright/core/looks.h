@@ -24,7 +24,8 @@ class LooksAllowed {
   std::int64_t allowed_;
 };
 
-/// What a look that would answer `status` answers: `status`, or `cancelled` when no more looks are allowed.
+/// The status of a computation that ends with `status`: `status` itself, or `cancelled` when no more looks
+/// are allowed.
 Status counted_look(Status status) noexcept;
 
 }  // namespace linkwright

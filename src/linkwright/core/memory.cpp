@@ -12,12 +12,12 @@
 namespace linkwright {
 namespace {
 
-constexpr double share = 0.5;          // of the memory of the machine
+constexpr double share = 0.5;          // share of the machine's memory that may be used
 constexpr double where_unknown = 4e9;  // bytes, on a machine that does not say
 
 double given = 0;  // by MemoryLimit; 0: none
 
-// What the environment gives; 0 when that is nothing, or no number that can be used.
+// The limit that the environment gives; 0 when it gives none, or no usable number.
 double from_environment() {
   const char* text = std::getenv("LINKWRIGHT_MEMORY_MB");
   if (!text) return 0;

@@ -10,11 +10,11 @@ namespace linkwright {
 /// that the environment variable LINKWRIGHT_MEMORY_MB gives, or what `MemoryLimit` has set.
 double memory_limit();
 
-/// Why `bytes` are too many for `what` ("1000000000 nodes"), with both numbers; nothing when they are not. A
-/// reader of studies says it at the key that makes the size, before anything is allocated.
+/// Says why `bytes` are too many for `what` ("1000000000 nodes"), with both numbers; nothing when they are
+/// not. A reader of studies says it at the key that makes the size, before anything is allocated.
 std::optional<std::string> memory_problem(double bytes, std::string_view what);
 
-/// What fixes it besides asking for less; behind a hint.
+/// The other remedy besides asking for less; behind a hint.
 inline constexpr std::string_view memory_hint =
     "or allow more with the environment variable LINKWRIGHT_MEMORY_MB";
 

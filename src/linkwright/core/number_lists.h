@@ -7,9 +7,9 @@
 
 namespace linkwright {
 
-/// How a document holds its long lists of numbers: as any other value, or apart from it, for readers that
-/// take numbers as they stand in memory. A list apart is `{"": [first, count]}` in the document; NaN stands
-/// for what would be null.
+/// The form in which a document holds its long lists of numbers: as any other value, or apart from it, for
+/// readers that take numbers as they stand in memory. A list apart is `{"": [first, count]}` in the document;
+/// NaN stands for what would be null.
 class NumberLists {
  public:
   static constexpr std::size_t shortest = 8;

@@ -8,7 +8,7 @@ namespace linkwright {
 
 inline constexpr double pi = std::numbers::pi, full_turn = 2 * pi;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-/// What a number holds that is not known: rows that do not assemble, columns that do not apply.
+/// The value of a number that is not known: rows that do not assemble, columns that do not apply.
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The index in a container of body, joint or row `i` >= 0. Models count in `int`, where -1 says "none".

@@ -25,7 +25,7 @@ struct QuantityColumn {
 
 /// Quantities of a table, in the order of those asked for.
 struct Quantities {
-  std::vector<std::string> keys;            ///< of the column as the table has it; empty = it has none
+  std::vector<std::string> keys;            ///< keys of the column in the table; empty = it has none
   std::vector<std::vector<double>> values;  ///< in SI, NaN = missing; empty where there is no column
 };
 

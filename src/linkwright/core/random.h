@@ -5,11 +5,11 @@
 
 namespace linkwright {
 
-/// Which random numbers: a counter-based stream is a pure function of this key, so a result does not depend
-/// on the number of threads or on the order in which candidates are drawn.
+/// The key of a stream of random numbers: a counter-based stream is a pure function of this key, so a result
+/// does not depend on the number of threads or on the order in which candidates are drawn.
 struct StreamKey {
-  std::uint64_t seed = 0;  ///< what the user gives
-  std::uint32_t run = 0;   ///< which use of the seed: start number, algorithm stage
+  std::uint64_t seed = 0;  ///< given by the user
+  std::uint32_t run = 0;   ///< number of the use of the seed: start number, algorithm stage
   std::uint32_t generation = 0;
   std::uint32_t individual = 0;
 };

@@ -12,10 +12,10 @@ namespace linkwright {
 
 class Checkpoint;
 
-/// What a long computation reports while it runs. Sent from any thread, but never by two threads at once.
+/// A report of a long computation while it runs. Sent from any thread, but never by two threads at once.
 struct Progress {
-  std::string_view stage;  ///< what is being done, for example "grey_wolf"
-  double fraction = 0;     ///< of this stage, 0 to 1
+  std::string_view stage;  ///< current activity, for example "grey_wolf"
+  double fraction = 0;     ///< done part of this stage, 0 to 1
   double best = nan;       ///< best cost so far, NaN if there is none
 };
 
@@ -48,8 +48,8 @@ class RunContext {
   void set_threads(int threads) { threads_ = threads; }
   int threads() const { return threads_; }
 
-  /// Where the run keeps what it has finished, and takes up what an earlier run has kept; call before the run
-  /// starts. nullptr = nowhere, the default.
+  /// Sets where the run saves its finished parts, and where it finds those of an earlier run; call before the
+  /// run starts. nullptr = nowhere, the default.
   void set_checkpoint(Checkpoint* checkpoint) { checkpoint_ = checkpoint; }
   Checkpoint* checkpoint() const { return checkpoint_; }
 

@@ -58,7 +58,7 @@ Measured Measured::in(const Unit& other) const {
   Measured out = *this;
   out.unit = &other;
   if (!is_fixed || unit == &other) return out;
-  // As many digits as "0.50" or "12.5" have, whatever their size becomes.
+  // Keeps as many digits as "0.50" or "12.5" have, for numbers of any size.
   const double size = std::abs(value());
   const int before = size >= 1 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 0;
   out.is_fixed = false;

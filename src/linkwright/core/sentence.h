@@ -25,15 +25,15 @@ struct Measured {
   bool has_sign = false;     ///< "+3.1" for positive numbers
   bool is_spelled = false;   ///< "3 deg", "2 m2" rather than "3°", "2 m²"
   bool shares_unit = false;  ///< its unit follows the next number: the first one of "503.08 x 228.32 mm"
-  std::string place = {};    ///< of a number that says where: "crank_angle"; empty else
+  std::string place = {};    ///< key of the column, for a number that says where: "crank_angle"; else empty
 
   /// The number in the unit in which it is written.
   double value() const { return unit ? unit->from_si(si) : si; }
-  /// As it is written: "N m", "m²"; empty of a plain number.
+  /// The symbol as it is written: "N m", "m²"; empty of a plain number.
   std::string symbol() const;
   /// In letters, as programs read it: "N m", "m2", "deg".
   std::string unit_words() const;
-  /// Of a number that says where: "crank_angle_deg".
+  /// The key with its unit, for a number that says where: "crank_angle_deg".
   std::string place_key() const;
 
   // The same number, written otherwise.

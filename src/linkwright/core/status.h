@@ -7,8 +7,8 @@
 
 namespace linkwright {
 
-/// How a computation ended. Physics that says no is an answer, not an exception: the good part of a result is
-/// kept, and the status says why the rest is missing.
+/// The end of a computation. Physics that says no is an answer, not an exception: the good part of a result
+/// is kept, and the status says why the rest is missing.
 enum class Status {
   done,           ///< everything that was asked for
   no_assembly,    ///< the links do not reach each other at this input

@@ -18,7 +18,7 @@ struct Column {
 /// last column.
 struct Table {
   std::string name;
-  std::vector<std::string> names = {};  ///< of the rows; empty = they have none
+  std::vector<std::string> names = {};  ///< names of the rows; empty = they have none
   std::vector<Column> columns = {};
   std::vector<std::string> status = {};  ///< one per row; empty = every row is done
 

@@ -47,7 +47,7 @@ std::optional<UnitKey> split_unit(std::string_view key);
 /// A name as part of a key: what is no letter or digit becomes '_'.
 std::string identifier(std::string_view name);
 
-/// What the dimension is called in messages: "a length".
+/// The name of the dimension in messages: "a length".
 std::string_view describe(Dimension dimension);
 
 /// A unit suffix as people write it: "m_per_s2" -> "m/s2", "N_m" -> "N m".

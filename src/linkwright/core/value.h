@@ -9,7 +9,7 @@
 
 namespace linkwright {
 
-/// Where a value stands in the text it was read from; line 0 = not from a text.
+/// The position of a value in the text it was read from; line 0 = not from a text.
 struct Position {
   int line = 0;
   int column = 0;
@@ -73,7 +73,7 @@ class Value {
   /// Appends to an array; a null value becomes an array.
   void push_back(Value value);
 
-  Position position;                                       ///< of the value itself
+  Position position;                                       ///< position of the value itself
   friend bool operator==(const Value& a, const Value& b);  ///< data only, positions do not count
 
  private:

@@ -8,7 +8,7 @@
 
 namespace linkwright::math {
 
-/// Of one operation with such numbers: twice what rounding does, relative to its result.
+/// Bound on the error of one operation with such numbers: twice what rounding does, relative to its result.
 template <class T>
 inline constexpr double rounding_bound = 0;
 template <>

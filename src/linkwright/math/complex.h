@@ -13,7 +13,7 @@ struct Complex {
 
   Complex() = default;
   LINKWRIGHT_KERNEL Complex(const T& real, const T& imaginary) : re(real), im(imaginary) {}
-  /// Of any number that has parts: a std::complex, a Complex of a narrower scalar.
+  /// Converts from any number that has parts: a std::complex, a Complex of a narrower scalar.
   template <class U>
   LINKWRIGHT_KERNEL explicit Complex(const Complex<U>& other) : re(T(other.re)), im(T(other.im)) {}
 

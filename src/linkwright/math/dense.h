@@ -45,7 +45,7 @@ std::vector<double> symmetric_eigenvalues(std::span<const double> matrix, std::s
 struct Eigenvectors {
   std::vector<std::complex<double>> values, vectors;  ///< vectors column by column, each of length one
 };
-/// Of a square matrix; without `vectors` the values alone.
+/// Eigenvalues and eigenvectors of a square matrix; without `vectors` the values alone.
 Eigenvectors eigenvectors(std::span<const double> matrix, bool vectors = true);
 
 }  // namespace linkwright::math

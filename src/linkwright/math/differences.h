@@ -46,7 +46,7 @@ Status bounded_jacobian(ResidualFunction function, std::size_t m, std::span<cons
                         std::span<const double> lower, std::span<const double> upper,
                         std::span<double> jacobian, std::span<const double> scale = {});
 
-/// What check_jacobian found: the entry that exceeds its tolerance most, or comes nearest to it.
+/// The result of check_jacobian: the entry that exceeds its tolerance most, or comes nearest to it.
 struct JacobianCheck {
   /// done: every column was compared; infeasible: residuals or Jacobian cannot be evaluated at x, or
   /// residuals not at the neighbours x +- h and x +- 2h of some column.

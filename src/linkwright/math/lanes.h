@@ -8,8 +8,8 @@
 
 namespace linkwright::math {
 
-/// How many paths, cases or machines a scalar holds side by side, and how one of them is read and written.
-/// Shows xsimd, as simd.h does.
+/// The number of paths, cases or machines that a scalar holds side by side, and access to each of them. Shows
+/// xsimd, as simd.h does.
 template <class T>
 struct Lanes {  // double, DoubleDouble
   static constexpr int count = 1;
@@ -20,7 +20,7 @@ struct Lanes {  // double, DoubleDouble
   LINKWRIGHT_KERNEL static T choose(bool condition, const T& a, const T& b) { return condition ? a : b; }
   /// Bit i = lane i.
   LINKWRIGHT_KERNEL static unsigned bits(bool mask) { return mask ? 1U : 0U; }
-  /// Of a >= 0, to the digits of a double.
+  /// Square root of a >= 0, to the digits of a double.
   LINKWRIGHT_KERNEL static T sqrt(const T& a) { return T(std::sqrt(static_cast<double>(a))); }
 };
 

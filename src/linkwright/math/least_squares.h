@@ -18,7 +18,7 @@ namespace linkwright::math {
 using ResidualFunction =
     FunctionRef<bool(std::span<const double> x, std::span<double> residuals, std::span<double> jacobian)>;
 
-/// What the damping multiplies in (J'J + lambda D) step = -J'r.
+/// The factor D of the damping in (J'J + lambda D) step = -J'r.
 enum class Damping {
   identity,  ///< D = I (Levenberg 1944): variables of like size, short steps along directions that hardly
              ///< matter
@@ -47,7 +47,7 @@ struct LeastSquaresOptions {
   bool jacobian_at_trials = true;
 };
 
-/// Why a search ended.
+/// The reason why a search ended.
 enum class LeastSquaresEnd { gradient, decrease, step, cost, damping, iterations, start };
 constexpr std::array<EnumName<LeastSquaresEnd>, 7> names(LeastSquaresEnd) {
   return {{{LeastSquaresEnd::gradient, "gradient", "gradient below its tolerance"},

@@ -11,7 +11,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/math/spline.h"
 
-// How a driven joint moves in time. A law is plain data in SI units and does not know whether its value is an
+// Motion of a driven joint in time. A law is plain data in SI units and does not know whether its value is an
 // angle (rad) or a length (m).
 namespace linkwright::math {
 
@@ -88,9 +88,9 @@ struct HarmonicMotion {
 using MotionLaw =
     std::variant<ConstantSpeed, CycloidalMotion, Polynomial345, EndConditions, MotionTable, HarmonicMotion>;
 
-/// What keeps a law from being a motion.
+/// The reason why a law is not a motion.
 struct MotionProblem {
-  std::string_view key;  ///< of the field that is wrong, without unit
+  std::string_view key;  ///< key of the wrong field, without unit
   std::string message;
   std::string hint;
 };

@@ -47,14 +47,14 @@ struct OdeOptions {
   int upper_bandwidth = -1;
 };
 
-/// What crosses zero, seen in the direction of integration.
+/// The direction of a zero crossing, seen in the direction of integration.
 enum class OdeCrossing { rising, falling, either };
 struct OdeEvent {
   OdeCrossing crossing = OdeCrossing::either;
   bool terminal = false;  ///< the integration ends here
 };
 
-/// What to do after an event.
+/// The next action after an event.
 enum class OdeAction {
   go_on,    ///< y was not touched
   restart,  ///< y was changed, or f is another one from here on
@@ -87,7 +87,7 @@ struct OdeHooks {
   const RunContext* context = nullptr;  ///< looked at after every step; receives the stage "integration"
 };
 
-/// Why an integration ended.
+/// The reason why an integration ended.
 enum class OdeEnd { time, event, hook, evaluation, steps, step_size, tolerance, interrupted };
 constexpr std::array<EnumName<OdeEnd>, 8> names(OdeEnd) {
   return {{{OdeEnd::time, "time"},
@@ -113,7 +113,7 @@ struct OdeReport {
   long failures = 0;     ///< times that SUNDIALS gave a step up and was started again with a shorter one
   long events = 0;       ///< occasions, however many events happened together
   double last_step = 0;  ///< signed length of the last step
-  std::string message;   ///< why it is not `done`, for people; else empty
+  std::string message;   ///< says why it is not `done`, for people; else empty
 };
 
 /// Memory of an integration; use one again and again (per thread) and nothing is allocated after the first

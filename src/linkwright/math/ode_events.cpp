@@ -77,7 +77,7 @@ void OdeEventFinder::scan(OdeStepper& stepper, double from, bool rough) {
   }
 }
 
-// Of a value that has a lowest place here, whether it is near enough to zero to look closer.
+// True if a value that has a minimum here comes near enough to zero to look closer.
 bool OdeEventFinder::near_miss(std::size_t event, std::size_t part) const {
   const double side = sides_[event], here = side * at(part, event);
   if (!(here > 0)) return false;
@@ -100,7 +100,7 @@ bool OdeEventFinder::suspicious() const {
   return false;
 }
 
-// Whether a place in [a, b] lies beyond zero; b is moved there.
+// True if a point in [a, b] lies beyond zero; b is moved there.
 bool OdeEventFinder::dip(OdeStepper& stepper, std::size_t event, double& a, double& b) {
   GoldenSection section{[&](double t) { return sides_[event] * value(stepper, event, t); }, a, b};
   for (int i = 0; i < 40 && std::abs(section.high - section.low) > tolerance_; ++i, section.narrow())
@@ -190,7 +190,7 @@ bool OdeEventFinder::find(OdeStepper& stepper, double from, double& t) {
   }
   if (std::isnan(first)) return ended();
 
-  // Those within the tolerance of the first happen together, when the last of them has crossed.
+  // Events within the tolerance of the first happen together, when the last of them has crossed.
   t = first;
   for (const double found : times_)
     if (direction * (found - first) <= tolerance_ && direction * (found - t) > 0) t = found;

@@ -7,7 +7,8 @@
 
 namespace linkwright::math {
 
-/// Where event functions cross zero within the steps of an integration. Part of ode.h, not for use elsewhere.
+/// Finds the zero crossings of event functions within the steps of an integration. Part of ode.h, not for use
+/// elsewhere.
 class OdeEventFinder {
  public:
   /// Times are found to `tolerance`.
@@ -41,7 +42,7 @@ class OdeEventFinder {
   double direction_ = 1;
   std::vector<double>
       quiet_;               // until when the values of an event count as on its side, whatever rounding says
-  std::vector<int> sides_;  // of zero, -1 or 1; 0: not known yet
+  std::vector<int> sides_;  // sign of each event function, -1 or 1; 0: not known yet
   std::vector<double> grid_;  // values at the places compared, all events of one place together
   std::vector<double> values_, y_, times_;
   std::vector<std::size_t> which_;

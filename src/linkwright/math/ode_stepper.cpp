@@ -46,7 +46,7 @@ std::span<const double> inner_nodes(OdeMethod method) {
 
 }  // namespace
 
-// What SUNDIALS calls; `self` is the stepper. No exception may pass through C.
+// The functions that SUNDIALS calls; `self` is the stepper. No exception may pass through C.
 struct OdeCallbacks {
   static OdeStepper& of(void* self) { return *static_cast<OdeStepper*>(self); }
 

@@ -9,7 +9,7 @@
 
 namespace linkwright::math {
 
-/// What `integrate` stands on: one step after another from SUNDIALS, and y within the last step. Part of
+/// The stepper of `integrate`: one step after another from SUNDIALS, and y within the last step. Part of
 /// ode.h, not for use elsewhere.
 class OdeStepper {
  public:
@@ -47,7 +47,7 @@ class OdeStepper {
   bool refused = false;           ///< f or the projection said no in it
   long evaluations = 0;
   std::exception_ptr thrown;    ///< by a hook, on its way through SUNDIALS
-  const char* message() const;  ///< what SUNDIALS said last
+  const char* message() const;  ///< last message of SUNDIALS
 
  private:
   friend struct OdeCallbacks;
@@ -62,7 +62,7 @@ class OdeStepper {
   const OdeHooks* hooks_ = nullptr;
   double to_ = 0;
   std::unique_ptr<Solver> solver_;
-  std::size_t nodes_ = 0;  // of the interpolation of the last step; 0: not there yet
+  std::size_t nodes_ = 0;  // number of nodes of the interpolation of the last step; 0: not built yet
   std::vector<double> stages_, trial_, node_rates_, differences_;
 };
 

@@ -15,13 +15,13 @@ namespace linkwright::math {
 struct TrackerOptions {
   double predicted = 1e-2;   ///< error of a prediction that the step length aims at, relative to |z|
   double corrected = 1e-5;   ///< largest second correction of Newton's method, relative to |z|
-  double first_step = 1e-3;  ///< of the way, whose length is 1
+  double first_step = 1e-3;  ///< length of the first step on the path, whose length is 1
   double largest_step = 0.15;
   double least_step = 1e-12;
   int most_steps = 3000;  ///< accepted and rejected ones
 };
 
-/// Where a path ended.
+/// The end point of a path, with its status.
 template <class T, std::size_t n>
 struct TrackedPath {
   std::array<Complex<T>, n> z{};
@@ -118,7 +118,7 @@ LINKWRIGHT_KERNEL void track_paths(
 
   C z[3][n], rate[3][n];  // the last three points of each path and their derivatives, newest first
   T t[3] = {T(0), T(-1), T(-2)};
-  T known(0);  // how many of them there are
+  T known(0);  // number of those points that are known
   T step(options.first_step);
   C start[m], way[m];
   for (std::size_t i = 0; i < m; ++i) {
@@ -213,7 +213,7 @@ LINKWRIGHT_KERNEL void track_paths(
     T root = L::choose(squared < by_correction, squared, by_correction);
     for (int i = 0; i < 5; ++i) root = L::sqrt(root);
     T factor = T(0.9) * root * L::sqrt(L::sqrt(root));
-    factor = L::choose(factor > T(0.1), factor, T(0.1));  // as well where it is not a number
+    factor = L::choose(factor > T(0.1), factor, T(0.1));  // 0.1 as well where the factor is not a number
     factor = L::choose(factor < T(2), factor, T(2));
     factor = L::choose(accepted || (factor < T(0.4)), factor, T(0.4));
     T length_next = L::choose(fresh, step, step * factor);
@@ -239,7 +239,7 @@ LINKWRIGHT_KERNEL void track_paths(
     t[0] = L::choose(accepted, goal, t[0]);
     known = L::choose(accepted && (known < T(2.5)), known + T(1), known);
 
-    // What single lanes do: arrive, get stuck, change their chart.
+    // Lanes that arrive, get stuck or change their chart are handled one by one.
     const Mask far = accepted && (tracker::size(z[0]) > T(System::largest_chart * System::largest_chart));
     const Mask arrived = accepted && (t[0] > T(1 - 1e-15));
     const Mask stuck = (step < T(options.least_step)) || (fresh && !accepted);

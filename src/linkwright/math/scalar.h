@@ -4,7 +4,7 @@
 /// object files.
 #define LINKWRIGHT_KERNEL [[gnu::always_inline]] inline
 
-/// What a formula needs beyond + - * / and sqrt to be written once for `double`, `Dual` and SIMD
+/// Operations that a formula needs beyond + - * / and sqrt to be written once for `double`, `Dual` and SIMD
 /// batches.
 namespace linkwright::math {
 

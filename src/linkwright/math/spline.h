@@ -21,10 +21,10 @@ std::array<double, 4> evaluate(const PiecewisePolynomial& polynomial, double t);
 
 enum class SplineDegree { cubic, quintic };
 
-/// What holds at both ends. `natural`: the derivatives of orders 2 (cubic) or 3 and 4 (quintic) vanish: least
-/// integral of the squared second or third derivative. `rest`: those of order 1 (cubic) or 1 and 2 (quintic)
-/// vanish. `periodic`: all that are continuous inside are so from the last point to the first, too; the
-/// values themselves may differ, so that a turning angle grows from period to period.
+/// The condition at both ends. `natural`: the derivatives of orders 2 (cubic) or 3 and 4 (quintic) vanish:
+/// least integral of the squared second or third derivative. `rest`: those of order 1 (cubic) or 1 and 2
+/// (quintic) vanish. `periodic`: all that are continuous inside are so from the last point to the first, too;
+/// the values themselves may differ, so that a turning angle grows from period to period.
 enum class SplineEnds { natural, rest, periodic };
 
 /// The smooth curve through points (t_i, y_i): pieces of degree 3 whose first 2 derivatives are continuous,

@@ -27,10 +27,10 @@ namespace {
 // numbers of pagmo would be none.
 constexpr double nothing = 1e-25;
 
-/// Where the problem that pagmo sees takes its costs from. pagmo evaluates one candidate after the other,
-/// although it makes a whole generation before it evaluates the first. A generation therefore runs twice with
-/// the same random numbers: once to note the candidates, left by an exception with the last of them, and once
-/// more with their costs.
+/// The exchange that gives pagmo's problem its costs. pagmo evaluates one candidate after the other, although
+/// it makes a whole generation before it evaluates the first. A generation therefore runs twice with the same
+/// random numbers: once to note the candidates, left by an exception with the last of them, and once more
+/// with their costs.
 ///
 /// pagmo sees the unit box, so that neither thin nor huge ranges lose digits in its covariances.
 struct Exchange {
@@ -145,7 +145,7 @@ class Archive {
   std::size_t n_;
   std::vector<std::string> words_;
   std::vector<std::size_t> numbers_;  ///< places in `words_`
-  std::size_t deviations_ = 0;        ///< where D begins in `numbers_`
+  std::size_t deviations_ = 0;        ///< index in `numbers_` where D begins
   std::size_t counters_ = 0;
 };
 

@@ -11,9 +11,9 @@ namespace linkwright::optimise {
 /// One number of the costs of several objectives. Does not decrease when a cost grows; pure.
 using CombinedCost = std::function<double(std::span<const double> costs)>;
 
-/// What a problem of one objective is made of by the functions below.
+/// The problem of one objective that the functions below make.
 struct Combination {
-  Problem problem;  ///< of several objectives
+  Problem problem;  ///< the problem of several objectives
   CombinedCost cost;
   std::vector<double> at_most;  ///< caps, one an objective, or empty
 };
@@ -37,7 +37,7 @@ Problem weighted_sum(const Problem& problem, std::span<const double> weights = {
 /// The largest of f_k. For smooth functions with derivatives see minimise_largest.h.
 Problem largest(const Problem& problem, std::span<const double> at_most = {});
 
-/// How much the costs exceed the caps of a combination, in all.
+/// The total excess of the costs over the caps of a combination.
 double excess(const Combination& combination, std::span<const double> costs);
 
 }  // namespace linkwright::optimise

@@ -25,18 +25,19 @@ auto view(V&& v) {
   return std::span(v.data(), static_cast<std::size_t>(v.size()));
 }
 
-// Where the rows of a cone stand.
+// The rows of a cone in the programme.
 struct Place {
   std::size_t group = 0;
-  Index first = 0, size = 1, row = 0;  // of the slacks; of the group's matrix
-  double row_scale = 1;                // all rows of a cone alike, so that it stays one
+  // First row and number of rows of the slacks; first entry in the group's matrix.
+  Index first = 0, size = 1, row = 0;
+  double row_scale = 1;  // all rows of a cone alike, so that it stays one
 };
 
 // Rows that use the same variables, one after the other.
 struct Group {
   std::vector<Index> support;
   Matrix g, scaled, normal;   // rows x support; W^-1 G; its square
-  std::vector<Index> places;  // of the lower triangle of `normal` among the values of the equations
+  std::vector<Index> places;  // places of the lower triangle of `normal` among the values of the equations
 };
 
 // The programme as min c'x, G x + s = h, s in K, equilibrated; and everything the iteration needs.
@@ -67,7 +68,7 @@ class Solver {
   const ConeOptions& options_;
   Index n_, m_ = 0;
   ConeScaling cones_;
-  std::vector<Place> places_;  // of the blocks of cones_
+  std::vector<Place> places_;  // places of the blocks of cones_
   std::vector<std::size_t> place_of_cone_;
   std::vector<Group> groups_;
   Vector c_, h_, column_;

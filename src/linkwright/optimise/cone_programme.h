@@ -44,7 +44,7 @@ struct ConeOptions {
   int max_iterations = 100;
 };
 
-/// Why the search ended.
+/// The reason why the search ended.
 enum class ConeEnd {
   optimal,     ///< within the tolerances
   infeasible,  ///< no x meets all cones; the multipliers prove it
@@ -69,9 +69,9 @@ struct ConeMultiplier {
   std::vector<double> parts;
 };
 
-/// What was found, and the proof. For any multipliers in their cones whose weighted sum of the cones equals
-/// the cost, minus their weighted sum of the constants is a lower bound of every feasible cost (weak
-/// duality), so that `lower_bound` and `cost` enclose the global optimum within `gap`, up to the residuals.
+/// The optimum, and its proof. For any multipliers in their cones whose weighted sum of the cones equals the
+/// cost, minus their weighted sum of the constants is a lower bound of every feasible cost (weak duality), so
+/// that `lower_bound` and `cost` enclose the global optimum within `gap`, up to the residuals.
 struct ConeReport {
   /// done: optimal (rounding: with all tolerances within 1e-7); infeasible; not_converged: unbounded,
   /// iterations, rounding; deadline, cancelled.
@@ -80,8 +80,8 @@ struct ConeReport {
   std::vector<double> x;   ///< empty when infeasible; when unbounded a direction along which the cost falls
   double cost = infinity;  ///< at x; -infinity when unbounded
   double lower_bound = -infinity;
-  double gap = infinity;            ///< of both, relative, see `solve`
-  double dual_residual = infinity;  ///< of the equilibrated equations
+  double gap = infinity;            ///< relative difference of both, see `solve`
+  double dual_residual = infinity;  ///< residual of the equilibrated dual equations
   double violation = infinity;      ///< largest |parts| - bound at x, >= 0
   /// One a cone. When infeasible: their weighted sum of the cones is 0 and that of the constants -1, which no
   /// x can meet. Empty when unbounded.

@@ -9,7 +9,7 @@
 
 namespace linkwright::optimise {
 
-/// How the mutant of member i is made; r1 ... r5 are members chosen at random, distinct and not i.
+/// The scheme that makes the mutant of member i; r1 ... r5 are members chosen at random, distinct and not i.
 enum class MutationScheme {
   rand_1,            ///< x_r1 + F (x_r2 - x_r3)
   best_1,            ///< x_best + F (x_r1 - x_r2)
@@ -26,7 +26,7 @@ constexpr std::array<EnumName<MutationScheme>, 5> names(MutationScheme) {
            {MutationScheme::best_2, "best_2", "the best member and two differences"}}};
 }
 
-/// When a trial that is as good as its target or better takes its place.
+/// The rule by which a trial that is as good as its target or better replaces it.
 enum class Replacement {
   generation,  ///< after all trials of the generation, which are made from the old population
   in_place,    ///< at once: later trials of the generation are made from it
@@ -36,7 +36,7 @@ constexpr std::array<EnumName<Replacement>, 2> names(Replacement) {
            {Replacement::in_place, "in_place", "at once, so that later trials can make use of it"}}};
 }
 
-/// What becomes of a component of a mutant that leaves the box.
+/// The treatment of a component of a mutant that leaves the box.
 enum class MutantBounds {
   midpoint,  ///< halfway between the base (the first term of its scheme) and the bound it violates
   clip,      ///< the bound it violates

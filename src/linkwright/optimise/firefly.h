@@ -9,11 +9,11 @@
 
 namespace linkwright::optimise {
 
-/// How a firefly i moves towards a brighter one j at a distance r: in the unit cube,
-/// x_i += beta (x_j - x_i) + alpha_t (rho - 1/2) with beta = beta_min + (beta_0 - beta_min) exp(-gamma r^2)
-/// (Boskovic 2018, Eq. (2.133), with beta_min = 0), rho uniform in the unit cube, and alpha_t = alpha (1e-4 /
-/// 0.9)^(t / T) in iteration t = 0 ... T - 1 (the decay of the code published by Yang; it goes on falling
-/// after T iterations).
+/// The move of a firefly i towards a brighter one j at a distance r: in the unit cube, x_i += beta (x_j -
+/// x_i) + alpha_t (rho - 1/2) with beta = beta_min + (beta_0 - beta_min) exp(-gamma r^2) (Boskovic 2018, Eq.
+/// (2.133), with beta_min = 0), rho uniform in the unit cube, and alpha_t = alpha (1e-4 / 0.9)^(t / T) in
+/// iteration t = 0 ... T - 1 (the decay of the code published by Yang; it goes on falling after T
+/// iterations).
 ///
 /// The publication prints one number 0.2 for the attraction. It may have meant beta_min, as in the code
 /// published by Yang where beta_0 = 1: `yang_attraction`, which is mostly better, is that reading.

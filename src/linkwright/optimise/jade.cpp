@@ -119,7 +119,7 @@ class Jade final : public DifferentialEvolutionBase {
   std::vector<double> scale_, crossover_;  ///< F and CR of the trials
   double mean_scale_ = 0.5, mean_crossover_ = 0.5;
   double archived_ = 0;  ///< members in the archive: a whole number, a double because states have no others
-  Population archive_;   ///< with room for those that one generation adds
+  Population archive_;   ///< archive, with room for the members that one generation adds
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 /// bits().
 namespace linkwright::optimise {
 
-/// Which random numbers: the part of a StreamKey that a whole generation shares.
+/// The key of the random numbers of a generation: the part of a StreamKey that a whole generation shares.
 struct GenerationKey {
   std::uint64_t seed = 0;
   std::uint32_t run = 0;
@@ -51,7 +51,7 @@ struct GreyWolfStep {
   const double *lower = nullptr, *upper = nullptr;
   std::array<const double*, 3> leaders{};  ///< alpha, beta, delta: one value a variable
   double a = 0;                            ///< reach of the steps, from 2 down to 0
-  bool absolute_value = false;             ///< of each X_k, as Eq. (4.25) of Boskovic 2018 is printed
+  bool absolute_value = false;  ///< absolute value of each X_k, as Eq. (4.25) of Boskovic 2018 is printed
 };
 
 struct Kernels {

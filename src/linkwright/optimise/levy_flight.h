@@ -7,7 +7,7 @@
 
 namespace linkwright::optimise {
 
-/// What a Levy flight starts from.
+/// The point from which a Levy flight starts.
 enum class LevyForm {
   plain,            ///< y = x + step L
   best_difference,  ///< y = x + step L (x - x_best) N(0, 1), of the code published by Yang and Deb

@@ -80,7 +80,7 @@ void fields(Visitor&& visit, OptimiserOptions& o) {
   visit_method(o, [&](auto& options) { fields(visit, options); });
 }
 
-/// Whether a method minimises several objectives together, see Optimiser::best.
+/// True if a method minimises several objectives together, see Optimiser::best.
 bool takes_several_objectives(Method method);
 
 /// Throws ContractError for a method that minimises one objective when there are several.

@@ -77,8 +77,8 @@ double spread(const PopulationView& members, std::span<const double> x, std::vec
   return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
 
-/// Whether two members are further apart than `most`. Before the swarm has nearly closed in, its distances to
-/// the first member tell.
+/// True if two members are further apart than `most`. Before the swarm has nearly closed in, its distances to
+/// the first member decide.
 bool wider_than(double most, const PopulationView& members, std::vector<double>& squares) {
   for (std::size_t k = 0; k < members.size; ++k) {
     std::fill(squares.begin(), squares.end(), 0.0);
@@ -147,7 +147,7 @@ struct Snapshot {
 };
 
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
-constexpr std::size_t log_numbers = 6;  // of a generation
+constexpr std::size_t log_numbers = 6;  // numbers logged for one generation
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
 
 /// Keeps a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
@@ -211,7 +211,8 @@ class StateKeeper {
       before_.reset();
     began_ = now;
   }
-  /// What was kept last stays where the generation came too quickly for more.
+  /// Saves the state before this generation. Without a snapshot of it, because generations are quick, the
+  /// last saved state remains.
   void cut_short(Report report, int unimproved, const std::optional<ParetoArchive>& front) {
     if (!before_) return;
     report.cost = before_->cost;
@@ -333,8 +334,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   LINKWRIGHT_REQUIRE(optimiser.objectives() == problem.objectives,
                      "an optimiser of {} objectives for a problem of {}", optimiser.objectives(),
                      problem.objectives);
-  // What is evaluated are the parts of a combination, `of_parts` costs a candidate; what the optimiser is
-  // told are `m` a candidate.
+  // The evaluated costs are the parts of a combination, `of_parts` a candidate; the optimiser receives `m`
+  // costs a candidate.
   const Combination* combination = problem.combination.get();
   const Problem& parts = combination ? combination->problem : problem;
   const std::size_t n = optimiser.population(), m = problem.objectives, of_parts = parts.objectives;

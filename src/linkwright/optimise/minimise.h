@@ -52,7 +52,7 @@ void fields(Visitor&& visit, StopCriteria& o) {
         o.diameter);
 }
 
-/// How candidates that violate constraints are ranked.
+/// The ranking of candidates that violate constraints.
 enum class Constraints {
   feasibility_rules,  ///< Deb 2000, see better()
   penalty,            ///< by cost + weight [violation > 0], as many publications do
@@ -100,7 +100,7 @@ void fields(Visitor&& visit, MinimiseOptions& o) {
 /// when there are several objectives.
 struct GenerationLog {
   std::int64_t evaluations = 0;  ///< so far, this generation included
-  double best_cost = 0;          ///< of the best candidate so far, see Report::cost
+  double best_cost = 0;          ///< cost of the best candidate so far, see Report::cost
   double best_violation = 0;
   double median = 0;  ///< cost of the feasible candidates of this generation
   double mean = 0;
@@ -113,7 +113,7 @@ struct Report {
   Status status = Status::done;
   std::string stop_reason;  ///< for people: "target cost 1e-08 reached"
   std::vector<double> x;    ///< best candidate, also when the run was interrupted
-  /// Of the problem, without penalty: its objective, or the mean of all when there are several.
+  /// Cost of the problem, without penalty: its objective, or the mean of all when there are several.
   double cost = infinity;
   /// All objectives of the best candidate; with a problem that is combined of several (combine.h) those.
   std::vector<double> costs;

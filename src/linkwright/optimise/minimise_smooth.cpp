@@ -25,8 +25,9 @@ constexpr std::size_t round_size = 8;          // starts searched together
 constexpr std::size_t evaluation_block = 256;  // candidates, a multiple of 8
 constexpr double on_bound = 1e-10;             // nearer it is rounding
 constexpr double at_bound = 1e-7;              // in parts of the width
-constexpr double at_limit = 1e-6;              // of constraints, caps and the largest objective
-constexpr double negligible_price = 1e-9;      // of the largest one
+// Relative distance at which constraints, caps and the largest objective count as active.
+constexpr double at_limit = 1e-6;
+constexpr double negligible_price = 1e-9;  // smallest price that counts, relative to the largest one
 
 /// The problem with its options: weights filled in, capped objectives listed.
 struct Task {
@@ -120,7 +121,7 @@ std::vector<std::vector<double>> choose_starts(const Task& task, const Seed& see
     try {
       problem.evaluate(drawn.view(), values);
     } catch (const Interrupted&) {
-      // Those that it has come to count.
+      // The candidates evaluated before the interruption count.
     }
     for (std::size_t i = 0; i < part; ++i) {
       const std::span<const double> of = std::span<const double>(values).subspan(i * width, width);

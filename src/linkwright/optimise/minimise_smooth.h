@@ -17,7 +17,7 @@
 
 namespace linkwright::optimise {
 
-/// What is made of several objectives.
+/// The treatment of several objectives.
 enum class SmoothGoal {
   mean,     ///< the sum of weights times objectives, as they are 1 / number of objectives
   largest,  ///< the largest of weights times objectives, as they are 1, by its epigraph
@@ -59,7 +59,7 @@ void fields(Visitor&& visit, SmoothOptions& o) {
         o.same_cost);
 }
 
-/// How one start ended.
+/// The end of one start.
 struct SmoothEnd {
   double cost = infinity;
   double violation = 0;  ///< largest of the constraints and caps at x; 0 when each holds
@@ -68,7 +68,7 @@ struct SmoothEnd {
   std::vector<double> x;
 };
 
-/// What stops the cost from being less, or what it consists of.
+/// A limit that stops the cost from being less, or a part of the cost.
 enum class LimitKind { lower_bound, upper_bound, cap, constraint, objective };
 constexpr std::array<EnumName<LimitKind>, 5> names(LimitKind) {
   return {{{LimitKind::lower_bound, "lower_bound"},
@@ -79,12 +79,12 @@ constexpr std::array<EnumName<LimitKind>, 5> names(LimitKind) {
 }
 struct ActiveLimit {
   LimitKind kind = LimitKind::lower_bound;
-  std::size_t index = 0;  ///< of the variable, objective or constraint
+  std::size_t index = 0;  ///< index of the variable, objective or constraint
   /// Lagrange multiplier: how much the cost falls for a unit by which the limit is loosened (a unit of the
   /// variable, of the objective, of the constraint). Of an objective: its share in the cost; they add up
   /// to 1.
   double price = 0;
-  /// How much it falls when a bound or cap is loosened by a hundredth of its value; 0 for others.
+  /// Decrease of the cost when a bound or cap is loosened by a hundredth of its value; 0 for others.
   double price_per_cent = 0;
 };
 
@@ -97,13 +97,13 @@ struct SmoothReport {
   std::vector<double> objectives;   ///< at x
   std::vector<double> constraints;  ///< at x
   double cost = infinity;
-  double violation = infinity;      ///< as in SmoothEnd
+  double violation = infinity;      ///< sum of the violations, as in SmoothEnd
   std::int64_t evaluations = 0;     ///< candidates, those of derivatives included
-  std::vector<SmoothEnd> ends;      ///< of all starts made, in order
-  int reached_best = 0;             ///< of them, see same_cost
+  std::vector<SmoothEnd> ends;      ///< ends of all starts made, in order
+  int reached_best = 0;             ///< number of starts that reached the best cost, see same_cost
   std::vector<ActiveLimit> active;  ///< at x, largest price per cent first
-  /// What is left of the gradient of the cost at x when the active limits are taken into account, relative to
-  /// that gradient, variables in parts of the widths of their bounds: 0 at a minimum.
+  /// The remainder of the gradient of the cost at x when the active limits are taken into account, relative
+  /// to that gradient, variables in parts of the widths of their bounds: 0 at a minimum.
   double stationarity = nan;
 };
 

@@ -9,7 +9,7 @@
 namespace linkwright::optimise {
 namespace {
 
-/// Of a search that was interrupted at x, the best of what it came to.
+/// The best point of a search that was interrupted at x.
 math::LeastSquaresReport cut_short(math::ResidualFunction function, std::size_t m, std::span<const double> x,
                                    std::int64_t& evaluations) {
   math::LeastSquaresReport out{.status = Status::not_converged, .end = math::LeastSquaresEnd::iterations};

@@ -28,7 +28,7 @@ struct MultistartOptions {
   math::LeastSquaresOptions local = {};
 };
 
-/// How one start ended.
+/// The end of one start.
 struct MultistartEnd {
   std::size_t start = 0;
   math::LeastSquaresReport report;
@@ -37,7 +37,7 @@ struct MultistartEnd {
 
 struct MultistartReport {
   Status status = Status::done;     ///< done, infeasible (no start could be evaluated), deadline or cancelled
-  std::vector<MultistartEnd> ends;  ///< of all starts made, in order
+  std::vector<MultistartEnd> ends;  ///< ends of all starts made, in order
   std::size_t best = 0;             ///< index of the cheapest end; the first of equals
   int reached_best = 0;             ///< ends that cost as much as the best, see same_cost
   std::int64_t evaluations = 0;

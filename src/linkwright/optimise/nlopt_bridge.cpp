@@ -22,8 +22,8 @@ struct Destroy {
 };
 using Nlopt = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, Destroy>;
 
-/// What the callbacks of one search share. NLopt asks for the cost and for the constraints at a point one
-/// after the other, in either order; a point counts once both are known.
+/// The data that the callbacks of one search share. NLopt asks for the cost and for the constraints at a
+/// point one after the other, in either order; a point counts once both are known.
 struct Search {
   CostFunction cost_function;
   ValuesFunction constraint_function;

@@ -34,7 +34,7 @@ constexpr std::array<EnumName<LocalMethod>, 3> names(LocalMethod) {
 
 struct LocalOptions {
   LocalMethod method = LocalMethod::slsqp;
-  int max_evaluations = 1000;         ///< of the cost
+  int max_evaluations = 1000;         ///< largest number of evaluations of the cost
   double step_tolerance = 1e-10;      ///< stop when a step changes every variable by less than this, relative
   double decrease_tolerance = 1e-14;  ///< stop when a step changes the cost by less than this, relative
   double constraint_tolerance = 1e-9;  ///< a constraint holds when its value is at most this
@@ -60,7 +60,7 @@ void fields(Visitor&& visit, LocalOptions& o) {
         o.constraint_tolerance);
 }
 
-/// Why a local search ended.
+/// The reason why a local search ended.
 enum class LocalEnd {
   step,         ///< step_tolerance
   decrease,     ///< decrease_tolerance

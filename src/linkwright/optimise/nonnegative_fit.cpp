@@ -30,7 +30,7 @@ double fit_nonnegative(std::span<const double> columns, std::span<const double> 
     while (!in.empty()) {
       const Eigen::MatrixXd part = a(Eigen::all, in);
       const std::vector<double> fit = math::linear_fit(math::numbers(part), in.size(), b);
-      double share = 1;  // of the way to the fit that stays in x >= 0
+      double share = 1;  // share of the step to the fit that stays in x >= 0
       for (std::size_t k = 0; k < in.size(); ++k)
         if (fit[k] <= 0) share = std::min(share, now[in[k]] / (now[in[k]] - fit[k]));
       bool left = false;

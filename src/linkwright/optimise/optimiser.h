@@ -21,15 +21,15 @@
 
 namespace linkwright::optimise {
 
-/// Which random numbers an optimiser draws: its whole course is a function of this, its options and the costs
-/// told.
+/// The key of the random numbers of an optimiser: its whole course is a function of this, its options and the
+/// costs told.
 struct Seed {
   std::uint64_t seed = 1;
   std::uint32_t run = 0;  ///< tells apart several optimisers of one seed
 };
 
-/// What the further course of an optimiser depends on, besides the variables, options and seed that it was
-/// made with.
+/// The state that determines the further course of an optimiser, besides the variables, options and seed that
+/// it was made with.
 struct OptimiserState {
   std::uint32_t generation = 0;  ///< told so far
   std::vector<double> numbers;   ///< all others, in the order in which the method lists them
@@ -92,11 +92,12 @@ class Optimiser {
   /// population whose costs, each divided by the median of its objective there, have the least sum. As long
   /// as nothing is feasible it is the least violated.
   std::span<const double> best() const { return best_; }
-  /// Of the best; with several objectives the first of its costs.
+  /// Costs of the best candidate; with several objectives the first of its costs.
   double best_cost() const { return best_costs_[0]; }
   std::span<const double> best_costs() const { return best_costs_; }
   double best_violation() const { return best_violation_; }
-  /// Whether the last `tell` brought a new best candidate (then also which one) or one as good as the best.
+  /// True if the last `tell` brought a new best candidate (`improved`) or one as good as the best
+  /// (`equalled`).
   bool improved() const { return improved_; }
   bool equalled() const { return equalled_; }
   std::size_t best_candidate() const { return best_candidate_; }
@@ -125,15 +126,15 @@ class Optimiser {
 
   /// Makes the candidates of a round after the first.
   virtual void propose(const GenerationKey& key) = 0;
-  /// How many candidates `propose` made.
+  /// Number of candidates that `propose` made.
   virtual std::size_t proposed() const { return population(); }
   /// Takes in the answers. They are padded to the stride of the population; costs of several objectives lie
   /// as in `tell`.
   virtual void accept(const double* cost, const double* violation) = 0;
-  /// Whether the generation goes on after the answers taken in.
+  /// True if the generation continues after the answers taken in.
   virtual bool goes_on() const { return false; }
 
-  /// What costs are divided by to compare them with a reference one: its size, or 1 if that is 0.
+  /// The divisor for comparing costs with a reference one: its size, or 1 if that is 0.
   static double unit_of(double reference) { return reference == 0 ? 1 : std::abs(reference); }
 
   KernelShape shape() const { return {dimension(), candidates_.size(), candidates_.view().stride}; }

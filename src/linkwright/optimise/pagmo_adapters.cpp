@@ -59,7 +59,7 @@ std::pair<double, double> split(const pagmo::problem& problem, const double* fit
 struct AdaptedAlgorithm {
   OptimiserOptions method = {};
   unsigned seed = 0;
-  mutable std::uint32_t runs = 0;  ///< of `evolve` so far
+  mutable std::uint32_t runs = 0;  ///< number of runs of `evolve` so far
 
   void set_seed(unsigned s) {
     seed = s;

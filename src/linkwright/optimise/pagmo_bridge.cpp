@@ -28,7 +28,7 @@
 namespace linkwright::optimise {
 namespace {
 
-constexpr double least_violated_cost = 1e79;  // of cost_by_feasibility_rules
+constexpr double least_violated_cost = 1e79;  // feasible candidates cost less, see cost_by_feasibility_rules
 
 /// Evaluates what pagmo asks for: designs of the free variables only, as pagmo takes none without a range.
 class Evaluator {
@@ -47,7 +47,7 @@ class Evaluator {
     LINKWRIGHT_REQUIRE(!free_.empty(), "a problem needs variables with a range");
   }
 
-  std::vector<double> lower, upper;  ///< of the free variables
+  std::vector<double> lower, upper;  ///< bounds of the free variables
 
   std::size_t objectives() const { return problem_.objectives; }
 

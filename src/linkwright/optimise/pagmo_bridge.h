@@ -28,10 +28,11 @@ constexpr std::array<EnumName<PagmoMethod>, 2> names(PagmoMethod) {
 struct Nsga2Options {
   int population = 100;  ///< a multiple of 4, at least 8
   int generations = 250;
-  double crossover = 0.9;       ///< probability
-  double crossover_index = 20;  ///< of simulated binary crossover; large = children near their parents
-  double mutation = 0;          ///< probability of a variable; 0 = one variable in the mean
-  double mutation_index = 20;   ///< of polynomial mutation; large = small steps
+  double crossover = 0.9;  ///< probability
+  /// Distribution index of simulated binary crossover; large = children near their parents.
+  double crossover_index = 20;
+  double mutation = 0;         ///< probability of a variable; 0 = one variable in the mean
+  double mutation_index = 20;  ///< distribution index of polynomial mutation; large = small steps
 };
 template <class Visitor>
 void fields(Visitor&& visit, Nsga2Options& o) {
@@ -99,7 +100,7 @@ void fields(Visitor&& visit, PagmoOptions& o) {
     fields(visit, o.nsga2);
 }
 
-/// What all methods of several objectives are told.
+/// The options that all methods of several objectives share.
 struct FrontOptions {
   std::int64_t evaluations =
       0;            ///< a generation that would exceed this is not started, except the first; 0 = no limit
@@ -121,7 +122,7 @@ struct FrontLog {
   std::int64_t evaluations = 0;  ///< so far, this generation included
   double violated = 0;           ///< share of the candidates of this generation that violate a constraint
   int front = 0;  ///< members that are feasible and dominated by none; of those of equal costs one
-  std::vector<double> least;  ///< of each objective among them; infinite when there are none
+  std::vector<double> least;  ///< least value of each objective among them; infinite when there are none
 };
 
 struct FrontReport {
@@ -132,7 +133,7 @@ struct FrontReport {
   /// objective first; of those of equal costs one. When nothing was feasible, the one candidate least
   /// violated.
   std::vector<ParetoPoint> front;
-  double violation = 0;  ///< of all designs of the front
+  double violation = 0;  ///< largest violation of all designs of the front
   std::int64_t evaluations = 0;
   int generations = 0;
   std::vector<FrontLog> log;

@@ -7,14 +7,14 @@
 
 namespace linkwright::optimise {
 
-/// Whether costs a dominate costs b, as many: none is more, and one at least is less.
+/// True if costs a dominate costs b, as many: none is more, and one at least is less.
 bool dominates(std::span<const double> a, std::span<const double> b);
 
-/// Whether cost a is less than b by more than searches settle it: a limit that holds a cost is met within
-/// `tolerance::feasibility` of the size of its constraint, which may be some tens of times the cost.
+/// True if cost a is less than b by more than the accuracy of searches: a limit that holds a cost is met
+/// within `tolerance::feasibility` of the size of its constraint, which may be some tens of times the cost.
 bool less_by_more_than_rounding(double a, double b);
 
-/// Whether none of costs a, as many as b, is more than that of b by more than rounding: a dominates b, or
+/// True if none of the costs a, as many as b, is more than that of b by more than rounding: a dominates b, or
 /// they are equal as far as searches can tell. Not transitive: for a list that is shown.
 bool no_cost_more(std::span<const double> a, std::span<const double> b);
 
@@ -44,14 +44,15 @@ class ParetoArchive {
   /// Throws ContractError for a capacity of less than twice the objectives.
   ParetoArchive(std::size_t dimension, std::size_t objectives, std::size_t capacity);
 
-  /// Whether the design came in and stays. It does not if it is dominated, has the costs of one that is
-  /// there, or has an infinite cost. Throws ContractError for wrong sizes and a NaN among the costs.
+  /// Returns true if the design joined the front. It does not if it is dominated, has the costs of one that
+  /// is there, or has an infinite cost. Throws ContractError for wrong sizes and a NaN among the costs.
   bool tell(std::span<const double> x, std::span<const double> costs);
 
   std::size_t objectives() const { return objectives_; }
   std::size_t capacity() const { return capacity_; }
   std::size_t size() const { return size_; }
-  /// Of design i, in the order in which they were told; valid until the next `tell`.
+  /// Variables and costs of design i, in the order in which the designs were added; valid until the next
+  /// `tell`.
   std::span<const double> x(std::size_t i) const { return {&x_[i * dimension_], dimension_}; }
   std::span<const double> costs(std::size_t i) const { return {&costs_[i * objectives_], objectives_}; }
 
@@ -64,7 +65,7 @@ class ParetoArchive {
 
   std::size_t dimension_, objectives_, capacity_, size_ = 0;
   std::size_t refuser_ = 0;        ///< design that refused the last one
-  std::vector<double> x_, costs_;  ///< with room for one more
+  std::vector<double> x_, costs_;  ///< values of all designs, with room for one more
   std::vector<double> distance_;
   std::vector<std::uint32_t> order_;
 };

@@ -9,7 +9,7 @@
 
 namespace linkwright::optimise {
 
-/// What becomes of a particle that leaves the box, component by component.
+/// The treatment of a particle that leaves the box, component by component.
 enum class SwarmBounds {
   clip,     ///< it stops at the bound: its velocity is 0 there
   reflect,  ///< it is mirrored at the bound, its velocity reversed

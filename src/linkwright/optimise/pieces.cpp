@@ -69,7 +69,7 @@ PieceLoop do_pieces(std::size_t count, RunContext& context, std::string_view sta
   if (checkpoint && incomplete()) {
     checkpoint->rejoin(loop);
     restore_kept();
-    // What another run took and did not end is done here.
+    // Pieces that another run took and did not finish are done here.
     shared = false;
     next = begun = 0;
     if (incomplete() && !context.interrupted()) parallel_for(count, context.threads(), do_one);

@@ -12,7 +12,7 @@
 
 namespace linkwright::optimise {
 
-/// How a loop over pieces of work ended.
+/// The end of a loop over pieces of work.
 struct PieceLoop {
   Status status = Status::done;  ///< done, deadline or cancelled
   /// One a piece, also of those taken from the checkpoint; pieces that had not begun when the run was

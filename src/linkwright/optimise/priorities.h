@@ -15,7 +15,7 @@ struct Priorities {
   std::vector<std::size_t> order;  ///< all objectives, the most important first; empty = as they come
 };
 
-/// Where costs stand.
+/// The key that ranks costs.
 struct PriorityKey {
   std::size_t met = 0;  ///< objectives met before the first that is not
   /// Cost over tolerance of that first one, more than 1; the largest of all, at most 1, when all are met.
@@ -26,7 +26,7 @@ struct PriorityKey {
 /// that are none, or do not fit the costs.
 PriorityKey priority_key(std::span<const double> costs, const Priorities& priorities);
 
-/// Whether a is better: more objectives met or, of as many, the lesser ratio. The rule of the
+/// True if a is better: more objectives met or, of as many, the lesser ratio. The rule of the
 /// wheel-suspension studies, Eq. (78) there, which compares the ratios alone: by that a design that misses
 /// the first objective by 1.5 were better than one that misses only the second, by 55.
 bool better(const PriorityKey& a, const PriorityKey& b);

@@ -26,13 +26,13 @@ struct Violation {
 
 struct Combination;
 
-/// What is minimised. An optimiser asks for the costs of a whole population, never of one candidate, and
-/// knows nothing else of the problem.
+/// The function to be minimised. An optimiser asks for the costs of a whole population, never of one
+/// candidate, and knows nothing else of the problem.
 struct Problem {
   std::vector<Variable> variables;
 
-  /// How many objectives are minimised together. Several are to be given relative to a reference, so that 1
-  /// is as good as the reference: methods and reports compare and average them.
+  /// Number of objectives that are minimised together. Several are to be given relative to a reference, so
+  /// that 1 is as good as the reference: methods and reports compare and average them.
   std::size_t objectives = 1;
 
   /// For each candidate i: cost[i * objectives + k] of every objective k, and violation[i] = sum of the
@@ -42,11 +42,11 @@ struct Problem {
   std::function<void(const PopulationView& candidates, std::span<double> cost, std::span<double> violation)>
       evaluate;
 
-  /// Why one candidate is infeasible, for reports; may be empty.
+  /// Explains why one candidate is infeasible, for reports; may be empty.
   std::function<std::vector<Violation>(std::span<const double> x)> explain;
 
-  /// What its one objective was combined of, see combine.h; null if of nothing. `minimise` evaluates that
-  /// instead of `evaluate`, for the objectives of what it finds.
+  /// The combination that made its one objective, see combine.h; null if there is none. `minimise` evaluates
+  /// that instead of `evaluate`, for the objectives of what it finds.
   std::shared_ptr<const Combination> combination;
 };
 

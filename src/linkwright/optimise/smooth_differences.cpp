@@ -88,7 +88,8 @@ std::span<const double> SmoothDifferences::jacobian(std::span<const double> u) {
       const double ha = ahead_[j], hb = behind_[j];
       double d = 0;
       if (std::isfinite(a) && std::isfinite(b))
-        d = ((a - f) * hb / ha - (b - f) * ha / hb) / (hb - ha);  // of the parabola through the three
+        // Derivative of the parabola through the three points.
+        d = ((a - f) * hb / ha - (b - f) * ha / hb) / (hb - ha);
       else if (std::isfinite(a))
         d = (a - f) / ha;
       else if (std::isfinite(b))

@@ -20,7 +20,7 @@ class SmoothDifferences {
 
   std::size_t free() const { return free_.size(); }
   std::span<const std::size_t> variables() const { return free_; }  ///< index of each free variable
-  double width(std::size_t j) const;                                ///< of the bounds of free variable j
+  double width(std::size_t j) const;  ///< distance between the bounds of free variable j
 
   void to_unit(std::span<const double> x, std::span<double> u) const;
   void from_unit(std::span<const double> u, std::span<double> x) const;

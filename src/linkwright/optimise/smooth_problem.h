@@ -30,13 +30,13 @@ struct SmoothProblem {
   std::size_t values() const { return objectives + constraints; }
 };
 
-/// What an evaluation that may be interrupted finds in `values`, and whether it has written those of one
-/// candidate: no objective of a candidate is minus infinity.
+/// The value that `values` hold before an evaluation that may be interrupted, by which one sees whether it
+/// has written those of a candidate: no objective of a candidate is minus infinity.
 inline constexpr double untouched = -infinity;
 bool is_touched(std::span<const double> values);
 
-/// How far one candidate is from feasible: the sum of the positive parts of its constraints, and 1 more when
-/// an objective or a constraint is not finite.
+/// The violation of one candidate: the sum of the positive parts of its constraints, and 1 more when an
+/// objective or a constraint is not finite.
 double violation_of(std::span<const double> values, std::size_t objectives);
 
 /// The same problem, whose `evaluate` looks before each candidate but its first whether the run is to stop,

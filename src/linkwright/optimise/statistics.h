@@ -22,7 +22,7 @@ struct SeedRange {
   std::uint64_t first = 1;
   int count = 1;
 };
-/// What one seed came to.
+/// The outcome of one seed.
 struct SeedOutcome {
   double cost = infinity;
   double violation = 0;
@@ -40,7 +40,7 @@ struct SeedStatistics {
   double threshold = 0;  ///< a seed succeeds when it is feasible and costs at most this
   int successes = 0;
   double success_rate = nan;
-  std::int64_t evaluations = 0;  ///< of all seeds
+  std::int64_t evaluations = 0;  ///< evaluations of all seeds together
   double median_evaluations = best;
   /// Evaluations spent, failures included, for one success; infinite without success.
   double evaluations_per_success = infinity;
@@ -68,7 +68,7 @@ PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string
 /// The same method on the same problem with many seeds.
 struct SeedsReport {
   Status status = Status::done;      ///< done, infeasible (all seeds), deadline or cancelled
-  std::vector<std::uint64_t> seeds;  ///< those that ran, in order; under an interruption perhaps not all
+  std::vector<std::uint64_t> seeds;  ///< seeds that ran, in order; under an interruption perhaps not all
   std::vector<Report> reports;       ///< one a seed
   std::size_t best = 0;  ///< index of the best report, by the feasibility rules; the first of equals
   SeedStatistics statistics;

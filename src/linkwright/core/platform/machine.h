@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-/// What the operating system is asked for. This folder is the only place that knows which one it is, and the
-/// only one that includes its headers.
+/// Every call of the operating system. This folder is the only place that knows which one it is, and the only
+/// one that includes its headers.
 namespace linkwright::platform {
 
 /// Memory of the machine, or what of it a limit of the process allows (bytes); 0 where it does not say.

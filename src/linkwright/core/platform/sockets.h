@@ -13,7 +13,7 @@ enum class Waited { ready, not_yet, failed };
 /// Waits until something can be read or written, at most so long; `not_yet` may come earlier.
 Waited wait_for(Socket socket, Direction direction, std::chrono::milliseconds most);
 
-/// What is there to be read now, without reading it.
+/// The state of the input of a socket, found without reading it.
 enum class Incoming { data, nothing, end };
 Incoming incoming(Socket socket);
 

@@ -8,9 +8,9 @@ namespace linkwright::math {
 struct RungeKuttaPair {
   int stages, order, embedded_order;
   std::span<const double> stage_weights;     ///< rows 1, 2, ... below the diagonal, one after the other
-  std::span<const double> weights;           ///< of the formula that is carried on
-  std::span<const double> embedded_weights;  ///< of the one that gives the error
-  std::span<const double> places;            ///< of the stages in the step
+  std::span<const double> weights;           ///< weights of the formula that is carried on
+  std::span<const double> embedded_weights;  ///< weights of the formula that gives the error
+  std::span<const double> places;            ///< times of the stages, as parts of the step
 };
 
 namespace ode_pairs {

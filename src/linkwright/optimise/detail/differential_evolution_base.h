@@ -9,8 +9,8 @@
 
 namespace linkwright::optimise {
 
-/// What all forms of differential evolution share: members with their costs, and the duel of each with its
-/// trial.
+/// The common base of all forms of differential evolution: members with their costs, and the duel of each
+/// with its trial.
 class DifferentialEvolutionBase : public Optimiser {
  public:
   PopulationView members() const override { return members_.view(); }

@@ -9,7 +9,7 @@
 
 namespace linkwright::optimise {
 
-/// What all forms of the firefly algorithm share: the sweep.
+/// The common base of all forms of the firefly algorithm: the sweep.
 class FireflyBase : public SwarmBase {
  protected:
   FireflyBase(std::span<const Variable> variables, int population, const Seed& seed, std::size_t objectives,
@@ -26,7 +26,7 @@ class FireflyBase : public SwarmBase {
     std::span<const std::uint32_t> list;
     std::size_t mover = 0, target = 0;       ///< places in the list of the next pair to look at
     std::uint32_t moved = 0;                 ///< member that candidate 0 is a move of
-    RandomStream random = RandomStream({});  ///< of that member
+    RandomStream random = RandomStream({});  ///< random numbers of that member
     double randomness = 0;                   ///< alpha_t
   };
   /// Makes candidate 0 for the next move; false when there is none left.
@@ -38,7 +38,7 @@ class FireflyBase : public SwarmBase {
   void move(std::size_t i, std::size_t j, double randomness, RandomStream& random);
 
   FireflyMove move_;
-  double decay_;  ///< of the randomness in an iteration
+  double decay_;  ///< factor of the randomness in an iteration
 };
 
 }  // namespace linkwright::optimise

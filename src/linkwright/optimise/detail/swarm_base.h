@@ -11,7 +11,7 @@
 
 namespace linkwright::optimise {
 
-/// What fireflies and cuckoos share: members with their costs, moved one after the other, so that a
+/// The common base of fireflies and cuckoos: members with their costs, moved one after the other, so that a
 /// generation has as many rounds as moves. Distances and steps are those of the unit cube, in parts of the
 /// width of the box.
 ///
@@ -42,11 +42,11 @@ class SwarmBase : public Optimiser {
   bool member_better(std::size_t a, std::size_t b) const {
     return better(member_costs(a), violation_[a], member_costs(b), violation_[b]);
   }
-  /// Whether member a comes before member b in the order from the best to the worst. With one objective as
-  /// member_better; with several, where that is no order, feasible ones by the mean of their costs relative
-  /// to those of the best so far, infeasible ones by violation.
+  /// True if member a comes before member b in the order from the best to the worst. With one objective this
+  /// is the order of member_better; with several, where that is no order, feasible ones by the mean of their
+  /// costs relative to those of the best so far, infeasible ones by violation.
   bool member_ranks_before(std::size_t a, std::size_t b) const;
-  /// Whether candidate c, now evaluated, is better than member i.
+  /// True if candidate c, now evaluated, is better than member i.
   bool candidate_better(std::size_t c, std::size_t i) const {
     return better({answer_cost_ + c * objectives(), objectives()}, answer_violation_[c], member_costs(i),
                   violation_[i]);
@@ -62,7 +62,7 @@ class SwarmBase : public Optimiser {
   Rounds rounds_;
   Population members_;
   std::vector<double> cost_, violation_;       ///< costs of a member one after the other
-  std::vector<double> width_, inverse_width_;  ///< of the box; the inverse of 0 is 0
+  std::vector<double> width_, inverse_width_;  ///< width of the box; the inverse of 0 is 0
 
  private:
   std::span<const double> member_costs(std::size_t i) const {
