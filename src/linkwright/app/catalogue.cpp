@@ -28,7 +28,7 @@ namespace {
 
 using Kinds = std::vector<study::Kind>;
 
-// What users want to do, in the order of lists.
+// The tasks of users, in the order of lists.
 constexpr std::string_view find_motion = "Find motion and forces", follow_path = "Follow a path",
                            guide_body = "Guide a body", generate_function = "Generate a function",
                            balance = "Balance a machine", suspensions = "Wheel suspensions",
@@ -40,7 +40,7 @@ constexpr std::array titles{well_known,        find_motion,    follow_path,     
                             generate_function, balance,        suspensions,       robots,
                             real_joints,       flexible_links, parameter_studies, no_group};
 
-/// Of a study, the first that fits counts.
+/// The group of a study; the first that fits counts.
 struct Group {
   std::string_view kind;       ///< empty = any
   std::string_view mechanism;  ///< its beginning

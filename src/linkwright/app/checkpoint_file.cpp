@@ -20,10 +20,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t format_version = 1;
 constexpr std::size_t longest_header = 4096;
-constexpr std::size_t longest_text = 100;      // of a name
+constexpr std::size_t longest_text = 100;      // longest name
 constexpr std::size_t most_lines = 1'000'000;  // ten for each seed that a study may have
 constexpr std::chrono::duration<double> shortest_interval(0.5);
-constexpr double writing_share = 0.05;  // of the time of a run
+constexpr double writing_share = 0.05;  // largest share of the time of a run that is spent on writing
 
 const char* const mend = "run without --resume to start again and replace it";
 
@@ -212,7 +212,7 @@ void CheckpointFile::keep(std::string_view name, const Value& value) {
     bytes_ -= at->second.size();
     return lines_.erase(at);
   };
-  // What cannot be read back is not kept: an older state under this name is better.
+  // A line that cannot be read back is not saved: an older state under this name is better.
   if (line.size() > study::largest_document || bytes_ + line.size() > largest_checkpoint ||
       lines_.size() == most_lines)
     return;
@@ -243,7 +243,7 @@ void CheckpointFile::write_until_stopped() {
   std::unique_lock lock(mutex_);
   while (!stopped_) {
     changes_.wait(lock, [&] { return changed_ || stopped_; });
-    // What is kept meanwhile goes with it.
+    // Changes that come during the wait are written with it.
     if (!changes_.wait_for(lock, interval_, [&] { return stopped_; })) write(lock);
   }
 }

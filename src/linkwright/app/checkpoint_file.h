@@ -25,14 +25,15 @@ inline constexpr const char* checkpoint_name = "checkpoint.jsonl";
 /// Neither written nor read beyond this.
 inline constexpr std::size_t largest_checkpoint = std::size_t{512} << 20;
 
-/// Whose checkpoint a file is: nothing else can go on with it.
+/// The owner of a checkpoint file: no other study or program can continue with it.
 struct CheckpointOwner {
   std::string tool;          ///< "linkwright 0.1.0"
-  std::string study_sha256;  ///< of the canonical study, as in result.json
+  std::string study_sha256;  ///< hash of the canonical study, as in result.json
 };
 CheckpointOwner checkpoint_owner(const study::Study& study);
 
-/// Which of the runs that share a study one is: of the pieces of a loop it does index, index + count, ...
+/// The number of a run among those that share a study: of the pieces of a loop it does index, index + count,
+/// ...
 struct Shard {
   std::size_t index = 0;  ///< from 0
   std::size_t count = 1;  ///< 1 = nothing is shared
@@ -43,7 +44,7 @@ struct Shard {
   }
 };
 
-/// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
+/// The saved values: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
 using CheckpointLines = std::map<std::string, std::string, std::less<>>;
 /// Such a line, and its name and value, or its value, again; no name and null for no line.
 std::string checkpoint_line(std::string_view name, const Value& value);
@@ -76,7 +77,7 @@ class CheckpointFile final : public Checkpoint {
   bool load(Diagnostics& diagnostics);
   /// Number of things kept.
   std::size_t size() const;
-  /// What they are called, in order.
+  /// The names of the lines, in order.
   std::vector<std::string> names() const;
 
   Value find(std::string_view name) const override;
@@ -99,11 +100,11 @@ class CheckpointFile final : public Checkpoint {
   mutable std::mutex mutex_;
   std::condition_variable changes_;
   CheckpointLines lines_;
-  std::size_t bytes_ = 0;  ///< of the lines
+  std::size_t bytes_ = 0;  ///< size of the lines
   bool changed_ = false;   ///< since the last write
   bool stopped_ = false;
   std::chrono::duration<double> interval_;
-  std::string problem_;  ///< why the last write failed
+  std::string problem_;  ///< says why the last write failed
   std::thread writer_;   ///< begins with the first thing kept
 };
 

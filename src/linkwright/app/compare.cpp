@@ -72,7 +72,7 @@ class Merger {
  private:
   static std::string tag(std::size_t study) { return std::to_string(study + 1); }
 
-  /// What each study is and how it came out; the comparison is as good as the worst of them.
+  /// The studies and their statuses; the comparison is as good as the worst of them.
   void studies() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const study::Result& result = all_[i].result;
@@ -168,7 +168,7 @@ class Merger {
 
   /// A scene of the first study with the others behind it; those with other inputs get a scene of their own.
   void scenes(const Scene& scene) {
-    // Of several solutions, the best ones are compared.
+    // The best of several solutions are compared.
     if (!first_.solutions.empty() && !first_.solutions.front().scene.empty() &&
         first_.solutions.front().scene != scene.name)
       return;
@@ -236,7 +236,7 @@ class Merger {
   const study::Result& first_;
   study::Result out_;
   Table figures_;                             ///< its rows
-  std::vector<std::vector<double>> values_;   ///< of the rows, one a study
+  std::vector<std::vector<double>> values_;   ///< values of the rows, one a study
   std::size_t compared_ = 0, different_ = 0;  ///< facts and objectives
 };
 

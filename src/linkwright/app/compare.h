@@ -13,17 +13,17 @@ namespace linkwright::app {
 
 /// One of the results to be compared.
 struct Compared {
-  std::string name;  ///< what it is called beside the others
+  std::string name;  ///< name in the comparison
   study::Study study;
   study::Result result;
 };
 
-/// What is compared, before it has run: a study file; or the study in a result.json, or in that of a folder,
-/// which gives the same result again, bit for bit. Problems are appended to `diagnostics`, also that a result
-/// was stopped before its end, which cannot be had again.
+/// The input of a comparison, before it has run: a study file; or the study in a result.json, or in that of a
+/// folder, which gives the same result again, bit for bit. Problems are appended to `diagnostics`, also that
+/// a result was stopped before its end, which cannot be had again.
 struct ComparisonInput {
   study::Study study;
-  std::filesystem::path folder;  ///< of the results, where there may be a checkpoint; empty for a study file
+  std::filesystem::path folder;  ///< folder of the results, with a checkpoint perhaps; empty for a study file
 };
 std::optional<ComparisonInput> load_compared(const std::filesystem::path& path,
                                              std::span<const study::Kind> kinds, Diagnostics& diagnostics);

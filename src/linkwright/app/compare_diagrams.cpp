@@ -103,7 +103,7 @@ class DiagramMerger {
     }
   }
 
-  /// Of a bundle, or of several maps, the one that can be compared: all would hide each other.
+  /// Reduces a bundle, or several maps, to the one that can be compared: all would hide each other.
   bool at_one_value(Plot& plot, std::vector<Table>& tables) const {
     const auto groups = columns(tables, plot.group);
     if (groups.empty()) return false;

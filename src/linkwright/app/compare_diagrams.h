@@ -9,7 +9,7 @@
 
 namespace linkwright::app {
 
-/// Whether the numbers are the same to nine digits of the largest of them.
+/// True if the numbers are the same to nine digits of the largest of them.
 bool same_values(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Diagrams of several results over each other, and the tables that they draw.

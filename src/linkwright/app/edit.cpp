@@ -54,7 +54,7 @@ Found find(const Value& document, std::span<const study::KeyStep> path) {
   return out;
 }
 
-/// Where line and column, which count characters from 1, stand in a text; npos = nowhere.
+/// The offset of a line and column, which count characters from 1, in a text; npos = nowhere.
 std::size_t offset_of(std::string_view text, Position position) {
   if (position.line <= 0) return std::string_view::npos;
   std::size_t at = 0;
@@ -104,7 +104,7 @@ double converted(double value, const Found& found) {
   return found.there->from_si(found.wanted->to_si(value));
 }
 
-// What is dragged with a hand has six digits, and no tail of binary fractions.
+// A value dragged by hand has six digits, and no tail of binary fractions.
 std::string number_text(double value) {
   std::string text = fmt::format("{:.7g}", value + 0.0);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
@@ -361,7 +361,8 @@ std::string comment_at_top(std::string_view text) {
   return std::string(text.substr(0, end));
 }
 
-/// Those of the study; millimetres where it has chosen no lengths, and degrees where it has chosen no angles.
+/// The units of the study; millimetres where it has chosen no lengths, and degrees where it has chosen no
+/// angles.
 study::DisplayUnits units_of(const study::Study& study) {
   study::DisplayUnits units = study::shown_units(study.common.output.units, study.common.units);
   if (!units.chosen(Dimension::length)) {
@@ -373,7 +374,7 @@ study::DisplayUnits units_of(const study::Study& study) {
   return units;
 }
 
-/// Whether a document has the value that is changed, or the list that one more table is put to.
+/// True if a document has the value that is changed, or the list to which one more table is appended.
 bool has_place(const Value& document, const Edit& edit) {
   if (has_key(document, edit.key)) return true;
   auto path = study::parse_path(edit.key);
@@ -409,7 +410,8 @@ std::string edited(std::string_view text, std::span<const Edit> edits, Diagnosti
     Diagnostics ignored;
     const auto study = study::prepare(document, page_text, {}, catalogue(), ignored);
     const auto path = study::parse_path(edit.key);
-    // What has a default is put in where its table stands, unless that makes a study out of order.
+    // A value that has a default is inserted in the text of its table, unless that makes a study out of
+    // order.
     if (syntax == study::Syntax::toml)
       if (auto next = inserted(out, document, edit, study::units_of(document))) {
         const Value with = study::read_text(*next, syntax, page_text, ignored);

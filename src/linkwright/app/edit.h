@@ -9,7 +9,7 @@
 
 namespace linkwright::app {
 
-/// What messages call the text of a page, which is no file.
+/// The name in messages for the text of a page, which is no file.
 inline constexpr const char* page_text = "study";
 
 /// A change of the text of a study.
@@ -19,7 +19,7 @@ struct Edit {
   Value value;  ///< in the unit of `key`
 };
 
-/// Whether a document has a value at a key, in whatever unit of the same dimension.
+/// True if a document has a value at a key, in whatever unit of the same dimension.
 bool has_key(const Value& document, std::string_view key);
 
 /// The text with some of its values replaced, and everything else - order, comments, units - as it was. What

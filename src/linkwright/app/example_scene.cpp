@@ -27,7 +27,7 @@ Value first_scene(const Example& example, const std::string& folder) {
   const std::optional<study::Study> study =
       study::prepare(document, example.name, folder, catalogue(), diagnostics);
   if (!study) return {};
-  // What has nothing to show by then goes on for longer.
+  // A study that has nothing to show by then runs for longer.
   for (std::int64_t steps = least_steps;; steps *= 10) {
     const LooksAllowed allowed(steps);
     RunContext context;

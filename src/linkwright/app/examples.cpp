@@ -41,7 +41,7 @@ std::size_t place_among_known(std::string_view name) {
 /// A text of a document; empty if it has none.
 std::string text_at(const Value* value) { return value && value->is_string() ? value->as_string() : ""; }
 
-/// What follows "# words: " at the beginning of a line.
+/// The text after "# words: " at the beginning of a line.
 std::string_view words_comment(std::string_view text) {
   constexpr std::string_view mark = "\n# words: ";
   const std::size_t at = text.find(mark);
@@ -81,7 +81,7 @@ std::vector<std::string> singulars(const std::string& word) {
   return out;
 }
 
-/// Whether the word is among them, also in part, in the plural, or as two of them in one.
+/// True if the word is among them, also in part, in the plural, or as two of them in one.
 bool has_word(const std::vector<std::string>& words, const std::string& word) {
   constexpr std::size_t whole = 3;  // letters; a part of so few is found everywhere: cam in camera
   const auto fits = [&](std::string_view one, std::string_view asked) {

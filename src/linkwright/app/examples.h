@@ -20,9 +20,9 @@ std::span<const EmbeddedFile> example_files();
 /// A study that comes with the program.
 struct Example {
   std::string name;   ///< "hoeken"; no other example has it
-  std::string title;  ///< of the study
+  std::string title;  ///< title of the study
   std::string group;  ///< group_of its kind, or well_known
-  std::string words;  ///< what else people call it: "backhoe, digger"; the comment `# words:` of the file
+  std::string words;  ///< other names in use: "backhoe, digger"; the comment `# words:` of the file
   std::string_view text;
   std::vector<EmbeddedFile> beside;  ///< the files that it reads, under their names alone
 };
@@ -39,7 +39,7 @@ std::vector<const Example*> find_examples(std::string_view text);
 /// "excavator arms". Empty where no word is unknown, or nothing is near.
 std::string nearest_example_words(std::string_view text);
 
-/// What writing a file for somebody came to; unwritten: the system would not.
+/// The outcome of writing a file for somebody; unwritten: the system refused.
 enum class Copied { written, unchanged, refused, unwritten };
 
 /// Writes a new file and never over another one: one with the same text counts as written already. Refusals

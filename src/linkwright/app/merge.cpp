@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* study_name = "study.json";
-constexpr const char* end_name = "shard";  // what a shard keeps when its part is done
+constexpr const char* end_name = "shard";  // name under which a shard saves that its part is done
 constexpr std::size_t most_named = 10;     // missing shards in a message
 
 void refuse_shards(Diagnostics& diagnostics, const fs::path& file, std::string message, std::string hint) {
@@ -79,7 +79,7 @@ std::string listed(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-/// Whether each shard of the study is there once or more.
+/// True if every shard of the study is given at least once.
 bool all_there(const std::vector<File>& files, const fs::path& folder, Diagnostics& diagnostics) {
   const File& first = files.front();
   for (const File& file : files)

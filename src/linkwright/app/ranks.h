@@ -6,7 +6,8 @@
 
 namespace linkwright::app {
 
-/// Whether a message leaves at once, or some 20 ms later together with others, which costs the work less.
+/// The time at which a message leaves: at once, or some 20 ms later together with others, which costs the
+/// work less.
 enum class Urgency { at_once, can_wait };
 
 /// The runs of one study that a launcher has started together: ranks 0, 1, ... count - 1, each of which sends
@@ -35,9 +36,10 @@ class Ranks {
   virtual void leave() = 0;
 };
 
-/// What the plug-in exports as `linkwright_join_ranks`: joins the ranks that were started together, once in a
-/// process. Where the launcher has told rank and count, it returns at once and joins them meanwhile; where it
-/// has not (count 0), it returns when they are known. Ranks that cannot be joined end the process.
+/// The function that the plug-in exports as `linkwright_join_ranks`: joins the ranks that were started
+/// together, once in a process. Where the launcher has told rank and count, it returns at once and joins them
+/// meanwhile; where it has not (count 0), it returns when they are known. Ranks that cannot be joined end the
+/// process.
 using JoinRanks = Ranks*(int rank, int count);
 
 }  // namespace linkwright::app

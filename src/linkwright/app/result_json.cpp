@@ -214,7 +214,8 @@ Value result_json(const study::Study& study, const study::Result& shown, const R
   v["best"] = shown.solutions.empty() ? Value() : to_value(shown.solutions.front());
   v["solutions"] = all(shown.solutions);
   if (!shown.changes.empty()) v["changes"] = all(shown.changes);  // from a first design to the answer
-  v["comparisons"] = all(shown.comparisons);  // with published numbers; empty when the study cites none
+  // Comparisons with published numbers; empty when the study cites none.
+  v["comparisons"] = all(shown.comparisons);
   v["statistics"] = or_empty(shown.statistics, Value::object());
   v["log"] = or_empty(shown.log, Value::array());
   v["tables"] = Value::array();

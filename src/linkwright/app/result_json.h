@@ -14,7 +14,7 @@
 
 namespace linkwright::app {
 
-/// What differs between two runs of one study.
+/// The data that differ between two runs of one study.
 struct RunRecord {
   std::string started;  ///< UTC, "2026-02-03T04:05:06Z"
   double seconds = 0;   ///< wall-clock time of the run

@@ -35,7 +35,7 @@ void refuse(Diagnostics& diagnostics, const fs::path& file, std::string message)
   diagnostics.push_back({Diagnostic::Severity::error, file.string(), {}, {}, std::move(message), {}});
 }
 
-/// Where the studies of found designs go, beside the result.
+/// The folder for the studies of found designs, beside the result.
 constexpr const char* designs_folder = "designs";
 
 bool wants(const study::Study& study, study::Format format) {
@@ -55,7 +55,7 @@ Diagnostic long_table_warning(const Table& table, std::size_t most_rows) {
           "numpy.load(file) reads it in Python"};
 }
 
-/// Which study a folder of results belongs to, if it is another than the one beside `out`.
+/// The file that names the study of a folder of results, if it is another than the one beside `out`.
 constexpr const char* owner_file = ".study";
 
 /// The study as a note of its owner names it: from the folder in which `out` is.
@@ -65,7 +65,7 @@ std::string owner_of(const fs::path& file) {
   return (error ? file : near).generic_string();
 }
 
-/// Whether results of this study may go into a folder: it is new, or its own.
+/// True if results of this study may go into a folder: it is new, or its own.
 bool may_take(const fs::path& folder, const fs::path& file) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return true;

@@ -14,7 +14,8 @@
 
 namespace linkwright::app {
 
-/// How a study file is run; everything but `seed` and `set` leaves the canonical study as it is.
+/// The options for a run of a study file; everything but `seed` and `set` leaves the canonical study as it
+/// is.
 struct RunOptions {
   std::filesystem::path out;         ///< folder of the results; empty = what the study says
   std::optional<std::int64_t> seed;  ///< first seed
@@ -49,7 +50,7 @@ bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostic
 /// Rows of a table that CSV, result.json and reports hold; a longer one is written as .npy (core/npy.h).
 inline constexpr std::size_t longest_table = 1'000'000;
 
-/// What a run gives.
+/// The result of a run.
 struct RunOutcome {
   study::Result result;
   RunRecord record;

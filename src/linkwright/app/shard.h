@@ -11,7 +11,7 @@
 
 namespace linkwright::app {
 
-/// What a run that shares a study begins with and hands on: a checkpoint in memory.
+/// The checkpoint, in memory, that a run sharing a study starts from and hands on.
 class ShardCheckpoint final : public Checkpoint {
  public:
   ShardCheckpoint(Shard shard, CheckpointOwner owner) : shard_(shard), owner_(std::move(owner)) {}

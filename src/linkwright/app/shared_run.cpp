@@ -28,11 +28,11 @@ std::size_t share_beforehand(std::size_t count, int ranks) {
   return count < all ? 0 : std::max<std::size_t>(1, count / (shares * all));
 }
 
-/// What a rank is given lasts at least so long, and the next is asked for so long before it is needed: an
-/// answer takes some milliseconds where all processors are at work.
+/// The pieces given to a rank last at least this long, and the next are asked for this long before they are
+/// needed: an answer takes some milliseconds where all processors are at work.
 constexpr std::chrono::duration<double> answer_time(0.02);
 
-/// How long a rank that was told to end is waited for: one that hangs must not hold up the result.
+/// The longest wait for a rank that has been ordered to end: one that hangs must not hold up the result.
 constexpr std::chrono::seconds longest_wait(20);
 
 std::string message_of(char what, std::string_view text = {}) { return std::string(1, what).append(text); }

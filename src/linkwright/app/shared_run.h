@@ -18,8 +18,8 @@
 
 namespace linkwright::app {
 
-/// How the ranks of a run begin. Starting MPI takes a while, so that those of a run of which nothing was kept
-/// before do a first share of the pieces meanwhile, which is divided beforehand.
+/// The start of the ranks of a run. Starting MPI takes a while; without saved work of an earlier run the
+/// ranks meanwhile do a first share of the pieces, which is divided beforehand.
 enum class RanksBegin { at_once, with_what_was_kept };
 
 /// Tells all other ranks that there is nothing, or nothing more, to do.
@@ -99,11 +99,11 @@ class FollowingRank final : public Checkpoint {
   enum class Asking { no, asked, answered };
   bool at_work_ = false;  ///< has asked for a piece
   Pieces own_;            ///< not yet begun
-  Pieces answer_;         ///< those after them
+  Pieces answer_;         ///< pieces after those in hand
   Asking asking_ = Asking::no;
   double given_ = 0;                               ///< pieces that the loop has had from here
-  std::chrono::steady_clock::time_point began_{};  ///< when it had the first
-  CheckpointLines lines_;  ///< what rank 0 began with, which nothing changes after that
+  std::chrono::steady_clock::time_point began_{};  ///< start of the first of them
+  CheckpointLines lines_;  ///< saved lines that rank 0 began with, which nothing changes after that
 };
 
 }  // namespace linkwright::app

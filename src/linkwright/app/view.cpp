@@ -109,7 +109,7 @@ View run_text(std::string_view text, std::string_view edits, const std::string& 
     return view;
   }
   ShardCheckpoint checkpoint(sharing.shard, checkpoint_owner(*study));
-  Diagnostics refused;  // what cannot be used is done again
+  Diagnostics refused;  // problems of handles that cannot be reused and are computed again
   for (const std::string& kept : sharing.kept) checkpoint.take(kept, refused);
   checkpoint.set_hand_on(std::move(sharing.hand_on));
   checkpoint.set_leaves(std::move(sharing.leaves));

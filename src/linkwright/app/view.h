@@ -14,11 +14,11 @@
 #include "linkwright/study/result.h"
 #include "linkwright/study/study.h"
 
-// What a page asks of the program: a study's text in, all that it shows out. Nothing is kept from call to
-// call.
+// Everything that a page asks of the program: the text of a study in, all that the page shows out. Nothing is
+// kept between calls.
 namespace linkwright::app {
 
-/// What a report of a study is made from. `shown` is a result as it is presented(), which must outlive it.
+/// The input of the report of a study. `shown` is a result as it is presented(), which must outlive it.
 report::ReportInput report_input(const study::Study& study, const study::Result& shown, std::string command,
                                  std::string result_json);
 
@@ -28,10 +28,10 @@ struct View {
   std::vector<double> numbers;
 };
 
-/// How a run is shared with other runs of the same text and edits.
+/// The terms on which a run is shared with other runs of the same text and edits.
 struct Sharing {
   Shard shard;
-  std::vector<std::string> kept;                         ///< what runs have handed on so far
+  std::vector<std::string> kept;                         ///< checkpoints that earlier runs have handed on
   std::function<void(const std::string&)> hand_on = {};  ///< receives what this one keeps
   std::function<void()> leaves = {};  ///< called, once, when the run leaves something to the others
 };
@@ -45,8 +45,8 @@ struct Sharing {
 View run_text(std::string_view text, std::string_view edits, const std::string& folder, RunContext& context,
               Sharing sharing = {});
 
-/// What there is to begin with: `version`, `kinds` (name, summary, group), `examples` (name, title, group,
-/// words, text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).
+/// The lists that a page starts from: `version`, `kinds` (name, summary, group), `examples` (name, title,
+/// group, words, text, beside: the files it reads) and `samples` (name, summary, group, mechanisms).
 Value catalogue_document();
 
 /// The JSON Schema of the studies of a kind, "analysis/planar.four_bar"; null when there is no such kind.

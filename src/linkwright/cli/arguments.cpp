@@ -222,7 +222,7 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   return {};
 }
 
-/// What to print when no command is given.
+/// The text printed when no command is given.
 std::string list_of_commands(const CLI::App& app) {
   std::string text = fmt::format("{}\n\n", about);
   for (const CLI::App* command : app.get_subcommands({}))

@@ -35,7 +35,7 @@ struct Arguments {
   std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders
   std::vector<std::string> words;   ///< catalogue, samples, examples: what each line of the list must hold;
                                     ///< examples --copy: an example and, if not here, the folder where to
-  bool copy = false;                ///< of examples
+  bool copy = false;                ///< option of examples
 
   std::string table;  ///< reproduce: id, beginning of ids or "all"; empty = list them
   std::string shell;  ///< completion: bash, zsh, fish
@@ -46,12 +46,12 @@ struct Arguments {
   std::vector<std::string> set;
   std::optional<double> time_limit;  ///< s
   bool resume = false;
-  int shard = 0, shards = 0;  ///< of run: "--shard 3/64"; 0 = the whole study
+  int shard = 0, shards = 0;  ///< option of run: "--shard 3/64"; 0 = the whole study
   bool json = false;
   bool quiet = false;
-  int port = 0;          ///< of serve; 0 = any that is free
+  int port = 0;          ///< option of serve; 0 = any port that is free
   bool open = false;     ///< the report, when it is written, or the page
-  bool renamed = false;  ///< of catalogue
+  bool renamed = false;  ///< option of catalogue
 
   std::string text;   ///< for nothing: what to print (help, version or what is wrong)
   int exit_code = 0;  ///< for nothing
@@ -85,7 +85,7 @@ struct CommandHelp {
 /// All commands, in the order in which help lists them.
 std::vector<CommandHelp> command_help();
 
-/// What the program is, in one sentence.
+/// The program in one sentence.
 inline constexpr const char* about =
     "Linkwright analyses, balances and synthesises mechanisms from study files.";
 
@@ -93,7 +93,7 @@ inline constexpr int bad_input = 2;
 inline constexpr int not_written = 3;
 inline constexpr int cancelled = 4;
 inline constexpr int internal_error = 70;
-/// What the program's exit codes mean.
+/// An exit code of the program, with its meaning.
 struct ExitCode {
   int code;
   std::string_view meaning;

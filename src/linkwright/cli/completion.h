@@ -12,7 +12,7 @@
 
 namespace linkwright::cli {
 
-/// What may stand in the place of a value, by its name in the help: "KIND" -> the kinds of studies.
+/// The words that may replace a value, by its name in the help: "KIND" -> the kinds of studies.
 using CompletionWords = std::map<std::string, std::vector<std::string>, std::less<>>;
 CompletionWords completion_words(std::span<const study::Kind> kinds,
                                  std::span<const study::Reproduction> reproductions);

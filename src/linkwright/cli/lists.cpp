@@ -78,7 +78,7 @@ int nothing_holds(const std::vector<std::string>& words, std::string hint) {
   return bad_input;
 }
 
-/// What people look for under another name, or in vain.
+/// A subject that people look for under another name, or in vain.
 struct Concept {
   std::string_view words;  ///< separated by blanks
   std::string_view answer;

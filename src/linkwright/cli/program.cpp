@@ -51,7 +51,7 @@ std::string command_of(const Arguments& arguments) {
   return command;
 }
 
-/// What an earlier run has kept, taken up or put away; false if it is to be taken up and cannot be.
+/// Loads the checkpoint of an earlier run, or puts it away; false if it should be loaded and cannot be.
 bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& file, Diagnostics& diagnostics) {
   if (!resume) {
     checkpoint.discard();
@@ -65,7 +65,7 @@ bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& file,
   return true;
 }
 
-/// How an interrupted run goes on; nothing where nothing was kept.
+/// Says how to resume an interrupted run; nothing if no checkpoint was saved.
 void offer_to_resume(const study::Result& result, const app::CheckpointFile& checkpoint,
                      const fs::path& folder) {
   if ((result.status == Status::cancelled || result.status == Status::deadline) && checkpoint.size() > 0)
@@ -155,7 +155,7 @@ void follow(const Arguments& arguments, std::span<const study::Kind> kinds, app:
     try {
       app::run_and_record(*study, context);
     } catch (const LeftToOthers&) {
-      // which is what it is for
+      // The exception ends this rank's part, as it should.
     }
   }
   if (const Diagnostics other_study = kept.finish(); !other_study.empty()) {
@@ -228,7 +228,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics problems;
   checkpoint.finish(problems);
   outcome.command = command_of(arguments);
-  // What was remarkable about the study belongs to its evidence.
+  // Remarks on the study belong to its evidence.
   outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
                                     diagnostics.end());
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
@@ -237,7 +237,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
-/// What the run of a result that is computed again finds in its folder; nothing is kept there.
+/// The checkpoint that a result computed again finds in its folder; nothing is saved there.
 class KeptBefore final : public Checkpoint {
  public:
   explicit KeptBefore(const app::CheckpointFile& kept) : kept_(kept) {}
@@ -372,7 +372,7 @@ int failed(const std::exception& error) {
   return internal_error;
 }
 
-/// What the system says of a folder or file that is not there any more, or not to be reached.
+/// The system's message about a folder or file that has gone or cannot be reached.
 Diagnostic unreachable(const fs::filesystem_error& error) {
   return {Diagnostic::Severity::error,
           error.path1().empty() ? "the current folder" : error.path1().string(),
@@ -429,7 +429,7 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
             std::span<const study::Reproduction> reproductions) try {
   platform::report_size_limits();
   const int code = answer(argc, argv, kinds, reproductions);
-  // What is printed is the answer: a full disk behind it is no success.
+  // Standard output carries the answer: a full disk behind it is no success.
   const std::string problem = output_problem();
   if (problem.empty()) return code;
   print_diagnostics({unwritten("standard output", problem)});

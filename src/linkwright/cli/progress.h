@@ -8,7 +8,7 @@
 
 namespace linkwright::cli {
 
-/// How long a run has taken and will take (s).
+/// Elapsed and remaining time of a run (s).
 struct Pace {
   double elapsed = 0;
   double left = nan;  ///< until the end of this stage; NaN = cannot be said yet

@@ -9,8 +9,8 @@
 
 namespace linkwright::cli {
 
-/// What a run says on standard output: title, answer, facts, checks, remarks and the files that were written;
-/// the last line says which report to open, if there is one.
+/// The text of a run on standard output: title, answer, facts, checks, remarks and the files that were
+/// written; the last line says which report to open, if there is one.
 std::string summary(std::string_view title, const study::Result& result,
                     const std::vector<std::filesystem::path>& written, bool colours);
 

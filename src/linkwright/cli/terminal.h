@@ -8,7 +8,7 @@
 #include "linkwright/core/platform/processes.h"
 #include "linkwright/core/run_context.h"
 
-/// What the program has to do with the terminal and the desktop that it is called from.
+/// The program's use of the terminal and the desktop that it is called from.
 namespace linkwright::cli {
 
 using platform::is_terminal;
@@ -16,7 +16,7 @@ using platform::Stream;
 /// Columns of the terminal behind standard error; 80 if it is none or does not say.
 std::size_t terminal_width();
 
-/// Whether to write colours to a stream: to a terminal that knows them. NO_COLOR, if set and not empty,
+/// True if colours are written to a stream: to a terminal that knows them. NO_COLOR, if set and not empty,
 /// forbids them; else CLICOLOR_FORCE, if set and not "0", demands them, also in pipes and files.
 bool wants_colours(Stream stream);
 
@@ -26,12 +26,12 @@ std::string paint(std::string_view text, Colour colour, bool on);
 /// to_string(diagnostic) with the word "error" or "warning" in its colour.
 std::string painted(const Diagnostic& diagnostic, bool on);
 
-/// Why a file is not written.
+/// Says why a file is not written.
 Diagnostic unwritten(std::string file, std::string_view problem);
 
 /// Passes on what was printed so far; why that failed is kept for output_problem().
 void flush_output();
-/// Why standard output did not take all that was printed; empty if it did.
+/// Says why standard output did not take all that was printed; empty if it did.
 std::string output_problem();
 
 /// Writes diagnostics to standard error, with their number if there are several errors.

@@ -100,7 +100,7 @@ class MpiRanks final : public app::Ranks {
     return std::exchange(woken_, false) ? shortest_sleep : longest;
   }
 
-  /// With the lock held: what was said at once is done at once, and answers are looked for often.
+  /// With the lock held: urgent messages are handled at once, and answers are polled often.
   void wake() {
     woken_ = true;
     changes_.notify_all();
@@ -180,7 +180,7 @@ class MpiRanks final : public app::Ranks {
   std::mutex receiving_;  // is held while a message is received, and guards these
   std::function<void(int, std::string_view)> receive_;
   bool drop_ = false;
-  // Of the thread alone.
+  // Used by the thread alone.
   std::deque<Message> incoming_;
   std::list<Message> being_sent_;  // their texts must not move
   std::thread thread_;             // last, as it uses all of them

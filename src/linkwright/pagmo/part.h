@@ -6,8 +6,8 @@
 #include "linkwright/optimise/cma_es.h"
 #include "linkwright/optimise/pagmo_bridge.h"
 
-// What the program's plug-in for pagmo holds. Loading pagmo takes as long as many a study, since it fills
-// tables of test functions when it starts: the program does so when a method of pagmo is asked for.
+// The contents of the program's plug-in for pagmo. Loading pagmo takes as long as many a study, since it
+// fills tables of test functions when it starts: the program does so when a method of pagmo is asked for.
 namespace linkwright::optimise {
 
 /// The functions of cma_es.h and pagmo_bridge.h.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-// Where the parameters of a study are tried: points of the unit cube [0, 1]^n, which the study maps to the
+// Sample points for the parameters of a study: points of the unit cube [0, 1]^n, which the study maps to the
 // ranges of its parameters.
 namespace linkwright::parameter_study {
 

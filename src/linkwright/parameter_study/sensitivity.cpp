@@ -30,7 +30,7 @@ SobolDecomposition decompose(const Samples& samples, std::span<const std::uint32
   for (const std::uint32_t i : drawn)
     for (const double y : {samples.rows[i][0], samples.rows[i][1]}) squares += (y - mean) * (y - mean);
   out.variance = squares / (2 * n);
-  // What is left of a constant by rounding has no parts.
+  // The rest that rounding leaves of a constant has no parts.
   if (!(out.variance > 1e-24 * mean * mean)) return out;
   for (std::size_t j = 0; j < samples.dimension; ++j) {
     double first = 0, total = 0;

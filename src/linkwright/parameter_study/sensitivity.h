@@ -7,7 +7,7 @@
 
 #include "linkwright/parameter_study/sampling.h"
 
-// How much each parameter moves a quantity.
+// The influence of each parameter on a quantity.
 namespace linkwright::parameter_study {
 
 /// Elementary effects of one parameter (Morris 1991): changes of the quantity for the parameter's whole
@@ -19,8 +19,8 @@ struct ElementaryEffects {
   std::size_t count = 0;
 };
 
-/// Of the points of `morris_trajectories` and the quantity at each; steps with a NaN at one end are left out.
-/// One entry a parameter; NaN where there is no effect at all.
+/// Elementary effects from the points of `morris_trajectories` and the quantity at each; steps with a NaN at
+/// one end are left out. One entry a parameter; NaN where there is no effect at all.
 std::vector<ElementaryEffects> elementary_effects(const Points& trajectories, std::span<const double> values);
 
 /// Variance-based indices of one parameter.
@@ -38,10 +38,10 @@ struct SobolDecomposition {
   std::size_t used = 0;  ///< samples without a NaN
 };
 
-/// Of the values at the points of `saltelli_points`: first-order indices by Saltelli et al. 2010 (table 2,
-/// b), total ones by Jansen 1999 (table 2, f). Samples with a NaN among their dimension + 2 values are left
-/// out. The margins come from `resamples` bootstrap samples, drawn with `seed`. NaN where fewer than two
-/// samples are left or the quantity does not vary.
+/// Sobol indices from the values at the points of `saltelli_points`: first-order indices by Saltelli et al.
+/// 2010 (table 2, b), total ones by Jansen 1999 (table 2, f). Samples with a NaN among their dimension + 2
+/// values are left out. The margins come from `resamples` bootstrap samples, drawn with `seed`. NaN where
+/// fewer than two samples are left or the quantity does not vary.
 SobolDecomposition sobol_indices(std::span<const double> values, std::size_t dimension, std::size_t resamples,
                                  std::uint64_t seed);
 

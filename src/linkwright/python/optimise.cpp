@@ -50,8 +50,8 @@ void copy_numbers(const py::handle& given, std::string_view what, std::span<doub
   std::copy_n(numbers.data(), out.size(), out.begin());
 }
 
-/// What Python computes for a part of a population: rows of candidates in, costs out, or a pair of costs and
-/// violations. Python's lock is held.
+/// Costs that Python computes for a part of a population: rows of candidates in, costs out, or a pair of
+/// costs and violations. Python's lock is held.
 void evaluate(const py::object& objective, const optimise::PopulationView& candidates, std::span<double> cost,
               std::span<double> violation) {
   py::array_t<double> rows = new_samples(candidates.size, candidates.dimension);

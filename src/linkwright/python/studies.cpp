@@ -114,7 +114,7 @@ void limit(RunContext& context, int threads, std::optional<double> seconds) {
   if (seconds) context.set_time_limit(std::chrono::duration<double>(*seconds));
 }
 
-/// What a run last said of itself, from the threads of the run to that of Python.
+/// The last report of a run on its progress, handed from the threads of the run to that of Python.
 class LastProgress {
  public:
   void take(const Progress& progress) {

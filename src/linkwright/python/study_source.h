@@ -19,13 +19,13 @@ namespace linkwright::python {
 /// A study before it is run: its document, and what was changed since it was read.
 struct StudySource {
   Value document;
-  std::string file;              ///< what messages call it
-  std::filesystem::path folder;  ///< where the files that it names are looked for
+  std::string file;              ///< name in messages
+  std::filesystem::path folder;  ///< folder in which the files that it names are looked for
   bool from_file = false;        ///< `file` is one
   std::vector<study::Override> changes;
 };
 
-/// As the command line reads a study; nothing when `diagnostics` has errors.
+/// Prepares a study as the command line does; nothing when `diagnostics` has errors.
 std::optional<study::Study> prepared(const StudySource& source, Diagnostics& diagnostics);
 
 /// A study that was run. Tables, parameters and objectives are shown in the units that its `[output]` asks

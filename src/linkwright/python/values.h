@@ -14,7 +14,7 @@ class handle;
 class array;
 }  // namespace pybind11
 
-// What crosses the border between C++ and Python. All of it needs Python's lock.
+// Conversions between C++ and Python. All of it needs Python's lock.
 namespace linkwright::python {
 
 /// None, bool, int, float, str, lists and tuples, mappings with names as keys, and numbers and arrays of

@@ -45,7 +45,7 @@ double arc_turn(double share) {
 
 ArrowScale arrow_scale(const Scene& scene, Scene::Quantity quantity) {
   ArrowScale out;
-  std::vector<double> sizes;  // of the largest arrow of each sample
+  std::vector<double> sizes;  // size of the largest arrow of each sample
   for (const auto& vector : scene.vectors)
     if (vector.quantity == quantity && out.unit.empty()) out.unit = vector.unit;
   for (std::size_t i = 0; i < scene.samples(); ++i) {

@@ -6,7 +6,7 @@
 #include "linkwright/report/drawing.h"
 #include "linkwright/study/scene.h"
 
-/// How long and where the arrows of a scene are drawn.
+/// Length and position of the arrows of a scene in the drawing.
 namespace linkwright::report {
 
 /// One scale for all vectors of a quantity, the same at every sample.
@@ -40,7 +40,7 @@ double largest_moment(const study::Scene& scene);
 /// to 1: up to 5/6 of a turn, at least 1/12 so that the sign shows, 0 for 0.
 double arc_turn(double share);
 
-/// Where an arrow ends in the drawing; NaN when the point or the value is not known.
+/// The tip of an arrow in the drawing; NaN when the point or the value is not known.
 Place tip(const study::Scene& scene, const study::Scene::Vector& vector, std::size_t sample,
           const ArrowScale& scale);
 

@@ -17,7 +17,7 @@ std::size_t letters(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// Of numbers that share a unit only the last one has it: "at 0, 322.5 mm", "at 56.3°, -34.4°".
+// Only the last of several numbers that share a unit shows it: "at 0, 322.5 mm", "at 56.3°, -34.4°".
 bool between_numbers(std::string_view before, std::string_view after) {
   const bool ends = !before.empty() && (digit(before.back()) || before.ends_with("°"));
   for (const std::string_view minus : {"-", "−"})

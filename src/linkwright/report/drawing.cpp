@@ -14,7 +14,7 @@
 namespace linkwright::report {
 namespace {
 
-// How far a wheel reaches from its centre along each coordinate.
+// The extent of a wheel from its centre along each coordinate.
 Place reach_of(const study::Scene& scene, const study::Scene::Disc& disc, std::size_t sample) {
   const Place centre = place(scene, disc.centre, sample), end = place(scene, disc.axis, sample);
   const double x = end.x - centre.x, y = end.y - centre.y, z = end.z - centre.z, length = std::hypot(x, y, z);

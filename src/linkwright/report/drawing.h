@@ -8,7 +8,7 @@
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/scene.h"
 
-/// What SVG, DXF and HTML have in common when they draw a scene.
+/// The common base of SVG, DXF and HTML for drawing a scene.
 namespace linkwright::report {
 
 /// Rectangle in metres; empty while x_min > x_max.
@@ -35,8 +35,8 @@ struct Place {
   bool finite() const;
 };
 
-/// Where a point is at a sample: its only entry when it does not move, NaN when the sample or point is not
-/// there.
+/// The position of a point at a sample: its only entry when it does not move, NaN when the sample or point is
+/// not there.
 Place place(const study::Scene& scene, int point, std::size_t sample);
 
 /// Radius of a circle at a sample (m); NaN when one of its points does not exist.
@@ -54,7 +54,7 @@ CurveLook curve_look(std::size_t curve);
 std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, const Place& a, const Place& b,
                                              double width);
 
-/// Whether a body is drawn by symbol_lines.
+/// True if a body is drawn by symbol_lines.
 bool is_symbol(study::Scene::BodyStyle style);
 
 /// Number of the role of each body, in the order in which roles appear; bodies of one role are drawn alike. A

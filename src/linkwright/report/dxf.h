@@ -8,7 +8,7 @@
 
 namespace linkwright::report {
 
-/// Which parts of a scene go into a DXF file; each is a layer of that name.
+/// The parts of a scene that go into a DXF file; each is a layer of that name.
 struct DxfLayers {
   bool ground = true;
   bool links = true;

@@ -7,7 +7,7 @@
 #include "linkwright/core/table.h"
 #include "linkwright/study/result.h"
 
-/// What the diagrams of a table have in common: names of columns, and rows by the values of one.
+/// The common parts of the diagrams of a table: names of columns, and rows by the values of one.
 namespace linkwright::report {
 
 /// The label of a column, or its key when it has none.

@@ -13,8 +13,8 @@ struct ReportInput {
   const study::Result& result;
   study::DisplayUnits units = {};  ///< in which people are shown lengths, angles ...
   std::string study_toml;          ///< text of the study file; empty = not shown
-  std::string title;               ///< of the study
-  std::string source;              ///< where its numbers come from; may be empty
+  std::string title;               ///< title of the study
+  std::string source;              ///< source of its numbers; may be empty
   std::string tool;                ///< "linkwright 0.1.0"
   std::string command;             ///< command line that makes this report again
   std::string result_json;  ///< text of result.json: offered as it is, and what the viewer takes the tables

@@ -27,7 +27,7 @@ constexpr double map_gap = 16, map_head = 24, map_foot = 44, bar_height = 12,
                  bar = 62;           // px, between and below the maps
 constexpr double most_height = 420;  // px, of one map
 constexpr std::size_t most_maps = 12, most_columns = 3;
-constexpr double same = 1e-6;  // of the range: coordinates that are closer differ by rounding
+constexpr double same = 1e-6;  // share of the range: coordinates that are closer differ by rounding
 constexpr std::string_view no_value = "#e9edf0";
 
 struct Cell {
@@ -62,11 +62,11 @@ Axis axis_of(std::vector<double> values) {
 struct Maps {
   Axis x, y;
   std::vector<Map> maps;
-  double low = infinity;  // of all values; above `high` when there is none
+  double low = infinity;  // least of all values; above `high` when there is none
   double high = -low;
-  bool missing = false;    // whether a place has no value
-  std::size_t groups = 0;  // of which `maps` may be a choice
-  DisplayUnit unit;        // of both coordinates
+  bool missing = false;    // true if a cell has no value
+  std::size_t groups = 0;  // number of all groups; `maps` may be a choice of them
+  DisplayUnit unit;        // unit of both coordinates
   DisplayUnit value_unit;
 };
 
@@ -127,7 +127,7 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
   return out;
 }
 
-// Where the maps stand: as many a row as fill the last row best, all of the same size and scale.
+// The arrangement of the maps: as many a row as fill the last row best, all of the same size and scale.
 struct Layout {
   std::size_t columns = 1, rows = 1;
   double scale = 1;  // px per unit

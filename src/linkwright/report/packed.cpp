@@ -22,7 +22,7 @@ namespace {
 std::string deflated(std::string_view bytes) {
   z_stream stream{};
   constexpr int level = 7;             // 9 is a hundredth smaller and takes three to nine times as long
-  constexpr int without_header = -15;  // of the largest window
+  constexpr int without_header = -15;  // zlib's code for the largest window, without header
   if (deflateInit2(&stream, level, Z_DEFLATED, without_header, 9, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
   std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');

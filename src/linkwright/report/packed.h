@@ -25,8 +25,8 @@ class NumberPack {
 
   /// JSON: [count, order of differences, decimals] of each list; null decimals = doubles.
   const std::string& index() const { return index_; }
-  /// Of each list the first byte of every number, then the second ...; lowest bytes first. Differences are
-  /// 2 d or, below zero, -2 d - 1.
+  /// The bytes of the lists: of each list the first byte of every number, then the second ...; lowest bytes
+  /// first. Differences are 2 d or, below zero, -2 d - 1.
   const std::string& bytes() const { return bytes_; }
 
   static constexpr std::size_t shortest = 8;

@@ -29,7 +29,8 @@ constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named_curves = 6;  // more curves are a bundle, of which the first have names
-constexpr double rounding = 1e-16;            // of the largest: less than this is zero on a logarithmic axis
+// Share of the largest number: less than this is zero on a logarithmic axis.
+constexpr double rounding = 1e-16;
 constexpr std::string_view pale = "#8fa0ae", band_colour = "#009E73";
 
 struct Curve {
@@ -68,7 +69,7 @@ Shown shown_of(const study::Plot& plot, const Table& table) {
   return out;
 }
 
-// Whether a polar diagram shows where points go, so that its origin is a place like any other.
+// True if a polar diagram shows paths of points, so that its origin is no special place.
 bool is_path(const study::Plot& plot) {
   return std::all_of(plot.y.begin(), plot.y.end(),
                      [](const std::string& key) { return key.ends_with("_m") && !key.ends_with("_N_m"); });
@@ -254,14 +255,15 @@ Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style
     const double size = std::max(std::abs(low), std::abs(high));
     return high - low <= 1e-12 * size ? std::max(size, 1.0) / 10 : 0;
   };
-  const double air = 0.06;  // of the range of what grows upwards, or, of upright diagrams with peaks, across
+  // Margin as a share of the range of what grows upwards, or, in upright diagrams with peaks, across.
+  const double air = 0.06;
   widen(box.x_min, box.x_max, level(box.x_min, box.x_max) + (peak && upright ? air * box.width() : 0));
   widen(box.y_min, box.y_max, level(box.y_min, box.y_max) + air * box.height());
   if (style == Style::histogram) box.y_min = 0;
   return axes;
 }
 
-// What stands along an axis.
+// Everything along one axis.
 struct Side {
   std::string label;
   bool degrees = false, logarithmic = false;
@@ -372,7 +374,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright, peak);
   const bool bundle = curves.size() > most_named_curves, empty = axes.box.empty();
   const bool points = plot.style == Style::points;
-  // Of a bundle the first have a name; one that is a family has none but those of its ends.
+  // The first curves of a bundle have a name; one that is a family has none but those of its ends.
   const std::size_t named = !polar && curves.size() == 1 ? 0
                             : !bundle                    ? curves.size()
                             : plot.group.empty()         ? most_named_curves
@@ -388,7 +390,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
                              : fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
                                            curve_look(i).colour, curve_look(i).dash),
                       curves[i].label});
-  const std::string_view faint = named ? pale : curve_look(0).colour;  // of the curves without a name
+  const std::string_view faint = named ? pale : curve_look(0).colour;  // colour of the curves without a name
   if (bundle)
     legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", faint),
                       fmt::format("{} {}curves, {} to {}", curves.size() - named, named ? "more " : "",

@@ -236,7 +236,7 @@ void draw_traces(std::string& out, const Canvas& canvas, const Scene& scene) {
   }
 }
 
-// Whose the mechanisms are that are drawn over each other.
+// Draws the names of the mechanisms that are drawn over each other.
 void draw_runs(std::string& out, const Scene& scene) {
   double y = 20;
   for (std::size_t run = 0; run < scene.runs.size(); ++run) {
@@ -397,14 +397,14 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
   rear.x_max = top.x_max = std::max(rear.x_max, top.x_max);
   rear.y_min = side.y_min = std::min(rear.y_min, side.y_min);
   rear.y_max = side.y_max = std::max(rear.y_max, side.y_max);
-  // What is flat in one direction still needs some room in it.
+  // A scene that is flat in one direction still needs some room in it.
   const double least = 0.2 * extent(scene) + 1e-12;
   const auto room = [least](double length) { return std::max(length, least); };
   const double left = room(rear.width()), right = room(side.width());
   const double upper = room(rear.height()), lower = room(top.height());
   const double scale = std::min((options.width - 4 * edge - gap) / (left + right),
                                 (1.5 * options.max_height - 4 * edge - gap) / (upper + lower));
-  // What the scale leaves over goes to both columns.
+  // The room that the scale leaves over goes to both columns.
   const double spare = (options.width - gap - 4 * edge - scale * (left + right)) / 2;
   const double widths[] = {left * scale + 2 * edge + spare, right * scale + 2 * edge + spare};
   const double heights[] = {std::ceil(upper * scale + 2 * edge), std::ceil(lower * scale + 2 * edge)};

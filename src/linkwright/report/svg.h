@@ -9,13 +9,13 @@
 
 namespace linkwright::report {
 
-/// How a scene is drawn as a picture.
+/// Options for drawing a scene as a picture.
 struct SvgOptions {
   std::optional<std::size_t> sample;      ///< pose to draw; none = the first that is assembled
-  double width = 900;                     ///< of the picture (px)
+  double width = 900;                     ///< width of the picture (px)
   double max_height = 680;                ///< the scale is chosen so that the picture is not higher (px)
   bool grid = true;                       ///< grid with lengths
-  std::optional<LengthUnit> length = {};  ///< of the grid; none = mm or m by the size of the scene
+  std::optional<LengthUnit> length = {};  ///< unit of the grid; none = mm or m by the size of the scene
   bool traces = true;
   bool targets = true;         ///< target points with whiskers to what is achieved
   bool labels = true;          ///< names of the joints

@@ -144,7 +144,7 @@ void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, st
   }
 }
 
-// What an arrow of the length shown is worth, one line a quantity, at the top left.
+// Draws the key: the value of an arrow of the length shown, one line a quantity, at the top left.
 void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
               const std::vector<ShownArrows>& shown) {
   double y = 24;

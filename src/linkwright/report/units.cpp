@@ -47,7 +47,7 @@ std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units) {
   std::vector<ShownSuffix> out;
   for (const SuffixUnit& s : suffix_units()) {
     ShownSuffix& shown = out.emplace_back(ShownSuffix{s.suffix, s.symbol, s.factor, s.suffix});
-    const std::string key = "x" + s.suffix;  // what the parts show
+    const std::string key = "x" + s.suffix;  // `parts` refers to it
     const auto parts = split_unit(key);
     if (!parts || parts->base != "x") continue;  // a unit of results alone, such as m³
     // Angles are shown in degrees unless radians were chosen.

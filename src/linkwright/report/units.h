@@ -20,16 +20,16 @@ struct DisplayUnit {
   std::string symbol;  ///< "°"; empty = none is known
 };
 
-/// How numbers are shown whose keys end in `suffix`.
+/// The unit of numbers whose keys end in `suffix`.
 struct SuffixUnit {
   std::string suffix;  ///< "_m_per_s2"
   double factor = 1;
   std::string symbol;
 };
-/// Of all units that keys carry (core/units), longer suffixes first: each ends in units of its own.
+/// All units that keys carry (core/units), longer suffixes first: each ends in units of its own.
 std::span<const SuffixUnit> suffix_units();
 
-/// How the viewer shows numbers whose keys end in a suffix.
+/// The unit in which the viewer shows numbers whose keys end in a suffix.
 struct ShownSuffix {
   std::string suffix;  ///< "_rad_per_s"
   std::string symbol;  ///< "rpm"
@@ -38,9 +38,9 @@ struct ShownSuffix {
   /// what it is to be (by, times); see core/units.
   std::string key;
   Unit from = {"", 1, 1}, to = {"", 1, 1};
-  bool by_size = false;  ///< whether the size of the numbers decides, as display_unit() has it
+  bool by_size = false;  ///< true if the size of the numbers decides, as display_unit() has it
 };
-/// Of all units that keys carry, longer suffixes first.
+/// All units that keys carry, longer suffixes first.
 std::vector<ShownSuffix> shown_suffixes(const study::DisplayUnits& units);
 
 /// The units of sentences on a page: angles in degrees unless radians were chosen.

@@ -5,8 +5,8 @@
 
 namespace linkwright::report {
 
-/// What the viewer draws and result.json does not hold: title, facts, scenes (coordinates rounded to nine
-/// digits), plots, comparisons, text of the study.
+/// The data that the viewer draws and result.json does not hold: title, facts, scenes (coordinates rounded to
+/// nine digits), plots, comparisons, text of the study.
 Value view_data(const ReportInput& input);
 
 }  // namespace linkwright::report

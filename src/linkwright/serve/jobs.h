@@ -38,7 +38,7 @@ class Job {
     std::string frames;  ///< progress, or the answer; empty when there is nothing new
     bool last = false;   ///< the answer is among them
   };
-  /// What has come since the last call; waits for it no longer than `patience`.
+  /// Returns the news since the last call; waits for it no longer than `patience`.
   News news(std::chrono::milliseconds patience);
 
  private:

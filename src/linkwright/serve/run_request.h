@@ -7,16 +7,16 @@
 
 namespace linkwright::serve {
 
-/// What a page asks to be run.
+/// A run that a page asks for.
 struct RunRequest {
   std::string run;    ///< "TAB.NUMBER": of which tab, whose earlier run ends, and which of its runs
-  std::string text;   ///< of the study
-  std::string edits;  ///< of the text, as app::run_text() takes them; empty = none
-  std::map<std::string, std::string> files;  ///< that the study reads: texts by names without a folder
+  std::string text;   ///< text of the study
+  std::string edits;  ///< edits of the text, as app::run_text() takes them; empty = none
+  std::map<std::string, std::string> files;  ///< files that the study reads: texts by names without a folder
   double seconds = 0;                        ///< after which the best so far is the answer; 0 = never
 };
 
-/// Of "TAB.NUMBER" the tab, 1 to 64 letters and digits; empty where it is anything else.
+/// The tab in "TAB.NUMBER", 1 to 64 letters and digits; empty for any other text.
 std::string_view tab_of(std::string_view run);
 
 /// Reads the body of a request, JSON with the members of RunRequest, of which only `run` and `text` must be

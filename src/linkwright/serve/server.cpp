@@ -36,14 +36,15 @@ using platform::Direction;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::size_t threads = 12;  // that answer; more than there are runs, so that some are always free
+// Threads that answer; more than there are runs, so that some are always free.
+constexpr std::size_t threads = 12;
 constexpr std::size_t most_waiting = 64;  // connections that wait for one of them; others are refused
 constexpr int backlog = 128;              // connections that wait to be accepted
 constexpr std::size_t largest_head = std::size_t{64} << 10;
 constexpr seconds head_patience{5}, body_patience{30}, answer_patience{60};
 constexpr milliseconds glance{100};  // between two looks whether the server ends
 
-/// When the connection came that this thread is about.
+/// Time at which the connection of this thread came.
 thread_local Clock::time_point arrived;
 
 /// One connection with one request. All that is read together has a limit and a time, so that clients which
@@ -53,7 +54,7 @@ class Connection final : public httplib::Stream {
   Connection(socket_t socket, const std::atomic<bool>& ending) : socket_(socket), ending_(ending) {}
   ~Connection() override {
     platform::end_sending(socket_);
-    // What was not read would reset the connection before the answer has arrived.
+    // Data left unread would reset the connection before the answer has arrived.
     const auto end = Clock::now() + (unread_ ? seconds(2) : seconds(0));
     char rest[16384];
     do {
@@ -236,7 +237,7 @@ void answer(httplib::Response& response, const Value& document) {
   response.set_content(study::to_json(document), "application/json");
 }
 
-/// What a header says, if it is there once; nothing else.
+/// The value of a header that is there exactly once; nothing else.
 std::optional<std::string> header(const httplib::Request& request, const char* name) {
   if (request.get_header_value_count(name) != 1) return std::nullopt;
   return request.get_header_value(name);
@@ -310,7 +311,7 @@ struct Server::Parts {
   Listener here, here6;
 };
 
-/// Whether a request is answered at all; else `response` says why not.
+/// True if a request is answered at all; else `response` says why not.
 bool Server::Parts::admit(const httplib::Request& request, httplib::Response& response) {
   if (request.has_header("Content-Length") || request.has_header("Transfer-Encoding"))
     connection->leave_body();

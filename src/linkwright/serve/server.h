@@ -30,9 +30,9 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   int port() const;
-  /// What all requests but the one for the page must carry.
+  /// The token that all requests but the one for the page must carry.
   const std::string& token() const;
-  /// Of the page, with the token in its fragment, which browsers do not send.
+  /// Address of the page, with the token in its fragment, which browsers do not send.
   std::string address() const;
 
  private:

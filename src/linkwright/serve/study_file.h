@@ -13,20 +13,20 @@ class StudyFile {
  public:
   explicit StudyFile(std::filesystem::path file);
 
-  /// Where the file is, through symbolic links.
+  /// Path of the file, through symbolic links.
   const std::filesystem::path& path() const { return path_; }
 
   struct Text {
     std::string text, version;
-    std::string problem;  ///< why there is no text; else empty
+    std::string problem;  ///< says why there is no text; else empty
   };
   Text read() const;
 
   enum class Outcome { saved, changed, failed };
   struct Saved {
     Outcome outcome;
-    std::string version;  ///< of what is on the disk now; empty where it failed
-    std::string problem;  ///< what went wrong; empty when saved
+    std::string version;  ///< version of the file on the disk now; empty if saving failed
+    std::string problem;  ///< error message; empty when saved
   };
   /// Writes the text, whole or not at all, if the file still has the version that it was made from.
   Saved save(std::string_view text, std::string_view version);

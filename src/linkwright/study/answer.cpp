@@ -78,7 +78,7 @@ Answer answer_of(const Result& result) {
     out.first = result.troubles.front();
     out.worst = *std::max_element(result.troubles.begin(), result.troubles.end(),
                                   [](const Trouble& a, const Trouble& b) {
-                                    // What cannot be compared comes before what can.
+                                    // Answers that cannot be compared come before those that can.
                                     return std::isnan(a.share) ? !std::isnan(b.share) : a.share < b.share;
                                   });
     return out;

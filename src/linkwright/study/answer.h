@@ -8,7 +8,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/study/result.h"
 
-// What a result says in short, for people and programs that do not know its kind.
+// Short answers of a result, for people and programs that do not know its kind.
 namespace linkwright::study {
 
 enum class Verdict { passed, doubtful, incomplete, failed };

@@ -7,8 +7,8 @@
 
 #include "linkwright/study/bind.h"
 
-// What arms of every kind ask of [[mechanism.link]], and of [[drive]] that says how the joints of the links
-// move.
+// The tables [[mechanism.link]] and [[drive]] that arms of every kind share; [[drive]] says how the joints of
+// the links move.
 namespace linkwright::study {
 
 /// Checks the list of links of an arm: 1 to 20 of them, whose names begin the names of columns. A link
@@ -18,8 +18,8 @@ namespace linkwright::study {
 /// @param names      of the links that were read, in their order
 void complete_arm_links(ObjectReader& mechanism, std::span<std::string* const> names);
 
-/// Which of the links a table of [[drive]] names: 0 is the first; nothing where it names none of them, which
-/// is an error.
+/// The index of the link that a table of [[drive]] names: 0 is the first; nothing where it names none of
+/// them, which is an error.
 std::optional<std::size_t> driven_link(ObjectReader& drive, std::string_view link,
                                        std::span<const std::string_view> links);
 

@@ -12,7 +12,7 @@ namespace linkwright::study {
 std::string in_file(const Diagnostic& problem) {
   const std::string_view severity = problem.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
   std::string text = to_string(problem);
-  // Of what stands before it, only the name of the file could hold the word.
+  // In the text before it, only the name of the file could hold the word.
   const std::size_t at = text.find(severity, problem.file.size());
   return text.erase(at, severity.size());
 }

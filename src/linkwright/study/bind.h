@@ -39,9 +39,9 @@ class ObjectReader;
 
 /// A key, or one of its words, that a study of a related kind has and this kind has not.
 struct Absent {
-  std::string_view key;     ///< with its tables and without unit: "target.gates", "constraint.type"
+  std::string_view key;     ///< key with its tables and without unit: "target.gates", "constraint.type"
   std::string_view word;    ///< the word of that key that is not here; empty = the key itself
-  std::string_view reason;  ///< why, and what comes nearest
+  std::string_view reason;  ///< says why it is absent, and what comes nearest
 };
 
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
@@ -60,7 +60,7 @@ class DocumentReader {
 
   ObjectReader root();
 
-  /// What to say of keys and words that are not here, but that a related kind has; must outlive this.
+  /// Sets the answers to keys and words that are not here, but that a related kind has; must outlive this.
   void explain(std::span<const Absent> absent) { absent_ = absent; }
 
   /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
@@ -82,9 +82,9 @@ class DocumentReader {
   struct Known {
     std::string base;
     Dimension dimension;
-    std::string hint = {};  // of a missing one
+    std::string hint = {};  // hint if the key is missing
   };
-  struct Record {  // what became of one table of the document
+  struct Record {  // notes on the reading of one table of the document
     std::string path;
     const Unit* unit = nullptr;
     std::vector<Known> known;
@@ -111,12 +111,12 @@ class DocumentReader {
   Diagnostics& diagnostics_;
   std::size_t first_;
   std::map<const Value*, Record> records_;
-  std::vector<Meaning> meaning_;         // which of the diagnostics may follow from others
+  std::vector<Meaning> meaning_;         // the diagnostics that may follow from others
   std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
   std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
   std::span<const Absent> absent_;
   std::size_t unknown_ = 0;
-  Value schema_;  // of the document, where it is needed to judge the unknown keys
+  Value schema_;  // schema of the document, where it is needed to judge the unknown keys
   bool gave_up_ = false;
 };
 
@@ -134,10 +134,10 @@ class ObjectReader {
     fields(*this, object);
   }
 
-  /// Whether the key is there, with any unit.
+  /// True if the key is there, with any unit.
   bool has(const Field& field);
   bool has(std::string_view key) { return has(Field{.key = key, .summary = {}}); }
-  /// Whether it is there and a table: for values that may be a plain value or a table.
+  /// True if the key is there and is a table: for values that may be a plain value or a table.
   bool is_table(const Field& field);
 
   /// A table inside this one. Nothing when it is absent (an error if `field.required`) or no table (an

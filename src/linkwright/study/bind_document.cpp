@@ -39,7 +39,7 @@ std::vector<const Value*> elements_of(const std::vector<const Value*>& schemas) 
   return all;
 }
 
-/// Whether a key fits "^base_(mm|cm)$", the only form of patternProperties that SchemaWriter writes.
+/// True if a key fits "^base_(mm|cm)$", the only form of patternProperties that SchemaWriter writes.
 bool fits(std::string_view pattern, std::string_view key) {
   const std::size_t open = pattern.rfind('(');
   if (open == std::string_view::npos || !pattern.starts_with('^') || !pattern.ends_with(")$")) return false;
@@ -55,7 +55,7 @@ bool fits(std::string_view pattern, std::string_view key) {
   return false;
 }
 
-/// What the schemas say of a member that they name; empty if none does.
+/// The schemas' entries for a member that they name; empty if none does.
 std::vector<const Value*> named_members_of(const std::vector<const Value*>& schemas, std::string_view key) {
   std::vector<const Value*> all;
   const auto add = [&](const Value& schema) {
@@ -97,7 +97,7 @@ void find_homes(const std::vector<const Value*>& schemas, std::string_view key, 
   }
 }
 
-// Where a member that its table does not know belongs, if there is only one place.
+// The table where a member that its own table does not know belongs, if there is only one place.
 std::string home_of(const Value::Member& member, const Value& schema) {
   std::set<std::string> homes;
   find_homes(alternatives_of(schema), member.key, {}, false, homes);
@@ -151,7 +151,7 @@ void DocumentReader::poison(std::string_view path) {
   unreadable_.emplace_back(path.substr(0, path.find_first_of(".[")));
 }
 
-// Why a key, or a word of it, is not here; empty where nothing is said of it. `path` may hold indices.
+// Says why a key, or a word of it, is not here; empty where nothing is said of it. `path` may hold indices.
 std::string_view DocumentReader::reason_of_absence(std::string_view path, std::string_view word) const {
   std::string plain;
   bool inside = false;
@@ -229,9 +229,10 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
       misspelt_choice = meant;
   }
   record.misspelt = record.misspelt || misspelt_choice;
-  std::map<std::string, std::size_t> homes;  // of keys of another table, and the diagnostic that names them
+  // Tables of keys that belong elsewhere, and the diagnostic that names them.
+  std::map<std::string, std::size_t> homes;
   for (const auto& [member, meant] : all) {
-    // What there is beside a choice is not known without it.
+    // Without the choice it is not known which keys it allows.
     if (misspelt_choice && meant != misspelt_choice) continue;
     const auto unit = split_unit(member->key);
     const std::string without_unit = join_path(record.path, unit ? unit->base : member->key);
@@ -299,7 +300,7 @@ void DocumentReader::finish_missing(const Value& table, Record& record) {
 
 void DocumentReader::drop_follow_ups() {
   const auto builds = [](std::string_view table) { return table != "output" && table != "check"; };
-  // What is computed decides what is needed: without the list it is everything.
+  // The list of computed quantities decides what is needed: without the list it is everything.
   const bool inputs = std::any_of(unreadable_.begin(), unreadable_.end(), builds) ||
                       std::find(misspelt_.begin(), misspelt_.end(), "output.quantities") != misspelt_.end();
   const auto follows = [&](const Meaning& meaning) {

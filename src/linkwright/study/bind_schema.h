@@ -15,7 +15,7 @@
 // JSON Schema (2020-12) of structs, by the field lists that bind.h reads them with.
 namespace linkwright::study {
 
-/// What the unit in the key of a field measures: nothing where an outer field holds the unit.
+/// The dimension of the unit in the key of a field: nothing where an outer field holds the unit.
 Dimension key_dimension(const Field& field);
 
 /// The visitor that describes the members of a table. Members hold their defaults while they are visited.
@@ -65,7 +65,7 @@ class SchemaWriter {
   Value patterns_ = Value::object();
   Value::Array required_;
   Value::Array one_of_units_;
-  std::vector<Value::Array> choices_;  // of each choice the options
+  std::vector<Value::Array> choices_;  // options of each choice
 };
 
 /// Schema of a table that is read by the field list of T.

@@ -12,7 +12,7 @@
 
 #include "linkwright/core/field.h"
 
-// What the members of a field list can be; shared by reading, writing and schema.
+// The types that the members of a field list can have; shared by reading, writing and schema.
 namespace linkwright::study {
 
 struct FieldProbe {
@@ -78,7 +78,7 @@ constexpr auto words_of() {
   return words;
 }
 
-/// What an array of T is called in messages.
+/// The name of an array of T in messages.
 template <class T>
 constexpr std::string_view expected_elements() {
   if constexpr (std::is_arithmetic_v<T>)

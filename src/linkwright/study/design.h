@@ -15,7 +15,7 @@ namespace linkwright::study {
 /// Empty lists and tables are left out.
 Value as_people_write(Value study, const DisplayUnits& units);
 
-/// How many solutions of a result get a study, the best ones.
+/// Largest number of solutions of a result that get a study, the best ones.
 inline constexpr std::size_t most_designs = 20;
 
 /// Makes whole studies of what a domain put into `Solution::study`: adds the version, the kind "analysis"
@@ -23,13 +23,13 @@ inline constexpr std::size_t most_designs = 20;
 /// writes them as_people_write(). Solutions beyond `most_designs` lose theirs.
 void complete_designs(Result& result, std::string_view title, const DisplayUnits& units);
 
-/// What the file of a solution's study is called, without ending: "1-crank-rocker-open". Numbers count from
-/// 1; long labels are cut off.
+/// The name of the file of a solution's study, without ending: "1-crank-rocker-open". Numbers count from 1;
+/// long labels are cut off.
 std::string design_name(const Solution& solution, std::size_t number);
 
-/// That file: TOML after the line by which editors find the schema and a remark that tells where the design
-/// comes from. The study must be complete; `source` is the title of the study that found it, `tool` the
-/// program and its version.
+/// The text of that file: TOML after the line by which editors find the schema and a remark that tells where
+/// the design comes from. The study must be complete; `source` is the title of the study that found it,
+/// `tool` the program and its version.
 std::string design_toml(const Solution& solution, std::size_t number, std::string_view source,
                         std::string_view tool);
 

@@ -22,8 +22,8 @@ struct DesignVariable {
   std::string key;   ///< "mass.crank.mass_kg"; tables of an array go by their name, else by their number
   double lower = 0;  ///< in the unit of the key, as all of these
   double upper = 0;
-  double initial = 0;  ///< of the design that answers are compared with; may lie outside the bounds
-  UnitKey unit;        ///< of the key; no unit for plain numbers and inside arrays of arrays
+  double initial = 0;  ///< value of the design that answers are compared with; may lie outside the bounds
+  UnitKey unit;        ///< unit of the key; no unit for plain numbers and inside arrays of arrays
   std::vector<std::size_t> place;  ///< members and elements on the way to it
 };
 

@@ -72,7 +72,7 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
 Value write_value(const OutputUnits& member);
 Value schema_value(const Field& field, const OutputUnits& member);
 
-/// What a choice means for a study whose own units are `study`.
+/// The units that a choice gives for a study whose own units are `study`.
 DisplayUnits chosen_units(const OutputUnits& choice, const DisplayUnits& study);
 
 }  // namespace linkwright::study

@@ -5,9 +5,9 @@
 
 namespace linkwright::study {
 
-/// How many times too large a scene shows what is too small to be seen: the largest of 1, 2, 5, 10, 20, ...
-/// at which `largest` is drawn no larger than `wanted`, and 1 where it is larger than that as it is. Both >
-/// 0, of the same unit; 1 for anything else.
+/// The factor by which a scene enlarges what is too small to be seen: the largest of 1, 2, 5, 10, 20, ... at
+/// which `largest` is drawn no larger than `wanted`, and 1 where it is larger than that as it is. Both > 0,
+/// of the same unit; 1 for anything else.
 inline double drawn_scale(double largest, double wanted) {
   const double scale = wanted / largest;
   if (!(scale > 1) || !std::isfinite(scale)) return 1;

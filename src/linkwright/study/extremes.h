@@ -23,7 +23,7 @@ struct Extreme {
   bool any() const { return !std::isnan(value); }
   bool greatest(double v, std::size_t of) { return std::isfinite(v) && !(v <= value) && take(v, of); }
   bool least(double v, std::size_t of) { return std::isfinite(v) && !(v >= value) && take(v, of); }
-  /// Of the greatest size.
+  /// Takes the value of the greatest size.
   bool largest(double v, std::size_t of) {
     if (!std::isfinite(v) || std::abs(v) <= std::abs(value)) return false;
     // One of the other sign that ties leaves the first with its sign.
@@ -32,7 +32,7 @@ struct Extreme {
   }
 
  private:
-  /// Of values that tie by rounding, the first keeps its row.
+  /// The first of several values that tie by rounding keeps its row.
   bool take(double v, std::size_t of) {
     value = v;
     if (std::abs(v - at_row_) <= tie * std::abs(v)) return false;

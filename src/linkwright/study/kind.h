@@ -39,8 +39,8 @@ constexpr std::array<EnumName<Digits>, 2> names(Digits) {
 struct Output {
   std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
   std::vector<Format> formats{Format::json, Format::csv, Format::html};
-  int samples = 361;  ///< of curves and animations
-  OutputUnits units;  ///< of tables, parameters and objectives in result.json and CSV
+  int samples = 361;  ///< number of samples of curves and animations
+  OutputUnits units;  ///< units of tables, parameters and objectives in result.json and CSV
   Digits digits = Digits::full;
   std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
 };
@@ -67,15 +67,16 @@ void fields(Visitor&& visit, Seeds& s) {
         s.count);
 }
 
-/// What every study has and the study module reads: a domain finds it here and never reads these keys itself.
+/// The part that every study has and the study module reads: a domain finds it here and never reads these
+/// keys itself.
 struct Common {
   std::string title;
   std::string source;
   Output output;
   Seeds seeds;
   std::vector<CheckRequest> checks;
-  std::filesystem::path folder;  ///< of the study file: file names in a study are relative to it
-  DisplayUnits units;            ///< those of the study's keys: for messages, facts and headlines
+  std::filesystem::path folder;  ///< folder of the study file: file names in a study are relative to it
+  DisplayUnits units;            ///< units of the study's keys: for messages, facts and headlines
 };
 
 /// The part of a study that its domain has read.
@@ -88,7 +89,7 @@ struct Prepared {
   std::function<Result(RunContext&)> run;
 };
 
-/// What a domain registers: one kind of study, chosen by `kind`, `mechanism.type` and `target.type` of the
+/// One kind of study, registered by a domain and chosen by `kind`, `mechanism.type` and `target.type` of the
 /// file.
 struct Kind {
   std::string kind;       ///< "synthesis"
@@ -97,9 +98,11 @@ struct Kind {
   std::string summary;    ///< one sentence for the catalogue
   std::string example;    ///< a complete study as TOML: what `linkwright new` writes
 
-  std::vector<Word> quantities;  ///< what `output.quantities` may list; empty = the kind has no such key
-  bool seeded = false;           ///< has `optimiser.seeds`
-  /// What studies of a related kind have and these have not, and why: for messages, schema and help.
+  /// Words that `output.quantities` may list; empty = the kind has no such key.
+  std::vector<Word> quantities;
+  bool seeded = false;  ///< has `optimiser.seeds`
+  /// Keys and words of related kinds that this kind does not have, with the reason: for messages, schema and
+  /// help.
   std::span<const Absent> absent;
 
   /// Describes the domain's top-level tables: document.property(Field{.key = "mechanism", ...},

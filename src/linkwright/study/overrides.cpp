@@ -129,7 +129,7 @@ void name_overrides(Diagnostics& diagnostics, const std::vector<Override>& chang
   for (Diagnostic& d : diagnostics) {
     if (d.position.line > 0 || d.key.empty()) continue;
     for (const Override& change : changes) {
-      // What was made by an override has no line: the key itself, what is below it, or a table made on the
+      // A value made by an override has no line: the key itself, what is below it, or a table made on the
       // way.
       const std::string& shorter = d.key.size() < change.key.size() ? d.key : change.key;
       const std::string& longer = d.key.size() < change.key.size() ? change.key : d.key;

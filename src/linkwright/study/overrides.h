@@ -21,7 +21,7 @@ std::optional<std::vector<KeyStep>> parse_path(std::string_view text);
 
 /// A change of a document before it is validated: `--set mechanism.link[0].name=front`.
 struct Override {
-  std::string origin;  ///< what the user wrote, for messages: "--set mechanism.branch=open"
+  std::string origin;  ///< text that the user wrote, for messages: "--set mechanism.branch=open"
   std::string key;     ///< "mechanism.branch"
   Value value;
 };

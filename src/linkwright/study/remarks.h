@@ -8,7 +8,7 @@
 #include "linkwright/core/sentence.h"
 #include "linkwright/study/result.h"
 
-// How a study that reports says what it found: `const AddFact fact{result.facts};`, then fact("circuits",
+// Helpers by which a study reports its findings: `const AddFact fact{result.facts};`, then fact("circuits",
 // "2").
 namespace linkwright::study {
 
@@ -34,7 +34,7 @@ struct AddWarning {
 /// not have are left out, and a diagram without columns is not added.
 struct AddPlot {
   Result& result;
-  Plot like;  ///< what all of them have
+  Plot like;  ///< properties that all plots share
   void operator()(std::string name, std::string title, std::vector<std::string> y) const {
     (*this)(std::move(name), std::move(title), std::move(y), like.style);
   }
@@ -56,13 +56,13 @@ inline Measured torque_or_force(double value, bool is_torque, int digits) {
   return is_torque ? newton_metres(value, digits) : newtons(value, digits);
 }
 
-/// How far the energies of a simulation are from their balance.
+/// The error of the energy balance of a simulation.
 struct EnergyBalance {
   double drift = 0;  ///< J, at most
   double peak = 0;   ///< J, the largest energy
 
   double share() const { return peak > 0 ? drift / peak : 0; }
-  /// Whether the answer is not to be trusted.
+  /// True if the answer is not to be trusted.
   bool poor() const { return share() > 1e-5; }
   Sentence text() const {
     return say("within {} ({} of the peak energy {})", measured("J", drift, 2), plain_number(share(), 2),

@@ -57,7 +57,7 @@ constexpr std::array all_renamed{
     Renamed{NameOf::column, "lead_slope", "phase_slope", clearance},
 };
 
-/// What columns of tolerances and errors add to the name of a quantity.
+/// The words that columns of tolerances and errors add to the name of a quantity.
 constexpr std::array<std::string_view, 14> what_is_said_of_it{
     "",       "_error",     "_worst",           "_across",     "_rms",         "_drawn",      "_lower",
     "_upper", "_deviation", "_drawn_deviation", "_drawn_mean", "_drawn_least", "_drawn_most", "_yield"};
@@ -93,7 +93,7 @@ class Reader {
         return &r;
     return nullptr;
   }
-  /// Where the name of before begins in `name`.
+  /// Start of the old name in `name`.
   static std::size_t place_in(std::string_view name, const Renamed& r) {
     if (r.before == name) return 0;
     if (r.before.starts_with('_'))

@@ -14,7 +14,7 @@
 // gives the new one.
 namespace linkwright::study {
 
-/// What a name names.
+/// The kind of thing that a name stands for.
 enum class NameOf { kind, mechanism, target, key, word, link, column };
 constexpr std::array<EnumName<NameOf>, 7> names(NameOf) {
   return {{{NameOf::kind, "kind", "kind of a study"},
@@ -28,7 +28,8 @@ constexpr std::array<EnumName<NameOf>, 7> names(NameOf) {
 
 struct Renamed {
   NameOf of;
-  std::string_view before;  ///< of a column: may begin with "_", the end of its name; or hold its unit
+  /// Old name of a column: may begin with "_", the end of its name; or hold its unit.
+  std::string_view before;
   std::string_view now;
   std::string_view mechanism = {};  ///< in studies of mechanisms whose type begins so; empty = in all
   std::string_view kinds = {};      ///< in studies of the kinds that it lists; empty = in all

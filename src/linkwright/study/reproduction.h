@@ -12,9 +12,9 @@ namespace linkwright::study {
 /// A published table that is computed anew.
 struct Reproduction {
   std::string id;                  ///< "boskovic-2018-table-2.7"
-  std::string title;               ///< what the table shows
-  std::string source;              ///< where it is printed
-  std::vector<std::string> notes;  ///< what must be known to read it: corrections, conventions
+  std::string title;               ///< title of the table
+  std::string source;              ///< place where it is printed
+  std::vector<std::string> notes;  ///< notes needed to read it: corrections, conventions
   /// Numbers with their verdicts: "reproduced", "corrected" (right once a slip of the source is fixed),
   /// "improved" (a better answer to the same question), "not reproduced".
   std::function<std::vector<Comparison>(RunContext& context)> run;

@@ -23,7 +23,7 @@ struct Check {
   std::string limit;     ///< "at_most 0.009029"
   bool passed = false;
   std::string at;       ///< row of the table: "travel_mm = 50, rack_mm = 0"; empty = no row
-  std::string message;  ///< why there is no value; empty = there is one
+  std::string message;  ///< says why there is no value; empty = there is one
 };
 
 /// One line of the headline panel of a report and of the summary on the terminal.
@@ -39,7 +39,7 @@ constexpr std::array<EnumName<Fact::Verdict>, 3> names(Fact::Verdict) {
 
 /// One designed or fixed number of the answer.
 struct Parameter {
-  std::string key;    ///< with unit: "crank_m"
+  std::string key;    ///< key with unit: "crank_m"
   std::string label;  ///< "crank length"
   double value = 0;
   double lower = 0, upper = 0;  ///< bounds; equal = fixed, infinite = none
@@ -67,7 +67,7 @@ struct Plot {
   /// Column whose values, few and repeated, split the rows into one curve each: the rack of a travel-rack
   /// grid; empty = one curve of all rows.
   std::string group = {};
-  /// What the values 1, 2, ... of the group column are called; empty = by their numbers.
+  /// The names of the values 1, 2, ... of the group column; empty = by their numbers.
   std::vector<std::string> group_names = {};
   /// A region to stay in: two columns of the table, its lower and its upper edge (NaN = none there).
   struct Band {
@@ -104,9 +104,9 @@ using Comparisons = std::vector<Comparison>;
 struct Change {
   std::string quantity;  ///< column: "shaking_force_N"
   std::string label;     ///< for people, with unit
-  std::string measure;   ///< what of the column: "rms"
+  std::string measure;   ///< measure of the column: "rms"
   double before = 0, after = 0;
-  bool wanted = false;  ///< whether it was to become small
+  bool wanted = false;  ///< true if it was to be minimised
   /// Signed change in per cent of before; NaN when that is 0.
   double percent() const { return before != 0 ? 100 * (after / before - 1) : nan; }
 };
@@ -127,18 +127,18 @@ struct Solution {
 /// Something that stands in the way of an answer: a limit that is exceeded, a place that cannot be reached.
 struct Trouble {
   struct Place {
-    std::string key;  ///< with unit: "crank_angle_rad", "time_s"
+    std::string key;  ///< key with unit: "crank_angle_rad", "time_s"
     double value = 0;
   };
   std::string what;          ///< "torque of drive 2", "no_assembly"
   std::vector<Place> where;  ///< input, time and place, as far as they are known
-  /// How much of the limit is used: 1.96 for 96 % more than allowed. +infinity = it cannot be passed at
-  /// all, as where a drive would need a force without bound. NaN = cannot be compared.
+  /// The used part of the limit: 1.96 for 96 % more than allowed. +infinity = it cannot be passed at all, as
+  /// where a drive would need a force without bound. NaN = cannot be compared.
   double share = nan;
   std::string why;  ///< one sentence
 };
 
-/// What a study gives back. Tables, scenes and plots are all that a report draws.
+/// The result of a study. Tables, scenes and plots are all that a report draws.
 struct Result {
   Status status = Status::done;
   Sentence headline;  ///< the answer in one sentence

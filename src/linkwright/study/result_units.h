@@ -6,7 +6,7 @@
 // Results in the units of people.
 namespace linkwright::study {
 
-/// What a result says in numbers, in these units: headline, facts and remarks, tables with their diagrams,
+/// The result with its numbers in these units: headline, facts and remarks, tables with their diagrams,
 /// solutions, changes, troubles and statistics. Scenes stay.
 Result in_units(Result result, const DisplayUnits& units);
 

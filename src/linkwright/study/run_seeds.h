@@ -13,7 +13,7 @@
 
 namespace linkwright::study {
 
-/// What the seeds of a study came to; under an interruption perhaps not all of them.
+/// The outcome of the seeds of a study; under an interruption perhaps not all of them.
 template <class Answer>
 struct SeedRuns {
   Status status = Status::done;  ///< done, or why it was interrupted
@@ -25,8 +25,8 @@ inline bool is_interrupted(Status status) {
   return status == Status::deadline || status == Status::cancelled;
 }
 
-/// How a seed ended, as a checkpoint keeps it under the key `status` of a table, and back. Throws
-/// CheckpointError, naming `what`, unless it is the name of a status of a seed that came to its end.
+/// The status of a seed that ended, as a checkpoint saves it under the key `status` of a table, and back.
+/// Throws CheckpointError, naming `what`, unless it is the name of a status of a seed that came to its end.
 Value kept_status(Status status);
 Status restored_status(const Value& table, std::string_view what);
 
@@ -80,7 +80,7 @@ auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, 
   return out;
 }
 
-/// What one seed came to, for the log of a result.
+/// The outcome of one seed, for the log of a result.
 Value seed_entry(std::uint64_t seed, Status status, double best, std::int64_t evaluations);
 
 /// Adds how the best of a seed fell to its entry: what had been reached after so many evaluations, to the end

@@ -69,7 +69,7 @@ struct Scene {
     double radius = 0;  ///< m
     double width = 0;   ///< m, along the axis
   };
-  /// What arrows stand for; those of one quantity are shown together and have one scale.
+  /// The quantity that arrows show; those of one quantity are shown together and have one scale.
   enum class Quantity { force, velocity, acceleration };
   /// An arrow that starts at a point. Components along x and y: one entry a sample, or a single entry when
   /// constant; NaN = unknown. All vectors of one quantity have one unit.
@@ -92,9 +92,11 @@ struct Scene {
     std::string symbol = {};
   };
 
-  /// Where the coordinates of a body lie: one entry a sample, or a single entry for one that stands.
+  /// The position of a body's coordinate system: one entry a sample, or a single entry for a body that does
+  /// not move.
   struct Frame {
-    std::vector<double> x, y, angle;  ///< of its origin; rad, counter-clockwise
+    /// Position of its origin (m) and its rotation (rad), counter-clockwise.
+    std::vector<double> x, y, angle;
   };
   /// A number, or a list of coordinates, of the study that a drawn point or target shows. With these numbers
   /// measured anew at a place, the mechanism is at the same input where it was, but for that point.
@@ -113,11 +115,11 @@ struct Scene {
     int target = -1;    ///< ... of the target
     int index = 0;      ///< and of the point in it
     int from = -1;      ///< index of the other point of a length or an angle; -1 = the origin
-    bool held = false;  ///< of a length: its direction is that of the input, or given otherwise
+    bool held = false;  ///< true if a length is held: its direction is that of the input, or given otherwise
   };
 
   std::string name;           ///< identifies it: "solution-1"
-  std::string title;          ///< what is to be seen: "2: double rocker"; empty = what the study is called
+  std::string title;          ///< title: "2: double rocker"; empty = the name of the study
   std::string input_key;      ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
   std::string input_label;    ///< "crank angle"
   std::vector<double> input;  ///< one value a sample, monotonous, in radians, metres or seconds

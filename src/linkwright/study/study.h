@@ -44,7 +44,7 @@ Value schema_of(const Kind& kind);
 /// ... and of all of them.
 Value schema_of(std::span<const Kind> kinds);
 
-/// What a kind is called on the command line: "synthesis/planar.four_bar/path_points", "sweep".
+/// The name of a kind on the command line: "synthesis/planar.four_bar/path_points", "sweep".
 std::string name_of(const Kind& kind);
 /// The file in which editors find the schema of the kind of that name, beside its studies:
 /// "synthesis-planar.four_bar-path_points.schema.json".

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-// What people call things elsewhere - in another program, in German, French or Spanish - and what studies
+// The words that people use elsewhere - in another program, in German, French or Spanish - and what studies
 // call them. Only messages use it: a study is written in one language.
 namespace linkwright::study {
 

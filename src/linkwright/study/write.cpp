@@ -140,7 +140,7 @@ class TomlWriter {
            });
   }
 
-  /// Of the document itself every table that is not empty.
+  /// True for every table of the document itself that is not empty.
   static bool is_section(const Value& value, const std::string& path) {
     if (value.is_object()) return path.empty() ? !value.as_object().empty() : !is_inline_table(value);
     if (!value.is_array()) return false;

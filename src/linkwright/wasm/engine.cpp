@@ -20,7 +20,7 @@ using namespace linkwright;
 
 app::View answer;
 
-// What is thrown becomes the member `failure` of the answer: the page has nobody to catch it.
+// An exception becomes the member `failure` of the answer: the page has nobody to catch it.
 template <class Ask>
 void give(Ask&& ask) {
   std::string failure;

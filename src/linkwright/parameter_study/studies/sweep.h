@@ -51,7 +51,8 @@ struct Parameter {
   Spacing spacing = Spacing::linear;
   std::string label;  ///< empty = the path
 
-  std::vector<Value> words;  ///< of `values` or of a list of trials, where they are not all numbers
+  /// Words or other values of `values` or of a list of trials, where they are not all numbers.
+  std::vector<Value> words;
 };
 template <class Visitor>
 void fields(Visitor&& visit, Parameter& p) {
@@ -71,7 +72,7 @@ void fields(Visitor&& visit, Parameter& p) {
 /// A number of each result.
 struct Measure {
   study::CheckRequest request;  ///< quantity and row
-  std::string name;             ///< of its column; empty = made of the quantity
+  std::string name;             ///< name of its column; empty = made of the quantity
 };
 
 struct GridSampling {};
@@ -162,8 +163,8 @@ using Sampling = std::variant<GridSampling, LatinHypercubeSampling, SobolSamplin
 
 struct ParameterStudy {
   Value study;                   ///< the whole study that is run, as it is written
-  std::string name;              ///< of its file, for messages
-  std::filesystem::path folder;  ///< where the files start that it names
+  std::string name;              ///< name of its file, for messages
+  std::filesystem::path folder;  ///< folder in which the file names given in it start
   std::vector<Parameter> parameters;
   Sampling sampling;
   std::vector<Measure> measures;
@@ -177,16 +178,16 @@ struct ParameterStudy {
 /// "sweep": a study over some of its keys. `kinds` (which must outlive it): the kinds of study that it runs.
 study::Kind sweep_kind(std::span<const study::Kind> kinds);
 
-/// What a key is set to in a trial.
+/// The value of a key in a trial.
 Value value_of(const ParameterStudy& study, std::size_t trial, std::size_t parameter);
 /// The study of one trial.
 Value document_of(const ParameterStudy& study, std::size_t trial);
 
-/// What the trials came to; a trial without a status was not made.
+/// The results of the trials; a trial without a status was not made.
 struct TrialResults {
-  std::vector<std::vector<double>> measured;  ///< of each measure the trials, in the units of the quantities
+  std::vector<std::vector<double>> measured;  ///< trials of each measure, in the units of the quantities
   std::vector<std::string> status;
-  std::vector<std::string> problem;  ///< why a trial is no valid study; empty = it is one
+  std::vector<std::string> problem;  ///< says why a trial is no valid study; empty = it is one
 };
 
 /// Adds tables, diagrams and facts; `as_given`: the measures of the study without changes.

@@ -28,7 +28,7 @@ constexpr double most_trials = 1e7;
 
 const Field sampling_field{.key = "method", .summary = "which values are tried"};
 
-/// Whether a value can be one of a list: a number, a word, true or false.
+/// True if a value can be one of a list: a number, a word, true or false.
 bool is_plain(const Value& value) {
   return value.is_string() || value.is_bool() || (value.is_number() && std::isfinite(value.as_number()));
 }
@@ -57,7 +57,7 @@ Value inner_document(study::ObjectReader& table, const study::Common& common, Pa
   return problems.empty() ? document : Value();
 }
 
-/// Whether a study is one that can run; what is wrong is reported where it stands.
+/// True if a study can run; problems are reported at their position.
 bool check_study(study::ObjectReader& table, const Value& document, const ParameterStudy& s,
                  std::span<const study::Kind> kinds) {
   Diagnostics problems;
@@ -186,7 +186,7 @@ void read_list(study::ObjectReader& sampling, const study::Common& common, const
     sampling.error(by_file ? "file" : "trials", "there are no trials", "give one row at least");
 }
 
-/// How many trials a sampling makes, before any is made.
+/// The number of trials of a sampling, before any is made.
 double trials_asked(const ParameterStudy& s) {
   const auto n = static_cast<double>(s.parameters.size());
   if (const auto* a = std::get_if<LatinHypercubeSampling>(&s.sampling)) return a->samples;
@@ -239,7 +239,7 @@ void make_trials(study::ObjectReader& document, ParameterStudy& s) {
     s.trials.coordinates[i] = value_at(s.parameters[i % s.trials.dimension], s.trials.coordinates[i], even);
 }
 
-/// Whether the study knows the key of a parameter; what its first value does is reported at the parameter.
+/// True if the study knows the key of a parameter; problems of its first value are reported at the parameter.
 void check_key(study::ObjectReader& where, const ParameterStudy& s, std::size_t j,
                std::span<const study::Kind> kinds) {
   const std::string& key = s.parameters[j].key;

@@ -21,7 +21,7 @@ namespace linkwright::parameter_study {
 namespace {
 
 constexpr const char* trials_table = "trials";
-constexpr std::size_t most_curves = 21;  // of one diagram
+constexpr std::size_t most_curves = 21;  // largest number of curves in one diagram
 constexpr std::size_t most_clouds = 12;  // diagrams of dots
 constexpr std::size_t most_named = 3;    // parameters of a trial in a fact
 constexpr std::size_t resamples = 200;   // for confidence intervals
@@ -31,8 +31,8 @@ struct Heading {
   std::vector<std::string> words;
   std::string unit;    ///< suffix; empty = a plain number
   std::string label;   ///< given by the user; empty = the words
-  std::string tail;    ///< of its name: "_max"
-  std::string before;  ///< what of a column it is, for people: "greatest"
+  std::string tail;    ///< end of its name: "_max"
+  std::string before;  ///< words for people before the column's name: "greatest"
 
   std::string name(std::size_t depth) const {
     const std::size_t first = words.size() - std::min(depth, words.size());
@@ -448,7 +448,7 @@ class Reporter {
   const ParameterStudy& s_;
   const TrialResults& results_;
   study::Result& result_;
-  std::vector<Heading> headings_;  // of the parameters, then of the measures
+  std::vector<Heading> headings_;  // headings of the parameters, then of the measures
   std::vector<std::string> names_, keys_, titles_, labels_;
 };
 

@@ -50,7 +50,7 @@ bool run_trial(const ParameterStudy& s, std::span<const study::Kind> kinds, std:
   const study::Result result = study::run_study(*study, own);
   if (study::is_interrupted(result.status)) return false;
   out.status[i] = to_string(result.status);
-  // What was measured on a part of the way is not the measure of the whole.
+  // A quantity measured on a part of the motion does not hold for the whole.
   if (result.status != Status::done && result.status != Status::at_rest) return true;
   for (std::size_t k = 0; k < s.measures.size(); ++k)
     out.measured[k][i] = study::evaluate(s.measures[k].request, result).value;

@@ -22,7 +22,7 @@ void draw_vectors(std::string& out, const Canvas& canvas, const study::Scene& sc
                   const ShownArrows& shown, bool labels);
 void draw_moments(std::string& out, const Canvas& canvas, const study::Scene& scene, std::size_t sample,
                   bool labels);
-/// What an arrow of the length shown is worth, one line a quantity, at the top left.
+/// Draws the key: the value of an arrow of the length shown, one line a quantity, at the top left.
 void draw_key(std::string& out, const Canvas& canvas, const study::Scene& scene,
               const std::vector<ShownArrows>& shown);
 

@@ -6,7 +6,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
 
-// How keys and values of a study are named in messages, and which key stands for which field.
+// The names of keys and values of a study in messages, and the key of each field.
 namespace linkwright::study {
 
 /// A text of the file, short enough and without control characters.
@@ -24,10 +24,10 @@ std::string with_unit(double limit, const Unit* unit);
 /// "crank_m, crank_mm or crank_cm"
 std::string keys_with_units(std::string_view base, Dimension dimension);
 
-/// Whether `key` is `base`, '_' and something: a unit, perhaps.
+/// True if `key` is `base`, '_' and something: a unit, perhaps.
 bool goes_on(std::string_view key, std::string_view base);
 
-/// Whether `key` is `base` with a unit of the dimension, or plain `base` when there is none.
+/// True if `key` is `base` with a unit of the dimension, or plain `base` when there is none.
 bool names_field(std::string_view key, std::string_view base, Dimension dimension);
 
 }  // namespace linkwright::study
