@@ -22,7 +22,7 @@ namespace linkwright::suspension {
 namespace {
 
 constexpr double last_place = 5.01e-6;  // five decimals, and the rounding of the tables' own numbers
-constexpr int boxes = 1000;             // of each link
+constexpr int boxes = 1000;             // boxes of each link
 constexpr int evolutions = 20;
 
 std::string source_of(const PublishedGuide& guide) { return fmt::format("Poznanovic 2016, {}", guide.table); }

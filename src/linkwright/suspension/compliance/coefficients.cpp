@@ -94,8 +94,8 @@ AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, 
   LINKWRIGHT_REQUIRE(rack_stiffness > 0, "rack stiffness {} N/m: positive, infinite for a held rack",
                      rack_stiffness);
   AxleCompliance out{.left = left, .right = right};
-  // With the rack free at its stiffness: its shift by a load is, by reciprocity, the wheel's motion by the
-  // rack over all that resists the rack.
+  // The rack is free at its stiffness: its shift by a load is, by reciprocity, the wheel's motion by the rack
+  // over all that resists the rack.
   std::array<double, 12> by_rack{};
   for (int i = 0; i < 6; ++i) {
     by_rack[i] = left.by_rack[i];

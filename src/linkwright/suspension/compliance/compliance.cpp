@@ -160,8 +160,8 @@ class Saddle {
       add_pair(bar.first, bar.second, bar.stiffness * row * row.transpose());
   }
 
-  /// What a vector of the null space says: a body that moves without resistance, or rigid joints that hold
-  /// against each other.
+  /// Says in words what a vector of the null space means: a body that moves without resistance, or rigid
+  /// joints that hold against each other.
   std::string weakness() const {
     const Eigen::FullPivLU<MatrixXd> full(matrix_);
     const MatrixXd kernel = full.kernel();

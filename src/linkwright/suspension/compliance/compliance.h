@@ -15,8 +15,8 @@
 /// with six stiffnesses each, rigid ones exact (Lagrange multipliers).
 namespace linkwright::suspension {
 
-/// What carries the wheel's load. Figures differ grossly with it, so it belongs to every result: with the
-/// spring active a lateral force also makes the wheel travel.
+/// The part that carries the wheel's load. Figures differ grossly with it, so it belongs to every result:
+/// with the spring active a lateral force also makes the wheel travel.
 enum class Support { spring, spring_held, wheel_centre_held, contact_held };
 constexpr std::array<EnumName<Support>, 4> names(Support) {
   return {{{Support::spring, "spring", "the spring with its stiffness: the wheel travels"},
@@ -54,7 +54,7 @@ struct JointForce {
 /// Answer of a joint to unit loads: columns 0 to 5 force along and moment about x, y, z at the wheel centre,
 /// 6 a metre of rack. Rows: force, moment.
 struct JointTransfer {
-  JointForce joint;  ///< where it is; its force and moment are those of the preload
+  JointForce joint;  ///< joint and its position; its force and moment are those of the preload
   std::array<std::array<double, 7>, 6> by{};
 };
 
@@ -93,9 +93,9 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
                             const GuideElasticity& elasticity, Support support,
                             const std::optional<PointLoad>& preload = std::nullopt);
 
-/// What a load and a rack displacement (m) do to first order. Changes from the position without them.
+/// The first-order effect of a load and a rack displacement (m). Changes from the position without them.
 struct ElasticResponse {
-  Vec3 shift, turn;            ///< of the wheel centre (m) and of the carrier (rad)
+  Vec3 shift, turn;            ///< displacement of the wheel centre (m) and rotation of the carrier (rad)
   Vec3 contact_shift;          ///< m, point of the carrier at the contact
   double toe = 0, camber = 0;  ///< rad
   double spring_force = 0;     ///< N, more compression

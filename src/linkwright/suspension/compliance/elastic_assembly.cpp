@@ -15,7 +15,7 @@ Mat3 axes_of(const JointStiffness& stiffness, const Vec3& standard, const Mat3& 
   return {{first, second, cross(first, second)}};
 }
 
-/// Whether a joint resists turning about a direction by more than rounding.
+/// True if a joint resists rotation about a direction by more than rounding.
 bool resists_turning(const ElasticJoint& joint, const Vec3& about) {
   double across = 0, all = 0;
   for (int i = 0; i < 3; ++i) {
@@ -118,7 +118,7 @@ class Builder {
   const GuidePlace& place_;
   double rack_;
   std::vector<LinkPose> poses_;
-  std::vector<int> body_;  ///< of each link; R and S are joints of the carrier
+  std::vector<int> body_;  ///< body of each link; R and S are joints of the carrier
 };
 
 }  // namespace

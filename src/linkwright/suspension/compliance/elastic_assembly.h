@@ -23,7 +23,7 @@ struct ElasticJoint {
   Vec3 point;
   Mat3 axes;  ///< its rows
   JointStiffness stiffness;
-  std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< of rigid components
+  std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< multipliers of rigid components; -1 = none
 };
 
 /// Something that acts along a line: a spring, a coupler. Elongation = motion of the second end against the
@@ -48,8 +48,8 @@ struct HeldTurn {
 
 struct ElasticAssembly {
   const WheelGuide* guide = nullptr;
-  std::vector<Vec3> origin;         ///< of the bodies: 0 is the carrier
-  std::vector<std::string> labels;  ///< of the bodies
+  std::vector<Vec3> origin;         ///< origins of the bodies: 0 is the carrier
+  std::vector<std::string> labels;  ///< names of the bodies
   std::vector<ElasticJoint> joints;
   std::vector<ElasticBar> couplers;
   std::optional<ElasticBar> spring;

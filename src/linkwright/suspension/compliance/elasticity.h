@@ -8,7 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// How stiff the joints of a wheel suspension are. Links are rigid; what is elastic lies in their joints.
+/// Stiffness of the joints of a wheel suspension. Links are rigid; what is elastic lies in their joints.
 namespace linkwright::suspension {
 
 using Matrix6 = std::array<std::array<double, 6>, 6>;
@@ -57,8 +57,8 @@ GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>&
 /// An ideal joint: 'R' hinge, 'S' ball joint, 'P' slide along its first axis.
 JointStiffness ideal_joint(char letter);
 
-/// What is wrong with the stiffnesses for this suspension: counts, negative numbers, matrices that are not
-/// symmetric. Keys are "link.<name>", "coupler.<name>" and "spring".
+/// Checks the stiffnesses for this suspension: counts, negative numbers, matrices that are not symmetric.
+/// Keys are "link.<name>", "coupler.<name>" and "spring".
 Diagnostics check(const WheelGuide& guide, const GuideElasticity& elasticity);
 
 }  // namespace linkwright::suspension

@@ -11,8 +11,8 @@ struct SpringLaw {
   double preload = 0;
 };
 
-/// What a spring does at the wheel, joints rigid and friction none. Rates are by the height of the wheel
-/// centre, the rack held.
+/// The effect of a spring at the wheel, with rigid joints and no friction. Rates are by the height of the
+/// wheel centre, the rack held.
 struct WheelRate {
   Status status = Status::done;       ///< singular: at a limit of travel, and where the spring holds nothing
   double motion_ratio = 0;            ///< i: compression of the spring by height

@@ -110,7 +110,8 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
       at_body.push_back(body_point(guide, i, k, rack));
     for (int k = 0; k < carrier_points(guide.links[i].type); ++k)
       at_carrier.push_back(carrier_point(guide, i, k, carrier));
-    // What the link gives to the carrier it takes from the body, and what springs and couplers give it.
+    // The body gives to the link what the link gives to the carrier, less what springs and couplers give to
+    // the link.
     const Vec3 body = middle(at_body);
     const Vec3 force = on_carrier[i].force - on_link[i].force;
     const Vec3 moment = on_carrier[i].moment - on_link[i].moment - cross(body - carrier.centre, force);

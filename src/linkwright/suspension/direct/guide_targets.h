@@ -9,7 +9,7 @@
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
-/// What a wheel suspension is to show, and how near it comes.
+/// Targets of a wheel suspension, and the deviations from them.
 namespace linkwright::suspension {
 
 /// Tolerance of a target value: `least` up to a size of `from`, `slope` more per unit above (Poznanovic 2016,
@@ -25,7 +25,7 @@ double tolerance_of(const ToleranceRule& rule, double value);
 /// x1^3, x1^2 x2, x1 x2^2, x2^3, x1^2, x1 x2, x2^2, x1, x2 and 1.
 double quartic(std::span<const double, 15> coefficients, double x1, double x2);
 
-/// What is compared with the target.
+/// The quantity that is compared with the target.
 enum class TargetMeasure { value, change, relative_change };
 constexpr std::array<EnumName<TargetMeasure>, 3> names(TargetMeasure) {
   return {{{TargetMeasure::value, "value", "the quantity itself"},
@@ -77,7 +77,7 @@ struct TargetPositions {
 /// Throws ContractError for objectives without targets, and for tolerances, weights or values out of range.
 TargetPositions target_positions(std::span<const TargetObjective> objectives, Driver driver);
 
-/// What a design does at the positions.
+/// The results of a design at the positions.
 struct TargetAnswer {
   bool assembled = false;        ///< at every position
   double reached = 0;            ///< share of the positions that there are, with part of the way to the next

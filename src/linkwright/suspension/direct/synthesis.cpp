@@ -407,7 +407,7 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
   };
   for (const std::size_t i : order) {
     if (!starts[i].assembled || static_cast<int>(chosen.size()) == options.refined) break;
-    // Of ends within a thousandth of the ranges one is enough.
+    // One of several ends within a thousandth of the ranges is enough.
     if (std::all_of(chosen.begin(), chosen.end(), [&](std::size_t other) { return apart(i, other) > 1e-3; }))
       chosen.push_back(i);
   }

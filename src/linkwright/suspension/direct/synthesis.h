@@ -17,7 +17,7 @@ namespace linkwright::suspension {
 
 /// A wheel suspension to be found: objectives, most important first, and limits.
 struct DirectTask {
-  WheelGuide guide;  ///< what is given; of design variables where a search may begin
+  WheelGuide guide;  ///< the suspension as given; its design variables are where a search may begin
   std::vector<DesignVariable> designed;
   Driver driver = Driver::wheel_centre_z;
   std::vector<TargetObjective> objectives;
@@ -38,9 +38,9 @@ struct DirectOptions {
   DirectGoal goal = DirectGoal::largest;
   int one = 0;              ///< objective of the goal `one`
   int starts = 50;          ///< local searches
-  int draws = 30;           ///< of a start, until one assembles
+  int draws = 30;           ///< random designs tried for a start, until one assembles
   int refined = 3;          ///< best different ends of the starts that go on to the goal
-  int evaluations = 400;    ///< of a local search, at most
+  int evaluations = 400;    ///< largest number of evaluations of a local search
   double same_cost = 1e-6;  ///< relative: ends of least squares that count as the same
 };
 
@@ -54,7 +54,7 @@ struct DirectStart {
 
 /// A target that is as far off as any.
 struct ActiveTarget {
-  std::size_t row = 0;   ///< of DirectSynthesis::positions.rows
+  std::size_t row = 0;   ///< row of DirectSynthesis::positions.rows
   double deviation = 0;  ///< in tolerances
 };
 
@@ -64,24 +64,25 @@ struct DirectSynthesis {
   Status status = Status::infeasible;
   std::string reason;  ///< empty, or why it is infeasible
   WheelGuide guide;
-  std::vector<double> x;  ///< of the design variables
+  std::vector<double> x;  ///< values of the design variables
   /// The same in shares of their ranges: what the design is made from, to the bit.
   std::vector<double> shares;
   TargetPositions positions;
   TargetAnswer answer;                    ///< at x, without derivatives
   std::vector<double> objectives;         ///< largest deviation of each, in tolerances
-  double largest = infinity;              ///< of all
-  double half_sum_of_squares = infinity;  ///< of the deviations
+  double largest = infinity;              ///< largest deviation of all targets
+  double half_sum_of_squares = infinity;  ///< half the sum of squared deviations
   optimise::PriorityKey key;              ///< objectives met, and how the next stands
   std::vector<ActiveTarget> active;       ///< within 1e-4 of the largest of what was minimised
   std::vector<LimitAnswer> limits;
-  /// Of the deviations by the design variables, each in units of its range, descending; with the direction
-  /// (unit, in those units) of each. A small one is a direction that the targets hardly determine.
+  /// Singular values of the derivatives of the deviations by the design variables, each in units of its
+  /// range, descending; with the direction (unit, in those units) of each. A small one is a direction that
+  /// the targets hardly determine.
   std::vector<double> singular_values;
   std::vector<std::vector<double>> directions;
   std::vector<DirectStart> starts;
-  int assembled = 0;     ///< of the starts
-  int reached_best = 0;  ///< of them, the least half sum of squares that was found
+  int assembled = 0;     ///< starts that assembled
+  int reached_best = 0;  ///< starts that reached the least half sum of squares found
   std::int64_t evaluations = 0;
 };
 
@@ -94,7 +95,7 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
 
 /// The goal at a given design: everything of the report but starts.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide);
-/// Of a design that is known by its shares, one a design variable.
+/// Assesses a design given by its shares, one a design variable.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> shares);
 
 /// Differential evolution for comparison, with the settings of the source (NP 50, F 0.6, CR 0.9, at most 5000

@@ -67,7 +67,7 @@ bool alike(const GuidePlace& a, const GuidePlace& b) {
   return difference < same;
 }
 
-/// How far points of the carrier come from the wheel centre's reference.
+/// The largest distance of points of the carrier from the wheel centre, in the reference position.
 double reach(const GuidePlan& plan) {
   double out = plan.wheel.tyre_diameter;
   for (const LinkConstants& link : plan.links) {

@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 struct Assembly {
   GuidePlace place;
   double residual = 0;  ///< m
-  int hits = 0;         ///< of the starts that ended here
+  int hits = 0;         ///< starts that ended here
 };
 
 /// The assembly modes of a suspension at an input, nearest to the reference first: Newton's method from

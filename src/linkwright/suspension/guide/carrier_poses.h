@@ -14,7 +14,7 @@ namespace linkwright::suspension {
 /// One position that the carrier is to take.
 struct CarrierTarget {
   double rack = 0;     ///< displacement of the rack along its direction, m
-  Vec3 centre;         ///< of the wheel, m
+  Vec3 centre;         ///< wheel centre, m
   WheelAngles angles;  ///< carrier pitch NaN = not prescribed
 };
 
@@ -31,7 +31,7 @@ struct CarrierTargets {
 /// pitch.
 Mat3 target_rotation(const CarrierTargets& targets, const CarrierTarget& pose);
 
-/// Whether every position prescribes the carrier pitch.
+/// True if every position prescribes the carrier pitch.
 bool carrier_pitch_is_given(const CarrierTargets& targets);
 
 /// Reads positions from a table with the columns `rack`, `centre_x`, `centre_y`, `centre_z`, `toe`, `camber`

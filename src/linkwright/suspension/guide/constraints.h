@@ -11,7 +11,7 @@
 /// The equations of a wheel suspension: residuals of its joints and of a driver, with exact derivatives.
 namespace linkwright::suspension {
 
-/// Which coordinate is prescribed beside the rack, as a change from the reference (m).
+/// The coordinate that is prescribed beside the rack, as a change from the reference (m).
 enum class Driver { wheel_centre_z, contact_z, spring };
 constexpr std::array<EnumName<Driver>, 3> names(Driver) {
   return {{{Driver::wheel_centre_z, "wheel_centre_z", "height of the wheel centre"},
@@ -19,8 +19,8 @@ constexpr std::array<EnumName<Driver>, 3> names(Driver) {
            {Driver::spring, "spring", "length of the spring, longer positive"}}};
 }
 
-/// Where a suspension stands: the carrier, and the angle (rad, from the reference, right-handed from the
-/// first to the second body point) of its RR arm if it has one.
+/// The pose of a suspension: the carrier, and the angle (rad, from the reference, right-handed from the first
+/// to the second body point) of its RR arm if it has one.
 template <class T>
 struct BasicGuidePlace {
   BasicCarrierPose<T> carrier;
@@ -44,7 +44,7 @@ struct BasicLinkConstants {
   LinkType type = LinkType::US;
   bool moved_by_rack = false;
   std::array<Vector3<T>, 2> body, offset;
-  std::array<T, 2> length{};         ///< of the distances that it keeps
+  std::array<T, 2> length{};         ///< distances that the link keeps (m)
   Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
   Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
   Vector3<T> standing_axis;          ///< unit: axis of the U joint in the body (US)
@@ -101,7 +101,7 @@ struct BasicGuidePlan {
   std::vector<BasicCouplerConstants<T>> couplers;
   std::optional<BasicSpringConstants<T>> spring;
   GuideConstruction construction;
-  std::vector<std::string> labels;  ///< of the links and couplers
+  std::vector<std::string> labels;  ///< names of the links and couplers
   int unknowns = 6;                 ///< 7 with an RR arm
 };
 using GuidePlan = BasicGuidePlan<double>;
@@ -129,7 +129,7 @@ using GuideEquations = BasicGuideEquations<double>;
 void evaluate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver, double value,
               GuideEquations& out);
 
-/// What the driver's coordinate is at a place (m, change from the reference), and its rate for a motion.
+/// The value of the driver's coordinate in a pose (m, change from the reference), and its rate for a motion.
 double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver);
 double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);

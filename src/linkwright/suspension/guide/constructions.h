@@ -5,9 +5,10 @@
 
 #include "linkwright/suspension/guide/suspension.h"
 
-/// What drawing-board constructions of a wheel suspension stand on: the ball joints of the carrier, through
-/// which the geometric steering axis passes, and the planes of its arms, in which the instant axis of the
-/// wheel's travel is looked for. Both are known from the types of the links, and from rods that share an end.
+/// The basis of the drawing-board constructions of a wheel suspension: the ball joints of the carrier,
+/// through which the geometric steering axis passes, and the planes of its arms, in which the instant axis of
+/// the wheel's travel is looked for. Both are known from the types of the links, and from rods that share an
+/// end.
 namespace linkwright::suspension {
 
 /// Points nearer than this (m) are one joint.
@@ -20,7 +21,7 @@ struct CarrierBall {
   bool at_body = false;  ///< the link's first body point; else its first carrier point
 };
 
-/// How the plane of an arm lies; the axis of a pure turn of the carrier lies in it, too.
+/// The direction of the plane of an arm; the axis of a pure turn of the carrier lies in it, too.
 enum class ArmKind {
   wishbone,         ///< RS: through the hinge at the body and the ball joint
   blade,            ///< SR: through the hinge at the carrier and the ball joint
@@ -47,7 +48,7 @@ struct GuideConstruction {
   }
 };
 
-/// Of a suspension whose links have as many points as their types need.
+/// The construction of a suspension whose links have as many points as their types need.
 GuideConstruction construction_of(const WheelGuide& guide);
 
 /// Empty, or why the suspension has no geometric steering axis, and no roll centre and instant centres by

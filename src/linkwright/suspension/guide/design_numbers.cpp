@@ -85,7 +85,7 @@ double design_value(const WheelGuide& guide, const DesignNumber& number) {
 }
 
 std::string label(const WheelGuide& guide, const DesignNumber& number) {
-  design_value(guide, number);  // that it exists
+  design_value(guide, number);  // checks that it exists
   const auto link_point = [&](const char* where, std::size_t points) {
     const std::string which = points > 1 ? fmt::format("{}_", number.point + 1) : "";
     return fmt::format("{}.{}_{}{}", link_label(guide, number.index), where, which, axes[number.axis]);

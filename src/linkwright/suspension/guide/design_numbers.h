@@ -39,8 +39,8 @@ constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
 /// One number of a wheel suspension (m; rad for angles; a share for the fraction of a coupler).
 struct DesignNumber {
   DesignKind kind = DesignKind::body;
-  int index = 0;  ///< of the link or coupler
-  int point = 0;  ///< of the link's body or carrier points
+  int index = 0;  ///< index of the link or coupler
+  int point = 0;  ///< index among the link's body or carrier points
   int axis = 0;   ///< 0, 1, 2 = x, y, z
 
   friend bool operator==(const DesignNumber&, const DesignNumber&) = default;
@@ -52,7 +52,7 @@ template <class T>
 T& design_value(BasicWheelGuide<T>& guide, const DesignNumber& number);
 double design_value(const WheelGuide& guide, const DesignNumber& number);
 
-/// What files and reports call it: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
+/// The name in files and reports: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
 /// where there are two: "lower arm.body_2_z".
 std::string label(const WheelGuide& guide, const DesignNumber& number);
 

@@ -51,7 +51,7 @@ const Unit* unit_of(std::string_view word) {
   return find_unit(Dimension::length, word == "inch" || word == "inches" ? "in" : word);
 }
 
-/// Whether a comment begins here.
+/// True if a comment begins here.
 bool begins_comment(std::string_view rest) {
   return !rest.empty() &&
          (std::string_view("#$!%").find(rest[0]) != std::string_view::npos || rest.starts_with("//"));
@@ -60,7 +60,7 @@ bool begins_comment(std::string_view rest) {
 struct Word {
   std::string text;
   std::optional<double> number;
-  const Unit* unit = nullptr;  ///< of the number, where the list gives one
+  const Unit* unit = nullptr;  ///< unit of the number, where the list gives one
   bool quoted = false;
 
   /// It begins as a number does.
@@ -140,14 +140,14 @@ Words split(std::string_view line, bool comma_separates) {
   return out;
 }
 
-/// What a line holds: a point, or why it is none.
+/// A line of a list: a point, or the reason why it is none.
 struct Line {
   bool point = false;
   std::string name, number_in_name;
   std::array<Word, 3> at{};
   std::vector<Word> words;
   std::size_t numbers = 0;  ///< words that are numbers or begin like one
-  std::string problem;      ///< of a line with numbers that is no point
+  std::string problem;      ///< says why a line with numbers is no point
 };
 
 std::string joined(std::span<const Word> words) {
@@ -500,7 +500,7 @@ std::optional<std::vector<HardPoint>> read_columns(std::string_view text, int he
   Diagnostics problems;
   const std::optional<Table> table = read_csv(ordered, file, problems, &lines);
   for (Diagnostic& d : problems) {
-    d.position.column = 1;  // of the line as it was put in order
+    d.position.column = 1;  // the column in the reordered line means nothing to the user
     diagnostics.push_back(std::move(d));
   }
   if (!table) return std::nullopt;

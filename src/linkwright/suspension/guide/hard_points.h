@@ -20,7 +20,7 @@ struct HardPoint {
   friend bool operator==(const HardPoint&, const HardPoint&) = default;
 };
 
-/// Where an axis of a list points, as seen by the driver.
+/// The direction of an axis of a list, as seen by the driver.
 enum class Direction { forward, rearward, left, right, up, down };
 constexpr std::array<EnumName<Direction>, 6> names(Direction) {
   return {{{Direction::forward, "forward"},

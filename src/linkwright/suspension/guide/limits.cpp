@@ -20,7 +20,7 @@ struct MovedPoint {
 
 constexpr std::array<Vec3, 3> unit_axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
-/// How deep something reaches where it may not, and the direction in which the point gets deeper.
+/// The depth to which something enters a forbidden region, and the direction in which the point gets deeper.
 struct Depth {
   double value = 0;
   Vec3 gradient;
@@ -60,8 +60,8 @@ Depth outside(const TyreShape& tyre, const Vec3& u, const Vec3& p) {
   return out.best;
 }
 
-/// Where on a line from a to b a function of the point is least: the best of equal steps, refined by golden
-/// section about it. Exact for convex functions, and for others unless they dip between two steps.
+/// The place on the line from a to b where a function of the point is least: the best of equal steps, refined
+/// by golden section about it. Exact for convex functions, and for others unless they dip between two steps.
 template <class F>
 double least_along(const Vec3& a, const Vec3& b, F f) {
   constexpr int steps = 16;

@@ -63,7 +63,7 @@ struct GuideLimits {
 struct LimitAnswer {
   std::string name;        ///< "clearance of upper arm and tie rod"
   double excess = 0;       ///< m: by how much it is missed, the worst of the positions
-  int position = -1;       ///< where; -1 = at all alike
+  int position = -1;       ///< index of the position; -1 = the same at all
   std::vector<double> by;  ///< [number]: derivatives, empty without numbers
 };
 

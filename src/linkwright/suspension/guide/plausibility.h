@@ -8,9 +8,9 @@
 /// axes swapped. Reported before they become a suspension that cannot be put together.
 namespace linkwright::suspension {
 
-/// What looks like a slip. All measures are relative to the suspension itself - distances from the wheel
-/// centre, the tyre's radius - but the size of the whole, which is that of a vehicle within factors of ten.
-/// Errors where no wheel suspension could be meant (a factor of fifty and more), warnings where it is
+/// Finds values that look like a slip. All measures are relative to the suspension itself - distances from
+/// the wheel centre, the tyre's radius - but the size of the whole, which is that of a vehicle within factors
+/// of ten. Errors where no wheel suspension could be meant (a factor of fifty and more), warnings where it is
 /// unlikely. Keys are those of `check`: "wheel", "link.<name>", "spring", "coupler.<name>", and "hard_points"
 /// for the whole.
 Diagnostics implausible(const WheelGuide& guide);

@@ -4,7 +4,7 @@
 
 namespace linkwright::suspension {
 
-/// Where a point of a link may lie (m), in the frame of the vehicle with the carrier in its reference pose. A
+/// The limits of a point of a link (m), in the frame of the vehicle with the carrier in its reference pose. A
 /// coordinate whose limits are equal is given.
 struct PointBox {
   math::Vec3 lower;

@@ -25,7 +25,7 @@ constexpr double longest_turn = 0.3;    ///< rad
 // can be assemblies for which the determinant has the same sign, but before it the direction grows beyond
 // bounds.
 constexpr double sharpest_bend = 0.5;
-constexpr double no_squareness = 1e-12;  ///< of the squareness: some thousand roundings
+constexpr double no_squareness = 1e-12;  ///< relative limit of squareness: some thousand roundings
 
 /// Newton's method for plans with N unknowns.
 template <int N>

@@ -8,28 +8,28 @@
 
 namespace linkwright::suspension {
 
-/// What is prescribed: the driver's coordinate as a change from the reference (m), and the rack displacement
-/// (m).
+/// The prescribed input: the driver's coordinate as a change from the reference (m), and the rack
+/// displacement (m).
 struct GuideInput {
   double value = 0;
   double rack = 0;
 };
 
-/// Where a suspension stands, or how far it got.
+/// The position of a suspension, or the last one reached.
 struct GuidePosition {
   /// done; no_assembly: the input lies beyond what the links reach, or the links do not meet at all;
   /// singular: at the start the links lose rank, so that no way on is determined.
   Status status = Status::done;
   GuidePlace place;  ///< no_assembly: the last position on the way, next to the limit
   Driver driver = Driver::wheel_centre_z;
-  GuideInput input;     ///< what was reached
+  GuideInput input;     ///< input that was reached
   double reached = 1;   ///< share of the way from the start that was gone
   double residual = 0;  ///< largest of the equations (m)
   std::string reason;   ///< empty, or why it ends there, with figures
 };
 
-/// How the way from one position to another is followed: along the straight line between both inputs in value
-/// and rack, in steps that grow while they succeed.
+/// The steps by which one position is reached from another: along the straight line between both inputs in
+/// value and rack, in steps that grow while they succeed.
 struct GuideStepping {
   double first = 0.01;      ///< m of the larger of both inputs
   double smallest = 1e-11;  ///< m: below, the position is at a limit

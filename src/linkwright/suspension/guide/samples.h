@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 /// A canned wheel suspension.
 struct GuideSample {
   std::string name;     ///< "2RS-US": a basic mechanism; or that of a published example
-  std::string summary;  ///< what it is
+  std::string summary;  ///< description in one line
   WheelGuide guide;
 };
 

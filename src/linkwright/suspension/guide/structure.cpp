@@ -22,7 +22,8 @@ std::string allowed() {
   return out;
 }
 
-/// How the carrier moves: "turning about y", "turning about x with the wheel centre moving along y".
+/// The motion of the carrier in words: "turning about y", "turning about x with the wheel centre moving along
+/// y".
 std::string in_words(const Vec3& shift, const Vec3& turn, double radius) {
   const auto largest = [](const Vec3& a) {
     const std::array<double, 3> size{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
@@ -57,8 +58,8 @@ struct GeometricLine {
 
 double off(const GeometricLine& line, const Vec3& point) { return norm(cross(point - line.at, line.along)); }
 
-/// Why links do not constrain the carrier as their count would, as far as their points show it: what is one
-/// point, one line or one plane within `near` (m). Empty if none is found.
+/// The reason why links do not constrain the carrier as their count would, as far as their points show it:
+/// points, lines or planes that coincide within `near` (m). Empty if none is found.
 std::string geometric_cause(const WheelGuide& guide, double near) {
   struct BallJoint {
     std::string name;

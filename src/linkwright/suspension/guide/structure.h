@@ -46,7 +46,7 @@ struct WeakMotion {
 };
 WeakMotion weakest_motion(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver);
 
-/// Whether the suspension moves as a wheel suspension must: everything of `check`, then the count of
+/// Checks that the suspension moves as a wheel suspension must: everything of `check`, then the count of
 /// freedoms, then the rank of the constraints with the height of the wheel centre held, at the reference
 /// position. A rank loss is an error that names what is left free; a suspension within `poor_rank` of one (in
 /// metres a radian, turns taken at the tyre's radius) gets a warning. With prescribed lengths the reference

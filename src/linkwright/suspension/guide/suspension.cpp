@@ -157,10 +157,10 @@ Diagnostics check(const WheelGuide& guide) {
   for (const GuideLink& link : guide.links) moved = moved || link.moved_by_rack;
   if (moved && !(std::abs(norm(guide.rack_direction) - 1) < 1e-9))
     found.add("rack", fmt::format("direction of length {}, needs a unit vector", norm(guide.rack_direction)));
-  if (!found.list.empty()) return found.list;  // what follows looks at the links
+  if (!found.list.empty()) return found.list;  // the following checks look at the links
 
   const int links = static_cast<int>(guide.links.size());
-  // What is fixed to a rod off its line needs a joint that holds the rod's spin.
+  // A point fixed to a rod off its line needs a joint that holds the rod's spin.
   const auto check_hold = [&](const std::string& key, const char* what, int link, const Vec3& point) {
     const GuideLink& rod = guide.links[link];
     const double off = off_line(point, rod.body[0], rod.carrier[0]);

@@ -20,7 +20,7 @@ using math::Matrix3;
 using math::Vec3;
 using math::Vector3;
 
-/// How a link is joined: the first letter to the body, the second to the carrier; one letter is a joint
+/// The joints of a link: the first letter to the body, the second to the carrier; one letter is a joint
 /// between body and carrier without a link. R revolute, S spherical, U universal, P prismatic (slides and
 /// turns).
 enum class LinkType { R, RR, S, RS, SR, SP, US, SS };
@@ -60,10 +60,10 @@ template <class T>
 struct BasicCoupler {
   std::string name;
   int first = 0;     ///< US link
-  T fraction{0.5};   ///< of the US link's length, from its body point
+  T fraction{0.5};   ///< position as a fraction of the US link's length, from its body point
   int second = 0;    ///< SR link
   Vector3<T> point;  ///< on the SR link
-  /// Where it begins on the US link, off its line too, in the place of `fraction`.
+  /// Begin of the coupler on the US link, which may lie off its line; replaces `fraction`.
   std::optional<Vector3<T>> begin{};
 };
 using Coupler = BasicCoupler<double>;
@@ -104,7 +104,7 @@ struct BasicWheelGuide {
 };
 using WheelGuide = BasicWheelGuide<double>;
 
-/// Where the carrier is: its wheel centre (m) and its rotation from the reference position.
+/// The position of the carrier: its wheel centre (m) and its rotation from the reference position.
 template <class T>
 struct BasicCarrierPose {
   Vector3<T> centre;
@@ -128,7 +128,7 @@ Vec3 wheel_axis(Side side, double toe, double camber);
 /// one.
 WheelGuide mirrored(const WheelGuide& guide);
 
-/// Whether a rod is within a thousandth of the vertical.
+/// True if a rod is within a thousandth of the vertical.
 template <class T>
 bool is_upright(const Vector3<T>& along) {
   return along.x * along.x + along.y * along.y < 1e-6 * (along.z * along.z);
@@ -150,13 +150,13 @@ Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& alo
   return unit(Vector3<T>{-along.y, along.x, T(0)});
 }
 
-/// What messages call the link: its name, or "link 3 (US)".
+/// The name of the link in messages: its name, or "link 3 (US)".
 std::string link_label(const WheelGuide& guide, int link);
 
-/// What is wrong with the description by itself: numbers of points, numbers that are not finite, links and
-/// axes of no length, lengths of links that have none, couplers and springs on links that cannot hold them.
-/// Keys are "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Whether it moves as it should is
-/// asked of `check_structure`.
+/// Checks the description by itself: numbers of points, numbers that are not finite, links and axes of no
+/// length, lengths of links that have none, couplers and springs on links that cannot hold them. Keys are
+/// "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Whether it moves as it should is asked of
+/// `check_structure`.
 Diagnostics check(const WheelGuide& guide);
 
 }  // namespace linkwright::suspension

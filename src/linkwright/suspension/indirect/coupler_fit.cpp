@@ -17,7 +17,7 @@ namespace {
 /// The point at distance l from the body point of the first link, seen from the second one: from + l along.
 struct Track {
   std::vector<Eigen::Vector3d> from, along;  ///< the reference first
-  Mat3 frame;                                ///< of the second link in the reference pose, axes as rows
+  Mat3 frame;  ///< orientation of the second link in the reference pose, axes as rows
   Vec3 origin;
 
   std::size_t size() const { return from.size(); }

@@ -9,9 +9,9 @@
 
 namespace linkwright::suspension {
 
-/// What was found for a coupler.
+/// The coupler found, and how well it fits.
 struct CouplerFit {
-  Status status = Status::infeasible;  ///< as LinkFit::status; infeasible also when a link is not there
+  Status status = Status::infeasible;  ///< as LinkFit::status; infeasible also when a link is missing
   Coupler coupler;
   double offset = 0;                     ///< m, from the body point of the first link
   double rms = infinity, largest = rms;  ///< m: change of its length

@@ -6,15 +6,15 @@
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// How well a wheel suspension moves its carrier as prescribed: two measures that do not depend on how it was
-/// found.
+/// The accuracy with which a wheel suspension moves its carrier as prescribed: two measures that do not
+/// depend on how it was found.
 namespace linkwright::suspension {
 
 /// The largest misfit of a suspension's joints when its carrier is put to prescribed positions.
 struct ConstraintError {
   double gap = 0;     ///< m, absolute
   int link = -1;      ///< links first, then couplers; -1 without positions
-  int position = -1;  ///< of the targets
+  int position = -1;  ///< index of the target position
 };
 
 /// The constraint equations of the suspension, as its analysis solves them, at the prescribed positions of
@@ -27,12 +27,13 @@ struct Deviation {
   double largest = 0, mean = 0;
 };
 
-/// What the wheel does instead, at the prescribed height of its centre and rack.
+/// The deviation of the wheel from the prescribed poses, at the wheel does instead, at the prescribed height
+/// of its centre and rack.
 struct PoseDeviations {
   /// done; else why a position could not be reached; deviations are those of the others.
   Status status = Status::done;
   int missed = 0;                        ///< positions that could not be reached
-  Deviation x, y;                        ///< of the wheel centre, m
+  Deviation x, y;                        ///< deviation of the wheel centre, m
   Deviation toe, camber, carrier_pitch;  ///< rad; carrier pitch only over positions that prescribe it
 };
 

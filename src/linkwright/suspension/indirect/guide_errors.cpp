@@ -317,7 +317,7 @@ bool GuideErrors::evaluate_coupler(const CouplerPart& part, std::span<double> er
     const math::Vector3<T> y = frame * (p.point - hinge), d0 = at_rest - y;
     const T l0 = norm(d0);
     for (std::size_t i = 0; i < n; ++i) {
-      const auto shift = [&](const LinkPart& link) {  // of points that the rack moves
+      const auto shift = [&](const LinkPart& link) {  // shift of points that the rack moves
         return motions_[0].shift[i] - motion(link.link).shift[i];
       };
       const math::Vector3<T> d =

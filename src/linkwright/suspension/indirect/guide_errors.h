@@ -14,8 +14,7 @@
 
 namespace linkwright::suspension {
 
-/// What stands for the carrier pitch at positions that do not prescribe it (Poznanovic 2016, section
-/// 5.3.5).
+/// The values of the carrier pitch at positions that do not prescribe it (Poznanovic 2016, section 5.3.5).
 enum class CarrierPitchTechnique { each, quadratic, dyad };
 constexpr std::array<EnumName<CarrierPitchTechnique>, 3> names(CarrierPitchTechnique) {
   return {{{CarrierPitchTechnique::each, "each", "an unknown of its own at each position"},
@@ -24,7 +23,7 @@ constexpr std::array<EnumName<CarrierPitchTechnique>, 3> names(CarrierPitchTechn
            {CarrierPitchTechnique::dyad, "dyad", "what the first US link makes it, in closed form"}}};
 }
 
-/// Of the structural errors of a link, a coupler or all of them (m).
+/// Sums of the structural errors of a link, a coupler or all of them (m).
 struct ErrorTotals {
   double sum = 0, square = 0, largest = 0;
   int count = 0;  ///< equations times positions
@@ -50,7 +49,7 @@ class GuideErrors {
   std::span<const double> lower() const { return lower_; }
   std::span<const double> upper() const { return upper_; }
   const std::vector<std::string>& unknown_names() const { return names_; }
-  /// Those that are neither coordinates nor offsets come last.
+  /// Carrier pitches come last among the unknowns, after coordinates and offsets.
   std::size_t carrier_pitch_unknowns() const { return carrier_pitch_unknowns_; }
   std::size_t rows() const { return rows_; }
 
@@ -59,7 +58,7 @@ class GuideErrors {
   /// False where points coincide that must not, or the dyad cannot be assembled: see shortfall.
   bool evaluate(std::span<const double> x, std::span<double> errors, std::span<double> jacobian);
 
-  /// Of the last x, in the frame of the vehicle.
+  /// Links for the last x, in the frame of the vehicle.
   std::vector<GuideLink> links() const;
   std::vector<Coupler> couplers() const;
   double offset(std::size_t coupler) const { return couplers_[coupler].offset; }
@@ -87,7 +86,7 @@ class GuideErrors {
     double offset = 0;
     Vec3 point;  ///< counted from the wheel centre
     std::size_t first_row = 0;
-    std::array<int, 4> columns{};  ///< of offset and point, -1 = given
+    std::array<int, 4> columns{};  ///< columns of offset and point, -1 = given
   };
   struct Pose {
     std::size_t target = 0;
@@ -109,20 +108,21 @@ class GuideErrors {
   std::vector<LinkPart> links_;
   std::vector<CouplerPart> couplers_;
   std::vector<Pose> poses_;
-  std::array<LinkMotion, 2> motions_;    ///< of links that the rack does not move, and moves
-  std::vector<double> carrier_pitches_;  ///< of all targets
+  /// Motions of links that the rack does not move, and of those that it moves.
+  std::array<LinkMotion, 2> motions_;
+  std::vector<double> carrier_pitches_;  ///< carrier pitches of all targets
   std::vector<double> lower_, upper_;
   std::vector<std::string> names_;
   std::size_t rows_ = 0, carrier_pitch_unknowns_ = 0, first_carrier_pitch_ = 0;
   int dyad_ = -1;
-  std::vector<SettlingStep> settling_;  ///< of the carrier pitches of the dyad
+  std::vector<SettlingStep> settling_;  ///< order in which the carrier pitches of the dyad are determined
   double shortfall_ = 0;
   std::vector<double> scratch_;
   struct CarrierPitchColumn {
     std::size_t column;
     double derivative;
   };
-  std::vector<std::vector<CarrierPitchColumn>> carrier_pitch_columns_;  ///< of each pose
+  std::vector<std::vector<CarrierPitchColumn>> carrier_pitch_columns_;  ///< columns of each pose
 };
 
 }  // namespace linkwright::suspension

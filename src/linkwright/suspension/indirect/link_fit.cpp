@@ -18,8 +18,9 @@ constexpr double exact_cost = 1e-31;     // errors of some 1e-16 m at each posit
 constexpr double largest_damping = 1e3;  // steps a thousand times shorter: what they gain is rounding
 constexpr double polished_rms = 1e-14;   // m: nothing left to gain
 constexpr double rounded_rms = 1e-12;    // m: what exact positions leave
-// Where positions determine a link poorly, places within the tolerance lie far from the link itself; a link
-// whose errors vanish to rounding is looked for in so many searches more.
+// Number of further searches for a link whose errors vanish to rounding: where positions determine a link
+// poorly, places within the tolerance lie far from the link itself; a link whose errors vanish to rounding is
+// looked for in so many searches more.
 constexpr int further_starts = 32;
 
 struct Errors {

@@ -39,7 +39,7 @@ void fields(Visitor&& visit, LinkFitOptions& o) {
         o.same_point);
 }
 
-/// What was found for one link.
+/// The link found, and how well it fits.
 struct LinkFit {
   /// done: the structural errors are within the tolerance, polished to rounding; not_converged: no start came
   /// there, the best place in the boxes is given; infeasible: nothing was found but known links; deadline,
@@ -69,11 +69,11 @@ LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const Link
 LinkFit fit_link_from(std::span<const GuideLink> starts, const CarrierTargets& targets, const LinkTask& task,
                       const LinkFitOptions& options, std::span<const GuideLink> known, RunContext& context);
 
-/// How well the positions determine the coordinates of a link: the derivatives of its structural errors,
-/// decomposed.
+/// The accuracy with which the positions determine the coordinates of a link: the derivatives of its
+/// structural errors, decomposed.
 struct LinkConditioning {
-  /// Of the free coordinates: m of structural error a m of coordinates, largest first. A small one says that
-  /// errors of the positions move the points along its direction by their inverse.
+  /// Singular values for the free coordinates: m of structural error a m of coordinates, largest first. A
+  /// small one says that errors of the positions move the points along its direction by their inverse.
   std::vector<double> singular_values;
   /// Change of the points along the smallest one; the squares of all coordinates add up to 1.
   GuideLink weakest;

@@ -54,7 +54,8 @@ bool strut_errors(const LinkMotion& motion, const Vec3& body, const Vec3& carrie
   const auto component = [](const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; };
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Mat3 back = transposed(motion.rotation[i]);
-    const Vec3 w = back * (body - motion.shift[i]) - body;  // of the body point, seen from the carrier
+    // Displacement of the body point, seen from the carrier.
+    const Vec3 w = back * (body - motion.shift[i]) - body;
     const double along = dot(u, w);
     const Vec3 across = w - along * u;
     for (int k = 0; k < 3; ++k) {

@@ -8,8 +8,8 @@
 
 namespace linkwright::suspension {
 
-/// Where the coordinates of a link's points stand among the columns of a Jacobian, in the order body points,
-/// carrier points, x, y, z of each; -1 = the coordinate is given.
+/// The columns of a Jacobian for the coordinates of a link's points, in the order body points, carrier
+/// points, x, y, z of each; -1 = the coordinate is given.
 using LinkColumns = std::span<const int>;
 
 /// Rows of `structural_errors`: one a distance and position, three a position for SP, S and each point of R,

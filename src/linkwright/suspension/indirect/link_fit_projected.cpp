@@ -184,7 +184,7 @@ bool LinkProjection::evaluate_strut(std::span<double> residuals, std::span<doubl
       component(d, k) -= 1;
       return d;
     };
-    Vec3 change;  // of the scatter, times u
+    Vec3 change;  // change of the scatter, times u
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 w = inverse_.moved(i, y) - y, d = moved_by(i);
       change += dot(w, u) * d + dot(d, u) * w;

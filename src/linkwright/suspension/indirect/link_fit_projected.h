@@ -19,7 +19,7 @@ class LinkProjection {
   /// chooses the point of a strut. The motion must outlive the projection.
   LinkProjection(const LinkMotion& motion, const GuideLink& given, LinkColumns columns);
 
-  /// Whether the links of this type can be projected and there is an unknown left.
+  /// True if the links of this type can be projected and there is an unknown left.
   bool applicable() const { return applicable_; }
   /// Places of the unknowns among the twelve coordinates of `columns`.
   std::span<const int> unknowns() const { return unknowns_; }

@@ -5,7 +5,7 @@
 
 #include "linkwright/suspension/guide/constraints.h"
 
-/// Where the links stand when the carrier stands somewhere.
+/// Poses of the links for a given pose of the carrier.
 namespace linkwright::suspension {
 
 /// Displacement of a link from the reference as a rigid body: its point that was at `from` is at `at`.
@@ -33,7 +33,7 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& plac
 /// with the rod.
 std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack);
 
-/// Where a coupler begins on its first link.
+/// The begin of a coupler on its first link.
 Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuidePlace& place, double rack);
 
 /// The end of the spring that moves, at a position of the carrier. The suspension has to have a spring.

@@ -13,10 +13,10 @@
 
 namespace linkwright::suspension {
 
-/// How the absolute structural errors of all equations and positions become one objective (m).
+/// The rule by which the absolute structural errors of all equations and positions become one objective (m).
 enum class ErrorTotal {
   mean,  ///< over equations and positions without the reference, P (N - 1): Poznanovic 2016, eq (57)
-  sum,   ///< of all
+  sum,   ///< sum of all absolute errors
 };
 constexpr std::array<EnumName<ErrorTotal>, 2> names(ErrorTotal) {
   return {{{ErrorTotal::mean, "mean", "mean over equations and positions"}, {ErrorTotal::sum, "sum", "sum"}}};
@@ -50,12 +50,12 @@ struct EvolutionOptions {
   std::string checkpoint;              ///< see optimise::MinimiseOptions
 };
 
-/// What became of links and couplers that were searched together.
+/// The result of a common search for links and couplers.
 struct Evolution {
-  Status status = Status::done;  ///< of the search: done, infeasible, deadline, cancelled
+  Status status = Status::done;  ///< status of the search: done, infeasible, deadline, cancelled
   std::vector<GuideLink> links;
   std::vector<Coupler> couplers;  ///< links counted as in the tasks
-  CarrierTargets targets;         ///< with the carrier pitches found
+  CarrierTargets targets;         ///< targets with the carrier pitches found
   std::vector<ErrorTotals> link_errors, coupler_errors;
   double objective = 0;  ///< m: mean of all errors
   int generations = 0;

@@ -27,7 +27,7 @@ struct CouplerTask {
   int second = 0;  ///< SR link
   /// m: of its point on the first link from that link's body point; at most that link's length.
   double least_offset = 0, most_offset = infinity;
-  PointBox point;  ///< of its point on the second link, in the reference pose
+  PointBox point;  ///< box of its point on the second link, in the reference pose
 };
 
 /// The task whose answer is known.
@@ -40,7 +40,7 @@ class LinkCoordinates {
   /// Throws ContractError for a wrong number of boxes, or limits that are not finite or in the wrong order.
   explicit LinkCoordinates(const LinkTask& task, const Vec3& origin = {});
 
-  const GuideLink& middle() const { return middle_; }  ///< of the boxes
+  const GuideLink& middle() const { return middle_; }  ///< link at the middle of the boxes
   const std::vector<int>& columns() const {
     return columns_;
   }                                                       ///< number of the unknown of each place, or -1
@@ -50,7 +50,7 @@ class LinkCoordinates {
 
   static double get(const GuideLink& link, int place);
   static void set(GuideLink& link, int place, double value);
-  /// Whether all points lie in their boxes, to a nanometre.
+  /// True if all points lie in their boxes, to a nanometre.
   bool inside(const GuideLink& link) const;
 
  private:

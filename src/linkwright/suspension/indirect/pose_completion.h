@@ -25,7 +25,7 @@ constexpr std::array<EnumName<PoseParameter>, 6> names(PoseParameter) {
 double value_of(const CarrierTarget& pose, PoseParameter parameter);
 void set_value(CarrierTarget& pose, PoseParameter parameter, double value);
 
-/// What a parameter must be for the rod to keep its length: both solutions.
+/// The values of a parameter for which the rod keeps its length: both solutions.
 struct RodSolution {
   /// done; no_assembly: the rod is too long or too short whatever the parameter is; singular: the parameter
   /// does not move the end of the rod.
@@ -50,7 +50,7 @@ struct SettlingStep {
   int before = -1;       ///< the position it is nearest to; -1 = the reference pose
   int before_that = -1;  ///< the one that was nearest to that
   double ahead = 0;      ///< steps from the one to the other that lead on to this position
-  /// What the values there let expect here.
+  /// Extrapolates the value here from those at the two positions before.
   double expected(double value_before, double value_before_that) const {
     return value_before + ahead * (value_before - value_before_that);
   }
@@ -62,7 +62,7 @@ struct PoseCompletion {
   Status status = Status::done;  ///< done; no_assembly, singular: what was wrong first
   int position = -1;             ///< the position where it was
   double shortfall = 0;          ///< m: the largest of all
-  CarrierTargets targets;        ///< where there is no solution the parameter is missing still
+  CarrierTargets targets;        ///< targets; without a solution the parameter is still missing
 };
 
 /// Settles a parameter at every position where it is NaN by a rod whose points are adopted (section 5.3.5.1):
@@ -77,7 +77,7 @@ struct RsDyad {
   /// one and the other one. This is not the carrier pitch, whose zero is another
   /// (the source takes them for equal); `rotation` knows both.
   double relative = 0, other = 0;
-  Mat3 rotation;  ///< of the carrier from the reference, by `relative` (74)
+  Mat3 rotation;  ///< rotation of the carrier from the reference, by `relative` (74)
 };
 
 /// The dyad at one position, whose carrier pitch is not looked at. With atan2 in the place of the arccosine

@@ -18,7 +18,7 @@ inline constexpr double not_printed = nan;
 /// A row of tables 6-1, 6-5, 6-9, 6-13: m and degrees, five decimals.
 struct PublishedPosition {
   double travel, rack;
-  double x, y;                        ///< of the wheel centre
+  double x, y;                        ///< position of the wheel centre
   double toe, camber, carrier_pitch;  ///< deg
 };
 
@@ -27,10 +27,10 @@ struct PublishedDeviations {
   std::array<double, 2> x, y, toe, camber, carrier_pitch;
 };
 
-/// What the source reports of differential evolution.
+/// The results of differential evolution in the source.
 struct PublishedEvolution {
   int repeats = 0;
-  double generations = 0;       ///< of all links together, mean
+  double generations = 0;       ///< mean number for all links together
   double coordinate_error = 0;  ///< m, mean over coordinates and repeats
   PublishedDeviations deviations;
 };
@@ -38,7 +38,7 @@ struct PublishedEvolution {
 struct PublishedGuide {
   int example = 0;
   std::string_view table;   ///< "Tab. 6-1"
-  std::string_view sample;  ///< of guide_samples
+  std::string_view sample;  ///< name in guide_samples
   std::span<const PublishedPosition> positions;
   PublishedEvolution evolution;
   double minimize_coordinate_error = 0;  ///< m: of the quasi-Newton method of a vendor; NaN = not run
@@ -54,8 +54,8 @@ const PublishedEvolution& published_dyad();
 /// Example 2 with the four decimals of figure 6-3 in the place of the refined ones.
 WheelGuide strut_as_printed();
 
-/// What the run in the appendix (example 1) found, true less found, m: of each link body x, y, z, carrier x,
-/// y, z; and the objective that it reports.
+/// The result of the run in the appendix (example 1), true less found, m: of each link body x, y, z, carrier
+/// x, y, z; and the objective that it reports.
 std::span<const double> published_run();
 inline constexpr double published_run_objective = 2.2477179192e-9;
 

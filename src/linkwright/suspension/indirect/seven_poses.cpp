@@ -121,7 +121,7 @@ std::vector<Complex3> carrier_points(const Equations& equations, double shift, b
   return found;
 }
 
-/// What the columns of a complex matrix, times i as well, are to real numbers.
+/// The real form of a complex matrix: real and imaginary parts of its columns, and of the columns times i.
 template <int rows, int columns>
 Eigen::MatrixXd real_form(const Eigen::Matrix<Complex, rows, columns>& m) {
   Eigen::MatrixXd out(2 * rows, 2 * columns);

@@ -37,7 +37,7 @@ struct SevenPoseReport {
   int solutions = 0;                   ///< isolated ones, complex ones included: 20 in general
   std::vector<SevenPoseRod> rods;      ///< the real ones, least rms first
   std::vector<SevenPoseSolution> all;  ///< real ones in the order of `rods`, then the complex ones
-  SixPositions positions{};            ///< of the motion, that were taken
+  SixPositions positions{};            ///< positions of the motion that were taken
   /// Families of rods that share a point at one end while the other goes along a line: an RS link (the line
   /// is its hinge axis in the body) or an SR link (in the carrier). Two points 0.1 m apart stand for the
   /// axis.

@@ -29,20 +29,20 @@ struct IndirectSynthesis {
   Status status = Status::infeasible;
   std::vector<LinkFit> links;  ///< each with its own status
   std::vector<CouplerFit> couplers;
-  WheelGuide guide;             ///< as far as it was found
-  CarrierTargets targets;       ///< with the carrier pitches that were not prescribed
+  WheelGuide guide;             ///< suspension, as far as it was found
+  CarrierTargets targets;       ///< targets with the carrier pitches that were not prescribed
   double largest = 0;           ///< m: structural error of all links and couplers
   double fewest = 0;            ///< positions that determine all links, see fewest_positions
   std::vector<GuideLink> arms;  ///< hinged arms that exact rods come from, where these were asked for
   std::int64_t evaluations = 0;
-  int generations = 0;   ///< of population methods, all links together
-  Diagnostics findings;  ///< of check_structure, and a warning when there are fewer positions
+  int generations = 0;   ///< generations of population methods, all links together
+  Diagnostics findings;  ///< findings of check_structure, and a warning when there are fewer positions
 };
 
 struct IndirectOptions {
   LinkFitOptions link;
   CarrierPitchFitOptions
-      carrier_pitch;  ///< where positions do not prescribe the carrier pitch and no US link is given
+      carrier_pitch;  ///< for positions that do not prescribe the carrier pitch, when no US link is given
 };
 
 /// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no

@@ -12,9 +12,8 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::size_t polished_starts =
-    10;                                // where errors stay above the tolerance, more of them gain little
-constexpr int tries_of_a_start = 500;  // random rods that leave the dyad apart are drawn again
+constexpr std::size_t polished_starts = 10;  // more starts gain little if errors stay above the tolerance
+constexpr int tries_of_a_start = 500;        // random rods that leave the dyad apart are drawn again
 
 void require_options(const CarrierPitchFitOptions& o) {
   LINKWRIGHT_REQUIRE(

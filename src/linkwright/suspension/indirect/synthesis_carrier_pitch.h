@@ -60,7 +60,7 @@ struct CarrierPitchFit {
   Status status = Status::infeasible;
   std::vector<GuideLink> links;
   std::vector<Coupler> couplers;
-  CarrierTargets targets;  ///< with the carrier pitches found, continuing those given
+  CarrierTargets targets;  ///< targets with the carrier pitches found, continuing those given
   std::vector<ErrorTotals> link_errors, coupler_errors;
   double rms = infinity, largest = rms;  ///< m
   int starts = 0;

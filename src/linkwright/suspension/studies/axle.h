@@ -10,7 +10,7 @@
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/axle_sweep.h"
 
-// What an analysis of a wheel suspension may ask of the whole axle: `[vehicle]` and `[axle]`.
+// The tables `[vehicle]` and `[axle]`, by which an analysis of a wheel suspension covers the whole axle.
 namespace linkwright::suspension {
 
 /// `[vehicle]`.
@@ -60,7 +60,7 @@ void fields(Visitor&& visit, AxleForm& a) {
 
 /// Checks what was read against the suspension; problems go to the reader. Values are replaced by their list.
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide);
-/// Whether what complete_axle() has listed has room in memory; an error at the reader if not.
+/// True if the positions of complete_axle() have room in memory; an error at the reader if not.
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 
 /// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a

@@ -11,7 +11,7 @@
 #include "linkwright/suspension/compliance/compliance.h"
 #include "linkwright/suspension/studies/guide.h"
 
-// What an analysis of a wheel suspension may ask about loads and elastic joints: `[compliance]`.
+// The table `[compliance]`: loads and elastic joints in an analysis of a wheel suspension.
 namespace linkwright::suspension {
 
 enum class LinkEnd { body, carrier };

@@ -190,7 +190,7 @@ constexpr Word choice_word(const PublishedDirect&) {
 }
 struct DirectOptimiser {
   std::variant<RecommendedDirect, PublishedDirect> method;
-  std::optional<std::string> objective;  ///< of the goal `one`
+  std::optional<std::string> objective;  ///< objective of the goal `one`
 };
 template <class Visitor>
 void fields(Visitor&& visit, DirectOptimiser& o) {
@@ -204,9 +204,9 @@ struct DirectStudy {
   std::vector<CurveForm> curves;
   std::vector<DirectConstraint> constraints;
   DirectOptimiser optimiser;
-  Driver lock = Driver::wheel_centre_z;  ///< of the steering axis
-  DirectTask task;                       ///< what follows from the above
-  study::DisplayUnits units;             ///< of its messages
+  Driver lock = Driver::wheel_centre_z;  ///< coordinate held while the steering axis is found
+  DirectTask task;                       ///< task that follows from the above
+  study::DisplayUnits units;             ///< units of its messages
 };
 
 /// "synthesis" of "suspension.corner" for "wheel_parameters".

@@ -124,7 +124,7 @@ class TargetReader {
     table(Field{.key = "weight", .summary = {}, .minimum = 0, .maximum = 1e9}, c.weight);
     table(Field{.key = "objective", .summary = {}}, c.objective);
     if (!which) {
-      table.members();  // what the others mean depends on the quantity
+      table.members();  // the meaning of the other keys depends on the quantity
       return std::nullopt;
     }
     c.column = guide_column(bases[*which]);
@@ -153,7 +153,7 @@ class TargetReader {
         table.error("tolerance", "is 0, must be larger");
       return std::nullopt;
     }
-    // What the table does not have comes from the file.
+    // Values missing in the table come from the file.
     c.values = value.of;
     if (!has_value) {
       const auto found = column(study::base_of(c.column->key), dimension);

@@ -55,7 +55,7 @@ double cost_of(const DirectSynthesis& answer, const DirectOptions& options) {
   return infinity;
 }
 
-/// Whether `a` is the better answer.
+/// True if `a` is the better answer.
 bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOptions& options) {
   const bool good = a.status == Status::done, other = b.status == Status::done;
   if (good != other) return good;
@@ -202,7 +202,7 @@ Range1 range_of(const DirectStudy& s) {
       low = std::min(low, c.travels[i]);
       high = std::max(high, c.travels[i]);
       out.racks.push_back(c.racks[i]);
-      out.racks.push_back(-c.racks[i]);  // of the other wheel
+      out.racks.push_back(-c.racks[i]);  // rack displacement of the other wheel
     }
   constexpr int steps = 20;  // each way
   for (int i = -steps; i <= steps; ++i) out.travels.push_back((i < 0 ? -low : high) * i / steps);

@@ -13,7 +13,7 @@
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 
-// What all studies of wheel suspensions read alike: the mechanism, with its points as coordinates, as names
+// The mechanism, which all studies of wheel suspensions read alike, with its points as coordinates, as names
 // out of a list of hard points, or as boxes in which they are to be found.
 namespace linkwright::suspension {
 
@@ -254,7 +254,7 @@ void fields(Visitor&& visit, GuideForm& g) {
   visit(Field{.key = "rack", .summary = "of the steering"}, g.rack);
 }
 
-/// What may be left open in the points of a study.
+/// The freedom that a study may leave to its points.
 enum class OpenPoints { none, boxes };
 
 /// `[mechanism]` of any study of a wheel suspension, resolved.
@@ -262,7 +262,7 @@ struct GuideDescription {
   WheelGuide guide;             ///< open coordinates at their start
   std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
   std::vector<CouplerTask> couplers;   ///< likewise
-  std::optional<SpringLaw> spring;     ///< of the spring, if its stiffness is known
+  std::optional<SpringLaw> spring;     ///< law of the spring, if its stiffness is known
   std::optional<double> rim_diameter;  ///< m, where toe is measured as a length
 };
 

@@ -116,7 +116,7 @@ class Drawing {
     return count > 1 ? text + " " + std::to_string(i + 1) : text;
   }
 
-  /// Of the wheel that the study gives, not of the mirrored one.
+  /// Adds a handle to the wheel that the study gives, not to the mirrored one.
   void handle(std::string key, int point) {
     if (!other_) scene_.handles.push_back({.key = std::move(key), .point = point});
   }
@@ -175,7 +175,7 @@ class Drawing {
     scene_.bodies.push_back({named(c.name), {from, to}, Scene::BodyStyle::bar});
   }
 
-  /// Where a point fixed to a link is: the frames of three of its points then and now.
+  /// The position of a point fixed to a link: the frames of three of its points then and now.
   Vec3 link_point(const GuideLink& link, const GuidePosition& p, const Vec3& at) const {
     const Vec3 centre = guide_.wheel.centre, along = link.moved_by_rack ? guide_.rack_direction : Vec3{};
     std::vector<Vec3> then, now;

@@ -8,13 +8,13 @@
 
 namespace linkwright::suspension {
 
-/// What a scene of a wheel suspension shows: positions of a grid, all travels for each rack.
+/// The positions that a scene of a wheel suspension shows: all travels of a grid for each rack.
 struct GuideGrid {
   Driver travel = Driver::wheel_centre_z;
   std::span<const double> travels, racks;    ///< m
   std::span<const GuidePosition> positions;  ///< [rack * travels + travel]
   std::span<const WheelParameters> wheels;   ///< likewise
-  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis that is drawn
+  Driver lock = Driver::wheel_centre_z;      ///< coordinate held for the steering axis that is drawn
 };
 
 /// A wheel suspension over a grid of travel and rack: links, couplers, spring, wheel, steering axis, and in

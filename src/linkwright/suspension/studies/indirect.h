@@ -104,7 +104,7 @@ void fields(Visitor&& visit, IndirectOptimiser& o) {
 /// A synthesis as read.
 struct IndirectStudy {
   GuideDescription description;
-  IndirectTask task;  ///< of a left wheel: a right one is mirrored, and its answer mirrored back
+  IndirectTask task;  ///< task for a left wheel: a right one is mirrored, and its answer mirrored back
   IndirectOptimiser optimiser;
 };
 

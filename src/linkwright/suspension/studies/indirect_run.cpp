@@ -27,7 +27,7 @@ namespace {
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 double coordinate(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
-/// What one seed came to.
+/// The outcome of one seed.
 struct SeedRun {
   IndirectSynthesis answer;
   double error = infinity;  ///< m, largest misfit of the joints at the prescribed positions
@@ -46,7 +46,7 @@ IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& ta
   return evolve(task, options, seed, context);
 }
 
-/// What an answer is worth, turned to the side of the suspension.
+/// Measures an answer and turns it to the side of the suspension.
 SeedRun seed_run_of(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
   out.answer = std::move(answer);
@@ -197,7 +197,7 @@ void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) 
     visit(guide.couplers[i].name + ", second end", guide.couplers[i].point, s.description.couplers[i].point);
 }
 
-/// Where the positions are: the travels and racks of the analysis that shows the wheel there.
+/// The study that analyses the wheel at the prescribed positions, by their travels and racks.
 Value study_of(const IndirectStudy& s, const WheelGuide& guide) {
   std::vector<double> travels{0}, racks{0};
   for (const CarrierTarget& t : s.task.targets.poses) {
@@ -275,7 +275,7 @@ Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
   return table;
 }
 
-/// How well the positions determine each link.
+/// A table of how well the positions determine each link.
 Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
   Table table{.name = "conditioning"};
   std::vector<double> rms, largest, strongest, weakest;

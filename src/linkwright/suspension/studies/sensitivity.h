@@ -9,7 +9,7 @@
 #include "linkwright/suspension/wheel/guide_columns.h"
 #include "linkwright/suspension/wheel/tolerances.h"
 
-// What an analysis of a wheel suspension may ask about its hard points: `[sensitivity]` and `[tolerances]`.
+// The tables `[sensitivity]` and `[tolerances]`: hard points in an analysis of a wheel suspension.
 namespace linkwright::suspension {
 
 /// `[sensitivity]`.

@@ -58,10 +58,10 @@ struct SweepStudy {
   GuideDescription description;
   Driver travel = Driver::wheel_centre_z;
   std::vector<double> travels, racks;        ///< m, ascending
-  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis
+  Driver lock = Driver::wheel_centre_z;      ///< coordinate held while the steering axis is found
   std::vector<std::string> quantities;       ///< empty = all that the suspension has
   bool assemblies = false;                   ///< the other assembly modes are looked for
-  bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions
+  bool drawn = true;                         ///< true if a scene is wanted: a grid may have many positions
   std::optional<GuideDescription> baseline;  ///< another suspension, whose curves are laid behind
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
@@ -84,7 +84,7 @@ std::vector<const GuideColumn*> columns_of(const SweepStudy& study);
 /// Positions of a grid: for each rack all travels. Each rack is gone to at the travel next to zero, and the
 /// travels outwards from there, each from the one before; a position that is not reached keeps its reason.
 struct GridPositions {
-  std::size_t first_travel = 0, travels = 0;  ///< which of the travels asked for they are
+  std::size_t first_travel = 0, travels = 0;  ///< range of the positions among the travels of the study
   std::vector<GuidePosition> positions;       ///< [rack * travels + travel]
   std::vector<WheelParameters> wheels;        ///< likewise; singular where there is no position
 };

@@ -52,7 +52,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   return out;
 }
 
-/// Whether the tables of the study, and what they are made from, have room.
+/// True if the tables of the study, and the data they are made from, have room in memory.
 bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
   constexpr double of_rates = 3, of_anti_features = 3;
   const double columns = 3 + static_cast<double>(columns_of(s).size()) +

@@ -26,7 +26,7 @@ constexpr const char* scene_name = "travel";
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t most_scene_samples = 2500;
 
-/// Why quantities that the study asks for have no values.
+/// Reports why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
   const study::AddWarning warn{result.diagnostics};
   std::string_view told;
@@ -49,7 +49,7 @@ SweepStudy with_travels_of(SweepStudy study, const GridPositions& solved) {
 struct Grid {
   const SweepStudy& study;
   GridPositions solved;
-  std::size_t racks = 0;  ///< that were done
+  std::size_t racks = 0;  ///< racks that were done
 
   std::size_t rows() const { return racks * study.travels.size(); }
   double travel(std::size_t row) const { return study.travels[row % study.travels.size()]; }
@@ -138,7 +138,7 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
   return table;
 }
 
-/// What the spring does at the wheel, in further columns.
+/// Adds columns for the effect of the spring at the wheel.
 void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan& plan, const Grid& grid,
                      const RunContext& context) {
   constexpr std::size_t between_looks = 256;
@@ -195,7 +195,7 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
-  // As the trade draws them: travel upwards.
+  // Diagrams follow the custom of the trade: travel upwards.
   if (s.travels.size() > 1) {
     const study::AddPlot from_static{
         result, {.table = "bump", .x = "travel_m", .scene = scene_name, .upright = true}};
@@ -368,7 +368,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
   bool stopped = false;
   for (const double rack : racks) {
     if (context && context->interrupted()) break;
-    std::ptrdiff_t first = middle, last = middle;  // what the row has, first <= i < last
+    std::ptrdiff_t first = middle, last = middle;  // positions that the row has, first <= i < last
     const auto from = [&](const GuidePosition& start, std::ptrdiff_t at) {
       const auto i = static_cast<std::size_t>(at);
       row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;

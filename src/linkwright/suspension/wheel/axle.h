@@ -14,8 +14,8 @@ namespace linkwright::suspension {
 /// parallel.
 std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, const WheelParameters& right);
 
-/// What a small roll of the body towards this wheel does (rad per rad): both contact points stay on the road,
-/// so this one rises against the body by half the track times the roll, the other one falls.
+/// The effect of a small roll of the body towards this wheel (rad per rad): both contact points stay on the
+/// road, so this one rises against the body by half the track times the roll, the other one falls.
 struct RollGains {
   double toe = 0;  ///< roll steer: change of toe
   double camber =
@@ -23,7 +23,7 @@ struct RollGains {
 };
 RollGains roll_gains(const WheelParameters& wheel);
 
-/// Where an axle sits and how the vehicle is laid out.
+/// The position of an axle in the vehicle, and the layout of the vehicle.
 enum class AxlePlace { front, rear };
 constexpr std::array<EnumName<AxlePlace>, 2> names(AxlePlace) {
   return {{{AxlePlace::front, "front"}, {AxlePlace::rear, "rear"}}};
@@ -31,8 +31,8 @@ constexpr std::array<EnumName<AxlePlace>, 2> names(AxlePlace) {
 struct VehicleLayout {
   double wheelbase = 0;            ///< m, > 0
   double centre_height = 0;        ///< m, mass centre above the ground, > 0
-  double front_brake_share = 0.5;  ///< of the braking force, 0 to 1
-  double axle_drive_share = 1;     ///< of the driving force at this axle, 0 to 1
+  double front_brake_share = 0.5;  ///< share of the braking force, 0 to 1
+  double axle_drive_share = 1;     ///< share of the driving force at this axle, 0 to 1
 };
 
 /// Share of the load transfer that the links take instead of the springs, in percent; 100 = the body does not
@@ -48,7 +48,8 @@ struct AntiFeatures {
 };
 AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const VehicleLayout& layout);
 
-/// How near the steer angles of both wheels come to a common centre of turning on the line of the rear axle.
+/// The error of the steer angles of both wheels against a common centre of turning on the line of the rear
+/// axle.
 struct Ackermann {
   double ideal_inner = 0;  ///< rad, what the inner wheel should turn by when the outer one turns by `outer`
   double percent = 0;      ///< 100 = ideal, 0 = parallel, negative = the outer wheel turns more

@@ -14,7 +14,7 @@ Vec3 contact_of(const GuidePlan& plan, const GuidePosition& position) {
                                          wheel_angles(plan.side, plan.wheel, carrier.rotation));
 }
 
-/// As a whole from its wheels.
+/// The axle's position from those of its wheels.
 AxlePosition joined(GuidePosition left, GuidePosition right) {
   AxlePosition out{.left = std::move(left), .right = std::move(right)};
   for (const auto& [wheel, name] : {std::pair{&out.left, "left"}, std::pair{&out.right, "right"}}) {
@@ -57,7 +57,7 @@ AxlePosition solve_roll(const AxlePlan& plan, double roll, double heave, double 
                         const AxlePosition& start) {
   LINKWRIGHT_REQUIRE(std::abs(roll) < 1, "roll {} rad, needs to be within 1", roll);
   const double slope = std::tan(roll);
-  // Of a symmetric axle 0.
+  // Height of the left contact point above the right one; 0 for a symmetric axle.
   const double uneven = plan.left.contact.z - plan.right.contact.z;
   double track = plan.left.contact.y - plan.right.contact.y;
   AxlePosition at = start;

@@ -29,7 +29,7 @@ struct AxleInput {
 };
 
 struct AxlePosition {
-  Status status = Status::done;  ///< that of the first wheel that is not done
+  Status status = Status::done;  ///< status of the first wheel that is not done
   std::string reason;            ///< empty, or the wheel and its reason
   GuidePosition left, right;
 };
@@ -42,8 +42,8 @@ AxlePosition solve_axle(const AxlePlan& plan, const AxleInput& input, const Axle
 AxlePosition solve_roll(const AxlePlan& plan, double roll, double heave, double rack,
                         const AxlePosition& start);
 
-/// What an axle does at a position. Angles and rates of a wheel are in `left` and `right`, in the frame of
-/// the body; here is what takes both. Lateral: y of the vehicle, to the left.
+/// The parameters of an axle at a position. Angles and rates of a wheel are in `left` and `right`, in the
+/// frame of the body; these here take both wheels. Lateral: y of the vehicle, to the left.
 struct AxleParameters {
   /// singular: a wheel is at a limit of travel, only angles, track and road are known, the rest is NaN.
   Status status = Status::done;
@@ -75,13 +75,13 @@ struct AxleAckermann {
   double inner = 0, outer = 0;  ///< rad, > 0
   double ideal_inner = 0;       ///< rad
   double error = 0;             ///< rad, inner less ideal
-  double percent = 0;           ///< as in `ackermann`
+  double percent = 0;           ///< percentage, as in `ackermann`
 };
 /// Nothing where the wheels do not turn the same way. `track` (m) as in `ackermann`.
 std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, const AxleParameters& turned,
                                             double wheelbase, double track);
 
-/// What a sweep moves. Values: travel of both wheels (m, by the driver), roll (rad), rack (m).
+/// The input of a sweep. Values: travel of both wheels (m, by the driver), roll (rad), rack (m).
 enum class AxleMotion { parallel, roll, rack };
 constexpr std::array<EnumName<AxleMotion>, 3> names(AxleMotion) {
   return {{{AxleMotion::parallel, "parallel", "both wheels rise equally"},
@@ -92,7 +92,7 @@ constexpr std::array<EnumName<AxleMotion>, 3> names(AxleMotion) {
 struct AxleRow {
   double value = 0;
   AxlePosition position;
-  AxleParameters parameters;  ///< where the position is done
+  AxleParameters parameters;  ///< parameters, if the position is done
 };
 /// Positions along a motion, each followed from the last one that was found, the first from the reference.
 /// What does not move is held as in `held`: with `parallel` its rack, with `roll` its rack and the mean of

@@ -124,7 +124,7 @@ class Linearised {
   const Column<N>& bump() const { return bump_; }
   const Column<N>& steer() const { return steer_; }
 
-  /// How the place follows the numbers of `plan`.
+  /// Derivatives of the position by the numbers of `plan`.
   Columns<N> shifts(const BasicGuidePlan<T>& plan) const {
     BasicGuideEquations<T> equations;
     kernel::evaluate(plan, constant(position_.place), T(position_.input.rack), position_.driver,

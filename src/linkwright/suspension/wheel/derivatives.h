@@ -41,7 +41,7 @@ WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const GuidePositi
 /// Derivatives of every parameter along the motions, second derivatives of the position where the parameter
 /// is a rate: of `motion_ratio` by travel follows the wheel rate.
 struct InputDerivatives {
-  Status status = Status::done;  ///< as in WheelDerivatives
+  Status status = Status::done;  ///< status, as in WheelDerivatives
   WheelParameters parameters;
   WheelParameters by_travel;  ///< per metre of wheel-centre height, the rack held
   WheelParameters by_rack;    ///< per metre of rack, the height of the wheel centre held

@@ -13,18 +13,19 @@ namespace linkwright::suspension {
 struct GuideRow {
   const GuidePosition& position;
   const WheelParameters& wheel;
-  Driver lock = Driver::wheel_centre_z;  ///< of the steering axis
+  Driver lock = Driver::wheel_centre_z;  ///< coordinate held while the steering axis is found
 };
 
 /// One of the numbers that a position has, for tables, diagrams and targets: one name for it everywhere.
 struct GuideColumn {
-  std::string_view key;    ///< with unit: "toe_rad"
+  std::string_view key;    ///< key with unit: "toe_rad"
   std::string_view label;  ///< for people: "toe (rad)"
   std::string_view group;  ///< word of `output.quantities` that it belongs to: "steering_axis"
   /// The quantity: with the height of the wheel centre, the spring, the height of the contact point held,
   /// where that matters.
   std::optional<WheelQuantity> at_height, at_spring, at_contact;
-  double (*place)(const GuidePosition& position) = nullptr;  ///< where it is no quantity of the wheel
+  /// Value of a column that is no quantity of the wheel.
+  double (*place)(const GuidePosition& position) = nullptr;
 };
 
 /// All of them, in the order of tables.

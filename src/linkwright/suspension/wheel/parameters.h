@@ -48,9 +48,10 @@ struct BasicArmCentres {
   T side_swing_angle = missing;              ///< rad, of that arm above the ground
 };
 
-/// What the chassis engineer asks of a position. Rates are taken in the motion of the wheel with the rack
-/// held, per metre of wheel-centre height, unless the name says rack. Points are in the vehicle's frame;
-/// directions of numbers are the same for both wheels. Without a spring its numbers are NaN.
+/// The parameters of a wheel that chassis engineers ask for at a position. Rates are taken in the motion of
+/// the wheel with the rack held, per metre of wheel-centre height, unless the name says rack. Points are in
+/// the vehicle's frame; directions of numbers are the same for both wheels. Without a spring its numbers are
+/// NaN.
 template <class T>
 struct BasicWheelParameters {
   /// singular: at a limit of travel, where only angles and points are known and the rest is NaN.
@@ -68,7 +69,7 @@ struct BasicWheelParameters {
   T recession = missing;          ///< m, wheel centre rearward of that at the reference
   T toe_by_travel = missing;      ///< rad/m, bump steer: > 0 toes in when it rises
   T camber_by_travel = missing;   ///< rad/m
-  Vector3<T> velocity, turning;   ///< of the wheel centre (m/m) and of the carrier (rad/m)
+  Vector3<T> velocity, turning;  ///< velocity of the wheel centre (m/m) and of the carrier's rotation (rad/m)
   BasicContactVelocity<T> contact_velocity;  ///< m/m
   /// m above the ground line, both wheels travelling equally (27): with the carrier's velocity at the
   /// contact, and with that of the contact point.
@@ -87,9 +88,9 @@ struct BasicWheelParameters {
   /// m/rad, of the carrier's screw as it travels with the rack held; infinite where it only shifts.
   T screw_pitch = missing;
   BasicArmCentres<T> arms;
-  /// Of a suspension with a link on the rack; the second only with a spring.
+  /// Axes of a suspension with a link on the rack; the second only with a spring.
   std::optional<BasicSteeringAxis<T>> axis_at_height, axis_at_spring, axis_at_contact;
-  /// Of a suspension whose carrier has two ball joints, steered or not.
+  /// Axis of a suspension whose carrier has two ball joints, steered or not.
   std::optional<BasicSteeringAxis<T>> geometric_axis;
 };
 using WheelParameters = BasicWheelParameters<double>;
@@ -165,8 +166,8 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   axis(a.geometric_axis, b.geometric_axis);
 }
 
-/// How much of the parameters is wanted: at_rest is what a position shows without motion - angles, contact
-/// point, track, changes, length of the spring - and costs half.
+/// The part of the parameters that is wanted: at_rest is what a position shows without motion - angles,
+/// contact point, track, changes, length of the spring - and costs half.
 enum class Extent { at_rest, all };
 
 /// Everything at a position, whatever its driver. The steer angle about +z is -toe on the left and +toe on

@@ -87,14 +87,15 @@ enum class WheelQuantity {
   geometric_kingpin_offset,
 };
 
-/// What there is to say of one: all that reads, writes, draws or differentiates wheel parameters goes by this
-/// list. A further one is a member of the parameters with its line in `for_each_number`, its formula
-/// (detail/parameters_kernel.h), its name and row here, and a column (guide_columns.cpp) if tables show it.
+/// A row of the list of wheel quantities: all that reads, writes, draws or differentiates wheel parameters
+/// goes by this list. A further one is a member of the parameters with its line in `for_each_number`, its
+/// formula (detail/parameters_kernel.h), its name and row here, and a column (guide_columns.cpp) if tables
+/// show it.
 struct WheelQuantityRow {
   WheelQuantity quantity;
   std::string_view name, summary;
   std::string_view unit;                      ///< "m", "rad", "rad/m", "m/rad" or "1"
-  Extent extent;                              ///< whether a position shows it without motion
+  Extent extent;                              ///< at_rest if a position shows it without motion
   double (*value)(const WheelParameters& p);  ///< NaN where there is no such axis
 };
 

@@ -6,8 +6,8 @@
 
 namespace linkwright::suspension {
 
-/// How a wheel is steered at a position, while `lock` is held: height of the wheel centre or of the contact,
-/// or the spring. Exact, from the steering motion.
+/// The steering parameters of a wheel at a position, while `lock` is held: height of the wheel centre or of
+/// the contact, or the spring. Exact, from the steering motion.
 ///
 /// A lever arm is the moment about the steering axis by a unit force, as virtual work over the rate of toe;
 /// its sign is that of the toe (for both wheels), and a force the other way turns the other way.
@@ -35,7 +35,7 @@ struct SteeringParameters {
 std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
                                                       Driver lock);
 
-/// Whether any link of the suspension is on the rack.
+/// True if any link of the suspension is on the rack.
 bool is_steered(const GuidePlan& plan);
 
 /// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the

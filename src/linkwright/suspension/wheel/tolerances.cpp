@@ -53,7 +53,8 @@ void draw(const ToleranceTask& task, const MonteCarlo& options, int sample,
   }
 }
 
-/// What designs make of one value. About the nominal value, which is near: no digits are lost in the squares.
+/// The sums over all designs of one value, taken about the nominal value, which is near: no digits are lost
+/// in the squares.
 struct Sums {
   double solved = 0, sum = 0, square = 0, least = HUGE_VAL, greatest = -HUGE_VAL;
 
@@ -86,7 +87,7 @@ void summarise(const Sums& of, Band& band) {
     band.standard_deviation = std::sqrt(std::max(0.0, (of.square - of.sum * of.sum / n) / (n - 1)));
 }
 
-/// What the samples of one piece make, of [curve][position].
+/// The sums of the samples of one piece, of [curve][position].
 struct Piece {
   std::vector<Sums> sums;
   int samples = 0;  ///< 0 if it was interrupted

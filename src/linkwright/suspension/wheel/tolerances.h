@@ -10,7 +10,7 @@
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
-/// How far the curves of a wheel suspension move when its points are made within tolerances.
+/// The scatter of the curves of a wheel suspension whose points are made within tolerances.
 namespace linkwright::suspension {
 
 /// A number of the design, made within plus or minus `tolerance` (m, rad, 1), at least 0.
@@ -27,7 +27,7 @@ struct ToleranceTask {
   std::vector<WheelQuantity> curves;
 };
 
-/// How numbers lie in their tolerances.
+/// The distribution of numbers within their tolerances.
 enum class Scatter { uniform, normal };
 constexpr std::array<EnumName<Scatter>, 2> names(Scatter) {
   return {{{Scatter::uniform, "uniform", "anywhere within the tolerance alike"},
@@ -45,9 +45,9 @@ struct Band {
   double nominal = 0;
   double worst_case = 0;  ///< plus and minus: all numbers at the bad ends of their tolerances, to first order
   double root_sum_square = 0;  ///< plus and minus: tolerances of independent numbers, to first order
-  /// Of the designs drawn; NaN without any.
+  /// Statistics of the designs drawn; NaN without any.
   double mean = 0, standard_deviation = 0, least = 0, greatest = 0;
-  int solved = 0;              ///< of them, those that have a value here
+  int solved = 0;              ///< designs drawn that have a value here
   std::vector<double> shares;  ///< [number]: derivative times tolerance, whose sizes add up to the worst case
 };
 

@@ -7,8 +7,8 @@
 
 namespace linkwright::suspension {
 
-/// What a design comes to, for a method that goes by derivatives: with respect to the design variables in
-/// parts of their ranges.
+/// The results of a design, for a method that uses derivatives: with respect to the design variables in parts
+/// of their ranges.
 struct DirectPoint {
   bool assembled = false;
   double reached = 0;

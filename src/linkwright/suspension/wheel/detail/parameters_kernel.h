@@ -138,7 +138,7 @@ std::array<Plane<T>, 2> arm_planes(const Placed<T>& placed, const GuideConstruct
   return out;
 }
 
-/// Where the traces of both planes meet in a view, from a point of it: (across, up) / weight.
+/// The intersection of the traces of both planes in a view, from a point of it: (across, up) / weight.
 template <class T>
 struct Meeting {
   T across{0}, up{0}, weight{0};
@@ -167,13 +167,13 @@ BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contac
   const T ahead = side.across / side.weight, over = side.up / side.weight;
   out.side = {contact.x + ahead, contact.z + over};
   out.side_swing_arm = hypot(ahead, over);
-  // Of parallel traces the ratio still gives the slope.
+  // The ratio still gives the slope of parallel traces.
   const T slope = side.up / side.across;
   out.side_swing_angle = atan(ahead < 0 ? -slope : slope);
   return out;
 }
 
-/// What a place shows by constructions, without motion.
+/// Adds the parameters that constructions give in a pose, without motion.
 template <class T>
 void add_constructions(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
                        BasicWheelParameters<T>& out) {
@@ -182,7 +182,7 @@ void add_constructions(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& 
   out.arms = arm_centres(placed, out.contact);
 }
 
-/// What a place shows by itself.
+/// The parameters that a pose shows by itself.
 template <class T>
 BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place,
                                            const T& rack) {
@@ -205,7 +205,8 @@ BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const 
   return out;
 }
 
-/// What the motions show: `bump` at unit rate of the wheel centre's height, `steer` at unit rate of the rack.
+/// Adds the parameters that follow from motions: `bump` at unit rate of the wheel centre's height, `steer` at
+/// unit rate of the rack.
 template <class T>
 void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
                const BasicTwist<T>& bump, const BasicTwist<T>& steer, BasicWheelParameters<T>& out) {
