@@ -26,11 +26,11 @@ constexpr double way_to_pose = 1e-7;    // by the unit of length, rad: from ther
 constexpr double same_singular = 1e-3;  // poses that are one where modes meet, known to half the digits
 constexpr std::uint64_t start_seed = 2;
 
-// With the drives held.
+// A robot whose drives are held.
 struct HeldRobot {
   const Robot& robot;
   std::span<const double> angles;
-  double unit = 0;      // of length: mean rod
+  double unit = 0;      // unit of length: mean rod
   PlatformLegs legs{};  // in that unit, seen from the first leg's joints
   Vec3 first_elbow;
 
@@ -141,7 +141,7 @@ bool knows(const std::vector<PlatformPoint>& solutions, const PlatformPoint& x,
 
 struct Found {
   std::vector<PlatformPoint> solutions, singular_ends;
-  int infinite = 0, singular = 0, lost = 0;  // of the last attempt
+  int infinite = 0, singular = 0, lost = 0;  // paths of the last attempt
   int paths = 0, ways = 0;
   bool conjugate_closed = true;
 
@@ -245,7 +245,7 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
   for (const PlatformPoint& x : found.solutions)
     if (!take(x, nearly_real, way_to_pose, same_solution)) others.push_back(x);
   out.finite = static_cast<int>(real.size() + others.size());
-  // Where modes meet, they are known to half the digits: one of them stands for all.
+  // Modes that coincide are known to half the digits: one of them stands for all.
   for (const PlatformPoint& x : found.singular_ends) take(x, same_singular, same_singular, same_singular);
   const auto height = [](const AssemblyMode& m) {
     const Vec3& p = m.pose.position;

@@ -23,7 +23,7 @@ struct AssemblyMode {
 };
 
 struct AssemblyModesOptions {
-  std::uint64_t seed = 1;  ///< of the ways through complex platforms: another way, the same modes
+  std::uint64_t seed = 1;  ///< seed of the paths through complex platforms: another path, the same modes
   int attempts = 4;        ///< at most, each on another way, until all solutions are found
 };
 
@@ -40,13 +40,13 @@ struct AssemblyModes {
   int real = 0;       ///< modes, also those where two meet
   int infinite = 0;   ///< paths of the last attempt that went off to infinity
   int singular = 0;   ///< paths of the last attempt that met others at the end
-  int certified = 0;  ///< of the `finite` solutions, proved to be there and different
+  int certified = 0;  ///< number of the `finite` solutions that are proved to exist and to differ
   /// The conjugate of each solution was found by a path of its own, or is real: a check on the paths.
   bool conjugate_closed = false;
   /// A proof that there is no other (isolated) mode: 40 solutions are certified, each one either real or not,
   /// and there are never more.
   bool complete = false;
-  std::string note;  ///< what is missing and why; empty when all 40 are found
+  std::string note;  ///< says what is missing and why; empty when all 40 are found
 };
 
 /// All assembly modes of a robot of Freedom::space at its arm angles (rad): with the drives held it is a

@@ -7,7 +7,7 @@
 namespace linkwright::parallel {
 namespace {
 
-// Of two complex numbers, without the look for infinities that std::complex makes.
+// Product of two complex numbers, without the look for infinities that std::complex makes.
 Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -274,7 +274,7 @@ void expand(const PlatformLegs& legs, const PlatformLegs& rate, const PlatformPo
   n[0] = product(x, 0, x, 0);
   finish(0);
   for (int k = 1; k <= series_order; ++k) {
-    // What the terms below give to order k; the Jacobian times term k is what is missing.
+    // The part of order k that the terms below give; the Jacobian times term k makes up the rest.
     Quaternions known{};
     change.add_to(known, out[k - 1]);
     Six f;

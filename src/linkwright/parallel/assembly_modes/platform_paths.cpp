@@ -9,12 +9,12 @@ namespace linkwright::parallel {
 namespace {
 
 constexpr double same_path_end = 1e-7;   // distance of solutions that are one
-constexpr double shortest_step = 1e-12;  // of the way
+constexpr double shortest_step = 1e-12;  // share of the path
 constexpr int most_steps = 500;
-constexpr double nearly_there = 1e-6;     // of the way, for a path that is stuck
+constexpr double nearly_there = 1e-6;     // share of the path done, for a path that is stuck
 constexpr double on_the_last_part = 0.1;  // the same, on its way out
-constexpr double small = 0.2;             // of |e| against |x|, on the way out
-constexpr double far_correction = 1e-3;   // of the first Newton step: the series failed
+constexpr double small = 0.2;             // ratio of |e| to |x|, for a path that leads to infinity
+constexpr double far_correction = 1e-3;   // size of the first Newton step: the series failed
 constexpr double path_rounding = 1e-13;
 
 struct Workspace {

@@ -18,7 +18,7 @@ enum class PathEnd {
 
 struct PlatformPath {
   PathEnd end = PathEnd::lost;
-  PlatformPoint point;  ///< of length 1, at `at`
+  PlatformPoint point;  ///< point of length 1, at `at`
   double at = 0;        ///< 1 = arrived
   int steps = 0;
 };

@@ -147,7 +147,7 @@ PlatformProof prove(const PlatformLegs& legs, const PlatformPoint& point) {
     kappa = std::max(kappa, up * second);
   }
   PlatformProof out;
-  // With room to spare: the root of the condition is at most 2 beta / (1 - delta).
+  // The radius has room to spare: the root of the condition is at most 2 beta / (1 - delta).
   const double radius = 2.1 * beta / (1 - delta);
   out.unique = delta < 0.5 && up * (beta + delta * radius + kappa * radius * radius / 2) <= radius &&
                up * (delta + kappa * radius) < 1;

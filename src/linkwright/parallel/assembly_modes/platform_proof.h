@@ -4,7 +4,7 @@
 
 namespace linkwright::parallel {
 
-/// What is proved about the solutions of a platform near a point, rounding included: exactly one is within
+/// The proof about the solutions of a platform near a point, rounding included: exactly one is within
 /// `radius` of it, both scaled so that the greatest of the eight numbers, the chart, is 1.
 struct PlatformProof {
   bool unique = false;

@@ -9,14 +9,14 @@
 /// Indices of poses of a designed robot, with exact derivatives by its dimensions.
 namespace linkwright::parallel {
 
-/// What is measured.
+/// The indices to be measured.
 struct DexterityMeasures {
   double length = 1;        ///< m, makes the turning of a HEXA comparable, see jacobians.h
   bool output = false;      ///< output indices, too
-  bool constraint = false;  ///< of a DELTA: the constraint index, too
+  bool constraint = false;  ///< true for the constraint index of a DELTA, too
 };
 
-/// Of one pose. `by[j]` are derivatives by dimension j.
+/// Indices of one pose. `by[j]` are derivatives by dimension j.
 ///
 /// The conditioning has a sign, that of det Jx relative to the assembly of the family: it goes through 0
 /// where the rods do not hold the platform (type 2), and a robot does not get to the poses beyond.
@@ -55,7 +55,8 @@ struct PoseSet {
 struct SetDexterity {
   std::vector<double> conditioning, constraint;  ///< the latter where it was asked for
   std::array<std::vector<double>, most_legs> input_square, cosine, sine, side, output;
-  std::array<std::vector<double>, most_dimensions> conditioning_by;  ///< where it was asked for
+  /// Derivatives, where they were asked for.
+  std::array<std::vector<double>, most_dimensions> conditioning_by;
 };
 /// Allocates only where `out` is smaller than before. The bits of a pose do not depend on the others.
 void measure(const DesignedRobot& designed, const WorkingMode& mode, const DexterityMeasures& what,

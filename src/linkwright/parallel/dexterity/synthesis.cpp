@@ -15,8 +15,9 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr int round_starts = 4;           ///< between looks at what was found
-constexpr std::size_t many_poses = 1000;  ///< of a draw: so many are worth a look at the context
+constexpr int round_starts = 4;  ///< between looks at what was found
+/// Number of poses in a draw: so many are worth a look at the context.
+constexpr std::size_t many_poses = 1000;
 
 struct Drawn {
   std::vector<double> unknowns;
@@ -46,7 +47,7 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   return out;
 }
 
-/// Of the legs, that one does not get to a node.
+/// True if this is the limit of a leg that does not reach a node.
 bool is_out_of_reach(const DexterityStand& stand) {
   return (stand.limit == DexterityLimit::reach || stand.limit == DexterityLimit::input) && stand.value < 0;
 }
@@ -117,7 +118,7 @@ void add_stands(const DexterityModel& model, const Extremes& extremes, std::span
   std::vector<DexterityModel::Whole> whole;
   model.whole(unknowns, whole, nullptr);
   for (std::size_t k = 0; k < whole.size(); ++k) {
-    // Of the two ends of a Pi-joint the one with less to spare.
+    // Only that end of a Pi-joint counts which has less to spare.
     if (k > 0 && whole[k].limit == whole[k - 1].limit && whole[k].excess <= whole[k - 1].excess) continue;
     if (k > 0 && whole[k].limit == whole[k - 1].limit) out.limits.pop_back();
     finish({.limit = whole[k].limit,
@@ -194,7 +195,7 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
   return assessed(model, x, model.extremes(model.designed(x), work));
 }
 
-/// What the nodes overlook.
+/// Looks for poses between the nodes that miss a limit.
 void look_between(const DexterityModel& model, RunContext& context, DexteritySynthesis& out) {
   const DexterityDesign& best = out.best;
   const DesignedRobot designed = model.designed(best.x);

@@ -29,9 +29,9 @@ constexpr std::array<EnumName<DexterityGoal>, 3> names(DexterityGoal) {
            {DexterityGoal::size, "size", "arm and rod as short as the limits allow"}}};
 }
 
-/// What the robot must keep to at every node of the region; at its default a limit asks for nothing but for
-/// that of the constraint. The robot always has to reach all nodes, in the assembly that it has in the middle
-/// of the region.
+/// The limits that the robot must keep at every node of the region; at its default a limit asks for nothing
+/// but for that of the constraint. The robot always has to reach all nodes, in the assembly that it has in
+/// the middle of the region.
 struct DexterityLimits {
   double conditioning = 0;  ///< local conditioning index at least, in [0, 1]
   /// Constraint index of a DELTA at least, in [0, 1]; 0 leaves the sign of det C and the floor
@@ -42,7 +42,7 @@ struct DexterityLimits {
   double output = 0;             ///< output transmission index at least, in [0, 1]
   double transmission = 0;       ///< both of them at least, in [0, 1]
   double arm_travel = infinity;  ///< largest less least arm angle, all legs (rad)
-  double side_swing = pi / 2;    ///< of the rods out of the planes of their arms, at most (rad)
+  double side_swing = pi / 2;    ///< largest angle of the rods out of the planes of their arms (rad)
   double size = infinity;        ///< arm + rod at most (m)
 };
 
@@ -74,7 +74,7 @@ struct DexterityTask {
   std::optional<PiTravelTask> pi_joint;
 };
 
-/// What keeps it from being a task, with the value; nothing if all is well.
+/// Says what keeps it from being a task, with the value; nothing if it is one.
 std::optional<std::string> problem(const DexterityTask& task);
 
 /// Names with units and bounds of the design variables: dimensions of the family, then mounting and ratio of
@@ -117,15 +117,15 @@ constexpr std::array<EnumName<DexterityLimit>, 15> names(DexterityLimit) {
        {DexterityLimit::pi_rate_most, "pi_rate_most", "diagonal per angle, for speed (m)"}}};
 }
 
-/// How a design stands to a limit.
+/// The margin of a design against a limit.
 struct DexterityStand {
   DexterityLimit limit = DexterityLimit::reach;
   double value = 0, bound = 0;
   bool at_least = false;  ///< value >= bound is asked for, else value <= bound
   double excess = 0;      ///< more than 0: missed, dimensionless
   bool active = false;    ///< met with nothing to spare
-  int leg = -1;           ///< where it is closest, from 0; -1 = the limit is not of a leg
-  Vec3 place{};           ///< where it is closest (base axes, m), if it is of a pose
+  int leg = -1;           ///< leg that is closest to the limit, from 0; -1 = the limit is not of a leg
+  Vec3 place{};           ///< position where it is closest (base axes, m), if it is the limit of a pose
 };
 
 enum class BoundState { free, at_lower, at_upper, fixed };
@@ -139,31 +139,31 @@ constexpr std::array<EnumName<BoundState>, 4> names(BoundState) {
 /// A design at all nodes of the region.
 struct DexterityDesign {
   Status status = Status::infeasible;  ///< done, or infeasible: a limit is missed
-  Sentence reason;                     ///< why it is infeasible: "reach is missed by leg 2 at ..."
-  std::vector<double> x;               ///< as design_variables
+  Sentence reason;                     ///< says why it is infeasible: "reach is missed by leg 2 at ..."
+  std::vector<double> x;               ///< variables, as design_variables
   std::vector<BoundState> bounds;
   Robot robot;
   Drives drives{};       ///< Pi-joints with the travel that is used, where the task has them
-  Vec3 origin{};         ///< of the region in base axes (m), see prescribed_region.h
+  Vec3 origin{};         ///< origin of the region in base axes (m), see prescribed_region.h
   double objective = 0;  ///< least index, mean index, or size (m): what the goal is about
   double violation = 0;  ///< sum of what limits are missed by
   double size = 0;       ///< arm + rod (m)
   double worst = 0;    ///< least local conditioning index of all nodes, below 0 beyond reach or a singularity
   Vec3 worst_place{};  ///< base axes (m)
-  double mean = 0;     ///< of the cells (GCI); indices below 0 count as they are
+  double mean = 0;     ///< mean over the cells (GCI); indices below 0 count as they are
   double arm_lowest = 0, arm_highest = 0;  ///< outward angles used (rad)
   std::vector<DexterityStand> limits;
 };
-/// Whether a goal of size has the limits without which the smallest robot is a singular one: conditioning, or
+/// True if a goal of size has the limits without which the smallest robot is a singular one: conditioning, or
 /// transmission, or both input and output.
 bool size_is_limited(const DexterityLimits& limits);
 
 /// Throws ContractError for a task with a problem and another number of values than variables.
 DexterityDesign assess(const DexterityTask& task, std::span<const double> x);
 
-/// What holds not at the nodes alone, but all over the region and in every orientation: the legs reach,
-/// nothing is singular, the assembly is that of the middle, the constraint index is at most 5e-4 below its
-/// limit.
+/// Proves what holds not at the nodes alone, but all over the region and in every orientation: the legs
+/// reach, nothing is singular, the assembly is that of the middle, the constraint index is at most 5e-4 below
+/// its limit.
 BodyProof prove_region(const DexterityTask& task, const DexterityDesign& design);
 
 struct DexterityOptions {
@@ -172,12 +172,12 @@ struct DexterityOptions {
   int confirmations = 3;  ///< end when so many of them found the best; 0 = make all starts
   double same = 1e-7;     ///< relative: ends whose objective differs by less found the same
   int exchanges = 30;     ///< rounds of adding poses that miss a limit, of a local search
-  int evaluations = 300;  ///< of the local search in one such round
+  int evaluations = 300;  ///< largest number of evaluations of the local search in one such round
   /// Look between the nodes, too, where a limit is close, and keep to the limits there.
   bool between_nodes = false;
 };
 
-/// How one start ended.
+/// The end of one start.
 struct DexterityStart {
   double objective = nan;
   double violation = infinity;

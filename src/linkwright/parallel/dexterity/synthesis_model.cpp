@@ -30,7 +30,7 @@ void add(std::vector<PoseSet>& parts, const Mat3& rotation, const Vec3& place) {
   set.z.push_back(place.z);
 }
 
-/// Whether a coordinate of a node is the first, the middle or the last of its row.
+/// True if a coordinate of a node is the first, the middle or the last of its row.
 bool stands_out(const PrescribedRegion& region, const RegionPoint& point) {
   for (int k = 0; k < coordinates(region.shape); ++k) {
     const auto [lower, upper] = coordinate_range(region, k);

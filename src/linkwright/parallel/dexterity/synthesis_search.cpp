@@ -14,7 +14,7 @@
 namespace linkwright::parallel {
 namespace {
 
-/// What an index is for the model's limits, see Extreme.
+/// The value of an index for the model's limits, see Extreme.
 double index_of(PoseLimit::Kind kind, int leg, const PoseDexterity<double>& there) {
   switch (kind) {
     case PoseLimit::input:
@@ -90,7 +90,7 @@ class Search {
   std::vector<PoseLimit> functions_, limits_;  ///< the working set
   std::vector<std::size_t> poses_;             ///< all of them, each once
   std::vector<std::size_t> slot_of_function_, slot_of_limit_;
-  std::vector<PoseDexterity<double>> there_;  ///< of each of `poses_`, at `last_`
+  std::vector<PoseDexterity<double>> there_;  ///< indices of each of `poses_`, at `last_`
   std::vector<double> last_, whole_by_;
   std::vector<DexterityModel::Whole> whole_;
   std::vector<DexterityModel::At> between_;
@@ -284,7 +284,7 @@ std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const Desig
   std::vector<double> values;
   model.indices(designed, kind, leg, work, values);
   poses += static_cast<std::int64_t>(values.size());
-  // Of many nodes few are close to the worst: only those are put in order.
+  // Few of many nodes are close to the worst: only those are put in order.
   double worst = infinity;
   for (const double v : values) worst = std::min(worst, sign * v);
   std::vector<std::size_t> order;

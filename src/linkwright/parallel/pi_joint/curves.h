@@ -13,13 +13,13 @@
 /// 15-17, and those of stiffness and weight.
 namespace linkwright::parallel {
 
-/// What a joint carries, as far as it is known.
+/// The equipment of a joint, as far as it is known.
 struct PiEquipment {
   std::optional<PiDrive> drive;
   std::optional<PiBars> bars;
-  double share = 1;  ///< of the torque at A, see pi_stiffness.h
+  double share = 1;  ///< share of the torque at A, see pi_stiffness.h
   std::optional<PiMasses> masses;
-  PiLoad load;  ///< with masses
+  PiLoad load;  ///< load, used with masses
 };
 
 /// Values at one angle (SI); NaN where the equipment that they need is not given.
@@ -31,9 +31,9 @@ struct PiCurvePoint {
   double inverse_jacobian = 0;  ///< 1 / J; infinite at +-pi/2
   double jacobian_slope = 0;    ///< J'
   PiAngles angles;
-  PiOutput output = {not_known, not_known, not_known};  ///< of the drive
-  double stiffness = not_known;                         ///< of the bars
-  double inertia = not_known;                           ///< of the masses
+  PiOutput output = {not_known, not_known, not_known};  ///< output of the drive
+  double stiffness = not_known;                         ///< stiffness of the bars
+  double inertia = not_known;                           ///< inertia of the masses
   double holding_torque = not_known;                    ///< at rest against gravity and load
   double holding_force = not_known;                     ///< the same along the diagonal
 };

@@ -282,7 +282,7 @@ PiDesignReport design_pi_joint(const PiRequirements& requirements, const PiDesig
     report.evaluations += local.evaluations;
     ends.push_back(task.design(x));
   };
-  // Where requirements conflict about the best centre, another one may still meet them.
+  // Requirements may conflict about the best centre, and another one may still meet them.
   if (report.closed_form.design) {
     search(unknowns(*report.closed_form.design));
   } else {

@@ -18,7 +18,7 @@
 /// b <= a, k <= 1.
 namespace linkwright::parallel {
 
-/// What a joint is over the range theta_c +- Delta. J has one maximum and is least at an end.
+/// The values of a joint over the range theta_c +- Delta. J has one maximum and is least at an end.
 struct PiRangeValues {
   double least_jacobian = 0, greatest_jacobian = 0;  ///< J (m)
   double least_diagonal = 0, greatest_diagonal = 0;  ///< d (m)
@@ -38,7 +38,7 @@ double centred_ratio_limit(double half_travel, double telescoping);
 /// The same for a range about 0; at most 1.
 double symmetric_ratio_limit(double half_travel, double telescoping);
 
-/// What can limit a joint.
+/// A limit that a joint can reach.
 enum class PiLimit { torque, resolution, speed, transmission, stroke, telescoping, ends, ratio };
 constexpr std::array<EnumName<PiLimit>, 8> names(PiLimit) {
   return {{{PiLimit::torque, "torque", "torque at the output with the force of the diagonal"},
@@ -55,9 +55,9 @@ constexpr std::array<EnumName<PiLimit>, 8> names(PiLimit) {
 struct PiRequirements {
   double half_travel = 0;         ///< Delta in (0, pi/2) (rad)
   double torque = 0;              ///< at the output, everywhere in the range (N m), with
-  double force_limit = infinity;  ///< of the diagonal (N)
-  double speed = 0;               ///< of the output (rad/s), with
-  double rate_limit = infinity;   ///< of the diagonal (m/s)
+  double force_limit = infinity;  ///< largest force of the diagonal (N)
+  double speed = 0;               ///< required speed of the output (rad/s), with
+  double rate_limit = infinity;   ///< largest speed of the diagonal (m/s)
   double quantum = 0;             ///< step of the diagonal (m), which makes
   double resolution = infinity;   ///< a turn of at most this (rad)
   double transmission = 0;        ///< least mu, below pi/2 (rad)
@@ -66,8 +66,8 @@ struct PiRequirements {
   double end_margin = pi / 180;   ///< between the range and +-pi/2, above 0 (rad)
 };
 
-/// What keeps them from being a task, with the value; nothing if all is well. Something must ask for a size:
-/// torque with a force limit, or a quantum with a resolution.
+/// Says what keeps them from being a task, with the value; nothing if they are one. Something must ask for a
+/// size: torque with a force limit, or a quantum with a resolution.
 std::optional<std::string> problem(const PiRequirements& requirements);
 
 struct PiDesign {
@@ -81,15 +81,16 @@ struct PiDesign {
 /// Two requirements that no joint with the best centre meets together.
 struct PiConflict {
   PiLimit low, high;
-  bool of_ratio = false;             ///< limits of the ratio k; else of the base length b (m)
-  double at_least = 0, at_most = 0;  ///< what the first asks for, and what the second allows
+  bool of_ratio = false;  ///< limits of the ratio k; else of the base length b (m)
+  /// Smallest value that the first requires, and largest that the second allows.
+  double at_least = 0, at_most = 0;
 };
 /// For example "torque asks for a base of at least 61.5 mm, stroke allows at most 60 mm".
 Sentence words_of(const PiConflict& conflict);
 
 /// The design by limits in closed form, for the best centre: smallest b, largest k, a = b / k.
 struct PiClosedForm {
-  std::optional<PiDesign> design;     ///< when there is no conflict; meets all requirements
+  std::optional<PiDesign> design;     ///< design that meets all requirements, if there is no conflict
   std::vector<PiConflict> conflicts;  ///< all pairs
 };
 /// Throws ContractError for requirements with a problem.
@@ -116,7 +117,7 @@ struct PiDesignReport {
   /// The closed form is as good as the best that was found (within tolerance of 1e-7 of the size).
   bool closed_form_is_best = false;
   std::vector<PiActiveLimit> active;  ///< at the best design, dearest first; empty when it is infeasible
-  /// What is left of the gradient of the logarithm of the size, relative, when those are taken into account.
+  /// The rest of the gradient of the logarithm of the size, relative, when those are taken into account.
   double stationarity = nan;
   int starts = 0, reached_best = 0;  ///< local searches, and those that came to the size of the best
   int evaluations = 0;

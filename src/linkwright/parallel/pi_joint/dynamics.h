@@ -13,18 +13,18 @@
 namespace linkwright::parallel {
 
 struct PiMasses {
-  double arm_inertia = 0;    ///< of each arm about its pivot (kg m2)
-  double arm_mass = 0;       ///< of each arm (kg)
+  double arm_inertia = 0;    ///< inertia of each arm about its pivot (kg m2)
+  double arm_mass = 0;       ///< mass of each arm (kg)
   double arm_centre = 0;     ///< mass centre of each arm from its pivot (m)
-  double coupler_mass = 0;   ///< with what it carries that does not turn either (kg)
+  double coupler_mass = 0;   ///< mass of the coupler and of the load on it that does not turn either (kg)
   double nut_mass = 0;       ///< m1, of the part of the diagonal that turns about O (kg)
   double nut_centre = 0;     ///< l1: its mass centre from O (m)
   double nut_inertia = 0;    ///< I1, about its mass centre (kg m2)
   double rod_mass = 0;       ///< m2, of the part of the diagonal that ends at A (kg)
   double rod_centre = 0;     ///< l2: its mass centre from A towards O (m)
   double rod_inertia = 0;    ///< I2, about its mass centre (kg m2)
-  double rotor_inertia = 0;  ///< of motor and screw, about the axis of the screw (kg m2)
-  double lead = 0;           ///< of the screw (m); needed with an inertia of the rotor
+  double rotor_inertia = 0;  ///< inertia of motor and screw, about the axis of the screw (kg m2)
+  double lead = 0;           ///< lead of the screw (m); needed with an inertia of the rotor
 };
 
 /// The lead belongs to the screw, not to its masses.
@@ -48,10 +48,10 @@ void fields(Visitor&& visit, PiMasses& m) {
   visit(number("rotor_inertia", "of motor and screw about the axis of the screw", inertia), m.rotor_inertia);
 }
 
-/// What keeps them from being masses, with the value; nothing if all is well.
+/// Says what keeps them from being masses, with the value; nothing if they are masses.
 std::optional<std::string> problem(const PiMasses& masses);
 
-/// What acts on the joint from outside.
+/// The external load on the joint.
 struct PiLoad {
   double gravity_x = 0;  ///< in axes of the joint (m/s2); for a base that stands upright (0, -9.81)
   double gravity_y = 0;
@@ -68,7 +68,7 @@ double potential(const PiJoint& joint, const PiMasses& masses, const PiLoad& loa
 /// V' = dV/dtheta: torque that holds the joint at rest against gravity (N m).
 double gravity_torque(const PiJoint& joint, const PiMasses& masses, const PiLoad& load, double angle);
 
-/// What the drive must give.
+/// The effort that the drive must give.
 struct PiEffort {
   double torque = 0;  ///< T, as a torque on the arms: I theta'' + I' theta'^2 / 2 + V' - load (N m)
   double force = 0;   ///< T / J along the diagonal, positive where it lengthens it (N); infinite or NaN at

@@ -8,13 +8,14 @@
 /// batches.
 namespace linkwright::parallel {
 
-/// What all of them are made of, at the half angle h = (theta + pi/2) / 2. Sums of sines that cancel where
-/// the joint is folded (theta = -pi/2, k near 1) are written as sums that do not: 1 + sin(theta) = 2 sin^2 h.
+/// The terms from which all of them are made, at the half angle h = (theta + pi/2) / 2. Sums of sines that
+/// cancel where the joint is folded (theta = -pi/2, k near 1) are written as sums that do not: 1 + sin(theta)
+/// = 2 sin^2 h.
 template <class T>
 struct PiTerms {
   T arm, ratio;  ///< a (m), k
   T lift;        ///< 1 + sin(theta)
-  T cosine;      ///< of theta
+  T cosine;      ///< cosine of theta
   T fold;        ///< 1 - k
   T square;      ///< D^2 = 1 + k^2 + 2 k sin(theta)
   T root;        ///< D

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double not_known = nan;
 
-// What a diagonal that was computed from lengths may lie beyond its limits: a few roundings of the longest.
+// The amount by which a diagonal computed from lengths may exceed its limits: a few roundings of the longest.
 constexpr double slack = 4 * tolerance::epsilon;
 
 }  // namespace
@@ -51,7 +51,7 @@ PiAngles angles(const PiJoint& joint, double angle) {
 
 PiDirectionSlopes direction_slopes(const PiJoint& joint, double angle) {
   const PiTerms<double> t = pi_terms(joint, angle);
-  // With k = 1 the diagonal always bisects the angle between arm and base.
+  // For k = 1 the diagonal always bisects the angle between arm and base.
   if (t.root == 0) return {.slope = 0.5, .curvature = 0};
   return {.slope = pi_direction_slope(t), .curvature = pi_direction_curvature(t)};
 }

@@ -33,7 +33,7 @@ struct PiJoint {
 /// b: length of the base between the pivots and of the coupler (m).
 inline double base_length(const PiJoint& joint) { return joint.ratio * joint.arm; }
 
-/// What keeps it from being a Pi-joint, with the value; nothing if all is well. The functions below do not
+/// Says what keeps it from being a Pi-joint, with the value; nothing if it is one. The functions below do not
 /// ask again.
 std::optional<std::string> problem(const PiJoint& joint);
 
@@ -65,7 +65,7 @@ struct PiAngle {
   /// done, or no_assembly where the diagonal is outside |a - b| ... a + b by more than rounding.
   Status status = Status::done;
   double angle = nan;  ///< theta in [-pi/2, pi/2]; NaN when not done
-  double gap = 0;      ///< how far the diagonal is too long (> 0) or too short (< 0) (m)
+  double gap = 0;      ///< error of the diagonal, too long (> 0) or too short (< 0) (m)
 };
 /// (3)-(5) as half angles. Its error grows towards both limits of the diagonal, where the joint is singular:
 /// rounding of d by eps d moves theta by eps d / J.

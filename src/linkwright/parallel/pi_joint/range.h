@@ -8,7 +8,7 @@ namespace linkwright::parallel {
 /// A number with its derivatives by arm, ratio, lowest and highest angle, in this order.
 using PiRangeNumber = math::Dual<4>;
 
-/// What a Pi-joint comes to between two of its angles, with exact derivatives. sin(mu) and the rate J = a
+/// The values of a Pi-joint between two of its angles, with exact derivatives. sin(mu) and the rate J = a
 /// sin(mu) rise to one maximum, where sin(theta) = -k (k < 1) or -1/k, so that they are least at an end.
 struct PiRange {
   PiRangeNumber shortest, longest;                    ///< d at the ends (m)

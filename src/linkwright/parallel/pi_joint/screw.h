@@ -49,11 +49,11 @@ struct PiMotor {
 struct PiDrive {
   PiScrew screw;
   PiMotor motor;
-  double force_limit = infinity;  ///< of screw and bearings (N)
-  double rate_limit = infinity;   ///< of the diagonal (m/s)
+  double force_limit = infinity;  ///< largest force of screw and bearings (N)
+  double rate_limit = infinity;   ///< largest speed of the diagonal (m/s)
 };
 
-/// What keeps it from being a drive, with the value; nothing if all is well.
+/// Says what keeps it from being a drive, with the value; nothing if it is one.
 std::optional<std::string> problem(const PiDrive& drive);
 
 /// Step of the diagonal (m): lead by steps per turn; 0 for a motor without steps.
@@ -63,14 +63,14 @@ double quantum(const PiDrive& drive);
 /// where its torque curve ends.
 double top_rate(const PiDrive& drive);
 
-/// Which way power flows through the screw.
+/// The direction of the power flow through the screw.
 enum class PowerFlow { motor_drives, load_drives };
 
 /// Largest force along the diagonal (N) that can be driven, or held back, at a rate of the diagonal (m/s, of
 /// any sign); 0 beyond top_rate.
 double available_force(const PiDrive& drive, double rate, PowerFlow flow = PowerFlow::motor_drives);
 
-/// What a drive gives at the output of the joint (figures 15-17). At +-pi/2 torque is 0, the others infinite.
+/// The output of a drive at the joint (figures 15-17). At +-pi/2 torque is 0, the others infinite.
 struct PiOutput {
   double torque = 0;      ///< from standstill (N m)
   double speed = 0;       ///< largest, without torque (rad/s)

@@ -21,7 +21,7 @@ struct PiBars {
   double screw = infinity;
 };
 
-/// What keeps it from being a truss, with the value; nothing if all is well.
+/// Says what keeps it from being a truss, with the value; nothing if it is one.
 std::optional<std::string> problem(const PiBars& bars);
 
 /// Forces in the bars for a torque of 1 N m at the output (1/m), positive in tension.

@@ -10,7 +10,7 @@
 /// Stiffness of bars from stiffness that was measured at the output of a Pi-joint.
 namespace linkwright::parallel {
 
-/// What a mean of the stiffness over a range of angles is.
+/// The meaning of a mean stiffness over a range of angles.
 enum class StiffnessMean { of_stiffness, of_compliance, at_zero };
 constexpr std::array<EnumName<StiffnessMean>, 3> names(StiffnessMean) {
   return {{{StiffnessMean::of_stiffness, "of_stiffness", "arithmetic mean over the angle"},

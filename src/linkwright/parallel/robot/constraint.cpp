@@ -51,7 +51,7 @@ Constraint constraint(const Robot& robot, const Jacobians& at) {
   const auto least = std::min_element(svd.value.begin(), svd.value.end()) - svd.value.begin();
   out.index = svd.value[least];
   Vec3 axis{svd.right[0][least], svd.right[1][least], svd.right[2][least]};
-  // Of the two directions the one whose largest part is positive.
+  // One of the two directions: that whose largest part is positive.
   const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
   const double largest = x >= y && x >= z ? axis.x : y >= z ? axis.y : axis.z;
   out.free_axis = largest < 0 ? -axis : axis;

@@ -5,9 +5,9 @@
 
 #include "linkwright/parallel/robot/jacobians.h"
 
-/// What keeps the platform of a DELTA from turning. Each of its legs has two rods, joined to elbow and
-/// platform at +-h along the axis t of the arm. With the arms locked half the difference of the two rod
-/// equations is (t x s) . omega = 0: three such rows C, scaled by the rods' lengths, stand against the
+/// The constraint that keeps the platform of a DELTA from turning. Each of its legs has two rods, joined to
+/// elbow and platform at +-h along the axis t of the arm. With the arms locked half the difference of the two
+/// rod equations is (t x s) . omega = 0: three such rows C, scaled by the rods' lengths, stand against the
 /// turning omega.
 namespace linkwright::parallel {
 
@@ -15,11 +15,12 @@ namespace linkwright::parallel {
 /// would do is multiplied by a thousand there.
 inline constexpr double constraint_floor = 1e-3;
 
-/// Of a pose of a DELTA.
+/// The constraint in a pose of a DELTA.
 struct Constraint {
   std::array<Vec3, 3>
-      couple{};            ///< c = t x s / L of each leg; its length is the cosine of the rod's side swing
-  double determinant = 0;  ///< of their matrix C, in [-1, 1]; changes sign where the platform is free to turn
+      couple{};  ///< c = t x s / L of each leg; its length is the cosine of the rod's side swing
+  /// Determinant of their matrix C, in [-1, 1]; changes sign where the platform is free to turn.
+  double determinant = 0;
   /// det of the unit vectors along the couples: the same sign; NaN where a parallelogram is flat.
   double unit_determinant = 0;
   /// chi: least singular value of C, in [0, 1]. Rods of a pair that differ by d (m) in length, h half the

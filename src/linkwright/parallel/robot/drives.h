@@ -8,7 +8,7 @@
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 #include "linkwright/parallel/robot/jacobians.h"
 
-/// What turns the arms of a robot: motors at their pivots, or Pi-joints whose screws set their diagonals
+/// The drives of a robot's arms: motors at their pivots, or Pi-joints whose screws set their diagonals
 /// (Milutinovic et al. 2014). A drive's value is the arm angle (rad) or the diagonal (m), and its effort the
 /// torque (N m) or the screw's force (N).
 namespace linkwright::parallel {
@@ -73,7 +73,7 @@ Vector6 drive_efforts(const Robot& robot, const DrivesAt& at, std::span<const do
 /// J diag(1/j): twist by rates of the values.
 Matrix6 total_jacobian(const Robot& robot, const Matrix6& jacobian, const DrivesAt& at);
 
-/// What one step of each drive does to the platform point.
+/// The displacement of the platform point by one step of each drive.
 struct Resolution {
   Vec3 along{};      ///< bound along each axis (m)
   double worst = 0;  ///< largest displacement over all combinations of signs (m)

@@ -63,7 +63,7 @@ Placement placed(const Robot& robot, const Drives& drives, const WorkingMode& mo
   out.at = jacobians(robot, pose, arms.angle);
   const DrivesState state = drives_at(robot, drives, arms.angle);
   out.drives = state.drive;
-  // What cannot be outranks what should not be.
+  // An impossible pose is reported before a singular one.
   for (int i = 0; i < robot.legs(); ++i) {
     out.leg = i;
     if ((out.status = out.drives[i].status) == Status::no_assembly) return out;
@@ -88,7 +88,7 @@ double own_torque(const Leg& leg, const Drive& drive, const DriveAt& drive_at, c
   return drive.mirror * effort({leg.arm, drive.ratio}, *m.pi, load, motion).torque;
 }
 
-// What a motion needs: at the platform, and at the arms apart from it.
+// The efforts that a motion needs: at the platform, and at the arms apart from it.
 struct Needs {
   Vector6 arm_acceleration{};
   Vector6 arm{};       // torque for the arm, its elbow and the rod's elbow end

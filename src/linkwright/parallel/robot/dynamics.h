@@ -53,7 +53,7 @@ void fields(Visitor&& visit, PlatformMasses& m) {
 
 /// Masses of one leg.
 struct LegMasses {
-  double rod_mass = 0;      ///< of both rods of a parallelogram together (kg)
+  double rod_mass = 0;      ///< mass of both rods of a parallelogram together (kg)
   double rod_centre = 0.5;  ///< mass centre: share of the rod's length, from the elbow
   /// Across the rod, about the mass centre, of both together (kg m2); m L^2/12 of slender rods when left out.
   std::optional<double> rod_inertia;
@@ -130,8 +130,8 @@ struct RobotMasses {
 RobotMasses equal_legs(const PlatformMasses& platform, const LegMasses& leg,
                        const Vec3& gravity = {0, 0, -standard_gravity});
 
-/// What keeps them from being masses of this robot and its drives, with the leg (from 1) and the value;
-/// nothing if all is well. The functions below do not ask again.
+/// Says what keeps them from being masses of this robot and its drives, with the leg (from 1) and the value;
+/// nothing if they are. The functions below do not ask again.
 std::optional<std::string> problem(const Robot& robot, const Drives& drives, const RobotMasses& masses);
 
 struct DynamicState {
@@ -149,7 +149,7 @@ struct DynamicLoads {
   Vector6 arm_angle{};           ///< rad
   Vector6 arm_speed{};           ///< rad/s
   Vector6 arm_acceleration{};    ///< rad/s2
-  Vector6 arm_torque{};          ///< of the drive on the arm (N m)
+  Vector6 arm_torque{};          ///< torque of the drive on the arm (N m)
   Vector6 drive_value{};         ///< rad or m
   Vector6 drive_speed{};         ///< rad/s or m/s
   Vector6 drive_acceleration{};  ///< rad/s2 or m/s2
@@ -157,8 +157,8 @@ struct DynamicLoads {
   Vector6 drive_power{};         ///< effort times speed (W); > 0: the drive drives
   /// Along the rod at its end at the platform, both of a parallelogram together, > 0 presses it (N).
   Vector6 rod_force{};
-  std::array<Vec3, most_legs> platform_force{};  ///< of the rod on the platform (N)
-  std::array<Vec3, most_legs> elbow_force{};     ///< of arm and elbow mass on the rod (N)
+  std::array<Vec3, most_legs> platform_force{};  ///< force of the rod on the platform (N)
+  std::array<Vec3, most_legs> elbow_force{};     ///< force of arm and elbow mass on the rod (N)
 };
 
 /// Efforts for a motion, exact for rigid links: the rods' consistent masses, so that no forces inside them
@@ -187,11 +187,12 @@ PlatformAcceleration direct_dynamics(const Robot& robot, const Drives& drives, c
 Matrix6 mass_matrix(const Robot& robot, const Drives& drives, const RobotMasses& masses, const Jacobians& at,
                     const Pose& pose, const DrivesAt& drives_at);
 
-/// How well the simplified model does, with masses of rods split in points.
+/// The error of the simplified model with masses of rods split in points.
 struct SplitError {
-  /// Of the states: largest error of a torque over the largest exact torque of that state; NaN without any.
+  /// Mean and greatest over the states: largest error of a torque over the largest exact torque of that
+  /// state; NaN without any.
   double mean = 0, largest = 0;
-  int states = 0;  ///< of those given, the ones with exact torques
+  int states = 0;  ///< number of given states with exact torques
 };
 /// `share` of the rods' mass at the platform.
 SplitError split_error(const Robot& robot, const Drives& drives, const RobotMasses& masses,

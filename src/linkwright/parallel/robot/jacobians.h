@@ -12,8 +12,9 @@ namespace linkwright::parallel {
 using Matrix6 = std::array<std::array<double, most_legs>, most_legs>;
 using Vector6 = std::array<double, most_legs>;
 
-/// Of a pose; the leading legs() x legs() block of each matrix counts. The twist t is (vx, vy, vz) of the
-/// platform point for a DELTA, (vx, vy) for planar robots, (vx, vy, vz, wx, wy, wz) in base axes for a HEXA.
+/// The Jacobians of a pose; the leading legs() x legs() block of each matrix counts. The twist t is (vx, vy,
+/// vz) of the platform point for a DELTA, (vx, vy) for planar robots, (vx, vy, vz, wx, wy, wz) in base axes
+/// for a HEXA.
 struct Jacobians {
   std::array<Vec3, most_legs> rod{};     ///< s: arm's end to platform joint (m)
   std::array<Vec3, most_legs> arm{};     ///< u: unit direction of the arm
@@ -41,7 +42,8 @@ struct Twist {
   Vec3 angular{};  ///< rad/s or rad/s2
 };
 
-/// What counts of a twist or a wrench of this robot, in the order of the columns of Jx; the rest is 0.
+/// The components of a twist or a wrench that count for this robot, in the order of the columns of Jx; the
+/// rest is 0.
 Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular);
 /// And back.
 Twist twist(const Robot& robot, const Vector6& components);
@@ -70,7 +72,8 @@ struct Quality {
   double constraint = 0;
   /// Least singular value of the rows t x s/L, in [0, 1], see constraint.h; NaN and 1 as above.
   double constraint_index = 0;
-  Vector6 singular_value{};   ///< of J, descending (m; a HEXA's rows of turning are multiplied by c)
+  /// Singular values of J, descending (m; a HEXA's rows of turning are multiplied by c).
+  Vector6 singular_value{};
   double condition = 0;       ///< largest over least singular value, infinite in a singularity
   double manipulability = 0;  ///< product of the singular values
 };
@@ -82,7 +85,7 @@ Quality quality(const Robot& robot, const Jacobians& at, double characteristic_l
 /// they all are there.
 double platform_size(const Robot& robot);
 
-/// What is singular in a pose.
+/// The kind of singularity of a pose.
 enum class Singularity { none, type1, type2, type3, constraint };
 constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
   return {
@@ -94,8 +97,8 @@ constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
        {Singularity::type3, "type_3", "types 1 and 2 together"},
        {Singularity::constraint, "constraint", "the parallelograms do not keep the platform from turning"}}};
 }
-/// Which measure of `quality` is at most `limit` in magnitude; of the parallelograms, whose constraint index
-/// is at most constraint_floor (constraint.h).
+/// The kind of singularity whose measure of `quality` is at most `limit` in magnitude; for the parallelograms
+/// a constraint index of at most constraint_floor (constraint.h).
 Singularity singularity(const Robot& robot, const Quality& quality, double limit = 1e-6);
 
 }  // namespace linkwright::parallel

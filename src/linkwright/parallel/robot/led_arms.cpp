@@ -10,13 +10,13 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double longest_step = 1.0 / 16;  // of the way
+constexpr double longest_step = 1.0 / 16;  // share of the path
 constexpr double longest_turn = 0.1;       // rad of an arm, in a step
 constexpr double shortest_step = 1e-9;
-constexpr double close = 0.2;  // of a step's displacement, for what Newton's method adds to it
+constexpr double close = 0.2;  // share of a step's displacement that Newton's method may add to it
 constexpr int most_steps = 100000;
 
-/// How far two poses are apart (m), rotation as displacement at a length.
+/// The distance of two poses (m), rotation as displacement at a length.
 double distance(const Pose& a, const Pose& b, double length) {
   const double turn = norm(math::turn_of(a.rotation * transposed(b.rotation)));
   return std::hypot(norm(a.position - b.position), length * turn);
@@ -41,7 +41,7 @@ LedPose lead_arms(const Robot& robot, const Pose& home, std::span<const double> 
   const bool positive = determinant(robot, at) > 0;
   LINKWRIGHT_REQUIRE(least_rods(robot, at, length) >= rods_floor, "the robot is singular at home");
   double step = std::min(longest_step, longest_turn / std::max(largest, 1e-300));
-  bool held = true;  // what made the last step shorter was not a singularity
+  bool held = true;  // true if something other than a singularity made the last step shorter
   while (out.share < 1) {
     if (step < shortest_step || ++out.steps > most_steps) {
       out.status = held ? Status::not_converged : Status::singular;

@@ -13,7 +13,7 @@ struct LedPose {
   /// hold it, and what is beyond may be another assembly
   Status status = Status::done;
   Pose pose;            ///< at `share`
-  double share = 0;     ///< of the way of the arms that was gone; 1 = all of it
+  double share = 0;     ///< share of the path of the arms that was covered; 1 = all of it
   double residual = 0;  ///< largest error of a rod's length (m)
   int steps = 0;
 };

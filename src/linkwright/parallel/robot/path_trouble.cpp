@@ -12,7 +12,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double slack = 5e-4;     // of the indices, so that a way along a limit ends, too
+constexpr double slack = 5e-4;     // margin of the indices, so that a path along a limit ends, too
 constexpr double shortest = 1e-9;  // m, or rad: closer to full stretch nothing is proven
 
 struct Stretch {

@@ -8,8 +8,8 @@
 #include "linkwright/math/function_ref.h"
 #include "linkwright/parallel/robot/regular_ball.h"
 
-/// Where a platform that is led along a way first comes to a place that it cannot pass: by bounds over
-/// stretches, so that nothing between two looks is stepped over, neither two crossings nor a touch.
+/// Finds the first place that a platform led along a path cannot pass: by bounds over stretches, so that
+/// nothing between two looks is stepped over, neither two crossings nor a touch.
 namespace linkwright::parallel {
 
 /// A way by one parameter that grows along it.
@@ -41,12 +41,12 @@ constexpr std::array<EnumName<Trouble>, 4> names(Trouble) {
 struct PathTrouble {
   Trouble kind = Trouble::reach;
   double from = 0, to = 0;  ///< stretch in which it was found; before it nothing is wrong
-  /// Where a leg gives out, arm and rod are aligned, or the index falls to its limit or floor, to the last
-  /// digit.
+  /// Start of the trouble, to the last digit: a leg gives out, arm and rod are aligned, or the index falls to
+  /// its limit or floor.
   double begin = 0;
   std::optional<double>
-      zero;       ///< where the determinant changes its sign, if it does before the index rises again
-  int leg = -1;   ///< of reach and type 1, from 0
+      zero;       ///< place where the determinant changes its sign, if it does before the index rises again
+  int leg = -1;   ///< leg of a trouble of reach or type 1, from 0
   int looks = 0;  ///< poses that it took to find the stretch
 };
 
@@ -62,8 +62,8 @@ std::optional<PathTrouble> first_trouble(const TroubleTask& task, const Pose& fr
 /// A pose on it, at a share of it in [0, 1].
 Pose straight_between(const Pose& from, const Pose& to, double share);
 
-/// What is wrong there, in plain words: "leg 2 is at its full stretch", "the rods of legs 2 and 3 lie level;
-/// the platform can turn about y".
+/// Says in plain words what is wrong there: "leg 2 is at its full stretch", "the rods of legs 2 and 3 lie
+/// level; the platform can turn about y".
 std::string cause(const TroubleTask& task, const PlatformWay& way, const PathTrouble& trouble);
 
 }  // namespace linkwright::parallel

@@ -13,28 +13,28 @@
 #include "linkwright/parallel/robot/drives.h"
 #include "linkwright/parallel/robot/regular_ball.h"
 
-/// What a pose of a robot must meet to count as usable, and its indices, for many poses at a time: the node
-/// test of workspaces.
+/// The conditions for a pose of a robot to count as usable, and its indices, for many poses at a time: the
+/// node test of workspaces.
 namespace linkwright::parallel {
 
-/// What a pose must meet. The defaults ask only that the legs reach.
+/// The conditions that a pose must meet. The defaults ask only that the legs reach.
 struct PoseConditions {
   Robot robot;
   Drives drives{};
   WorkingMode mode = all_positive;
   int assembly = 0;             ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
-  int constraint = 0;           ///< of a DELTA, sign of det C (constraint.h); 0 = either. See marks_at.
-  double least_constraint = 0;  ///< of a DELTA, constraint index
+  int constraint = 0;           ///< sign of det C of a DELTA (constraint.h); 0 = either. See marks_at.
+  double least_constraint = 0;  ///< least constraint index of a DELTA
   double least_elbow = 0;       ///< angle between arm and rod at their joint: 0 = folded (rad)
   double most_elbow = pi;       ///< pi = stretched (rad)
   double most_swing = pi / 2;   ///< angle between a rod and the plane in which its arm moves (rad)
-  double least_drive_transmission = 0;  ///< of the drives, sin(mu) of a Pi-joint
-  double least_transmission = 0;        ///< of the legs, LTI
+  double least_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
+  double least_transmission = 0;        ///< least transmission index of the legs, LTI
   double least_conditioning = 0;        ///< LCI, 1 / condition
-  double characteristic_length = 1;     ///< of a HEXA, see `quality` (m)
+  double characteristic_length = 1;     ///< characteristic length of a HEXA, see `quality` (m)
 };
 
-/// What keeps it from being conditions, with the value; nothing if all is well.
+/// Says what keeps them from being conditions, with the value; nothing if they are.
 std::optional<std::string> problem(const PoseConditions& conditions);
 
 /// Sign of det Jx where the legs stand as `mode` says; 0 in a pose that they do not reach or that is
@@ -106,13 +106,13 @@ constexpr std::array<EnumName<PoseIndex>, pose_index_count> names(PoseIndex) {
        {PoseIndex::speed_factor, "speed_factor", "speed along all axes by speed of the drives"}}};
 }
 
-/// Which indices are wanted; what nobody asks for is not computed.
+/// Flags of the wanted indices; the others are not computed.
 using WantedIndices = std::array<bool, pose_index_count>;
 constexpr std::size_t slot(PoseIndex index) { return static_cast<std::size_t>(index); }
 inline constexpr WantedIndices no_indices{};
 inline constexpr WantedIndices all_indices{true, true, true, true, true, true, true, true, true, true, true};
 
-/// Where what is found goes: spans as long as the number of poses, or empty.
+/// The output of a check: spans as long as the number of poses, or empty.
 struct PoseFindings {
   std::span<Criterion> criterion;
   std::array<std::span<double>, pose_index_count> index{};
@@ -134,7 +134,7 @@ const char* pose_check_kernel_name();
 /// A leg with its drive and limits, for the kernel.
 struct PoseCheckLeg {
   Leg leg;
-  double sign = 1;  ///< of the working mode
+  double sign = 1;  ///< sign of the working mode
   bool pi_joint = false;
   double zero_cosine = 1, zero_sine = 0;  ///< direction of the arm at theta = 0
   double mirror = 1;
@@ -145,7 +145,7 @@ struct PoseCheckLeg {
   double most_swing_part = 0;                        ///< limit of abs(s . t) (m)
 };
 
-/// What a kernel gets. Rows of `count` numbers, a multiple of 8.
+/// The task of a kernel. Rows of `count` numbers, a multiple of 8.
 struct PoseCheckTask {
   Freedom freedom = Freedom::space_translation;
   std::array<PoseCheckLeg, most_legs> leg{};
@@ -160,7 +160,7 @@ struct PoseCheckTask {
   Mat3 rotation{};
   std::array<const double*, 9> rotations{};  ///< by rows; null: all have `rotation`
   double* criterion = nullptr;
-  std::array<double*, pose_index_count> index{};  ///< of those wanted
+  std::array<double*, pose_index_count> index{};  ///< values of the wanted indices
 };
 
 /// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.

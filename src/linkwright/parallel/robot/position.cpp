@@ -14,11 +14,11 @@ namespace linkwright::parallel {
 
 namespace {
 
-// What rounding does to rho^2 - c^2, relative to the squares of the lengths.
+// The rounding error of rho^2 - c^2, relative to the squares of the lengths.
 constexpr double position_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// How far the joint is from what the leg can reach: its distance to the nearest and the farthest point of the
-// elbow's circle, against the rod.
+// The distance of the joint from the reach of the leg: its distance to the nearest and the farthest point of
+// the elbow's circle, against the rod.
 double shortfall_of(const Leg& leg, const Vec3& g) {
   const Vec3 v = g - leg.base;
   const double rho = std::hypot(dot(v, leg.ahead), dot(v, leg.aside));
@@ -31,7 +31,7 @@ double shortfall_of(const Leg& leg, const Vec3& g) {
 struct Residuals {
   std::array<Vec3, most_legs> rod, lever;
   std::array<double, most_legs> value{};  // (|s|^2 - L^2)/2
-  double largest = 0;                     // of |value|
+  double largest = 0;                     // largest |value|
 };
 
 Residuals residuals(const Robot& robot, const std::array<Vec3, most_legs>& elbows, const Pose& pose) {

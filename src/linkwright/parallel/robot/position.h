@@ -24,7 +24,7 @@ struct ArmAngles {
   Status status = Status::done;  ///< no_assembly: a leg cannot reach; singular: the arm's place is open
   std::array<double, most_legs> angle{};  ///< rad, in (-pi, pi]; NaN for legs that cannot reach
   int leg = -1;                           ///< first leg with the trouble, from 0; -1 = none
-  /// What that leg lacks (m): positive = the joint is too far by so much, negative = too near.
+  /// The amount that the leg lacks (m): positive = the joint is too far by so much, negative = too near.
   double shortfall = 0;
 };
 
@@ -41,7 +41,7 @@ struct Placed {
   Status status = Status::done;
   Pose pose;
   double residual = 0;  ///< largest error of a rod's length (m)
-  int iterations = 0;   ///< of Newton's method; 0 = closed form
+  int iterations = 0;   ///< iterations of Newton's method; 0 = closed form
 };
 
 /// Direct position of robots that do not turn, in closed form: intersection of spheres or circles about the

@@ -110,7 +110,7 @@ double clear_radius(const Robot& robot, const RegularAt& at, double length) {
   if (!at.reached) return 0;
   const double spare = std::min(at.constraint - constraint_floor / 2, at.rods - rods_floor / 2);
   if (!(spare > 0)) return 0;
-  // As long as q^2 keeps a quarter, 1/|q| at most doubles.
+  // While q^2 keeps a quarter, 1/|q| at most doubles.
   const auto keeps = [&](double r) {
     for (int i = 0; i < robot.legs(); ++i)
       if (!(square_within(at.legs[i], robot.leg[i].arm, r) >= at.legs[i].square / 4)) return false;

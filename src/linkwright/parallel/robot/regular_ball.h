@@ -5,22 +5,22 @@
 
 #include "linkwright/parallel/robot/jacobians.h"
 
-/// How far around a pose nothing is singular: bounds instead of samples. Poses on both sides of a singularity
-/// may look alike, and a path may cross two between any two instants.
+/// The size of a ball around a pose in which nothing is singular: bounds instead of samples. Poses on both
+/// sides of a singularity may look alike, and a path may cross two between any two instants.
 namespace linkwright::parallel {
 
 /// The working mode and these signs are the mark of a pose: poses of different marks cannot be joined without
 /// a singularity. Equal marks prove nothing yet.
 struct Marks {
   int assembly = 0;    ///< sign of det Jx
-  int constraint = 0;  ///< of a DELTA: sign of det C, see constraint.h; 1 for other robots
+  int constraint = 0;  ///< sign of det C of a DELTA, see constraint.h; 1 for other robots
   friend bool operator==(const Marks&, const Marks&) = default;
 };
 
 /// Least singular value of the rods' rows below which a path has come to a singularity of type 2.
 inline constexpr double rods_floor = 1e-3;
 
-/// What the bounds need of a pose.
+/// The data of a pose that the bounds need.
 struct RegularAt {
   bool reached = false;
   int leg = -1;      ///< from 0: the first that cannot reach
@@ -45,13 +45,13 @@ double least_rods(const Robot& robot, const Jacobians& at, double length);
 
 /// A displacement of a platform: by at most so much.
 struct Displaced {
-  double shift = 0;  ///< of its point (m)
+  double shift = 0;  ///< displacement of its point (m)
   double turn = 0;   ///< rad; of robots that turn
 };
 
-/// How much `rods` and `constraint` change at most within a displacement of the pose, on the way no arm and
-/// rod aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r
-/// the way of its platform joint,
+/// The largest change of `rods` and `constraint` within a displacement of the pose, on the way no arm and rod
+/// aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r the
+/// way of its platform joint,
 ///     q^2 >= q0^2 - r [2 (rho + r) + 2/l (|c| + r/l (v + r/2)) (v + r)],  |d(s/L)|, |d(t x s/L)| <= r / |q|,
 /// as ds is the oblique projection of dg along u', of norm L/|q|; singular values move by no more than the
 /// Frobenius norm of the change.

@@ -19,7 +19,7 @@ using math::Vec3;
 /// Says where: "0.1, 0.2, -0.75 m".
 Sentence coordinates_of(const Vec3& place);
 
-/// What the platform can do, and with it the number of legs.
+/// The freedom of the platform, which fixes the number of legs.
 enum class Freedom { space_translation, space, plane_translation };
 
 /// Leg i: the arm is at A + l u(alpha) with u = cos(alpha) e + sin(alpha) w, the rod goes on from its end to
@@ -43,7 +43,7 @@ struct Robot {
   int legs() const { return freedom == Freedom::space ? 6 : freedom == Freedom::space_translation ? 3 : 2; }
 };
 
-/// Where the platform is: its point p (m) and its axes seen from the base. Only robots of Freedom::space
+/// The pose of the platform: its point p (m) and its axes seen from the base. Only robots of Freedom::space
 /// turn; for the others the rotation must be the unit matrix.
 struct Pose {
   Vec3 position;
@@ -81,7 +81,7 @@ struct PlanarLeg {
 /// Five-bar (5R), or with platform joints the two-freedom platform of constant orientation.
 Robot planar(const PlanarLeg& first, const PlanarLeg& second);
 
-/// What keeps it from being a robot, with the leg (from 1) and the value; nothing if all is well.
+/// Says what keeps it from being a robot, with the leg (from 1) and the value; nothing if it is one.
 std::optional<std::string> problem(const Robot& robot);
 
 }  // namespace linkwright::parallel

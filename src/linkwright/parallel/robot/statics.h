@@ -15,13 +15,13 @@ struct Wrench {
   Vec3 moment{};  ///< N m, about the platform point
 };
 
-/// What holds a load at rest.
+/// The forces that hold a load at rest.
 struct StaticLoads {
   /// singular: type 2, and nothing holds; or the Pi-joint of `leg` stands at +-90 deg, where its screw cannot
   /// hold the arm. no_assembly: the Pi-joint of `leg` cannot be there.
   Status status = Status::done;
   int leg = -1;            ///< first leg whose drive has the trouble, from 0; -1 = none
-  Vector6 arm_torque{};    ///< of the drive on the arm, > 0 turns it forwards (N m); NaN in type 2
+  Vector6 arm_torque{};    ///< torque of the drive on the arm, > 0 turns it forwards (N m); NaN in type 2
   Vector6 rod_force{};     ///< along the rod, of both rods of a parallelogram together, > 0 presses it (N)
   Vector6 drive_effort{};  ///< N m or N; NaN where it does not exist
 };
@@ -34,7 +34,7 @@ StaticLoads static_loads(const Robot& robot, const Jacobians& at, const DrivesAt
 /// det of the rows of Jx without dimension, as Quality::rods: 0 in a singularity of type 2.
 double rods_determinant(const Robot& robot, const Jacobians& at);
 
-/// What a leg gives way besides its drive, each of it infinite when left out.
+/// The stiffnesses of the parts of a leg besides its drive, each infinite when left out.
 struct LegStiffness {
   double rod = infinity;          ///< along, both of a parallelogram together (N/m)
   double arm_along = infinity;    ///< at the end of the arm, along it (N/m)
@@ -64,10 +64,10 @@ struct Stiffness {
 Stiffness stiffness(const Robot& robot, const Drives& drives, const Jacobians& at, const DrivesAt& drives_at,
                     double characteristic_length, const LegStiffnesses& own = {}, double limit = 1e-6);
 
-/// What a load does to the platform, to first order.
+/// The displacement of the platform by a load, to first order.
 struct Displacement {
   Status status = Status::done;  ///< singular: type 2, or the drive of a leg does not hold
-  Vec3 shift{};                  ///< of the platform point (m)
+  Vec3 shift{};                  ///< shift of the platform point (m)
   Vec3 turn{};                   ///< rad, base axes
 };
 /// Rigid legs stay rigid. Allocates nothing.

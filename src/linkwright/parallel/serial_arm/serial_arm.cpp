@@ -30,7 +30,7 @@ struct Turning {
   double angle, speed, acceleration;
 };
 
-// What an arm with its coupler needs: torque on it, and force on its frame from the frame before.
+// The needs of an arm with its coupler: torque on it, and force on its frame from the frame before.
 struct Need {
   double torque = 0;
   Vector2 force{};

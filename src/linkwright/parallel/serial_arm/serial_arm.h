@@ -27,8 +27,8 @@ struct SerialPiArm {
   std::array<Drive, 2> drive{};  ///< Pi-joints, or motors beside a passive parallelogram
 };
 
-/// What keeps it from being such an arm, with the value; nothing if all is well. The functions below do not
-/// ask again.
+/// Says what keeps it from being such an arm, with the value; nothing if it is one. The functions below do
+/// not ask again.
 std::optional<std::string> problem(const SerialPiArm& arm);
 
 struct SerialAngles {
@@ -36,7 +36,7 @@ struct SerialAngles {
   /// where q1 is open.
   Status status = Status::done;
   Vector2 angle{};       ///< q1, q2 (rad, in (-pi, pi]); NaN when not done
-  double shortfall = 0;  ///< what the arms lack (m): > 0 too far, < 0 too near
+  double shortfall = 0;  ///< length that the arms lack (m): > 0 too far, < 0 too near
 };
 /// `mode` 1 or -1: sign of sin(q2 - q1); 1 = the second arm turns to the left of the first. At the limits
 /// both meet; what rounding puts beyond them is taken as there.
@@ -65,7 +65,8 @@ SerialAngles arm_angles(const SerialPiArm& arm, const Vector2& values);
 /// J diag(1/j): velocity by rates of the drives' values; not finite where a Pi-joint is singular.
 Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles);
 
-/// What one step of each drive does to the tool point; NaN or infinite where a Pi-joint is singular.
+/// The displacement of the tool point by one step of each drive; NaN or infinite where a Pi-joint is
+/// singular.
 struct SerialResolution {
   Vector2 along{};   ///< bound along each axis (m)
   double worst = 0;  ///< largest displacement over all combinations of signs (m)
@@ -78,11 +79,12 @@ Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles);
 
 struct SerialQuality {
   double sine = 0;            ///< sin(q2 - q1), 0 = arms in line: the tool cannot move along them
-  Vector2 singular_value{};   ///< of J, descending (m)
+  Vector2 singular_value{};   ///< singular values of J, descending (m)
   double condition = 0;       ///< largest over least, infinite in line
   double manipulability = 0;  ///< |det J| (m2)
-  Vector2 transmission{};     ///< of the drives: sin(mu) of a Pi-joint, 1 of a motor; NaN where it cannot be
-  bool singular = false;      ///< sine or a transmission is at most the limit in magnitude
+  /// Transmission indices of the drives: sin(mu) of a Pi-joint, 1 of a motor; NaN where it cannot be.
+  Vector2 transmission{};
+  bool singular = false;  ///< sine or a transmission is at most the limit in magnitude
 };
 SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limit = 1e-6);
 
@@ -103,10 +105,12 @@ SerialLoads static_loads(const SerialPiArm& arm, const Vector2& angles, const Ve
 
 /// Masses of one joint.
 struct SerialMasses {
-  double arm_inertia = 0;   ///< of both arms about their pivots together, with what a motor turns (kg m2)
-  double arm_mass = 0;      ///< of both together (kg)
-  double arm_centre = 0;    ///< mass centre from the pivots along the arms (m)
-  double coupler_mass = 0;  ///< with all that does not turn on it, also the next joint's frame and motor (kg)
+  /// Inertia of both arms about their pivots together, with what a motor turns (kg m2).
+  double arm_inertia = 0;
+  double arm_mass = 0;    ///< mass of both arms together (kg)
+  double arm_centre = 0;  ///< mass centre from the pivots along the arms (m)
+  /// Mass of the coupler and of all that does not turn on it, also the next joint's frame and motor (kg).
+  double coupler_mass = 0;
   /// Masses of the Pi-joint that drives, in place of inertia, mass and centre of the arms and of the coupler.
   std::optional<PiMasses> pi;
 };
@@ -142,7 +146,8 @@ struct SerialArmMasses {
   double payload = 0;            ///< at the tool, not turning (kg)
   Vector2 gravity{0, -9.80665};  ///< m/s2
 };
-/// What keeps them from being masses of this arm, with the joint (from 1) and the value.
+/// Says what keeps them from being masses of this arm, with the joint (from 1) and the value; nothing if they
+/// are.
 std::optional<std::string> problem(const SerialPiArm& arm, const SerialArmMasses& masses);
 
 /// Exact inverse dynamics: torques and efforts for a motion of the arms (rad, rad/s, rad/s2) with a force on

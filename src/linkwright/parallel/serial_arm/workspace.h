@@ -14,13 +14,14 @@
 /// are there.
 namespace linkwright::parallel {
 
-/// What a place must meet. The defaults ask only that the arms reach and the drives are within their travel.
+/// The conditions that a place must meet. The defaults ask only that the arms reach and the drives are within
+/// their travel.
 struct SerialConditions {
   SerialPiArm arm;
   int mode = 1;
   double least_elbow = 0;               ///< angle between the arms at their joint: 0 = folded (rad)
   double most_elbow = pi;               ///< pi = stretched (rad)
-  double least_drive_transmission = 0;  ///< of the drives, sin(mu) of a Pi-joint
+  double least_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
   double least_conditioning = 0;        ///< 1 / condition
 };
 

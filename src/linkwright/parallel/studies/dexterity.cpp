@@ -30,7 +30,7 @@ struct Answer {
 using Runs = study::SeedRuns<Answer>;
 
 bool larger_is_better(DexterityGoal goal) { return goal != DexterityGoal::size; }
-/// What is minimised.
+/// The cost to be minimised.
 double cost_of(DexterityGoal goal, const Answer& a) {
   if (a.best.x.empty() || a.best.violation > 0) return infinity;
   return larger_is_better(goal) ? -a.best.objective : a.best.objective;

@@ -65,7 +65,7 @@ void add_drive_demands(std::vector<Demand>& out, int i, const PiDrive& motor, do
 }
 
 Status PathJudge::judge(Look look, double end, const RunContext& context) {
-  constexpr int steps = 32;  // of each stretch
+  constexpr int steps = 32;  // steps in each stretch
   std::vector<Demand> now;
   std::array<std::vector<Demand>, 3> last;  // at times[k]; empty: the robot is not there
   std::array<double, 3> times{};
@@ -80,7 +80,7 @@ Status PathJudge::judge(Look look, double end, const RunContext& context) {
     look(time, now);
     return k < now.size() ? now[k].excess : nan;
   };
-  // Where what was kept at `from` is first not kept, up to `to`.
+  // The first time up to `to` at which a limit kept at `from` is not kept.
   const auto begins = [&](std::size_t k, double from, double to) {
     const auto at = [&](double t) { return excess(t, k); };
     return at(from) <= 0 && at(to) > 0 ? math::zero_between(at, from, to) : to;
@@ -115,7 +115,7 @@ Status PathJudge::judge(Look look, double end, const RunContext& context) {
         if (n < 2 || last[0].size() <= k || last[1].size() <= k) continue;
         const double a = last[0][k].excess, b = last[1][k].excess, c = last[2][k].excess;
         if (!(b >= a && b >= c && (b > a || b > c) && std::isfinite(b))) continue;
-        // Of these sections 36 come down to the square root of rounding.
+        // The first 36 of these sections come down to the square root of rounding.
         const double top = math::minimum_about([&](double x) { return -excess(x, k); }, times[0], times[1],
                                                times[2], {.relative = 1e-9, .sections = 40})
                                .at;
@@ -288,7 +288,7 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
   using Verdict = study::Fact::Verdict;
   const std::vector<DriveUse> uses = judge.uses();
   for (const DriveUse& u : uses) {
-    // Of all drives the one that is used most; the others are in the table.
+    // Reports the drive that is used most; the others are in the table.
     const std::string kind = u.what.substr(0, u.what.find(" of drive"));
     const bool most = std::all_of(uses.begin(), uses.end(), [&](const DriveUse& other) {
       return !other.what.starts_with(kind) || other.share < u.share || &other == &u ||
@@ -304,7 +304,7 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
   for (const auto& failure : failures) {
     result.facts.push_back({"fails", failure.text, Verdict::bad});
     if (result.status == Status::done) result.status = failure.status;
-    // What the robot cannot pass is no share of a limit.
+    // A place that the robot cannot pass is no share of a limit.
     const bool blocked = failure.severity == Severity::impossible || failure.severity == Severity::stopped;
     result.troubles.push_back({.what = std::string(to_string(failure.status)),
                                .where = {{"time_s", failure.time}},

@@ -12,29 +12,30 @@
 #include "linkwright/parallel/tool/motion.h"
 #include "linkwright/study/remarks.h"
 
-// What studies of a tool path report of it whatever the robot: what its drives do, how much of their limits
-// that takes, and whether the path can be done.
+// The report of studies on a tool path, for any robot: motions and efforts of its drives, shares of their
+// limits, and whether the path can be done.
 namespace linkwright::parallel {
 
 /// One drive at one instant of a path.
 struct DriveMotion {
   double arm_angle = 0, arm_speed = 0;  ///< rad, rad/s
   DriveAt at;
-  double speed = 0;                              ///< of the drive's value (m/s, rad/s)
+  double speed = 0;                              ///< speed of the drive's value (m/s, rad/s)
   double arm_torque = 0, effort = 0, power = 0;  ///< N m; N or N m; W
 };
 
-/// What an instant of a path asks of the robot.
+/// The quantity that an instant of a path asks of the robot.
 enum class Asked {
-  travel,              ///< of drive i (rad)
-  swing,               ///< a rod out of the plane of its arm (rad)
-  elbow,               ///< angle between arm and rod, or between two arms (rad)
-  speed,               ///< of drive i (m/s, rad/s)
-  effort,              ///< of drive i (N, N m)
-  transmission,        ///< least index of the legs
-  conditioning,        ///< local conditioning index
-  constraint,          ///< constraint index of a DELTA
-  drive_transmission,  ///< of drive i: sine of the angle between diagonal and arm of its Pi-joint
+  travel,        ///< travel of drive i (rad)
+  swing,         ///< a rod out of the plane of its arm (rad)
+  elbow,         ///< angle between arm and rod, or between two arms (rad)
+  speed,         ///< speed of drive i (m/s, rad/s)
+  effort,        ///< effort of drive i (N, N m)
+  transmission,  ///< least index of the legs
+  conditioning,  ///< local conditioning index
+  constraint,    ///< constraint index of a DELTA
+  /// Transmission index of drive i: sine of the angle between diagonal and arm of its Pi-joint.
+  drive_transmission,
 };
 struct Demand {
   Asked asked = Asked::travel;
@@ -54,15 +55,15 @@ Demand angle_demand(Asked asked, double lowest, double highest, double least, do
 /// -1.
 void add_drive_demands(std::vector<Demand>& out, int i, const PiDrive& motor, double speed, double effort);
 
-/// What was asked of a drive at most, against what it has.
+/// The greatest demand on a drive, against its limit.
 struct DriveUse {
   std::string what;  ///< "speed of drive 2"
-  double share = 0;  ///< of the limit
+  double share = 0;  ///< share of the limit
   double value = 0, limit = 0;
   double time = 0;  ///< s
 };
 
-/// How bad a trouble is, the worst first.
+/// The severity of a trouble, the worst first.
 enum class Severity {
   impossible,  ///< no leg gets there, or the platform is not held on the way
   stopped,     ///< a drive or a joint would have to go beyond its travel
@@ -70,7 +71,7 @@ enum class Severity {
   poor,        ///< an index below its limit
 };
 
-/// What is wrong along a path, each kind of trouble once, with its worst and where it begins, and how far
+/// The troubles along a path, each kind of trouble once, with its worst and where it begins, and how far
 /// limits are used. It looks at instants of its own: in each stretch between two breaks of the path or its
 /// law at 32 equal steps, and at the peak of what is asked between three of them; so nothing depends on the
 /// rows of a table.
@@ -81,8 +82,8 @@ class PathJudge {
 
   struct Failure {
     Severity severity = Severity::impossible;
-    double time = 0;   ///< where it begins (s)
-    double worst = 0;  ///< how bad it gets, among those of one severity: the excess
+    double time = 0;   ///< start (s)
+    double worst = 0;  ///< greatest excess, among those of one severity
     Status status = Status::done;
     Sentence text;  ///< "torque of drive 1 is 74 N m at ..., the limit is 38 N m; ..."
   };
@@ -106,7 +107,7 @@ class PathJudge {
   struct Peak {
     Demand demand;
     double time = 0;
-    double begin = 0;  ///< where the limit is first not kept (s), if it is not
+    double begin = 0;  ///< time at which the limit is first not kept (s), if it is not
   };
   const Peak* peak(Asked asked) const;
   const std::vector<Peak>& peaks() const { return peaks_; }

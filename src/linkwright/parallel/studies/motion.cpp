@@ -35,12 +35,12 @@ struct Instant {
   Status status = Status::done;
   ArmAngles angles;
   Quality quality;
-  double swing = 0, least_elbow = 0, largest_elbow = 0;  ///< of all legs (rad)
+  double swing = 0, least_elbow = 0, largest_elbow = 0;  ///< angles of all legs (rad)
   DrivesState drives;
   DynamicLoads loads;  ///< NaN without masses or out of reach
 };
 
-/// What an instant asks for; nothing out of reach.
+/// The demands of an instant; none out of reach.
 void demands_of(const RobotDescription& d, const QualityLimits& limits, const Instant& at,
                 std::vector<Demand>& out) {
   out.clear();
@@ -180,7 +180,7 @@ Sentence deepest(const RobotDescription& d, const ToolMotion& motion, double beg
   return say("; at worst {} ({})", reason(worst), motion.where(time));
 }
 
-/// How far the robot gets, and what is worth a fact.
+/// The part of the path that the robot covers, and its remarkable events.
 struct WayVerdict {
   double gets_to = 0;  // s
   Sentence falls;      // "constraint index 0.001 in step 1 ...": before a singularity
@@ -235,7 +235,7 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
   return out;
 }
 
-// Where the study sends the tool.
+// The places to which the study sends the tool.
 std::vector<ToolPlace> places_of(const ToolPath& path, const Pose& home) {
   std::vector<ToolPlace> out{
       {"home", "home.position_m", {home.position.x, home.position.y, home.position.z}}};

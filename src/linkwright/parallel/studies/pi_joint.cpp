@@ -112,7 +112,7 @@ void add_plots(study::Result& result) {
   plot("holding-force", "Force of the diagonal at rest", {"holding_force_N"});
 }
 
-/// Which bars the samples can distinguish.
+/// Reports which bars the samples can distinguish.
 void add_calibration(study::Result& result, const PiAnalysis& s) {
   const study::AddFact fact{result.facts};
   std::vector<PiStiffnessSample> samples;

@@ -143,7 +143,7 @@ struct PiAnalysis {
   std::optional<CalibrationForm> calibration;
 };
 
-/// What a Pi-joint must do over its travel; what is left out is not required.
+/// The requirements on a Pi-joint over its travel; a key left out is not required.
 struct PiLimitsForm {
   std::optional<double> torque, force_limit, speed, rate_limit, quantum, resolution, transmission, stroke,
       telescoping, end_margin;

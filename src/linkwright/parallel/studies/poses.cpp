@@ -70,7 +70,7 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
     row("constraint_index", "constraint index: how firmly they keep the platform from turning",
         known(q.constraint_index));
   }
-  // Of the working mode of the robot: arms that were given may stand in another.
+  // True in the working mode of the robot: arms that were given may stand in another.
   const bool own_mode = there && working_mode(d.robot, solved.pose, solved.angles.angle) == d.mode;
   row("clear_radius_m", "no singularity is nearer than this (m)",
       own_mode ? clear_radius(d.robot, regular_at(d.robot, solved.pose, d.mode, length), length) : nan);
@@ -368,7 +368,7 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
                                             say("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
       if (result.status == Status::done) result.status = s.status;
     }
-    // Of robots that do not turn a way that is shown needs no word.
+    // A path shown for a robot that does not turn needs no word.
     if (!s.way.empty() && (d.tool_turns() || s.joined != 1))
       result.facts.push_back({asked.name + ": path from home", s.way});
     const bool drawn = s.angles.leg < 0;

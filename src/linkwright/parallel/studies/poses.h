@@ -62,10 +62,10 @@ void describe_poses(study::SchemaWriter& document);
 /// A pose of the study as solved.
 struct SolvedPose {
   Status status = Status::done;
-  Sentence reason;  ///< why it is not done
+  Sentence reason;  ///< says why it is not done
   Pose pose;
   ArmAngles angles;
-  /// What is known of a way from home. 1: the straight one (of arms that were given: with all of them led at
+  /// The knowledge of a path from home. 1: the straight one (of arms that were given: with all of them led at
   /// once) is free of singularities; 0: it is not, and whether another leads there is not shown; -1: none
   /// does, the marks of regular_ball.h differ.
   int joined = 0;

@@ -231,7 +231,7 @@ std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism
                                                   std::string_view owners, Value& canonical);
 void describe_drives(study::SchemaWriter& mechanism);
 
-/// Where the platform is: place of its point, and rotation vector seen from the base.
+/// The pose of the platform: place of its point, and rotation vector seen from the base.
 struct PoseForm {
   std::string name;
   Coordinates position{}, rotation{};
@@ -242,7 +242,7 @@ void fields(Visitor&& visit, PoseForm& p) {
   visit(robot_fields::place("position", "of the platform point", true), p.position);
   visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
 }
-/// As it is read back: without a rotation where the tool does not turn.
+/// The form in which it is read back: without a rotation where the tool does not turn.
 Value home_written(const PoseForm& form, bool turns);
 /// A table of a canonical study without keys that it may not have, given without their units: a field that
 /// has a value in the form is not one that the study may give.
@@ -251,7 +251,7 @@ Pose pose_of(const PoseForm& form);
 
 /// `[mechanism]` read: the robot, its drives, and what these can do.
 struct RobotDescription {
-  std::string type;  ///< of the mechanism: "parallel.delta"
+  std::string type;  ///< type of the mechanism: "parallel.delta"
   Robot robot;
   WorkingMode mode = all_positive;
   Drives drives{};

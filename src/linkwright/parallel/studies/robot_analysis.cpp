@@ -56,7 +56,7 @@ double reach(const Robot& robot) {
   return out;
 }
 
-/// Why a pose cannot be home; empty if it can.
+/// Says why a pose cannot be home; empty if it can.
 std::string singular_home(const RobotDescription& d, const Pose& pose) {
   const RegularAt there = regular_at(d.robot, pose, d.mode, platform_size(d.robot));
   if (!there.reached) return fmt::format("arm and rod of leg {} are aligned", there.leg + 1);
@@ -143,7 +143,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
   RobotAnalysis s;
   const auto description = read_robot(document, type, canonical);
   if (!description) {
-    // What else the file holds is read by the robot that it has not.
+    // The other keys of the file would be read for the robot that is missing.
     for (const char* key : {"home", "limits", "pose", "modes", "masses", "motion", "workspace"})
       document.has(key);
     return std::nullopt;

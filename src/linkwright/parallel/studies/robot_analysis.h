@@ -32,9 +32,9 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
                                                  std::string_view type, Value& canonical);
 study::Result run_robot_analysis(const RobotAnalysis& study, RunContext& context);
 
-/// Where a robot without a stated home is taken to be: on its axis below the base, or in front of the middle
-/// of the base of a planar one, where its transmission index is largest; nothing if no leg arrangement
-/// reaches there.
+/// The home of a robot without a stated one: on its axis below the base, or in front of the middle of the
+/// base of a planar one, where its transmission index is largest; nothing if no leg arrangement reaches
+/// there.
 std::optional<Pose> usual_home(const Robot& robot, const WorkingMode& mode);
 
 }  // namespace linkwright::parallel

@@ -96,8 +96,8 @@ class RobotDrawing {
     handles(i, pivot, end, joint);
   }
 
-  // Of one leg by its own numbers, or by those that all legs share. The rod is told at the elbow: where the
-  // platform is, the study says otherwise.
+  // Handles of one leg, by its own numbers or by those that all legs share. The rod is dragged at the elbow:
+  // the study prescribes the platform's position elsewhere.
   void handles(int i, int pivot, int end, int joint) {
     using Measure = Scene::Handle::Measure;
     const bool planar = robot_.freedom == Freedom::plane_translation;
@@ -114,7 +114,7 @@ class RobotDrawing {
           {.key = "mechanism.base_radius_m", .measure = Measure::length, .point = pivot, .held = true});
   }
 
-  /// Of a Pi-joint: the second pivot stands in the direction of theta = 90 deg.
+  /// Adds a Pi-joint: the second pivot stands in the direction of theta = 90 deg.
   void parallelogram(int i, int pivot, int end) {
     const Leg& leg = robot_.leg[i];
     const Drive& drive = drives_[i];

@@ -14,11 +14,11 @@ namespace linkwright::parallel {
 struct RobotSample {
   Status status = Status::done;  ///< not drawn unless done
   Pose pose;
-  std::array<double, most_legs> angle{};  ///< of the arms (rad)
-  Vec3 velocity{};                        ///< of the platform point (m/s)
+  std::array<double, most_legs> angle{};  ///< angles of the arms (rad)
+  Vec3 velocity{};                        ///< velocity of the platform point (m/s)
 };
 
-/// What the samples are over.
+/// The input over which the samples are taken.
 struct SceneInput {
   std::string name, title;  ///< "motion", "motion along the path"
   std::string key, label;   ///< "time_s", "time"

@@ -61,7 +61,7 @@ Table node_table(const SerialMap& map, const std::vector<SerialIndex>& indices) 
   table.add("y_m", "y (m)", std::move(y));
   for (const SerialIndex index : indices) {
     std::vector<double> values;
-    // What does not pass is not coloured.
+    // Nodes that do not pass are not coloured.
     for (const SerialPlace& p : map.place)
       values.push_back(p.criterion == SerialCriterion::none ? p[index] : nan);
     table.add(key_of(index), words_of(index) + (index == SerialIndex::manipulability ? " (m2)" : ""),
@@ -271,7 +271,7 @@ std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document
   SerialAnalysis s;
   const auto description = read_arm(document, canonical);
   if (!description) {
-    // What else the file holds is read by the arm that it has not.
+    // The other keys of the file would be read for the arm that is missing.
     for (const char* key : {"home", "limits", "pose", "modes", "masses", "motion", "workspace"})
       document.has(key);
     return std::nullopt;

@@ -135,7 +135,7 @@ struct SerialAnalysis {
   std::optional<SerialArmMasses> masses;
   std::optional<MotionStudy> motion;
   std::optional<SerialWorkspaceForm> workspace;
-  SerialGrid grid;  ///< of the workspace
+  SerialGrid grid;  ///< grid of the workspace
 };
 
 /// "analysis" of "parallel.serial_pi_arm".
@@ -147,7 +147,7 @@ std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document
                                                    Value& canonical);
 study::Result run_serial_analysis(const SerialAnalysis& study, RunContext& context);
 
-/// Why angles are none: "the arms are 12 mm too short"; empty when they are done.
+/// Says why there are no angles: "the arms are 12 mm too short"; empty when they are done.
 Sentence reason(const SerialAngles& angles);
 SerialConditions conditions_of(const SerialDescription& description, const SerialLimits& limits);
 

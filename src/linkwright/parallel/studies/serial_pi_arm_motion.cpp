@@ -48,7 +48,7 @@ ArmInstant instant(const SerialAnalysis& s, double time) {
   return out;
 }
 
-/// What an instant asks for; nothing out of reach.
+/// The demands of an instant; none out of reach.
 void demands_of(const SerialAnalysis& s, const ArmInstant& at, std::vector<Demand>& out) {
   out.clear();
   if (!at.reached() || at.rates.status != Status::done) return;

@@ -67,7 +67,7 @@ Table node_table(const std::vector<ShownNodes>& shown, const WorkspaceStudy& s, 
   if (!planar) table.add("z_m", "z (m)", std::move(z));
   for (const PoseIndex index : s.form.indices) {
     std::vector<double> column;
-    // What does not pass is not coloured.
+    // Nodes that do not pass are not coloured.
     for (const auto& [map, nodes] : shown)
       for (const std::size_t node : nodes)
         column.push_back(map->criterion[node] == Criterion::none ? map->index[slot(index)][node]
@@ -166,7 +166,7 @@ Sentence body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
   return say("{}, at {}", along(" x ", mm(2 * half.x), mm(2 * half.y), mm(2 * half.z)), at);
 }
 
-/// Of a workspace.
+/// The size of a workspace.
 Measured area_or_volume(double value, bool planar) {
   static constexpr Unit cubic_metre{"m3"};
   return (planar ? measured("m2", value) : measured(cubic_metre, value)).spelled();
@@ -356,7 +356,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   if (f.boundary > 0) result.tables.push_back(boundary_table(task, heights, f, home, planar, context));
   std::vector<WorkspaceMap> coarse;
   std::vector<ShownNodes> slices;
-  coarse.reserve(levels.size());  // which the slices point to
+  coarse.reserve(levels.size());  // the slices point to its elements
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (s.large) coarse.push_back(coarse_level(task, heights[i], most_slice_rows / levels.size(), context));
     const std::size_t count = s.large ? coarse.back().count() : map.nodes[0] * map.nodes[1];

@@ -16,7 +16,7 @@ namespace {
 
 // Nearer points are one, in m and rad.
 constexpr double least_way = 1e-9, least_turn = 1e-12;
-// What is left of a line between its corners and is only rounding, m.
+// The length of a line between its corners that is only rounding, m.
 constexpr double layout_rounding = 1e-12;
 // Directions that differ by less are one.
 constexpr double least_corner = 1e-6;
@@ -300,8 +300,8 @@ class Layer {
   Pose here_;
   ToolLayout out_;
   int step_ = 0;
-  bool joins_ = false;        // whether the last run is of lines and arcs without a turn
-  std::vector<Vec3> starts_;  // of the lines, by step
+  bool joins_ = false;        // true if the last run is of lines and arcs without a turn
+  std::vector<Vec3> starts_;  // starts of the lines, by step
 };
 
 }  // namespace

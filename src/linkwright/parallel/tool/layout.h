@@ -17,14 +17,14 @@ struct ToolPart {
   double speed = infinity;  ///< limit of the step, m/s
 };
 
-/// What the tool does between two rests: parts that join, a table, or nothing (a dwell).
+/// A part of the motion between two rests: parts that join, a table, or nothing (a dwell).
 struct ToolRun {
   int step = 0;  ///< its first one
   Pose start;
   std::vector<ToolPart> parts;
   Vec3 turn{};                       ///< rotation vector from start to end, seen from the base (rad)
   double dwell = 0;                  ///< s
-  const ToolTable* table = nullptr;  ///< of the path that was laid out
+  const ToolTable* table = nullptr;  ///< table of the path that was laid out
 };
 
 struct ToolLayout {

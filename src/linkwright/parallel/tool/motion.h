@@ -13,7 +13,7 @@
 #include "linkwright/parallel/tool/path.h"
 #include "linkwright/parallel/tool/time_law.h"
 
-/// Where the tool is at any time, and how it moves there.
+/// The position and motion of the tool at any time.
 namespace linkwright::parallel {
 
 /// The tool at one instant, seen from the base.
@@ -23,7 +23,7 @@ struct ToolState {
   Vec3 angular_velocity{}, angular_acceleration{};  ///< rad/s, rad/s2
 };
 
-/// What keeps the path from being a motion from `start`; nothing if all is well.
+/// Says what keeps the path from being a motion from `start`; nothing if it is one.
 std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limits, const Pose& start);
 
 /// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
@@ -55,8 +55,9 @@ class ToolMotion {
 
   /// Times between which the path and its law are smooth, from 0 to the duration, increasing.
   std::vector<double> breaks() const;
-  /// How far the tool goes, and how far it turns, from time a to time b, between which there is no break:
-  /// along curves the very length, along a table a bound that tends to it. Allocates nothing.
+  /// The distance that the tool covers, and the angle that it turns, from time a to time b, between which
+  /// there is no break: along curves the very length, along a table a bound that tends to it. Allocates
+  /// nothing.
   Displaced way(double a, double b) const;
 
   /// States at 0, dt, 2 dt, ... and at the duration. Throws ContractError unless dt > 0 and the samples are
@@ -101,7 +102,7 @@ class ToolMotion {
   std::vector<Piece> pieces_;
   std::vector<JerkPhase> phases_;
   std::vector<Spline> splines_;
-  std::vector<std::string> names_;  // of the steps
+  std::vector<std::string> names_;  // names of the steps
   ToolState end_;
   double duration_ = 0;
 };

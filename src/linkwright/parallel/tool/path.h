@@ -11,7 +11,7 @@
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/tool/time_law.h"
 
-/// What the tool of a robot is to do, step by step. Plain data in SI units, axes of the base; the motion that
+/// The task of a robot's tool, step by step. Plain data in SI units, axes of the base; the motion that
 /// follows from it is in tool_motion.h.
 namespace linkwright::parallel {
 
@@ -34,7 +34,7 @@ struct ToolArc {
 /// Along a circle about an axis.
 struct ToolCircle {
   Coordinates centre{};       ///< m, any point of the axis
-  Coordinates axis{0, 0, 1};  ///< of any length
+  Coordinates axis{0, 0, 1};  ///< axis, of any length
   double angle = 0;           ///< rad, right-handed about the axis, also more than a turn
   std::optional<Coordinates> rotation;
   std::optional<double> speed;
@@ -43,7 +43,7 @@ struct ToolCircle {
 /// The gate-shaped cycle: up, across and down to a point, the corners rounded. It begins and ends at rest.
 struct PickAndPlace {
   Coordinates to{};         ///< m
-  Coordinates up{0, 0, 1};  ///< of any length
+  Coordinates up{0, 0, 1};  ///< upward direction, of any length
   double height = 0;        ///< m, of the way across above the higher of both ends
   double corner =
       0.5;  ///< (0, 1], where the rounding begins: share of the lower leg, or of half the way across
@@ -97,18 +97,18 @@ struct ToolLimits {
   double angular_jerk = 10000;        ///< rad/s3
 };
 
-/// What keeps a path from being a motion.
+/// The reason why a path is not a motion.
 struct ToolProblem {
   int step = -1;         ///< from 0; -1 = not of a step
-  std::string_view key;  ///< of the field that is wrong, without unit; empty = of none
-  std::string message;   ///< with the step by number and kind: "step 3 (arc): ..."
-  std::string hint;      ///< how to fix it; may be empty
+  std::string_view key;  ///< key of the wrong field, without unit; empty = no field
+  std::string message;   ///< message with the step by number and kind: "step 3 (arc): ..."
+  std::string hint;      ///< says how to fix it; may be empty
 };
 
 /// "step 3 (arc)" for the step of index 2.
 std::string step_name(const ToolPath& path, int step);
 
-/// Whatever is wrong with one of the limits.
+/// The first problem of the limits; nothing if there is none.
 std::optional<ToolProblem> problem(const ToolLimits& limits);
 
 // ---------------------------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ ToolTiming fastest(const ToolRun& run, const ToolLimits& limits) {
   std::vector<double> steady(n);
   for (std::size_t i = 0; i < n; ++i) {
     const ToolPart& part = run.parts[i];
-    // Of a turn in proportion to the length.
+    // Limits of rotation in proportion to the length.
     RateLimits turning{INFINITY, INFINITY, INFINITY};
     if (angle > 0) {
       const double share = whole / angle;

@@ -5,12 +5,12 @@
 #include "linkwright/parallel/tool/layout.h"
 #include "linkwright/parallel/tool/time_law.h"
 
-/// How long a tool takes along parts that join, from rest to rest.
+/// The time that a tool takes along parts that join, from rest to rest.
 namespace linkwright::parallel {
 
 struct ToolTiming {
   double duration = 0;            ///< s
-  std::vector<JerkPhase> phases;  ///< of the double S, by the length run through; empty for other laws
+  std::vector<JerkPhase> phases;  ///< phases of the double S, by the length covered; empty for other laws
 };
 
 /// Length of all parts of a run; of a turn on the spot the angle.

@@ -14,7 +14,7 @@ namespace linkwright::parallel {
 
 namespace {
 
-// What the bounds need of a node.
+// The data of a node that the bounds need.
 struct Node {
   Marks marks;
   double clear = 0;  // radius (m)

@@ -11,7 +11,7 @@
 /// what lies between.
 namespace linkwright::parallel {
 
-/// Which nodes are neighbours: along an axis, or also across faces and corners of a cell.
+/// The rule that makes nodes neighbours: along an axis, or also across faces and corners of a cell.
 enum class Neighbours { along_axes, diagonal_too };
 constexpr std::array<EnumName<Neighbours>, 2> names(Neighbours) {
   return {{{Neighbours::along_axes, "along_axes", "6 in space, 4 in the plane"},
@@ -21,13 +21,13 @@ constexpr std::array<EnumName<Neighbours>, 2> names(Neighbours) {
 /// Aspects: sets of nodes joined by regular edges.
 struct WorkspaceAspects {
   Status status = Status::done;      ///< cancelled or deadline: the rest is not to be used
-  std::vector<std::int32_t> aspect;  ///< of each node: number of its aspect; -1 outside the set
+  std::vector<std::int32_t> aspect;  ///< number of each node's aspect; -1 outside the set
   std::vector<std::size_t> size;     ///< nodes of each aspect; numbered in the order of their first nodes
   int home = -1;                     ///< aspect of the node nearest to home; -1: that one is not in the set
   std::size_t home_node = 0;
   std::size_t edges = 0;  ///< between neighbours of the set
   std::size_t closed =
-      0;  ///< of these: singular between their ends, or so near to it that nothing else is shown
+      0;  ///< edges that are singular between their ends, or so nearly that nothing else is shown
 
   /// Nodes that can be reached from home, and all of the set.
   std::size_t reachable() const { return home < 0 ? 0 : size[static_cast<std::size_t>(home)]; }
@@ -44,8 +44,8 @@ struct WorkspaceAspects {
 /// Limits of drives, joints and indices are those of the nodes alone: between two nodes that pass they may be
 /// exceeded by what a step of the grid makes of them.
 struct WorkspaceAspectsTask {
-  PoseConditions conditions;  ///< those of the map
-  Mat3 rotation{};            ///< that of the map
+  PoseConditions conditions;  ///< conditions of the map
+  Mat3 rotation{};            ///< rotation of the map
   Vec3 home;                  ///< m
   Neighbours neighbours = Neighbours::along_axes;
 };

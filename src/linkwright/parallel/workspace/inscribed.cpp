@@ -338,7 +338,8 @@ class Search {
     constexpr std::size_t block = 256;
     std::array<Vec3, block> place;
     std::array<Criterion, block> criterion;
-    // Where the last body did not fit the next one most likely does not.
+    // The block in which the last body did not fit is looked at first: there the next one most likely does
+    // not fit either.
     const std::size_t blocks = (unit_.size() + block - 1) / block;
     for (std::size_t b = 0; b < blocks; ++b) {
       const std::size_t first = (first_ + b) % blocks * block, here = std::min(block, unit_.size() - first);
@@ -386,7 +387,7 @@ class Search {
            within(low.z, high.z, centre.z, h.z);
   }
   bool inside(const Vec3& d, const Vec3& h) const {
-    if (task_.shape == InscribedShape::box) return true;  // as the whole range
+    if (task_.shape == InscribedShape::box) return true;  // a box takes the whole range
     const double across = (d.x * d.x + d.y * d.y) / (h.x * h.x);
     if (task_.shape == InscribedShape::cylinder || plane_) return across < 1;
     return across + d.z * d.z / (h.z * h.z) < 1;
@@ -411,7 +412,7 @@ class Search {
   const NodeSet& set_;
   const InscribedTask& task_;
   bool plane_;
-  std::array<bool, 5> free_{};  // of the centre and the ratios
+  std::array<bool, 5> free_{};  // freedoms of the centre and the ratios
   RandomStream random_{StreamKey{}};
   std::vector<Vec3> unit_;  // points on the surface of the body with half sizes 1
   std::size_t first_ = 0;   // block of these that did not pass last time
@@ -432,7 +433,7 @@ double measure(InscribedShape shape, const Vec3& half) {
 
 // Makes the body smaller about its centre until it is proven.
 void make_proven(const InscribedTask& task, Inscribed& out) {
-  // Who asks for no assembly asks for no such proof.
+  // Without a prescribed assembly no such proof is asked for.
   const bool delta = task.conditions.robot.freedom == Freedom::space_translation;
   if (task.conditions.assembly == 0 || (delta && task.conditions.constraint == 0)) return;
   const auto home = trouble_task(task.conditions.robot, {out.centre, task.rotation}, task.conditions.mode,
@@ -440,7 +441,7 @@ void make_proven(const InscribedTask& task, Inscribed& out) {
   if (!home) return;
   const auto smaller = [&](double factor) {
     Vec3 half = factor * out.half;
-    if (task.height > 0) half.z = out.half.z;  // which is given
+    if (task.height > 0) half.z = out.half.z;  // the height is given
     return half;
   };
   bool settled = true;  // else the proof was given up, and would be for other sizes

@@ -9,12 +9,12 @@
 namespace linkwright::parallel {
 
 struct InscribedTask {
-  PoseConditions conditions;  ///< those of the map
-  Mat3 rotation{};            ///< that of the map
+  PoseConditions conditions;  ///< conditions of the map
+  Mat3 rotation{};            ///< rotation of the map
   InscribedShape shape = InscribedShape::cylinder;
   std::optional<Vec3> axis{};  ///< the cylinder's axis goes through this point; none = anywhere
-  /// Of a cylinder; at most one of both is given, 0 = free. With a height (m) the diameter grows; with a
-  /// ratio of height and diameter, or neither, the volume.
+  /// Height, and ratio of height and diameter, of a cylinder; at most one of both is given, 0 = free. With a
+  /// height (m) the diameter grows; with a ratio of height and diameter, or neither, the volume.
   double height = 0, ratio = 0;
 };
 
@@ -24,9 +24,10 @@ struct Inscribed {
   Vec3 half;                     ///< half the extent along each axis (m); z = 0 in the plane
   double measure = 0;            ///< volume (m3) or area (m2)
   double on_grid = 0;            ///< the same of the body of nodes where the search began
-  /// Where the conditions ask for an assembly (of a DELTA also of its platform): all of it is free of
-  /// singularities, of the assembly that it has in the middle, with the constraint index that is asked for
-  /// (less 5e-4): see proven_body.h. A body that could not be proven has been made smaller until it could.
+  /// True if all of the body is proven free of singularities, which is done when the conditions ask for an
+  /// assembly (for a DELTA also of its platform): in the assembly of the middle, with the constraint index
+  /// that is asked for (less 5e-4): see proven_body.h. A body that could not be proven has been made smaller
+  /// until it could.
   bool proven = false;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 bool is_round(RegionShape shape) { return shape == RegionShape::cylinder || shape == RegionShape::circle; }
 
-/// Whether coordinate k is an angle that runs all the way round, so that its ends coincide.
+/// True if coordinate k is an angle that covers the full circle, so that its ends coincide.
 bool closed(const PrescribedRegion& region, int k) {
   return is_round(region.shape) && k == 1 && !region.symmetric;
 }

@@ -40,7 +40,7 @@ struct PrescribedRegion {
   std::array<int, 3> cells{8, 12, 5};
 };
 
-/// What keeps it from being a region, with the value; empty if all is well.
+/// Says what keeps it from being a region, with the value; empty if it is one.
 std::string problem(const PrescribedRegion& region);
 
 bool is_planar(RegionShape shape);
@@ -62,7 +62,7 @@ math::Vec3 middle_of(const PrescribedRegion& region);
 struct RegionPoint {
   std::array<double, 3> at{};  ///< coordinates
   math::Vec3 place{};          ///< local (m)
-  double weight = 0;           ///< of the mean; the sum of all is 1
+  double weight = 0;           ///< weight in the mean; the sum of all is 1
 };
 std::vector<RegionPoint> region_nodes(const PrescribedRegion& region);
 std::vector<RegionPoint> region_cells(const PrescribedRegion& region);

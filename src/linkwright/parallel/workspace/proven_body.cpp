@@ -9,7 +9,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double slack = 5e-4;  // of the indices, as in path_trouble.h
+constexpr double slack = 5e-4;  // margin of the indices, as in path_trouble.h
 constexpr double edge = 1e-6;   // m: boxes so small at the edge of reach are let be
 
 /// A box about the centre of the body, as shares of its half sizes.
@@ -17,8 +17,8 @@ struct Cell {
   Vec3 low, high;
 };
 
-/// Of the cell the point that is nearest to the centre (or the axis), if it is in the body: then the body and
-/// the cell meet.
+/// The point of the cell nearest to the centre (or the axis), if it is in the body: then the body and the
+/// cell meet.
 Vec3 nearest(const Cell& c) {
   const auto clamp = [](double low, double high) { return std::clamp(0.0, low, high); };
   return {clamp(c.low.x, c.high.x), clamp(c.low.y, c.high.y), clamp(c.low.z, c.high.z)};

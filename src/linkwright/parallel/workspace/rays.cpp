@@ -95,7 +95,7 @@ Rays follow_all(const Route& route, std::span<const Vec3> directions, const RayS
   return out;
 }
 
-// Of two discs with centres a distance apart.
+// The common area of two discs with centres a distance apart.
 double common_area(double r, double s, double distance) {
   if (distance >= r + s) return 0;
   const double least = std::min(r, s);
@@ -158,7 +158,7 @@ RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose,
   Rays found = rotation_rays(conditions, pose, directions, search, context);
   RotationRange out{.status = found.status};
   if (found.status != Status::done) return out;
-  // What stands in the way; where the pose itself does not pass, that.
+  // The criterion that ends the rotation; if the pose itself does not pass, that of the pose.
   const Criterion here = check_pose(conditions, pose);
   const auto criterion = [&](const Ray& ray) {
     return here != Criterion::none ? here : ray.stretch[0].after;

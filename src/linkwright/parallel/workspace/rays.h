@@ -10,26 +10,26 @@
 /// rotations of the platform about one.
 namespace linkwright::parallel {
 
-/// How rays are followed.
+/// The options for following rays.
 struct RaySearch {
   double longest = 0;       ///< length of a ray: m, or rad for rotations
-  double step = 0;          ///< of the march: what is thinner than this may be missed
-  double tolerance = 1e-9;  ///< of the ends, by bisection
+  double step = 0;          ///< step of the march: parts that are thinner may be missed
+  double tolerance = 1e-9;  ///< tolerance of the ends, by bisection
 };
 
 /// A stretch of a ray on which everything passes.
 struct RayStretch {
   double from = 0, to = 0;             ///< m or rad
-  Criterion before = Criterion::none;  ///< what ends it towards the origin; none: it begins there
-  Criterion after = Criterion::none;   ///< what ends it outwards; none: the ray's end
+  Criterion before = Criterion::none;  ///< criterion that ends it towards the origin; none: it begins there
+  Criterion after = Criterion::none;   ///< criterion that ends it outwards; none: the ray's end
 };
 
-/// What passes of a ray, from the origin outwards.
+/// The stretches of a ray that pass, from the origin outwards.
 struct Ray {
   Vec3 direction;  ///< unit
   std::vector<RayStretch> stretch{};
 
-  /// How far one gets from the origin before the first criterion; 0 where the origin does not pass.
+  /// The distance from the origin to the first criterion; 0 where the origin does not pass.
   double reach() const { return stretch.empty() || stretch[0].before != Criterion::none ? 0 : stretch[0].to; }
 };
 
@@ -57,11 +57,11 @@ std::vector<Vec3> directions_over_sphere(int count);
 /// boundary with its power 3/2.
 double area_of(const Rays& rays);
 
-/// How far a platform can be turned at a point.
+/// The range of rotations of a platform at a point.
 struct RotationRange {
   Status status = Status::done;
   double tilt = 0;          ///< about every horizontal axis of those tried, at least so far (rad)
-  double tilt_azimuth = 0;  ///< of the axis that gives out first (rad from x)
+  double tilt_azimuth = 0;  ///< direction of the axis about which the least rotation is possible (rad from x)
   Criterion tilt_criterion = Criterion::none;
   double least_yaw = 0, most_yaw = 0;  ///< about z, from the rotation of the pose (rad): <= 0, >= 0
   Criterion least_yaw_criterion = Criterion::none, most_yaw_criterion = Criterion::none;

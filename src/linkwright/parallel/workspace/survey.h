@@ -8,13 +8,13 @@
 
 namespace linkwright::parallel {
 
-/// What a grid of any size comes to, without its nodes: layers are looked at one by one.
+/// The results of a grid of any size, without its nodes: layers are looked at one by one.
 struct WorkspaceSurvey {
   Status status = Status::done;        ///< cancelled or deadline: layers are missing
   std::array<std::size_t, 3> nodes{};  ///< along x, y, z
-  double cell = 0;                     ///< as in WorkspaceMap
+  double cell = 0;                     ///< cell, as in WorkspaceMap
   std::size_t count = 0;               ///< nodes that were looked at
-  WorkspaceTotals totals;              ///< of them; places of indices are numbers as in WorkspaceMap
+  WorkspaceTotals totals;              ///< totals; places of indices are numbers as in WorkspaceMap
   std::vector<std::size_t> passing;    ///< nodes of each layer that pass: levels of z, else rows along x
 };
 

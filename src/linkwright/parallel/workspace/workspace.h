@@ -24,7 +24,7 @@ std::array<std::size_t, 3> nodes_of(const WorkspaceGrid& grid);
 /// Share of a node in the measure of a set: step^axes (m3, m2 for two axes, m for one).
 double cell_of(const WorkspaceGrid& grid, const std::array<std::size_t, 3>& nodes);
 
-/// What a map holds beside the criteria.
+/// The content of a map besides the criteria.
 struct WorkspaceTask {
   PoseConditions conditions;
   WorkspaceGrid grid;
@@ -36,7 +36,7 @@ struct WorkspaceMap {
   Status status = Status::done;  ///< cancelled or deadline: some nodes are Criterion::open
   WorkspaceGrid grid;
   std::array<std::size_t, 3> nodes{};                       ///< along x, y, z
-  int axes = 0;                                             ///< with more than one node
+  int axes = 0;                                             ///< number of axes with more than one node
   double cell = 0;                                          ///< cell_of
   std::vector<Criterion> criterion;                         ///< x changes fastest, then y
   std::array<std::vector<double>, pose_index_count> index;  ///< empty where not wanted
@@ -65,13 +65,13 @@ struct IndexSummary {
   double least = 0, mean = 0, greatest = 0;
   std::size_t least_at = 0, greatest_at = 0;  ///< first such nodes
 };
-/// Of LCI the mean is the global conditioning index (GCI) over the set.
+/// Summary of an index over the set; the mean of LCI is the global conditioning index (GCI).
 IndexSummary summary(const WorkspaceMap& map, PoseIndex index, const NodeSet& set);
 
 struct WorkspaceTotals {
   std::array<std::size_t, criterion_count> count{};  ///< nodes that stop at each criterion
   std::size_t passing = 0;
-  double measure = 0;                                  ///< of the passing nodes: volume (m3), or area (m2)
+  double measure = 0;  ///< measure of the passing nodes: volume (m3), or area (m2)
   std::array<IndexSummary, pose_index_count> index{};  ///< over the passing nodes, of the indices in the map
 };
 WorkspaceTotals totals(const WorkspaceMap& map);

@@ -20,8 +20,8 @@ struct PreparedLeg {
   Vec3 lever;  ///< R b
   double mode = 1, sense = 1;
   struct By {
-    Vec3 joint;                               ///< of the platform joint, seen from the pivot
-    Vec3 lever;                               ///< of R b
+    Vec3 joint;                               ///< derivative of the platform joint, seen from the pivot
+    Vec3 lever;                               ///< derivative of R b
     double along = 0, aside = 0, across = 0;  ///< parts of `joint` along e, w and the axis
     double arm = 0, rod = 0;
   };
@@ -33,7 +33,7 @@ struct PreparedRobot {
   double per_length = 1;
   double assembly = 1;  ///< sign of det J^-1 where the conditioning is positive
   double turned = 1;    ///< sign of det C where the constraint index is
-  Vec3 origin;          ///< of the region
+  Vec3 origin;          ///< origin of the region
   std::array<PreparedLeg, most_legs> leg{};
 };
 
@@ -89,9 +89,9 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
 
   std::array<LegAt<T>, order> at;
   std::array<T, order> drive;                             // l s . u'
-  std::array<std::array<T, order>, order> rows, inverse;  // of Jx, of J^-1 = Jq^-1 Jx
-  // Of the least square of an input index and the leg it belongs to: beyond reach it goes on as an index that
-  // is less than 0, so that a search finds its way back.
+  std::array<std::array<T, order>, order> rows, inverse;  // rows of Jx, inverse J^-1 = Jq^-1 Jx
+  // Smooth minimum of the squares of an input index and of the leg it belongs to: beyond reach it goes on as
+  // an index that is less than 0, so that a search finds its way back.
   T least(0.0);
   std::array<T, most_dimensions> least_by;
   for (int j = 0; j < n; ++j) least_by[j] = T(0.0);
@@ -147,7 +147,8 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
   }
 
   const auto svd = math::singular_values<order>(inverse);
-  std::array<T, order> first_left, first_right, last_left, last_right;  // of the largest, of the least
+  // Vectors of the largest and of the least singular value.
+  std::array<T, order> first_left, first_right, last_left, last_right;
   T largest = svd.value[0], smallest = svd.value[0];
   for (int i = 0; i < order; ++i) {
     first_left[i] = last_left[i] = svd.left[i][0];
@@ -175,7 +176,8 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
   out.constraint = T(1.0);
   if constexpr (derivatives)
     for (int j = 0; j < n; ++j) out.constraint_by[j] = T(0.0);
-  [[maybe_unused]] std::array<T, order> couple_left{}, couple_right{};  // of the least singular value of C
+  // Vectors of the least singular value of C.
+  [[maybe_unused]] std::array<T, order> couple_left{}, couple_right{};
   [[maybe_unused]] T held(1.0);
   if constexpr (order == 3) {
     if (robot.constraint) {

@@ -10,8 +10,9 @@
 #include "linkwright/parallel/dexterity/dexterity.h"
 #include "linkwright/parallel/dexterity/synthesis.h"
 
-/// What searches of dexterity_synthesis.h share. Their unknowns are the dimensions of the family, then, where
-/// the travel of the arms counts, the least and the largest outward angle, then mounting and ratio.
+/// The model that the searches of dexterity_synthesis.h share. Their unknowns are the dimensions of the
+/// family, then, where the travel of the arms counts, the least and the largest outward angle, then mounting
+/// and ratio.
 namespace linkwright::parallel {
 
 /// A limit of one pose, one entry of a working set.
@@ -63,7 +64,7 @@ class DexterityModel {
   };
   At at(std::size_t node) const;
 
-  /// With the sign of det C that it has in the middle of the region.
+  /// The robot of these unknowns, with the sign of det C that it has in the middle of the region.
   DesignedRobot designed(std::span<const double> unknowns) const;
   const DexterityMeasures& measures() const { return measures_; }
 
@@ -82,7 +83,7 @@ class DexterityModel {
   double mean(const DesignedRobot& designed, Work& work, std::span<double> by) const;
   std::size_t cells() const { return cell_weight_.size() * task_.orientations.size(); }
 
-  /// How many legs a limit counts for: all, or one that stands for the pose.
+  /// Number of legs that a limit counts for: all, or one that stands for the pose.
   int entries(PoseLimit::Kind kind) const {
     return kind == PoseLimit::conditioning || kind == PoseLimit::constraint ? 1 : legs_;
   }
@@ -112,7 +113,7 @@ class DexterityModel {
   /// Least and largest outward angle that is used.
   std::pair<double, double> travel(const Extremes& extremes) const;
 
-  /// What is minimised, for given extremes (and mean, where it is the goal).
+  /// The cost to be minimised, for given extremes (and mean, where it is the goal).
   double cost(std::span<const double> unknowns, const Extremes& extremes, double mean) const;
   /// Sum of what limits are missed by, with the angles that are used.
   double violation(std::span<const double> x, const Extremes& extremes) const;

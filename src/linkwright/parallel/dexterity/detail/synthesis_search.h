@@ -12,8 +12,8 @@ namespace linkwright::parallel {
 /// added. `x` of its start are the unknowns.
 struct Descent {
   DexterityStart start;
-  /// Of all nodes there; not known when the run ended before they had been looked at once: then `start` has
-  /// no objective.
+  /// True if `extremes` cover all nodes there; false when the run ended before all had been measured once:
+  /// then `start` has no objective.
   bool known = false;
   Extremes extremes;
 };
@@ -23,7 +23,7 @@ Descent descend(const DexterityModel& model, const DexterityOptions& options, st
 /// A place where an index goes furthest in the direction that its limit does not like, nearby.
 struct BetweenNodes {
   DexterityModel::At at;
-  double value = 0;  ///< as in Extremes
+  double value = 0;  ///< value, as in Extremes
 };
 /// Such places, worst first: from the worst nodes that lie apart and come close to the worst of all, within
 /// `close`, a search without derivatives in the cells around each. `poses` grows by what was measured.

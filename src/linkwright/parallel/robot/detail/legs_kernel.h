@@ -15,7 +15,7 @@ struct LegAt {
   math::Vector3<T> arm;     ///< u: unit direction of the arm
   math::Vector3<T> normal;  ///< u' = du/dalpha
   math::Vector3<T> rod;     ///< s: from the arm's end to the platform joint (m)
-  T cosine, sine;           ///< of alpha
+  T cosine, sine;           ///< cosine and sine of alpha
   T reach;  ///< rho^2 - c^2 (m2): negative = the leg cannot reach the joint; 0 = arm and rod aligned
 };
 
