@@ -16,11 +16,11 @@ namespace linkwright::clearance {
 /// A pin that has clearance.
 struct AutomaticPin {
   ContactJoint contact;  ///< its start does not count
-  /// Of the clearance link at the start, as in JointClearance: rad and rad/s.
+  /// Angle (rad) and rate (rad/s) of the clearance link at the start, as in JointClearance.
   double angle = 0, rate = 0;
 };
 
-/// What continuous contact sees of the pins.
+/// The joints as the model of continuous contact takes them.
 std::vector<JointClearance> continuous_joints(std::span<const AutomaticPin> pins);
 
 /// The pins in contact, at an instant of continuous contact: in the same directions, turning as fast, pressed
@@ -35,18 +35,18 @@ struct AutomaticContactOutput {
 };
 
 struct AutomaticContactRun {
-  Status status = Status::done;  ///< of whichever model it ended in
+  Status status = Status::done;  ///< status of the model in which the run ended
   std::string message;
   double time = 0;               ///< reached, s
   JointClearanceRun continuous;  ///< until the switch
   ContactRun contact;            ///< from the switch on; empty when there is none
   /// s: when the tension of a pin is lost for the first time; NaN when continuous contact holds throughout.
   double switched = nan;
-  int pin = -1;                               ///< that parted then
-  std::vector<planar::InputMotion> inputs;    ///< of the linkage at the switch
+  int pin = -1;                               ///< pin that parted then
+  std::vector<planar::InputMotion> inputs;    ///< inputs of the linkage at the switch
   double energy_step = 0;                     ///< J: energy after the switch less before it
   double largest_drift = 0, peak_energy = 0;  ///< J, over the rows of both
-  long steps = 0, evaluations = 0;            ///< of both
+  long steps = 0, evaluations = 0;            ///< steps and evaluations of both models
 };
 
 /// The motion, as simulate_joint_clearance until the tension of any pin is lost, and as simulate_contact from

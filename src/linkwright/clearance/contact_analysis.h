@@ -6,17 +6,18 @@
 
 #include "linkwright/clearance/contact_simulation.h"
 
-// What long contact simulations are looked at for.
+// Analyses of long contact simulations.
 namespace linkwright::clearance {
 
 /// Amplitudes by frequency.
 struct Spectrum {
   std::vector<double> frequency;  ///< Hz, from 0 to half the sampling frequency
-  std::vector<double> amplitude;  ///< of the cosine of that frequency; at 0 the mean
+  std::vector<double> amplitude;  ///< amplitude of the cosine of that frequency; at 0 the mean
 };
-/// Of even samples `interval` (s) apart: the discrete Fourier transform of all of them. With a window (Hann),
-/// amplitudes of frequencies that do not fit into the stretch leak less into others. At least 2 samples;
-/// throws ContractError for fewer, an interval that is not positive, and samples that are not finite.
+/// Spectrum of samples at equal intervals `interval` (s): the discrete Fourier transform of all of them. With
+/// a window (Hann), amplitudes of frequencies that do not fit into the stretch leak less into others. At
+/// least 2 samples; throws ContractError for fewer, an interval that is not positive, and samples that are
+/// not finite.
 Spectrum amplitude_spectrum(std::span<const double> samples, double interval, bool window = false);
 
 /// State of a pin in its bush once a turn.

@@ -7,8 +7,8 @@
 // Forces between a pin and a bush that press into each other by `depth` (m), which grows at `rate` (m/s).
 namespace linkwright::clearance {
 
-/// How energy is lost while pin and bush press into each other: the factor a of
-/// F = K depth^n (1 + a rate / approach speed).
+/// The model of the energy loss while pin and bush press into each other: the factor a of F = K depth^n (1 +
+/// a rate / approach speed).
 enum class ContactDamping { lankarani_nikravesh, flores_2011 };
 constexpr std::array<EnumName<ContactDamping>, 2> names(ContactDamping) {
   return {{{ContactDamping::lankarani_nikravesh, "lankarani_nikravesh",
@@ -66,8 +66,9 @@ struct ImpactShape {
   double force = 1;        ///< largest force by its largest force
   double depth = 1;        ///< largest depth by its largest depth
 };
-/// With u = speed / approach, S(u) = (1 - u) / a - ln((1 + a) / (1 + a u)) / a^2 is the integral of
-/// x / (1 + a x) from u to 1, and depth^(n+1) = (n + 1) m v^2 S / K; elastic, S(0) = 1/2.
+/// Shape of an impact by a contact law. With u = speed / approach, S(u) = (1 - u) / a - ln((1 + a) / (1 + a
+/// u)) / a^2 is the integral of x / (1 + a x) from u to 1, and depth^(n+1) = (n + 1) m v^2 S / K; elastic,
+/// S(0) = 1/2.
 ImpactShape impact_shape(const ContactLaw& law);
 /// Least coefficient of restitution, in hundredths, from which on the effective one of the law differs by no
 /// more than `share` of it.

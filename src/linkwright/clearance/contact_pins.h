@@ -17,15 +17,15 @@ constexpr std::array<EnumName<PinSide>, 2> names(PinSide) {
            {PinSide::second, "second", "the pin is on the second body, the bush on the first"}}};
 }
 
-/// How the pin lies in the bush at the start: J - B, from the centre of the bush to that of the pin (m,
-/// global frame), and how fast it changes (m/s). Zero: centred, with the velocities of the ideal linkage.
+/// The position of the pin in the bush at the start: J - B, from the centre of the bush to that of the pin
+/// (m, global frame), and how fast it changes (m/s). Zero: centred, with the velocities of the ideal linkage.
 struct PinStart {
   std::complex<double> eccentricity{0, 0}, rate{0, 0};
 };
 
 /// A pin that has clearance.
 struct ContactJoint {
-  int joint = 0;           ///< of the linkage: a revolute joint without drive and friction
+  int joint = 0;           ///< revolute joint of the linkage, without drive and friction
   double clearance = 0;    ///< c, m, > 0: radius of the bush less radius of the pin
   double bush_radius = 0;  ///< m, more than the clearance; arm of friction
   ContactLaw law;
@@ -57,14 +57,14 @@ class ContactPins {
   std::size_t size() const { return places_.size(); }
   const PinPlace& operator[](std::size_t pin) const { return places_[pin]; }
 
-  /// Where they are; after solve_velocity.
+  /// Sets the positions of pins and bushes; call after solve_velocity.
   void place(const planar::LinkageMotion& motion);
 
   /// Makes the forces of the places loads of the linkage: on the pin at its point of contact, and the
   /// opposite on the bush there, so that they balance.
   void press(std::span<const PinForce> forces);
 
-  /// How the eccentricity and the depth accelerate (m/s2); after solve_acceleration.
+  /// The acceleration of the eccentricity and of the depth (m/s2); call after solve_acceleration.
   planar::Vec<double> acceleration(const planar::LinkageMotion& motion, std::size_t pin) const;
   double depth_acceleration(const planar::LinkageMotion& motion, std::size_t pin) const;
 

@@ -145,7 +145,7 @@ class ContactMotion {
         const double way = options_.tolerance * clearance * (derivative == 0 ? 0.01 : 1);
         out.push_back(open_.plan.rotary[k] ? way / open_.plan.size : way);
       }
-    // Of energies what the steps of the motion give: they act back on nothing.
+    // Energies get the accuracy that the steps of the motion give: they act back on nothing.
     for (int k = 0; k < 2; ++k) out.push_back(std::max(options_.tolerance * energy, 1e-15));
     return out;
   }
@@ -238,7 +238,7 @@ class ContactMotion {
     if (c.number < run_.events.size()) run_.events[c.number] = c.event;
     run_.totals[at(c.event.joint)].add(c.event, start_time_, run_.time);
   }
-  // What there is at the end of the run, contacts that still last included.
+  // The run so far, with the contacts that still last at its end.
   ContactRun ended() {
     for (const Contact& c : contact_)
       if (c.on) list(c);
@@ -307,7 +307,7 @@ class ContactMotion {
     c.force = force;
     c.force_rate = force_rate;
   }
-  // What the next step is compared with; after place().
+  // Notes the values with which the next step is compared; call after place().
   void remember(double t) {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       note(k, t);
@@ -381,7 +381,8 @@ class ContactMotion {
     planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
     start_kinetic_ = planar::kinetic_energy(open_.plan, dynamics_->motion);
     start_potential_ = planar::potential_energy(open_.linkage, open_.plan, dynamics_->motion);
-    // Those that press into each other are in contact; the others where the forces then drive them in.
+    // Pins that press into their bushes are in contact; the others come into contact where the forces drive
+    // them in.
     const double rounding = 10 * noise_;
     for (std::size_t k = 0; k < joints_.size(); ++k)
       if (pins_[k].depth > rounding) begin(k, t, std::max(pins_[k].depth_rate, 0.0));

@@ -70,12 +70,13 @@ struct ContactState {
 struct ContactRow {
   double time = 0;
   std::span<const ContactState> joints;
-  std::span<const planar::InputMotion> inputs;    ///< of the open linkage
-  const planar::LinkageMotion* motion = nullptr;  ///< with velocities and accelerations, of the open linkage
-  double kinetic = 0, potential = 0;              ///< J; potential: weight and springs
-  double elastic = 0;                             ///< J, in the contacts
-  double dissipated = 0;  ///< J since the start, by damping and friction of the contacts
-  double work = 0;        ///< J since the start, of prescribed drives and of other loads that store no energy
+  std::span<const planar::InputMotion> inputs;  ///< data of the open linkage
+  /// Motion of the open linkage, with velocities and accelerations.
+  const planar::LinkageMotion* motion = nullptr;
+  double kinetic = 0, potential = 0;  ///< J; potential: weight and springs
+  double elastic = 0;                 ///< J, in the contacts
+  double dissipated = 0;              ///< J since the start, by damping and friction of the contacts
+  double work = 0;   ///< J since the start, of prescribed drives and of other loads that store no energy
   double drift = 0;  ///< J: kinetic + potential + elastic + dissipated - work less its value at the start
 };
 /// false ends the simulation.
@@ -85,7 +86,7 @@ struct ContactRun {
   /// done; infeasible, no_assembly, singular: the start does not work; limit_reached, not_converged: the
   /// motion ends; cancelled, deadline. Rows and events so far are kept.
   Status status = Status::done;
-  std::string message;                ///< why it is not `done`; else empty
+  std::string message;                ///< says why it is not `done`; else empty
   double time = 0;                    ///< reached, s
   std::vector<ContactEvent> events;   ///< in the order of their starts, max_events at most
   std::vector<ContactTotals> totals;  ///< one a joint

@@ -154,7 +154,7 @@ ClearanceInstant clearance_instant(const ClearanceFourBar& model, double crank_a
   out.point_acceleration =
       crank_part + link_part + acceleration * bush_by_link + times(arm, {-w3 * w3, out.coupler_acceleration});
 
-  // What the links need: forces at the mass centres, moments about A' and O4.
+  // The demand of the links: forces at the mass centres, moments about A' and O4.
   const Complex f3 = m3.mass * (b3 + acceleration * g3_by - model.gravity);
   const Complex f4 = m4.mass * (b4 + acceleration * g4_by - model.gravity);
   const double t3 = m3.inertia * out.coupler_acceleration + cross(c3, f3) + model.coupler_damping * w3;

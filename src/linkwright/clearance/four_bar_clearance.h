@@ -29,14 +29,14 @@ struct ClearanceFourBar {
 /// every link, and on masses, inertias and damping that are negative or not finite.
 void require_valid(const ClearanceFourBar& model);
 
-/// Whether all links assemble at every angle of the crank and of the clearance link: the crank rotates fully
+/// True if all links assemble at every angle of the crank and of the clearance link: the crank rotates fully
 /// wherever the pin lies in the bush (crank-rocker and double-crank families).
 bool turns_fully(const ClearanceFourBar& model);
 
 /// |sin(coupler - rocker)| below which the linkage counts as singular: coupler and rocker in line.
 inline constexpr double singular_sine = 1e-9;
 
-/// Where everything is. NaN where it is not known.
+/// Position of all joints. NaN where it is not known.
 struct ClearancePosition {
   Status status = Status::done;                    ///< no_assembly; singular: coupler and rocker in line
   std::complex<double> pin, bush;                  ///< A, A'
@@ -66,16 +66,17 @@ struct LinkState {
 
 /// Motion and forces at one instant.
 struct ClearanceInstant {
-  Status status = Status::done;  ///< that of the position; singular also when the link moves no mass
+  Status status = Status::done;  ///< status of the position; singular also when the link moves no mass
   ClearancePosition position;
   double link_acceleration = nan;  ///< rad/s2, from M a + h = 0 (Eq. (28))
   double link_inertia = nan;       ///< M, kg m2
   double coupler_rate = nan, rocker_rate = nan, coupler_acceleration = nan, rocker_acceleration = nan;
-  std::complex<double> point_velocity{nan, nan}, point_acceleration{nan, nan};  ///< of P
-  std::complex<double> bush_velocity{nan, nan};                                 ///< of A'
-  std::complex<double> pin_force{nan, nan};    ///< N, of the crank pin on the coupler
-  std::complex<double> joint_force{nan, nan};  ///< N, of the rocker on the coupler at B
-  std::complex<double> pivot_force{nan, nan};  ///< N, of the ground on the rocker at O4
+  /// Velocity and acceleration of P.
+  std::complex<double> point_velocity{nan, nan}, point_acceleration{nan, nan};
+  std::complex<double> bush_velocity{nan, nan};  ///< velocity of A'
+  std::complex<double> pin_force{nan, nan};      ///< N, of the crank pin on the coupler
+  std::complex<double> joint_force{nan, nan};    ///< N, of the rocker on the coupler at B
+  std::complex<double> pivot_force{nan, nan};    ///< N, of the ground on the rocker at O4
   /// N, in the clearance link. Positive: pin and bush are pressed together; zero or negative: they would
   /// part, and the model has left its range.
   double tension = nan;

@@ -26,8 +26,8 @@ std::string failure(const ClearanceInstant& now, double time, double crank) {
                      place);
 }
 
-// Whether the crank is about to come where no place of the pin in the bush lets the links meet: before it
-// does, the link swings faster and faster without end.
+// True if the crank is about to reach an angle where no position of the pin in the bush lets the links meet:
+// before it does, the link swings faster and faster without end.
 bool caught(const ClearanceFourBar& model, double crank) {
   const planar::FourBar& l = model.linkage;
   const double distance = std::abs(std::polar(l.ground, l.frame_angle) - std::polar(l.crank, crank));

@@ -34,14 +34,14 @@ struct ClearanceRun {
   /// done; no_assembly, singular: at the start; limit_reached: the crank cannot turn on; not_converged;
   /// cancelled, deadline. Rows so far are kept.
   Status status = Status::done;
-  std::string message;  ///< why it is not `done`; else empty
+  std::string message;  ///< says why it is not `done`; else empty
   double time = 0;      ///< reached, s
   LinkState link;       ///< then
   /// s: when the tension first is zero or less, so that pin and bush would part; NaN when it never is. What
   /// follows is outside of the model.
   double first_separation = nan;
   double separated = 0;             ///< share of the time during which the tension is zero or less, 0 to 1
-  int sign_changes = 0;             ///< of the tension
+  int sign_changes = 0;             ///< sign changes of the tension
   double least_tension = infinity;  ///< N, over steps and rows
   double most_tension = -infinity;
   double fastest_link = 0;  ///< rad/s: largest |rate| of the clearance link, over steps and rows
@@ -68,7 +68,7 @@ struct ClearanceOrbit {
   /// done; not_converged: Newton's method found no orbit, or the motion did not settle; no_assembly,
   /// singular: the linkage does not rotate fully; deadline, cancelled.
   Status status = Status::done;
-  std::string message;  ///< why it is not `done`; else empty
+  std::string message;  ///< says why it is not `done`; else empty
   double phase = 0, slope = 0;
   double residual = infinity;  ///< largest change of either over one turn
   /// Floquet multipliers: what becomes of small departures over one turn. On the unit circle for a stable
@@ -77,7 +77,7 @@ struct ClearanceOrbit {
   /// Derivative of phase and slope after a turn by those before it, row by row: where the multipliers come
   /// from.
   std::array<double, 4> derivative{};
-  int iterations = 0;  ///< of Newton's method, or turns
+  int iterations = 0;  ///< iterations of Newton's method, or turns of the crank
 
   LinkState start(const UniformCrank& crank) const {
     return {crank.angle + phase, crank.speed * (1 + slope)};

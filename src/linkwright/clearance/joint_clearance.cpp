@@ -76,7 +76,7 @@ Status start_bars(const ClearedLinkage& cleared, std::span<const JointClearance>
 // To how many roundings of the whole linkage the direction of a short bar is known.
 constexpr double roundings = 100;
 
-// What rounding leaves of the free inputs of a cleared linkage and their rates. Places are known to roundings
+// The rounding error of the free inputs of a cleared linkage and their rates. Places are known to roundings
 // of the size of the linkage, which is many in the angle of a bar that is short against it; the rate of the
 // bar, which swings about the direction of its force, is known to that times the frequency of the swing.
 // Steps that are to be more exact than that only follow the rounding.

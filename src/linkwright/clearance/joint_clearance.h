@@ -17,7 +17,7 @@ namespace linkwright::clearance {
 
 /// A pin that has clearance, and how it starts.
 struct JointClearance {
-  int joint = 0;         ///< of the linkage: a revolute joint without drive and friction
+  int joint = 0;         ///< revolute joint of the linkage, without drive and friction
   double clearance = 0;  ///< m, > 0: radius of the bush less radius of the pin
   /// Direction from the joint's point of its first body to that of its second (absolute, rad) and its rate.
   double angle = 0;
@@ -27,10 +27,10 @@ struct JointClearance {
 
 /// The bar in the place of a pin.
 struct ClearanceBar {
-  int body = 0;       ///< of the new linkage; its x axis points from the first body's point to the second's
-  int input = 0;      ///< that turns it: angle of the bar from its carrier
+  int body = 0;   ///< body of the new linkage; its x axis points from the first body's point to the second's
+  int input = 0;  ///< input that turns it: angle of the bar from its carrier
   int carrier = 0;    ///< the body of the joint that the input counts from
-  int far_joint = 0;  ///< of the new linkage: the pin at the other end
+  int far_joint = 0;  ///< joint of the new linkage: the pin at the other end
   double clearance = 0;
 };
 
@@ -39,7 +39,7 @@ struct ClearedLinkage {
   /// done; no_assembly and the like when the ideal linkage has no position at the start; infeasible when the
   /// linkage cannot be planned.
   Status status = Status::done;
-  std::string message;  ///< why it is not `done`; else empty
+  std::string message;  ///< says why it is not `done`; else empty
   /// Bodies and joints of the original keep their numbers, but for the points of cleared joints; the inputs
   /// of the original come first. Every body has a start pose.
   planar::Linkage linkage;
@@ -62,26 +62,26 @@ struct ClearanceState {
   double tension = 0;
 };
 struct JointClearanceRow {
-  planar::SimulationInstant instant;       ///< of the cleared linkage
+  planar::SimulationInstant instant;       ///< instant of the cleared linkage
   std::span<const ClearanceState> joints;  ///< one a clearance
 };
 /// false ends the simulation.
 using JointClearanceOutput = std::function<bool(const JointClearanceRow&)>;
 
-/// Where contact ends. Found within the steps of the integration: rows have no influence.
+/// The end of contact. Found within the steps of the integration: rows have no influence.
 struct ContactValidity {
   double first_separation = nan;    ///< s: first tension <= 0; NaN: never
   double separated = 0;             ///< share of the time with tension <= 0
-  int sign_changes = 0;             ///< of the tension
+  int sign_changes = 0;             ///< sign changes of the tension
   double least_tension = infinity;  ///< N, over steps and rows
 };
 
 struct JointClearanceRun {
-  Status status = Status::done;  ///< of the start or the simulation
+  Status status = Status::done;  ///< status of the start or the simulation
   std::string message;
   planar::SimulationReport simulation;
   std::vector<ContactValidity> joints;  ///< one a clearance
-  /// Where it ends, at simulation.time: of the clearances, and values and rates of the inputs of the
+  /// End states at simulation.time: those of the clearances, and values and rates of the inputs of the
   /// original.
   std::vector<ClearanceState> end;
   std::vector<planar::InputMotion> inputs;
@@ -89,11 +89,11 @@ struct JointClearanceRun {
   int parted = -1;  ///< clearance at whose loss of contact it ended, with AtSeparation::stop
 };
 
-/// What to do when the tension of a clearance is no longer positive. With `ignore` it is not looked for, and
+/// The action when the tension of a clearance is no longer positive. With `ignore` it is not looked for, and
 /// validity is that of the rows alone, which saves half of the time.
 enum class AtSeparation { go_on, stop, ignore };
 
-/// What to do when the steps that are allowed are seen early not to be enough.
+/// The action when it is clear early that the allowed steps will not be enough.
 enum class AtHopeless { go_on, stop };
 
 /// Motion under forces with clearance: `drives` are those of the inputs of the original linkage, laws or

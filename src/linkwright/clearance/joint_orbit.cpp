@@ -17,7 +17,7 @@ namespace linkwright::clearance {
 namespace {
 
 constexpr double same_ratio = 1e-9;  // periods whose ratio is that near to a whole number fit
-constexpr double on_circle = 1e-5;   // what differences leave of a multiplier
+constexpr double on_circle = 1e-5;   // error of a multiplier by differences
 
 bool whole(double ratio) { return std::abs(ratio - std::round(ratio)) <= same_ratio * std::max(1.0, ratio); }
 

@@ -15,7 +15,7 @@ namespace linkwright::clearance {
 /// The period of drives.
 struct DrivePeriod {
   double period = 0;  ///< s; 0: there is none
-  int input = -1;     ///< that has none, or none that all share
+  int input = -1;     ///< input that has no period, or none that all share
 };
 /// Shortest time after which all inputs stand and move as before, angles up to whole turns. Inputs that rest
 /// have any period; without one that moves there is none. Loads that depend on time have none, either, but
@@ -25,7 +25,7 @@ DrivePeriod drive_period(std::span<const planar::InputDrive> drives, const std::
 /// Name of a load whose factor is a table against time; empty: there is none.
 std::string load_against_time(const planar::Linkage& linkage);
 
-/// What small departures from a periodic motion do.
+/// The growth of small departures from a periodic motion.
 enum class OrbitStability { stable, neutral, unstable };
 constexpr std::array<EnumName<OrbitStability>, 3> names(OrbitStability) {
   return {
@@ -37,15 +37,15 @@ constexpr std::array<EnumName<OrbitStability>, 3> names(OrbitStability) {
 struct JointOrbit {
   /// done; not_converged: Newton's method found none; else that of the simulation that failed.
   Status status = Status::done;
-  std::string message;                ///< why it is not `done`; else empty
-  std::vector<ClearanceState> start;  ///< of the clearance links: angle and rate
+  std::string message;                ///< says why it is not `done`; else empty
+  std::vector<ClearanceState> start;  ///< states of the clearance links: angle and rate
   /// Largest change over a period, of angles (rad) and of rates as shares of one turn a period.
   double residual = infinity;
   /// Floquet multipliers, two a clearance, largest first.
   std::vector<std::complex<double>> multipliers;
   OrbitStability stability = OrbitStability::neutral;
   int iterations = 0;
-  long evaluations = 0;  ///< of the equations of motion
+  long evaluations = 0;  ///< evaluations of the equations of motion
 };
 
 /// Shooting: Newton's method on angles and rates of all clearance links over one period from `start` (s),

@@ -432,7 +432,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
   minimise([&](std::span<const double> at,
                std::span<double> off) { return !context.interrupted() && in_the_limit(at, off); },
            smooth, 1e-6, 200);
-  // What is good in the limit may have no orbit that keeps contact at this clearance.
+  // A design that is good for zero clearance may have no orbit that keeps contact at this clearance.
   double found = on_orbit_from(x, true);
   std::vector<double> best = x;
   if (!(found <= on_orbit_from(given, false))) {

@@ -53,13 +53,14 @@ struct ClearanceMassDesign {
   /// orbit; deadline, cancelled.
   Status status = Status::done;
   std::vector<double> x;
-  ClearanceOrbit orbit;        ///< of these masses
+  ClearanceOrbit orbit;        ///< orbit with these masses
   double orbit_error = 0;      ///< rad: as the objective, on the orbit
   double transient_error = 0;  ///< rad: the objective of the source
   double least_tension = 0;    ///< N, on the orbit; not positive: pin and bush would part
   std::int64_t evaluations = 0;
 };
-/// What masses achieve; `x` is kept. Without an orbit, that is not_converged, when `context` asks to stop.
+/// The design with these masses; `x` is kept. Without an orbit, that is not_converged, when `context` asks to
+/// stop.
 ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& problem, std::vector<double> x,
                                           const RunContext* context = nullptr);
 
@@ -76,7 +77,7 @@ std::vector<double> force_phase_errors(const ClearanceMassProblem& problem, std:
 
 /// Lengths and masses together.
 struct ClearanceDesign {
-  Status status = Status::done;  ///< as of ClearanceMassDesign
+  Status status = Status::done;  ///< status, as in ClearanceMassDesign
   ClearanceFourBar model;
   std::vector<double> x;  ///< nine lengths, eight masses
   ClearanceOrbit orbit;

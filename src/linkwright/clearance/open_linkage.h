@@ -17,7 +17,7 @@ struct OpenLinkage {
   /// done; no_assembly and the like when the whole linkage has no position at the start; infeasible when no
   /// inputs can be found.
   Status status = Status::done;
-  std::string message;  ///< why it is not `done`; else empty
+  std::string message;  ///< says why it is not `done`; else empty
   /// Bodies keep their numbers; massless blocks follow that guide bodies which hang on nothing else. Every
   /// body has a start pose. The inputs of the original come first.
   planar::Linkage linkage;
@@ -26,7 +26,7 @@ struct OpenLinkage {
     std::string name;
     planar::BodyPoint first, second;
   };
-  std::vector<Pin> pins;  ///< that were taken out, in the order in which they were named
+  std::vector<Pin> pins;  ///< pins that were taken out, in the order in which they were named
   /// Values of all inputs at the start, where the pins are closed.
   std::vector<double> start;
 };

@@ -59,7 +59,7 @@ struct ClearancePathDesign {
   double rms = 0;        ///< m: root of the mean squared distance; both infinite where it does not assemble
   std::vector<optimise::Violation> violations;  ///< empty = feasible
 };
-/// What the variables mean and achieve.
+/// The design that the variables describe, with its path error.
 ClearancePathDesign clearance_path_design(const ClearancePathProblem& problem, std::span<const double> x);
 /// The variables of a linkage. The point_angle is in (-pi, pi].
 std::vector<double> path_variables(const ClearancePathProblem& problem, const planar::FourBar& linkage);

@@ -29,8 +29,8 @@ ClearanceMassProblem published_mass_problem();
 
 /// A published statement beside what is computed here.
 struct ClearanceComparison {
-  std::string quantity;   ///< with its unit
-  std::string published;  ///< what the source says, in words where it prints no number
+  std::string quantity;   ///< quantity with its unit
+  std::string published;  ///< value in the source, in words where it prints no number
   double ours = 0;
   std::string verdict;  ///< "reproduced", "corrected" or "not reproduced"
   std::string note;

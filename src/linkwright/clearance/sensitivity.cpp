@@ -221,7 +221,7 @@ void worst_error(const LinkageTolerances& t, const double* rows, std::size_t par
   };
   planar::Vec<double> best{1, 0}, sum = extreme(best);
   if (size == 2) {
-    constexpr int directions = 32;  // of half a turn: the other half is the same
+    constexpr int directions = 32;  // directions in half a turn: the other half is the same
     for (int i = 1; i < directions; ++i) {
       const planar::Vec<double> n = planar::unit(pi * i / directions), s = extreme(n);
       if (dot(n, s) > dot(best, extreme(best))) best = n, sum = s;
@@ -357,7 +357,7 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
 
 namespace {
 
-/// What some draws make. Deviations are Welford's sums of squares until all pieces are together.
+/// The statistics of some draws. Deviations are Welford's sums of squares until all pieces are together.
 struct DrawnPiece {
   int draws = 0;
   std::vector<MonteCarloSample> samples;
@@ -447,7 +447,7 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
   const std::size_t pins = t.pins.size(), values = value_count(l, o);
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
   const std::size_t rows = samples.size() / l.driven.size();
-  // As many pieces as threads and machines can use, if their statistics fit into memory.
+  // Number of pieces: as many as threads and machines can use, if their statistics fit into memory.
   constexpr double most_bytes = 1e8;
   const double bytes = static_cast<double>(sizeof(double) * rows * (4 * values + sizes.size() + 1));
   const int most_pieces = static_cast<int>(std::clamp(most_bytes / bytes, 8.0, 1024.0));

@@ -9,13 +9,13 @@
 #include "linkwright/planar/linkage/linkage.h"
 #include "linkwright/planar/linkage/plan.h"
 
-// What clearances of pins and errors of lengths do to path, function and forces of any planar linkage.
+// The effect of clearances of pins and errors of lengths on path, function and forces of any planar linkage.
 namespace linkwright::clearance {
 
 /// A pin that can lie anywhere within its clearance. The offset, from the joint's point of the first body to
 /// that of the second, is held in the frame of the first body.
 struct PinTolerance {
-  int joint = 0;         ///< of the linkage, revolute
+  int joint = 0;         ///< revolute joint of the linkage
   double clearance = 0;  ///< m, >= 0, radial
 };
 /// A length of a body: its second point may lie nearer to the first one or farther away.
@@ -29,9 +29,9 @@ struct LinkageTolerances {
   std::vector<LengthTolerance> lengths;
 };
 
-/// What is looked at. The values of a sample come in this order: x and y of every point (m), the coordinate
-/// of every joint (rad or m, near its nominal value), x and y of the force of every joint (N), and the drives
-/// (N m or N).
+/// The values whose deviations are wanted. The values of a sample come in this order: x and y of every point
+/// (m), the coordinate of every joint (rad or m, near its nominal value), x and y of the force of every joint
+/// (N), and the drives (N m or N).
 struct ToleranceOutputs {
   std::vector<planar::BodyPoint> points;
   std::vector<int> coordinates;  ///< joints, revolute or prismatic
@@ -39,16 +39,17 @@ struct ToleranceOutputs {
   bool drives = false;           ///< likewise
 };
 std::size_t value_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
-/// What deviates as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force
-/// by the size of a vector (N), a drive (N m or N).
+/// Number of quantities: values that deviate as one thing, in the same order: a point by a distance (m), a
+/// coordinate (rad or m), a force by the size of a vector (N), a drive (N m or N).
 std::size_t quantity_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
 
 /// First derivatives at one sample.
 struct SensitivitySample {
-  Status status = Status::done;  ///< of the nominal motion, or infeasible where a neighbour does not assemble
-  std::vector<double> values;    ///< nominal
-  /// Of value i by parameter j at derivatives[i * parameters + j]: two a pin, by the offset along the global
-  /// x and y axes, then one a length.
+  /// Status of the nominal motion, or infeasible where a neighbour does not assemble.
+  Status status = Status::done;
+  std::vector<double> values;  ///< nominal
+  /// Derivative of value i by parameter j at derivatives[i * parameters + j]: two a pin, by the offset along
+  /// the global x and y axes, then one a length.
   std::vector<double> derivatives;
   /// Largest change of each value to first order: sum of clearance times gradient and tolerance times
   /// derivative.
@@ -59,7 +60,7 @@ struct SensitivitySample {
   /// Largest error of each quantity to first order, all tolerances together in the worst direction: exact
   /// for the linear theory.
   std::vector<double> worst_error;
-  /// What each tolerance has in it (pins, then lengths), of quantity q by tolerance k at
+  /// Contribution of each tolerance (pins, then lengths) to the worst error, of quantity q by tolerance k at
   /// contributions[q * tolerances + k]: along the direction of the worst error, so that they sum up to it.
   std::vector<double> contributions;
   /// Mean square of the error of each quantity by each tolerance alone, as random as for `deviation`; in the
@@ -79,10 +80,10 @@ std::vector<SensitivitySample> clearance_sensitivity(const planar::Linkage& link
                                                      std::span<const double> times = {},
                                                      const RunContext* context = nullptr);
 
-/// What random linkages do at one sample.
+/// The values of random linkages at one sample.
 struct MonteCarloSample {
   int assembled = 0;  ///< draws that have a position there; the rest is about these
-  std::vector<double> mean, deviation, least, most;  ///< of each value
+  std::vector<double> mean, deviation, least, most;  ///< statistics of each value
   std::vector<double> worst_error;                   ///< largest one of each quantity
 };
 /// Draws linkages: pins touching their bushes in even directions, lengths even within their tolerance; every
@@ -92,7 +93,7 @@ struct MonteCarloResult {
   Status status = Status::done;  ///< done, deadline or cancelled
   int draws = 0;                 ///< made
   std::vector<MonteCarloSample> samples;
-  /// Of every draw: at how many samples that have a nominal motion it does not assemble.
+  /// Missed samples of every draw: those that have a nominal motion at which it does not assemble.
   std::vector<int> missed;
   /// Largest error of quantity q over all samples, of draw d at largest[d * quantities + q].
   std::vector<double> largest;

@@ -16,7 +16,8 @@ class StepPace {
   bool step(double t);
   /// Steps that it would take, as last looked at; 0 before.
   double expected() const { return expected_; }
-  /// Why it is hopeless: "ended at 0.001 s after 20000 steps: at this pace 0.4 s would take about 8e+06 ...".
+  /// Says why it is hopeless: "ended at 0.001 s after 20000 steps: at this pace 0.4 s would take about 8e+06
+  /// ...".
   std::string message(double t) const;
 
  private:

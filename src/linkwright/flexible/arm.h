@@ -15,7 +15,7 @@ namespace linkwright::flexible {
 struct ArmLink {
   Beam beam;
   int divisions = 4;
-  std::optional<Hinge> hinge;  ///< that carries it; none: it is welded on in line
+  std::optional<Hinge> hinge;  ///< hinge that carries it; none: it is welded on in line
 };
 
 /// An arm as a chain, and the nodes at the ends of its links.

@@ -11,7 +11,7 @@
 /// undeformed link, eta a quarter turn counter-clockwise of it; they turn with the hub. SI units, rad.
 namespace linkwright::flexible {
 
-/// What the cross-sections do.
+/// The deformation and inertia of the cross-sections.
 enum class Theory {
   euler_bernoulli,  ///< neither shear nor rotary inertia
   rayleigh,         ///< rotary inertia
@@ -23,7 +23,7 @@ constexpr std::array<EnumName<Theory>, 3> names(Theory) {
            {Theory::timoshenko, "timoshenko", "shear and rotary inertia of the cross-sections"}}};
 }
 
-/// What decides how the hub turns.
+/// The cause of the hub's rotation.
 enum class Hub {
   driven,  ///< its angle is given as a function of time
   free,    ///< a torque is given, or none
@@ -70,7 +70,7 @@ struct Beam {
   double frequency_scale() const;
 };
 
-/// What keeps it from being a beam, with the value and what is allowed; nothing if all is well.
+/// Says what keeps it from being a beam, with the value and what is allowed; nothing if it is one.
 std::optional<std::string> problem(const Beam& beam);
 
 }  // namespace linkwright::flexible

@@ -19,7 +19,7 @@ constexpr Field number(std::string_view key, std::string_view summary, Dimension
           .required = required};
 }
 
-/// Of the link: what a body can have, so that all that follows from it are numbers.
+/// A field of the link: bounds that a body can have, so that all derived values are numbers.
 constexpr Field of_link(std::string_view key, std::string_view summary, Dimension dimension, double least,
                         double most) {
   return {.key = key,

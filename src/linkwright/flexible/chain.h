@@ -14,7 +14,7 @@
 /// The flexible link as rigid bars that slide and turn in elastic joints (Boskovic 2018, (3.1)-(3.4)).
 namespace linkwright::flexible {
 
-/// How the joints of the chain move.
+/// The motion of the joints of the chain.
 enum class Kinematics {
   /// Slides act across the mean direction of two bars, and the chain is shortened as the cubic line through
   /// them is: fourth order in the length of a cell, no spurious instability with two divisions or more.
@@ -41,9 +41,9 @@ struct Cell {
   double shear = 0;       ///< k_L: force for each metre of slide (N/m)
   double bending = 0;     ///< k_R: couple for each radian between the bars (N m)
   double axial = 0;       ///< k_A: force for each metre of extension (N/m); of use if the chain is extensible
-  double mass = 0;        ///< of node s (kg)
-  double inertia = 0;     ///< of node s (kg m2)
-  double damping = 0;     ///< of the turn, beside that of the link's material (N m s)
+  double mass = 0;        ///< mass of node s (kg)
+  double inertia = 0;     ///< moment of inertia of node s (kg m2)
+  double damping = 0;     ///< damping of the rotation, beside that of the link's material (N m s)
   /// A joint between two links: of no length, turns only, about `bending` and `damping` (links.h).
   bool hinge = false;
 };
@@ -85,10 +85,10 @@ ChainState state_at_rest(const Chain& chain);
 /// gravity, damping or springs along the link, which the printed equations do not know.
 Chain discretise(const Beam& beam, int divisions, Kinematics kinematics = Kinematics::chord_consistent);
 
-/// Where the nodes are, in axes of the hub, from O.
+/// The positions of the nodes, in axes of the hub, from O.
 struct ChainShape {
   std::vector<Vec2> node;     ///< nodes 0, 1, ..., N (m)
-  std::vector<double> angle;  ///< of the bars, against the hub (rad)
+  std::vector<double> angle;  ///< angles of the bars, against the hub (rad)
 };
 ChainShape shape(const Chain& chain, std::span<const double> q);
 

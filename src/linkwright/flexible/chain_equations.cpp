@@ -32,8 +32,8 @@ ChainEquations::ChainEquations(const Chain& chain)
   LINKWRIGHT_REQUIRE(!chain.cells.empty(), "a chain without cells");
   const Cell& first =
       *std::find_if(chain.cells.begin(), chain.cells.end(), [](const Cell& c) { return !c.hinge; });
-  // What bends the link by 1e-8 of its length, so that a link at rest has a scale too. No more: in a stiff
-  // link that would be more than the forces that move it.
+  // The couple that bends the link by 1e-8 of its length, so that a link at rest has a scale too. No more: in
+  // a stiff link that would be more than the forces that move it.
   natural_moment_ = 1e-8 * first.bending * first.length / chain.length();
   natural_force_ = natural_moment_ / chain.length();
 }

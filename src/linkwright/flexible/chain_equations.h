@@ -21,12 +21,12 @@ struct TipLoad {
 
 /// Forces at an instant, and what is left of the equations of motion.
 struct ChainForces {
-  /// Of the hub on the link at the weld O1, in axes of the hub (N, N m), from Newton's and Euler's laws of
-  /// the whole link. source_linearised: the multipliers of the printed equations; the couple is lambda_3,
-  /// without the elastic moment that (3.49) adds to it.
+  /// Reaction of the hub on the link at the weld O1, in axes of the hub (N, N m), from Newton's and Euler's
+  /// laws of the whole link. source_linearised: the multipliers of the printed equations; the couple is
+  /// lambda_3, without the elastic moment that (3.49) adds to it.
   Vec2 reaction;
   double moment = 0;
-  double torque = 0;  ///< of the drive on the hub that this motion needs (N m)
+  double torque = 0;  ///< torque of the drive on the hub that this motion needs (N m)
 };
 
 struct ChainEnergy {
@@ -39,7 +39,7 @@ struct ChainEnergy {
 struct SectionForce {
   double position = 0;  ///< along the undeformed link, from O1 (m)
   double axial = 0;     ///< tension (N)
-  double shear = 0;     ///< of the outer part on the inner one, along the normal of the link (N)
+  double shear = 0;     ///< force of the outer part on the inner one, along the normal of the link (N)
   double moment = 0;    ///< bending moment, > 0 bends towards eta (N m)
 };
 
@@ -67,9 +67,10 @@ class ChainEquations {
   /// Largest residual, of forces relative to the largest force in the chain, of couples to the largest
   /// couple.
   double relative_residual() const;
-  /// What a couple at the hub (N m) is small against.
+  /// The scale against which a couple at the hub (N m) is small.
   double moment_scale() const { return moment_scale_; }
-  /// Of the state evaluated last, from O, in axes of the hub; and the angle of the last bar against the hub.
+  /// Tip position in the state evaluated last, from O, in axes of the hub; and the angle of the last bar
+  /// against the hub.
   Vec2 tip() const;
   double tip_angle() const { return node_.back().angle; }
 
@@ -77,14 +78,14 @@ class ChainEquations {
   /// then has no residual and whose change is 0.
   void set_motor(std::size_t s, double torque) { motor_[s] = torque; }
   void lock_turn(std::size_t s) { locked_[s] = 1; }
-  /// Of a locked turn: the torque (N m) that the motion evaluated last needs.
+  /// Torque (N m) at a locked turn that the motion evaluated last needs.
   double motor_torque(std::size_t s) const { return motor_[s]; }
 
-  /// Of the state evaluated last.
+  /// Energy of the state evaluated last.
   ChainEnergy energy(const ChainState& state) const;
-  /// Of the state evaluated last, with its load: cuts at the weld, at all joints and outside of the tip mass.
-  /// Damping by mass acts on the link from outside and counts at the joints; at the weld stands what the hub
-  /// does to the whole. Not of source_linearised (ContractError).
+  /// Section forces of the state evaluated last, with its load: cuts at the weld, at all joints and outside
+  /// of the tip mass. Damping by mass acts on the link from outside and counts at the joints; at the weld
+  /// stands what the hub does to the whole. Not of source_linearised (ContractError).
   std::vector<SectionForce> sections() const;
 
   /// Eliminates bp M + gp C + K at the state evaluated last: masses, dampers, stiffnesses, the stiffness that
@@ -108,7 +109,7 @@ class ChainEquations {
     Vec2 mean;               // unit vector of the mean direction
     Vec2 by_angle;           // derivatives of the displacement: by the angle of the inner bar,
     std::array<Vec2, 3> by;  // by the coordinates
-    Vec2 force;              // of inertia of node s, with what damps it
+    Vec2 force;              // inertia force of node s, with its damping
     double couple = 0;
     Vec2 outer;  // sum of the forces from node s outwards
   };

@@ -74,7 +74,7 @@ bool ChainEquations::eliminate(const TangentScale& scale) {
       state[c][1] = sy;
       state[c][2] = sx * a0 + sy * a1 + sa + geo.angle_by[c];
     }
-    // What a joint does not do is held by an infinite stiffness, whose inverse is 0.
+    // A motion that a joint does not have is held by an infinite stiffness, whose inverse is 0.
     constexpr double held = infinity;
     block[0][0] += cell.hinge ? held : damped * cell.shear;
     block[1][1] += locked_[s] ? held : (cell.hinge ? 1 : damped) * cell.bending + scale.rate * cell.damping;

@@ -57,8 +57,7 @@ Matrix6 exponential(Matrix6 a) {
   return sum;
 }
 
-// What the tip mass leaves of its balance of force and moment, as a determinant; z^4 = rho A omega^2 L^4 / E
-// I.
+// The rest of the tip mass's balance of force and moment, as a determinant; z^4 = rho A omega^2 L^4 / E I.
 double determinant(const Beam& beam, Hub hub, double z) {
   const double length = beam.length, bending = beam.bending_stiffness();
   const double k = z * z * z * z, mass = beam.mass();

@@ -4,7 +4,7 @@
 
 #include "linkwright/math/function_ref.h"
 
-/// What turns the hub.
+/// Drives of the hub.
 namespace linkwright::flexible {
 
 /// Angle of the hub and its derivatives (rad, rad/s, rad/s2).

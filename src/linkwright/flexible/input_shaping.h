@@ -44,7 +44,7 @@ std::vector<Impulse> impulses(Shaper shaper, const ShapedMode& mode, double rema
 /// One shaper after another, for two vibrations: all products of their shares, in the order of time.
 std::vector<Impulse> combined(std::span<const Impulse> first, std::span<const Impulse> second);
 
-/// What is left of a vibration right after the last impulse, as a share of that of one impulse (Singer and
+/// The vibration that remains right after the last impulse, as a share of that of one impulse (Singer and
 /// Seering 1990).
 double residual_vibration(std::span<const Impulse> impulses, const ShapedMode& mode);
 

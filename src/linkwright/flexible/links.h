@@ -11,11 +11,11 @@ namespace linkwright::flexible {
 
 /// A joint at the tip of a link that carries the next one.
 struct Hinge {
-  double stiffness = 0;      ///< of a spring, without torque where both links are in line (N m)
+  double stiffness = 0;      ///< stiffness of a spring, without torque where both links are in line (N m)
   double damping = 0;        ///< N m s
-  double mass = 0;           ///< of joint and motor (kg)
-  double inner_inertia = 0;  ///< of what turns with the inner link (kg m2)
-  double outer_inertia = 0;  ///< of what turns with the outer link
+  double mass = 0;           ///< mass of joint and motor (kg)
+  double inner_inertia = 0;  ///< moment of inertia that turns with the inner link (kg m2)
+  double outer_inertia = 0;  ///< moment of inertia that turns with the outer link (kg m2)
 };
 
 /// The chain with a further link of `divisions` divisions welded on in line, of another section as the case

@@ -76,7 +76,7 @@ class Straight {
     } else {
       for (; below(high) < k; high *= 4) low = high;
     }
-    // Of a rigid rotation the bracket would shrink towards 0 for ever.
+    // For a rigid rotation the bracket would shrink towards 0 for ever.
     const double rounding = 1e-13, rigid = 1e-16 * unit_;
     while (high - low > rounding * std::max(std::abs(high), std::abs(low)) && std::abs(high) > rigid) {
       const double middle = low + (high - low) / 2;

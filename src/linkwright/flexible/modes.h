@@ -14,7 +14,7 @@
 namespace linkwright::flexible {
 
 struct Vibration {
-  double speed = 0;       ///< of the hub (rad/s)
+  double speed = 0;       ///< speed of the hub (rad/s)
   Hub hub = Hub::driven;  ///< free: with the hub's inertia; a first frequency of 0 is its rotation
   /// Turns of all hinges (rad), about which it vibrates; empty: in line. Others than 0 of a hub at rest only.
   std::span<const double> turns = {};
@@ -28,7 +28,7 @@ struct Mode {
   double growth = 0;  ///< 1/s
 };
 
-/// How many modes the chain has.
+/// Number of modes of the chain.
 int mode_count(const Chain& chain, const Vibration& about = {});
 
 /// The first `count` modes, from the lowest omega^2 on, to 1e-12 relative or rounding. Gravity is left out.
@@ -41,8 +41,9 @@ std::vector<Mode> modes(const Chain& chain, int count, const Vibration& about = 
 int modes_below(const Chain& chain, double square, const Vibration& about = {});
 
 struct ModeShape {
-  Deflection link;       ///< in axes of the hub; the largest |eta| is 1 m
-  double hub_angle = 0;  ///< that belongs to it (rad); 1 for a rigid rotation, where the link stays straight
+  Deflection link;  ///< in axes of the hub; the largest |eta| is 1 m
+  /// Angle of the hub in this mode (rad); 1 for a rigid rotation, where the link stays straight.
+  double hub_angle = 0;
 };
 /// Shape of mode k = 1, 2, ..., by inverse iteration.
 ModeShape mode_shape(const Chain& chain, int k, const Vibration& about = {});

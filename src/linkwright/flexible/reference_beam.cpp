@@ -46,11 +46,11 @@ Vector integrals(int n, double x) {
 
 // A row for each Gauss point, the tip last: values there, masses there.
 struct Grid {
-  Vector weight;      // of the integral over the link (m), points only
+  Vector weight;      // weights of the integral over the link (m), points only
   Vector mass;        // kg
   Vector inertia;     // kg m2
-  Matrix curvature;   // of each coefficient (1), points only
-  Matrix angle;       // of each coefficient (m)
+  Matrix curvature;   // curvature by each coefficient (1), points only
+  Matrix angle;       // angle by each coefficient (m)
   Matrix accumulate;  // from values at the points to their integral up to the row
   Vector root_curvature;
 };
@@ -303,7 +303,8 @@ ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const Reference
     for (int i = 0; i < 50 && !met; ++i) {
       const Vector angle = angles * a;
       const Vector c = angle.array().cos(), s = angle.array().sin();
-      const Vector around = g.weight.array() * (y * c.array() - x * s.array());  // of the load, by the angles
+      // Derivative of the load's work by the angles.
+      const Vector around = g.weight.array() * (y * c.array() - x * s.array());
       const Vector along = g.weight.array() * (x * c.array() + y * s.array());
       const Vector gradient = stiffness * a - angles.transpose() * around;
       const Matrix hessian = stiffness + weighted(angles, along, angles);

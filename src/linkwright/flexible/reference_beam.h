@@ -19,7 +19,7 @@
 namespace linkwright::flexible {
 
 struct ReferenceOptions {
-  int degree = 10;  ///< of the polynomials of the curvature, 1 to 20
+  int degree = 10;  ///< degree of the polynomials of the curvature, 1 to 20
   int points = 32;  ///< Gauss points along the link, more than degree, up to 64
 };
 
@@ -47,7 +47,7 @@ struct ReferenceRun {
 
 struct ReferenceMotion {
   Status status = Status::done;
-  std::string message;          ///< why it is not `done`
+  std::string message;          ///< says why it is not `done`
   std::vector<Sample> samples;  ///< at 0 and after each interval
 };
 

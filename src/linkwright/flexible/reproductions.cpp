@@ -31,7 +31,7 @@ Simulation driven_by_torque(double torque, int divisions, Kinematics kinematics,
       {.end = 5, .output_interval = 0.005, .step = 0.002, .breaks = breaks, .context = &context});
 }
 
-/// Of the lag of the tip between two times, m.
+/// The largest lag of the tip between two times, m.
 double largest_lag(const Simulation& run, double from, double to) {
   return -smallest(run.samples, &Sample::tip_eta, from, to).value;
 }
@@ -72,7 +72,7 @@ study::Comparisons spin_up(RunContext& context) {
        "convergent results are reported up to 16 rad/s; (3.6)-(3.9) differentiated exactly are unstable "
        "beyond "
        "this speed, so the figures come from the linearised velocities or from more divisions"});
-  // With r_H = 0 and bars of half the length l = L / (2n), k_R phi_1 + lambda_3 comes to l/2 times the force.
+  // For r_H = 0 and bars of half the length l = L / (2n), k_R phi_1 + lambda_3 comes to l/2 times the force.
   const Simulation run = spun_up(4, printed_divisions, Kinematics::chord_consistent, context);
   for (const Sample& s : run.samples)
     if (std::abs(s.time - 7.5) < 1e-9)

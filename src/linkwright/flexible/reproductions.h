@@ -6,7 +6,7 @@
 
 namespace linkwright::flexible {
 
-/// What is published about hubs with elastic links.
+/// Published results on hubs with elastic links.
 std::vector<study::Reproduction> reproductions();
 
 }  // namespace linkwright::flexible

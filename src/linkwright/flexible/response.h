@@ -5,19 +5,20 @@
 #include "linkwright/core/table.h"
 #include "linkwright/flexible/beam.h"
 
-/// What is seen of hub and link at an instant, and what samples of it give.
+/// The quantities of hub and link at an instant, and the results of samples of them.
 namespace linkwright::flexible {
 
 struct Sample {
-  double time = 0;                               ///< s
-  double angle = 0, rate = 0, acceleration = 0;  ///< of the hub (rad, rad/s, rad/s2)
-  double torque = 0;               ///< of the drive: given, or needed for the given motion (N m)
+  double time = 0;  ///< s
+  /// Angle of the hub, and its derivatives (rad, rad/s, rad/s2).
+  double angle = 0, rate = 0, acceleration = 0;
+  double torque = 0;               ///< torque of the drive: given, or needed for the given motion (N m)
   double tip_xi = 0, tip_eta = 0;  ///< displacement of the tip from where the undeformed link has it (m)
-  double tip_angle = 0;            ///< of the link there against the hub (rad)
-  double reaction_xi = 0, reaction_eta = 0, moment = 0;  ///< of the hub on the link at O1 (N, N m)
+  double tip_angle = 0;            ///< angle of the link there against the hub (rad)
+  double reaction_xi = 0, reaction_eta = 0, moment = 0;  ///< reaction of the hub on the link at O1 (N, N m)
   double bending_moment = 0;          ///< largest |M| along the link (N m); NaN for source_linearised
   double kinetic = 0, potential = 0;  ///< J
-  double work = 0;                    ///< of all drives since the start (J)
+  double work = 0;                    ///< work of all drives since the start (J)
   double dissipated = 0;              ///< by all dampers (J)
   double angular_momentum = 0;        ///< about O (N m s)
 

@@ -33,7 +33,7 @@ struct Method {
         beta((gamma + 0.5) * (gamma + 0.5) / 4),
         share((1 - alpha_f) / (1 - alpha_m)) {}
   double alpha_m, alpha_f, gamma, beta;
-  double share;  // of the new acceleration in the new auxiliary one
+  double share;  // share of the new acceleration in the new auxiliary one
 
   TangentScale scale(double h) const { return {1 / (share * beta * h * h), gamma / (beta * h)}; }
 };
@@ -127,7 +127,7 @@ class Run {
     now_.acceleration = m.acceleration;
   }
 
-  // What is left of the hub's balance.
+  // The rest of the hub's balance of torque (N m).
   double hub_residual(double t) const {
     return drive_.torque ? equations_.forces().torque - (*drive_.torque)(t) : 0;
   }
@@ -372,7 +372,7 @@ double extrapolate(const Simulation& coarse, Simulation& fine) {
   return moved;
 }
 
-// What the chain is too coarse for.
+// Warns of motions for which the chain is too coarse.
 void doubt(const Chain& chain, Simulation& out) {
   Chain rigid = chain;  // along the link, which has no part in it
   rigid.extensible = false;
@@ -422,7 +422,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
       const bool stopped = out.status == Status::cancelled || out.status == Status::deadline;
       const bool both = coarse.status == Status::done && out.status == Status::done;
       if (stopped && coarse.samples.size() > out.samples.size()) {
-        // What the longer step reached is more than what is left of the shorter one.
+        // The run with the longer step went further than the interrupted one with the shorter step.
         coarse.status = out.status;
         coarse.message = fmt::format(
             "the run with half the step was {}; the results are those of the whole step", out.message);

@@ -32,22 +32,22 @@ struct SimulationOptions {
   /// Runs with the step and with half of it, and takes the limit of both (Richardson): fourth order for
   /// smooth drives, and an estimate of the error.
   bool extrapolate = false;
-  /// With extrapolate: halves the step until the extrapolation moves the tip by no more than this (m); 0: the
-  /// step as it is.
+  /// Tolerance of extrapolate, which halves the step until the extrapolation moves the tip by no more than
+  /// this (m); 0: the step as it is.
   double tolerance = 0;
 
   double spectral_radius = 0.9;  ///< rho_inf in [0, 1): what is left of the stiffest vibrations after a step
   double newton_tolerance =
-      1e-10;  ///< of the residuals, relative to the largest force and couple in the chain
+      1e-10;  ///< tolerance of the residuals, relative to the largest force and couple in the chain
   int max_iterations = 50;
   std::span<const HingeDrive> hinges = {};  ///< hinges without one turn freely about their springs
   bool keep_states = false;
   const RunContext* context = nullptr;  ///< looked at every few steps; receives the stage "simulation"
 };
 
-/// Where a motion starts; empty lists: undeformed, at rest.
+/// The start of a motion; empty lists: undeformed, at rest.
 struct Start {
-  double angle = 0, rate = 0;  ///< of the hub, where it is free
+  double angle = 0, rate = 0;  ///< angle and rate of the hub, where it is free
   std::vector<double> q, v;
 };
 
@@ -56,20 +56,21 @@ struct Simulation {
   /// limit_reached: the chain folded (fold_limit); cancelled, deadline. Samples up to
   /// there are kept.
   Status status = Status::done;
-  std::string message;                ///< why it is not `done`
-  std::vector<std::string> warnings;  ///< what makes the result doubtful though it is `done`
+  std::string message;                ///< says why it is not `done`
+  std::vector<std::string> warnings;  ///< reasons why the result is doubtful though it is `done`
   /// The hub turned faster than the straight chain bears (critical_speed): what the samples show there is an
   /// error of the cells, not of the link.
   bool unstable = false;
   std::vector<Sample> samples;
-  std::vector<ChainState> states;  ///< with keep_states, one a sample
+  std::vector<ChainState> states;  ///< states, one a sample, with keep_states
   /// Torque of each drive of a hinge (N m), given or needed: hinge_torques[i][k] of sample i, drive k.
   std::vector<std::vector<double>> hinge_torques;
-  ChainState last;   ///< state at the end of the finest run
-  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m), NaN if the
-                     ///< coarser run failed; else 0
-  double step = 0;   ///< of the finest run (s)
-  long steps = 0, iterations = 0, factorisations = 0;  ///< of all runs
+  ChainState last;  ///< state at the end of the finest run
+  /// Largest change of the tip by the extrapolation (m), NaN if the coarser run failed; 0 without
+  /// extrapolate.
+  double error = 0;
+  double step = 0;                                     ///< step of the finest run (s)
+  long steps = 0, iterations = 0, factorisations = 0;  ///< counts of all runs
   double largest_kink = 0;                             ///< rad
   double fastest = 0;                                  ///< largest |rate| of the hub (rad/s)
 };

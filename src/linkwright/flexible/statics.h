@@ -11,12 +11,13 @@
 namespace linkwright::flexible {
 
 struct EquilibriumOptions {
-  double angle = 0;  ///< of the hub (rad); matters under gravity
-  double speed = 0;  ///< of the hub, steady (rad/s)
+  double angle = 0;  ///< angle of the hub (rad); matters under gravity
+  double speed = 0;  ///< speed of the hub, steady (rad/s)
   /// Turns at which all hinges are held (rad); empty: they turn about their springs.
   std::span<const double> turns = {};
-  double tolerance = 1e-11;  ///< of the residuals, relative to the largest force and couple in the chain
-  int max_iterations = 40;   ///< Newton steps for each part of the load
+  /// Tolerance of the residuals, relative to the largest force and couple in the chain.
+  double tolerance = 1e-11;
+  int max_iterations = 40;  ///< Newton steps for each part of the load
 };
 
 struct Equilibrium {
@@ -25,7 +26,7 @@ struct Equilibrium {
   Status status = Status::done;
   ChainState state;
   ChainForces forces;
-  double share = 0;  ///< of load and speed reached, 1 = all
+  double share = 0;  ///< share of load and speed reached, 1 = all
   int unstable = 0;  ///< negative eigenvalues of the stiffness: 0 = stable
   int iterations = 0;
 };

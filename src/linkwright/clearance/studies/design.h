@@ -20,14 +20,14 @@
 // is read, run and reported.
 namespace linkwright::clearance {
 
-/// What a study designs: its `target.type`.
+/// The aim of a design study: its `target.type`.
 enum class DesignTarget {
   lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed phase
   masses,   ///< "phase": masses that make the clearance link keep its phase
   both      ///< "path_points_and_phase"
 };
 
-/// How lengths and masses are found when a study asks for both.
+/// The stages that find lengths and masses when a study asks for both.
 enum class DesignStages { in_turn, at_once };
 constexpr std::array<EnumName<DesignStages>, 2> names(DesignStages) {
   return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed phase, then masses that keep it"},
@@ -262,8 +262,8 @@ void fields(Visitor&& visit, DesignOptimiser& o) {
 
 /// A design: variables of both problems.
 struct ClearanceDesignValues {
-  std::vector<double> lengths;  ///< of clearance_path_design; of fixed lengths only the nine
-  std::vector<double> masses;   ///< of with_masses; empty = none
+  std::vector<double> lengths;  ///< lengths of clearance_path_design; if lengths are fixed, only the nine
+  std::vector<double> masses;   ///< masses of with_masses; empty = none
 };
 
 /// A study as read.
@@ -283,12 +283,12 @@ struct ClearanceDesignStudy {
   double phase() const { return has_masses() ? mass.phase : path.phase; }  ///< wanted, or presumed
 };
 
-/// What a seed came to.
+/// The answer of a seed.
 struct ClearanceDesignAnswer {
   Status status = Status::infeasible;
   ClearanceDesignValues best;
   double cost = infinity;       ///< see cost_name; infinite when infeasible
-  int starts = 0, reached = 0;  ///< of the last stage that counts them
+  int starts = 0, reached = 0;  ///< counts of the last stage that has them
   std::int64_t evaluations = 0;
   std::vector<optimise::GenerationLog> log;
 };
@@ -299,7 +299,7 @@ using ClearanceDesignRuns = study::SeedRuns<ClearanceDesignAnswer>;
 Value kept(const ClearanceDesignAnswer& answer);
 ClearanceDesignAnswer restored(const Value& value, const ClearanceDesignStudy& study, std::string_view what);
 
-/// What the seeds are compared by: key and words.
+/// The cost by which the seeds are compared: key and words.
 struct CostName {
   std::string_view key, words;
 };
@@ -324,11 +324,11 @@ struct DesignRow {
   LinkState link;
   ClearanceInstant instant;  ///< without masses only the position
 };
-/// What a design does.
+/// The performance of a design.
 struct DesignMeasures {
   ClearanceFourBar model;
   // The path, where there is one.
-  ClearancePathDesign presumed;  ///< with the clearance link at the presumed phase
+  ClearancePathDesign presumed;  ///< design with the clearance link at the presumed phase
   /// Places of the tracing point at the targets: on the turn of the rows, or, without masses, with the
   /// presumed phase.
   std::vector<std::complex<double>> reached;

@@ -75,7 +75,7 @@ class DesignReporter {
     if (result_.status == Status::done) result_.status = answer_->status;
     feasible_ = std::isfinite(answer_->cost);
     if (result_.status == Status::done && !feasible_) result_.status = Status::infeasible;
-    // Of an interrupted search the figures come as far as that takes no time of its own.
+    // For an interrupted search only figures that take hardly any time are computed.
     RunContext last;
     last.set_time_limit(std::chrono::milliseconds(200));
     const RunContext& limit = context_.interrupted() ? last : context_;

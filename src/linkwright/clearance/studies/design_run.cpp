@@ -113,7 +113,7 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
       out.best.masses.assign(found.x.begin() + clearance_length_count, found.x.end());
     }
   }
-  out.log.clear();  // of one stage, while the cost is of both
+  out.log.clear();  // log of one stage only, while the cost is of both
   const DesignMeasures measured = measure_design(s, out.best, &context);
   if (measured.repeats && std::isfinite(measured.rms)) out.cost = measured.rms;
   if (const Status why = context.interruption(); why != Status::done) out.status = why;

@@ -164,7 +164,7 @@ Value design_study(const ClearanceDesignStudy& s, const DesignMeasures& d) {
   planar::write_linkage({.linkage = l, .traces = drawn.traces}, out);
   Value& mechanism = out["mechanism"];
   mechanism.as_object().insert(mechanism.as_object().begin(), {"type", "clearance.linkage"});
-  // What is usual of a linkage of pins goes without saying.
+  // The usual properties of a linkage of pins are left out.
   const auto keep = [](Value& table, std::span<const std::string_view> keys) {
     std::erase_if(table.as_object(), [&](const Value::Member& m) {
       return std::find(keys.begin(), keys.end(), m.key) == keys.end();
@@ -180,7 +180,7 @@ Value design_study(const ClearanceDesignStudy& s, const DesignMeasures& d) {
   pin["joint"] = "A";
   pin["clearance_m"] = d.model.clearance;
   if (!s.has_masses()) {
-    // How far the pin may take the tracing point, with the pin anywhere in its bush.
+    // The largest deviation of the tracing point, with the pin anywhere in its bush.
     Value turn;
     turn["joint"] = "O2";
     turn["from_rad"] = start;
@@ -228,7 +228,7 @@ study::Scene design_scene(const ClearanceDesignStudy& s, const DesignMeasures& d
     row.record.bodies = {body({0, 0}, 0), body(o2, r.crank), body(p.bush, p.coupler_angle),
                          body(o4, p.rocker_angle)};
     if (!s.has_masses()) continue;
-    // Of the coupler only the tracing point is asked for: its frame moves so that this one is right.
+    // The frame of the coupler moves so that the tracing point, the only point asked for, is right.
     planar::PartState<double>& coupler = row.record.bodies[2];
     const std::complex<double> arm = p.point - p.bush, i{0, 1};
     coupler.velocity = planar::vec(r.instant.bush_velocity);

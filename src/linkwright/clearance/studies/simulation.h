@@ -28,10 +28,10 @@ struct ContinuousPin {
   bool angle_given = false, rate_given = false;
 };
 
-/// How the pins of a study touch; all of them in the same way.
+/// The model of contact between pins and bushes of a study; all of them in the same way.
 enum class PinModel { contact, continuous, automatic };
 
-/// How long a study goes on.
+/// The duration of a study.
 struct TransientRun {
   double to = 1;  ///< s
 };
@@ -56,11 +56,11 @@ struct ClearanceStudy {
   double relative_tolerance = 1e-9;
   long max_steps = 10'000'000;
   PinModel model = PinModel::contact;
-  std::vector<ContactJoint> contacts;     ///< of contact and automatic
-  std::vector<ContinuousPin> continuous;  ///< of continuous and automatic
+  std::vector<ContactJoint> contacts;     ///< joints of contact and automatic
+  std::vector<ContinuousPin> continuous;  ///< pins of continuous and automatic
   std::vector<planar::BodyPoint> traces;
   planar::LinkageQuantities quantities;
-  int scene_samples = 361;  ///< of the animation, at most
+  int scene_samples = 361;  ///< largest number of samples of the animation
 
   const PeriodicRun* periodic() const { return std::get_if<PeriodicRun>(&regime); }
   /// s: when it ends at the latest.
@@ -96,19 +96,19 @@ struct PinInstant {
   double depth = 0;                         ///< m
   double normal = 0, friction = 0;          ///< N; of continuous contact `normal` is the tension
   bool contact = false;
-  double angle = 0, angle_rate = 0, angle_acceleration = 0;  ///< of the clearance link
+  double angle = 0, angle_rate = 0, angle_acceleration = 0;  ///< angle of the clearance link
   planar::Vec<double> force{0, 0};                           ///< N, of the first body on the second
 };
 struct RecordedRow {
   double time = 0;
   Status status = Status::done;
-  std::vector<planar::InputMotion> inputs = {};  ///< of the linkage without clearance
+  std::vector<planar::InputMotion> inputs = {};  ///< inputs of the linkage without clearance
   double kinetic = 0, potential = 0, elastic = 0, dissipated = 0, work = 0, drift = 0;  ///< J
   std::vector<PinInstant> pins = {};
-  std::vector<double> values = {};  ///< of the columns
+  std::vector<double> values = {};  ///< values of the columns
   planar::LinkageRecord record = {};
 };
-/// What a periodic regime was looked for with, and found.
+/// The search for a periodic regime, and its result.
 struct ClearanceRegime {
   int turns = 0;   ///< periods of the drives after which it repeats; 0: not found
   int waited = 0;  ///< periods from the start to where it was seen to repeat; 0: found by shooting
@@ -116,9 +116,9 @@ struct ClearanceRegime {
   /// the clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine
   /// of its angle, and its speed as a share of one turn a period.
   double change = nan;
-  std::optional<JointOrbit> orbit;  ///< of continuous contact, where that was looked for
+  std::optional<JointOrbit> orbit;  ///< orbit of continuous contact, where that was looked for
 };
-/// What a run has recorded.
+/// The record of a run.
 struct ClearanceRecording {
   Status status = Status::done;
   std::string message;
@@ -132,31 +132,34 @@ struct ClearanceRecording {
   bool went_over() const { return !std::isnan(switched); }
   double largest_drift = 0, peak_energy = 0;
   long steps = 0, evaluations = 0;
-  std::vector<planar::LinkageColumn> columns;  ///< of the linkage without clearance that are known with it
-  std::vector<RecordedRow> rows;               ///< of a periodic study the last periods alone
-  std::vector<RecordedRow> ideal;              ///< the same without clearance: times, inputs, values
+  /// Columns of the linkage without clearance that are known with it.
+  std::vector<planar::LinkageColumn> columns;
+  std::vector<RecordedRow> rows;   ///< rows; of a periodic study the last periods alone
+  std::vector<RecordedRow> ideal;  ///< the same without clearance: times, inputs, values
   /// Once a period of the drives, from the start, the first `most_sections` of them: times and pins alone.
   std::vector<RecordedRow> sections;
   static constexpr int most_sections = 100'000;
-  std::optional<ClearanceRegime> regime;  ///< of periodic studies
-  std::vector<ContactEvent> events;     ///< of a periodic regime those of its periods; the first ones of many
-  std::vector<ContactTotals> contacts;  ///< of the same, all of them, one a pin
+  std::optional<ClearanceRegime> regime;  ///< regime of periodic studies
+  /// Contacts; of a periodic regime those of its periods; the first ones of many.
+  std::vector<ContactEvent> events;
+  std::vector<ContactTotals> contacts;  ///< totals of all these contacts, one a pin
   long all_contacts() const {
     long sum = 0;
     for (const ContactTotals& of : contacts) sum += of.contacts;
     return sum;
   }
-  /// Whether more came than are listed.
+  /// True if more contacts came than are listed.
   bool more_contacts_than_listed() const { return all_contacts() > static_cast<long>(events.size()); }
   std::vector<ContactValidity> validity;  ///< one a continuous pin
-  /// Of every traced point: places on the ideal path, close together.
+  /// Points of the ideal path of every traced point, close together.
   std::vector<std::vector<std::complex<double>>> ideal_paths;
 };
 ClearanceRecording record_clearance(const ClearanceStudy& study, RunContext& context);
 
 /// Tables that summarise rows; without rows when there is nothing to summarise.
 Table contacts_table(const ClearanceStudy& study, const ClearanceRecording& recording);
-/// Where on its bush a pin presses, and how: directions in the frame of the bush, in steps of 5 deg.
+/// The directions in which a pin presses on its bush, and the forces: directions in the frame of the bush, in
+/// steps of 5 deg.
 Table contact_map_table(const ClearanceStudy& study, const ClearanceRecording& recording);
 Table spectrum_table(const ClearanceStudy& study, const ClearanceRecording& recording);
 Table section_table(const ClearanceStudy& study, const ClearanceRecording& recording);
@@ -164,11 +167,11 @@ Table section_table(const ClearanceStudy& study, const ClearanceRecording& recor
 Table orbit_table(const ClearanceStudy& study, const JointOrbit& orbit);
 Table multipliers_table(const JointOrbit& orbit);
 
-/// How far traced points are off at most (m); rows are the traces.
+/// The largest distances of traced points from their paths (m); rows are the traces.
 struct PathErrors {
   study::Extreme path;   ///< from the ideal path
   study::Extreme place;  ///< from the ideal place
-  std::string point;     ///< that is farthest from its path
+  std::string point;     ///< point that is farthest from its path
 };
 /// Facts, warnings and the headline.
 void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording, const PathErrors& errors,

@@ -14,9 +14,9 @@
 namespace linkwright::clearance {
 namespace {
 
-// Of the radius of the pin: depths beyond it are outside of the law of contact.
+// share of the radius of the pin: depths beyond it are outside of the law of contact
 constexpr double deep_share = 0.1;
-// Of the coefficient of restitution: a law that is off by more is reported.
+// share of the coefficient of restitution: a law with a larger error is reported
 constexpr double far_restitution = 0.25;
 
 Measured force_by_size(double force) { return force < 1e4 ? newtons(force) : measured("kN", force); }
@@ -73,7 +73,7 @@ class Facts {
   double duration() const { return r_.time - r_.from; }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.pin_name(pin); }
-  // Whether there was real contact.
+  // True if there was real contact.
   bool real() const { return s_.model == PinModel::contact || r_.went_over(); }
 
   void regime_facts() {
@@ -121,7 +121,7 @@ class Facts {
       if (word.value == stability) return word.summary;
     return {};
   }
-  // Where the first input was when pins parted: "O2 at 71 deg".
+  // The value of the first input when pins parted: "O2 at 71 deg".
   Sentence where_switched() const {
     if (r_.switched_inputs.empty()) return {};
     const bool turns = s_.plan.rotary[0];

@@ -21,7 +21,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double most_rows = 1e7;  // of which a periodic study keeps the last
+constexpr double most_rows = 1e7;  // largest number of rows, of which a periodic study keeps the last
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
                        bool more_than = false, bool required = false) {
@@ -111,7 +111,7 @@ void fields(Visitor&& visit, ContinuousForm& c) {
         c.damping);
 }
 
-// What both of its models need; how pins lie in real contact follows from the loss of the other.
+// The options that both of its models need; how pins lie in real contact follows from the loss of the other.
 struct AutomaticForm {
   ContactForm contact;
   ContinuousForm continuous;

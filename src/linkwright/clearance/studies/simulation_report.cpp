@@ -60,7 +60,7 @@ class SimulationReporter {
     if (!table.columns.empty()) result_.tables.push_back(std::move(table));
   }
   bool contact() const { return s_.model != PinModel::continuous; }
-  // Whether there was real contact.
+  // True if there was real contact.
   bool real() const { return s_.model == PinModel::contact || r_.went_over(); }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.linkage.joints[at(s_.joint_of(pin))].name; }
@@ -127,7 +127,7 @@ class SimulationReporter {
     add_status(table, r_.rows);
     result_.tables.push_back(std::move(table));
   }
-  // Where the point would be without clearance, how far it is from there and from the ideal path.
+  // Adds the point without clearance, and its distances from there and from the ideal path.
   void add_path(Table& table, std::size_t k) {
     const std::string key = trace_key(k), label = trace_name(k);
     const auto columns_of = [&](std::string_view end) {
@@ -164,7 +164,7 @@ class SimulationReporter {
     result_.tables.push_back(std::move(table));
   }
 
-  // With one rotary drive the clearance link runs before it.
+  // True if there is a phase: the clearance link runs before a single rotary drive.
   bool has_phase() const { return s_.plan.inputs() == 1 && s_.plan.rotary[0]; }
   void add_phase(Table& table, std::size_t k) {
     std::vector<double> phase =

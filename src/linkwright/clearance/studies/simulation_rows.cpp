@@ -37,8 +37,8 @@ ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& ou
 
 // ---- columns of a linkage whose joints are others ---------------------------------------------------------
 
-// What a column of the linkage without clearance is in a moving one. What its own inputs drive are columns of
-// the other.
+// The value of a column of the linkage without clearance in the one with clearance. The drives of its own
+// inputs are columns of the other.
 ClearanceRows::Value ClearanceRows::value_of(const planar::LinkageColumn& column,
                                              const planar::Linkage& linkage, const planar::LinkagePlan& plan,
                                              std::span<const planar::LinkageColumn> own) const {

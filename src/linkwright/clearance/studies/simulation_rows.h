@@ -50,11 +50,11 @@ class ClearanceRows {
   const ClearedLinkage* cleared_ = nullptr;
   std::vector<double> clearances_;
   const OpenLinkage* open_ = nullptr;
-  planar::Linkage pressed_;  // with the forces of the contacts as loads
+  planar::Linkage pressed_;  // linkage with the forces of the contacts as loads
   planar::LinkageForces forces_;
 };
 
-/// Where a point of a body is in a position of the ideal linkage (m).
+/// The position of a point of a body in a position of the ideal linkage (m).
 planar::Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
                              const planar::LinkageMotion& motion, const planar::BodyPoint& p);
 

@@ -39,7 +39,8 @@ std::vector<InputMotion> inputs_at(const std::vector<math::MotionCurve>& curves,
 }
 // Value of the first input, which loads may depend on.
 double first_of(std::span<const InputMotion> inputs) { return inputs.empty() ? 0 : inputs[0].value; }
-// What of a section has to come back, scaled: of pins that fly also where they are off their circle.
+// The part of a section's state that has to come back, scaled: for pins in free flight also their distance
+// from the circle.
 std::vector<double> section_state(const ClearanceStudy& s, const RecordedRow& row, double fastest) {
   std::vector<double> out;
   for (std::size_t k = 0; k < row.pins.size(); ++k) {
@@ -122,7 +123,7 @@ class Recorder {
     if (is_row_[now]) out_.rows.push_back(std::move(row));
     return !is_section_[now] || !searching_ || !repeats();
   }
-  // Whether the last section is one of those before; then the motion is known. Drops old rows.
+  // True if the last section repeats an earlier one; then the motion is known. Drops old rows.
   bool repeats() {
     double fastest = 1e-300;
     for (std::size_t k = 0; k < s_.pins(); ++k)
@@ -269,7 +270,7 @@ class Recorder {
     simulate();
     const ClearanceRegime& regime = *out_.regime;
     if (regime.turns == 0) {
-      // What came last: the period that had been completed, and what was begun.
+      // Keeps the end of the run: the last complete period, and the one that was begun.
       if (!out_.sections.empty()) drop_rows(out_.sections.back().time - s_.period);
       if (out_.status == Status::done)
         fail(Status::not_converged,
@@ -364,7 +365,7 @@ class Recorder {
     const planar::LinkageInstant instant{t, row.inputs, &motion, &forces_};
     for (const planar::LinkageColumn& c : out_.columns)
       row.values.push_back(status == Status::done ? c.value(instant) : nan);
-    for (const planar::BodyPoint& p : s_.traces)  // where they are, beside the columns
+    for (const planar::BodyPoint& p : s_.traces)  // places of the traced points, which are no columns
       places_.push_back(status == Status::done ? number(place_of(s_.linkage, s_.plan, motion, p))
                                                : std::complex<double>(nan, nan));
     out_.ideal.push_back(std::move(row));

@@ -76,7 +76,7 @@ Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
       if (at(e.joint) == k) press(e.bush_angle, e.force, e.depth);
     for (std::vector<double>* ring : {&force, &depth, &share}) ring->back() = ring->front();
     const std::string& pin = s.pin_name(k);
-    // As vectors from the middle of the bush, each in its own unit.
+    // Draws them as vectors from the middle of the bush, each in its own unit.
     const auto rose = [&](const std::string& end, const char* unit, const std::string& label,
                           const std::vector<double>& of) {
       std::vector<double> x, y;

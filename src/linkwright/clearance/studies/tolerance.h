@@ -10,8 +10,8 @@
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"
 
-// What clearances and errors of lengths do to path, function and forces of a linkage: what its file holds,
-// how it is read, run and reported.
+// Tolerance studies: the effect of clearances and errors of lengths on path, function and forces of a
+// linkage; what its file holds, how it is read, run and reported.
 namespace linkwright::clearance {
 
 /// A study as read.
@@ -35,7 +35,7 @@ study::Result run_tolerance_study(const ToleranceStudy& study, RunContext& conte
 // ---- between running and reporting
 // -----------------------------------------------------------------------------
 
-/// What deviates as one thing, in the order of `quantity_count`.
+/// A quantity that deviates as one thing, in the order of `quantity_count`.
 struct ToleranceQuantity {
   enum class Kind { point, angle, displacement, force, torque } kind = Kind::point;
   std::string key;            ///< "coupler_P", "B0_angle", "A_force", "O_drive_torque"
@@ -43,7 +43,7 @@ struct ToleranceQuantity {
   std::size_t first = 0;      ///< its first value
   std::size_t size = 1;       ///< values: 2 of a vector
   std::size_t worst_row = 0;  ///< sample of its largest worst case
-  bool any = false;           ///< whether there is one
+  bool any = false;           ///< true if there is one
 };
 /// "m", "rad" and the like as keys and as labels have them.
 std::string unit_key(ToleranceQuantity::Kind kind);
@@ -54,12 +54,12 @@ Measured shown(ToleranceQuantity::Kind kind, double value);
 /// Clearance or tolerance k of a study, pins before lengths, m.
 double tolerance_range(const ToleranceStudy& study, std::size_t k);
 
-/// What a run has computed.
+/// The results of a run.
 struct ToleranceRecording {
   planar::LinkageRows rows;
   std::vector<SensitivitySample> linear;
   MonteCarloResult random;
-  std::vector<planar::LinkageRecord> records;  ///< of the nominal linkage, for the scene
+  std::vector<planar::LinkageRecord> records;  ///< records of the nominal linkage, for the scene
   std::vector<ToleranceQuantity> quantities;
   std::vector<std::string> tolerances;  ///< their names: pins, then lengths
   /// Least transmission angle of a dyad: rad, its sample and its group; infinite when there is no dyad.
@@ -71,14 +71,14 @@ struct ToleranceRecording {
   std::size_t run_length = 0;
 
   std::size_t samples() const { return linear.size(); }
-  /// Of the worst error of quantity q at a sample, and of its mean square, what tolerance k has in it.
+  /// The contribution of tolerance k to the worst error of quantity q at a sample, and to its mean square.
   double contribution(std::size_t sample, std::size_t q, std::size_t k) const {
     return linear[sample].contributions[q * tolerances.size() + k];
   }
   double mean_square(std::size_t sample, std::size_t q, std::size_t k) const {
     return linear[sample].mean_squares[q * tolerances.size() + k];
   }
-  /// Of all tolerances together, to first order.
+  /// The root mean square of the error by all tolerances together, to first order.
   double root_mean_square(std::size_t sample, std::size_t q) const;
   /// The largest worst case over the motion; NaN when there is none.
   double worst(std::size_t q) const;

@@ -141,7 +141,7 @@ class ToleranceReporter {
       over_input("contributions_" + quantity.key)("contributions-" + quantity.key,
                                                   "Contributions to the worst-case error of " + quantity.name,
                                                   parts);
-      // Where a band can be seen around its curve.
+      // The diagram is drawn where a band can be seen around its curve.
       if ((quantity.kind == Kind::force || quantity.kind == Kind::torque) &&
           worst(q) > 0.02 * largest_value(q))
         for (const char* axis : {"", "_x", "_y"}) {
@@ -287,7 +287,8 @@ class ToleranceReporter {
     for (std::size_t row = 0; row < rows(); ++row) {
       const MonteCarloSample& m = r_.random.samples[row];
       const double linear = r_.root_mean_square(row, q);
-      // Where the first order hardly deviates at all the second one is all there is, and small.
+      // Rows where the first order hardly deviates are left out: there the second one is all there is, and
+      // small.
       if (r_.linear[row].status != Status::done || m.assembled < 2 || linear < 0.05 * largest) continue;
       double squares = 0;
       for (std::size_t i = quantity.first; i < quantity.first + quantity.size; ++i)

@@ -220,7 +220,7 @@ PathBand path_band(const ToleranceStudy& s, const ToleranceRecording& r, std::si
     if (std::isnan(place(after).x)) after = row;
     planar::Vec<double> way = place(after) - place(before);
     const double least = 1e-9 * s.motion.plan.size;
-    // Where a point turns back its neighbours lie at one place.
+    // The neighbours of a point that turns back lie at one place.
     if (!(norm(way) > least)) way = place(after) - place(row);
     if (!(norm(way) > least)) continue;
     const planar::Vec<double> n = (1 / norm(way)) * perpendicular(way);

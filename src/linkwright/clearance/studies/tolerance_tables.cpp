@@ -56,7 +56,7 @@ class Tabler {
     for (std::size_t row = 0; row < r_.samples(); ++row) out.push_back(of(row));
     return out;
   }
-  // Of the random linkages, where there are any.
+  // A column of the random linkages, if there are any.
   template <class F>
   std::vector<double> drawn(F&& of) const {
     return column([&](std::size_t row) {

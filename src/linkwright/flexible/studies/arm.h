@@ -82,7 +82,7 @@ void fields(Visitor&& visit, ArmDriveForm& d) {
 /// A simulation as read.
 struct ArmStudy {
   ArmForm mechanism;
-  std::vector<DriveLaw> drives;  ///< of the hub, then one a hinge
+  std::vector<DriveLaw> drives;  ///< law of the hub, then one a hinge
   std::optional<ShapingForm> shaping;
   SimulationForm simulation;
   int samples = 361;
@@ -91,7 +91,7 @@ struct ArmStudy {
 /// Reads the tables of the study and writes them into `canonical`; problems go to the reader.
 std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const study::Common& common,
                                        Value& canonical);
-/// What of it arms share with a single link.
+/// The part of the study that arms share with a single link.
 ChainStudy arm_chain_study(const ArmStudy& study);
 
 /// "simulation" of "flexible.arm".

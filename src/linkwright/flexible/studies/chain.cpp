@@ -142,7 +142,7 @@ void add_plots(const ChainStudy& s, bool shaped, study::Result& result) {
   for (const ChainPlot& plot : s.plots) add(plot.name, plot.title, plot.columns);
 }
 
-// How far the energies less the work moved away from where they were.
+// The largest change of the energies less the work.
 Sentence audit(const Simulation& run) {
   double drift = 0, energy = 0;
   for (const Sample& at : run.samples) {

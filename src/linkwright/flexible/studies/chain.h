@@ -14,7 +14,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/study/remarks.h"
 
-// What the simulations of one link and of arms share: their options, how they run and what they report.
+// The common part of simulations of one link and of arms: their options, how they run and what they report.
 namespace linkwright::flexible {
 
 enum class StartForm { undeformed, equilibrium };
@@ -60,14 +60,14 @@ void fields(Visitor&& visit, SimulationForm& s) {
 struct ChainPlot {
   const char* name;
   const char* title;
-  std::vector<std::string> columns;  ///< of the table "motion"; those that are not there are left out
+  std::vector<std::string> columns;  ///< columns of the table "motion"; missing ones are left out
 };
 
 /// A simulation as read: a chain with what turns it.
 struct ChainStudy {
-  std::function<ArmChain(int)> arm;  ///< with that many times the divisions
-  std::vector<std::string> names;    ///< of the links
-  std::vector<JointDrive> drives;    ///< of the hub, then one a hinge
+  std::function<ArmChain(int)> arm;  ///< chain with that many times the divisions
+  std::vector<std::string> names;    ///< names of the links
+  std::vector<JointDrive> drives;    ///< drive of the hub, then one a hinge
   SimulationForm simulation;
   std::optional<ShapingForm> shaping;
   int samples = 361;
@@ -81,10 +81,10 @@ void check_times(const SimulationForm& form, study::ObjectReader& simulation);
 /// Says why the drives cannot be shaped, with the keys of the table that holds `shaping`.
 void check_shaping(const ChainStudy& study, study::ObjectReader& parent);
 
-/// What the report of a kind adds to.
+/// The run that the report of a kind adds to.
 struct ChainRun {
   ArmChain arm;
-  Simulation simulation;  ///< with states
+  Simulation simulation;  ///< simulation with states
   study::Result result;   ///< tables "motion", "modes" and, of a shaped one, "unshaped"; plots, facts, scene
 };
 /// Integrates; what was reached is kept, whatever ends it.
@@ -97,7 +97,7 @@ Sentence in_hertz(const std::vector<double>& frequencies);
 /// "Ended at 1.2 s: ..." of a run that is not done.
 Sentence headline_of_end(const Simulation& run);
 
-/// Whether the states of a chain of so many cells at all samples, and the drawing of them, have room in
+/// True if the states of a chain of so many cells at all samples, and the drawing of them, have room in
 /// memory; an error at `output.samples` if not.
 bool fits_memory(study::ObjectReader& document, int samples, int cells);
 

@@ -41,7 +41,7 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
   const std::size_t nodes = chain.cells.size() + 1;
   scene.points.resize(1 + nodes);
   scene.points[0] = {"O", {0}, {0}};
-  // Of the rigid arm: the root of the first link, then the tips of all.
+  // Points of the rigid arm: the root of the first link, then the tips of all.
   std::vector<Scene::Point> rigid(1 + arm.links.size());
   rigid[0].name = "rigid root";
   for (std::size_t i = 0; i < arm.links.size(); ++i) {

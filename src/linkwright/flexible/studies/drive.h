@@ -12,7 +12,7 @@
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 
-// What turns hubs and hinges, as files hold it and ready to be asked.
+// Drives of hubs and hinges, in files and ready for use.
 namespace linkwright::flexible {
 
 namespace drive_fields {
@@ -138,7 +138,7 @@ void fields(Visitor&& visit, ShapingForm& f) {
         f.damping);
 }
 
-/// What turns one joint: a motion that is given, a torque, or (neither) nothing.
+/// The drive of one joint: a motion that is given, a torque, or (neither) nothing.
 struct JointDrive {
   std::function<HubMotion(double)> motion;
   std::function<double(double)> torque;
@@ -149,7 +149,7 @@ struct JointDrive {
 
   bool free() const { return !motion && !torque; }
 };
-/// Of a law without problem, up to `end` (s).
+/// The drive by a law without problem, up to `end` (s).
 JointDrive joint_drive(const DriveLaw& law, double end);
 
 }  // namespace linkwright::flexible

@@ -111,7 +111,7 @@ double lay_beside(study::Result& result, Table other) {
   return difference;
 }
 
-/// What the kinematics asked for does otherwise than those that are exact in the limit.
+/// Compares the requested kinematics with those that are exact in the limit.
 void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vector<study::Fact>& facts,
                         RunContext& context) {
   if (s.simulation.kinematics == Kinematics::chord_consistent) return;

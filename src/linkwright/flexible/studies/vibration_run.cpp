@@ -55,8 +55,8 @@ class Analyst {
   // ---- at rest
   // ------------------------------------------------------------------------------------------------
 
-  // Of the continuum, as many as the chain: bending, with the link's stretching, and 0 for a hub that turns
-  // freely.
+  // Frequencies of the continuum, as many as the chain: bending, with the link's stretching, and 0 for a hub
+  // that turns freely.
   std::vector<double> of_continuum() const {
     std::vector<double> out;
     if (found_.front().frequency == 0) out.push_back(0);
@@ -185,7 +185,7 @@ class Analyst {
   // ---- turning
   // ------------------------------------------------------------------------------------------------
 
-  // Whether the straight link turns steadily at a speed, and keeps its stability.
+  // True if the straight link turns steadily at a speed and is stable.
   bool steady(double speed) const {
     if (beam().extensible && speed != 0) {
       const Equilibrium stretched = equilibrium(chain_, {}, {.speed = speed});
