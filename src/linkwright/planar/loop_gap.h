@@ -6,9 +6,9 @@
 
 namespace linkwright::planar {
 
-/// How far a loop is from closing, in metres: 0 = it closes, up to the rounding that may push a toggle just
-/// outside; positive = coupler and rocker are together too short, or differ too much, for A and B0 at
-/// `distance`. Never clamped: beyond rounding the gap is real.
+/// The distance by which a loop fails to close, in metres: 0 = it closes, up to the rounding that may push a
+/// toggle just outside; positive = coupler and rocker are together too short, or differ too much, for A and
+/// B0 at `distance`. Never clamped: beyond rounding the gap is real.
 inline double loop_gap(double distance, double coupler, double rocker) {
   const double reach = coupler + rocker, fold = std::abs(coupler - rocker);
   const double rounding = tolerance::closure * (distance + reach);

@@ -72,7 +72,7 @@ study::Comparisons arm_table(RunContext& context) {
   add("F, counterweights", 0.074888, by_weights, 5e-7, "m1d r1 = 11.5 kg m, m2d = 7 kg, r2 = 0.5 m");
   add("reduction by counterweights, %", 66, 100 * (1 - by_weights / initial), 0.5, "");
 
-  // What more is possible, and what each costs the motors.
+  // Designs with more freedom, and the cost of each to the motors.
   struct Row {
     std::string name;
     ArmTask task;
@@ -165,7 +165,7 @@ study::Comparisons change_table(std::string_view table) {
   return rows;
 }
 
-// What the published search reached, and what there is: both questions of one published problem.
+// Adds the result of the published search and the true optimum: both questions of one published problem.
 void add_best(study::Comparisons& rows, std::string_view name, std::string_view label,
               const std::string& source, RunContext& context) {
   const PublishedBalancing original = published_balancing(name);
@@ -227,7 +227,7 @@ study::Comparisons design_table(std::string_view table, RunContext& context) {
   return rows;
 }
 
-// What the methods are set to, beside what the program takes when a study says nothing.
+// The settings of the methods, besides those that the program takes when a study says nothing.
 study::Comparisons settings_table(RunContext&) {
   const std::string source = "Boskovic 2018, Table 2.5";
   const optimise::CuckooSearchOptions cuckoo;

@@ -26,7 +26,8 @@ namespace {
 
 constexpr int wolf_seeds = 60;
 
-// What the published setting of the grey wolf comes to: 30 wolves, 50 generations, the published bounds.
+// Adds the results of the grey wolf in its published setting: 30 wolves, 50 generations, the published
+// bounds.
 void add_grey_wolf(study::Comparisons& rows, const optimise::Problem& problem, double published,
                    const std::string& source, RunContext& context) {
   const optimise::OptimiserOptions wolves{.method = optimise::Method::grey_wolf,
@@ -101,7 +102,7 @@ study::Comparisons slider_cranks(std::span<const PublishedSliderCrank> designs, 
                   source, context);
     return rows;
   }
-  // Of Table 4.2, whose design was made for the path alone: better in both.
+  // The design of Table 4.2, made for the path alone, is better in both.
   const SliderPathDesign single = measured(published_slider_cranks()[0]);
   std::vector<double> strokes;
   for (const PublishedSliderCrank& published : designs) {

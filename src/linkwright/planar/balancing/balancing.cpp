@@ -40,7 +40,7 @@ struct Evaluator {
   std::vector<double> scales;  // one a constraint
 
   std::size_t limits() const {
-    std::size_t n = 1;  // that every row has an answer
+    std::size_t n = 1;  // the first limit says that every row has an answer
     for (const BalancingLimit& c : task.constraints) n += (c.at_least ? 1 : 0) + (c.at_most ? 1 : 0);
     return n;
   }

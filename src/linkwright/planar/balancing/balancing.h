@@ -30,12 +30,12 @@ struct BalancingGoal {
 struct BalancingLimit {
   std::string quantity;
   Measure measure = Measure::max_abs;
-  bool change = false;  ///< of the difference between the design and the initial one
+  bool change = false;  ///< true for a limit of the difference between the design and the initial one
   std::optional<double> at_least, at_most;
   bool enabled = true;
 };
 
-/// How several objectives f_k = value / reference become one answer, or a front.
+/// The way in which several objectives f_k = value / reference become one answer, or a front.
 enum class Combine { mean, largest, all, front, in_order };
 constexpr std::array<EnumName<Combine>, 5> names(Combine) {
   return {{{Combine::mean, "mean", "least weighted mean of the ratios to the references"},
@@ -46,7 +46,7 @@ constexpr std::array<EnumName<Combine>, 5> names(Combine) {
             "objectives in the order of the file, each until it meets its target; then the largest of all"}}};
 }
 
-/// What is balanced: numbers, what they mean, and what is asked of them.
+/// The task of balancing: design variables, their meaning, objectives and limits.
 struct BalancingTask {
   std::vector<optimise::Variable> variables;
   std::vector<double> initial;  ///< one a variable; may lie outside the bounds

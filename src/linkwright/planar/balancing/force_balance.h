@@ -13,7 +13,7 @@ struct ForceBalance {
   std::complex<double> crank, rocker;
 };
 
-/// What the first moments of crank and rocker must be for the mass centre of the whole four-bar to stand
+/// The first moments that crank and rocker must have for the mass centre of the whole four-bar to stand
 /// still, given the coupler: m2 L1 - S2 L1 / L2 and S2 L3 / L2 are opposed by those of crank and rocker, with
 /// L1 the crank, L2 the coupler and L3 the rocker (Berkof and Lowen 1969). The shaking force is then the
 /// weight alone, at any speed and acceleration; the shaking moment is not balanced, and the drive torque may

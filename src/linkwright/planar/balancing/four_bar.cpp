@@ -68,7 +68,7 @@ double rocker_angle_in_line(const FourBar& l, double stretched) {
   return c > 1 ? 1 - c : c < -1 ? pi - 1 - c : std::acos(c);
 }
 
-// What of a problem is the same for all machines.
+// The part of a problem that is the same for all machines.
 struct Layout {
   Diagonals diagonals;
   double size = 0;  // m, what lengths are compared with
@@ -146,7 +146,7 @@ double measure(const BalancingObjective& o, double softening, std::span<const do
   return std::sqrt(total(samples, [](double v) { return v * v; })) / (n - 1);
 }
 
-// Of a thread.
+// The scratch memory of a thread.
 struct Memory {
   FourBarSweep sweep{{.directions = false, .rates = false, .forces = true, .shaking = true}};
   std::vector<FourBarMachine> machines;

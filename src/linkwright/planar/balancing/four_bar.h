@@ -23,7 +23,7 @@ enum class FourBarNumber : std::size_t {
   coupler,
   rocker,
   ground,
-  crank_centre_angle,  // of the mass centres from the link lines (rad)
+  crank_centre_angle,  // angles of the mass centres from the link lines (rad)
   coupler_centre_angle,
   rocker_centre_angle,
   crank_mass,  // kg
@@ -32,7 +32,7 @@ enum class FourBarNumber : std::size_t {
   crank_inertia,  // about the mass centres (kg m2)
   coupler_inertia,
   rocker_inertia,
-  crank_centre_distance,  // of the mass centres from the links' own joints (m)
+  crank_centre_distance,  // distances of the mass centres from the links' own joints (m)
   coupler_centre_distance,
   rocker_centre_distance
 };
@@ -47,8 +47,8 @@ FourBarMachine four_bar_machine(std::span<const double, four_bar_number_count> n
                                 Branch branch = Branch::open);
 FourBarNumbers four_bar_numbers(const FourBarMachine& machine);
 
-/// What may be balanced: components of the joint forces, drive torque, shaking force and moments, as in
-/// FourBarReactions. Names are those of the columns of the analysis without their unit.
+/// A component that may be balanced: a component of the joint forces, drive torque, shaking force and
+/// moments, as in FourBarReactions. Names are those of the columns of the analysis without their unit.
 enum class FourBarComponent {
   O1_x,
   O1_y,

@@ -194,7 +194,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
                          "gear '{}' has a pressure angle, with which forces are not linear in the masses",
                          linkage.joints[static_cast<std::size_t>(gear->joint)].name);
 
-  // What stays when the open masses are taken away, and the linkage without any mass or load.
+  // `rest` is the linkage without the open masses, `bare` the linkage without any mass or load.
   Linkage rest = linkage, bare = linkage;
   for (const int b : bodies) {
     LINKWRIGHT_REQUIRE(b > 0 && static_cast<std::size_t>(b) < linkage.bodies.size(),

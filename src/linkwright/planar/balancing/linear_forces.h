@@ -26,17 +26,17 @@ inline constexpr std::size_t base_parameter_count = 4;
 struct LinearComponent {
   std::string name;  ///< key of the column that the analysis has for it: "O1_x_N", "shaking_moment_N_m"
   std::vector<double> factors;
-  std::vector<double> constant;  ///< of masses that are not open, of springs and loads
+  std::vector<double> constant;  ///< part of the masses that are not open, of springs and loads
 };
 
 /// All components over a motion.
 struct LinearForces {
-  /// That of the first sample without an answer (`failed_sample`), where the components are NaN; else done.
+  /// Status of the first sample without an answer (`failed_sample`), where the components are NaN; else done.
   Status status = Status::done;
   std::size_t failed_sample = 0;
   std::size_t samples = 0;
   bool closes = false;             ///< the last sample is the first one again: means count it once
-  std::vector<std::string> links;  ///< whose masses are open
+  std::vector<std::string> links;  ///< links whose masses are open
   std::vector<LinkMass> initial;   ///< their masses as they are, one a link
   std::vector<LinearComponent> components;
 };

@@ -52,13 +52,13 @@ BaseParameters value(const BaseForms& forms, std::span<const double> x) {
 struct NamedCone {
   std::string name;
   double limit = 0;
-  double size = 1;  // of what the limit bounds, to judge its price
+  double size = 1;  // size of the limited quantity, to judge its price
   std::size_t cone = 0;
   Affine bound_by_limit;  // derivative of the cone's bound, and of its last part
   double last_by_limit = 0;
 };
 
-// Whether a counterweight stands where it stands.
+// True if the place of a counterweight is fixed.
 bool fixed_place(const Counterweight& w) {
   if (w.rectangle) return (*w.rectangle)[0].fixed() && (*w.rectangle)[1].fixed();
   return w.radius.fixed();
@@ -99,10 +99,10 @@ class Balancer {
   const MassBalancing& b_;
   optimise::ConeProgramme programme_;
   std::vector<NamedCone> named_;
-  std::vector<const OpenLink*> open_;  // of each link, null when it stays
-  std::vector<bool> inertia_free_;     // of each link: nothing feels it
+  std::vector<const OpenLink*> open_;  // masses of each link, null when they stay
+  std::vector<bool> inertia_free_;     // true for each link whose inertia has no effect
   std::vector<BaseForms> links_, weights_;
-  std::size_t unknowns_ = 0;  // of the masses; epigraphs follow
+  std::size_t unknowns_ = 0;  // number of unknown masses; epigraphs follow
   std::vector<double> before_, references_;
 };
 

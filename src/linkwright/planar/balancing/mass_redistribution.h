@@ -35,7 +35,7 @@ struct MassEnvelope {
 /// against them.
 struct OpenLink {
   static constexpr double infinite = infinity;
-  std::size_t link = 0;                ///< of LinearForces::links
+  std::size_t link = 0;                ///< index in LinearForces::links
   Range mass{0, infinite};             ///< kg
   Range centre_distance{0, infinite};  ///< m from the own joint
   Range inertia{0, infinite};          ///< kg m2 about the mass centre
@@ -48,7 +48,7 @@ struct OpenLink {
 /// point is reported.
 struct Counterweight {
   std::string name;
-  std::size_t link = 0;              ///< of LinearForces::links
+  std::size_t link = 0;              ///< index in LinearForces::links
   Range mass{0, 0};                  ///< kg
   Range radius{0, 0};                ///< m from the own joint
   std::optional<double> angle = {};  ///< rad from the link line; without: any
@@ -65,10 +65,10 @@ struct ForceObjective {
   std::optional<double> at_most = {};    ///< limit, N or N m
 };
 
-/// How several objectives become one cost.
+/// The rule by which several objectives become one cost.
 enum class ForceCost {
-  sum,     ///< of weight times value over reference
-  largest  ///< of weight times value over reference
+  sum,     ///< sum of weight times value over reference
+  largest  ///< largest weight times value over reference
 };
 
 struct MassBalancing {
@@ -100,7 +100,7 @@ struct BalancedMasses {
   std::vector<PlacedCounterweight> counterweights;
   std::vector<BaseParameters> bases;  ///< one a link, with its counterweights
   std::vector<double> before, after;  ///< one an objective: its measure with the initial masses, and now
-  double cost = infinity;             ///< of the answer, from `after`
+  double cost = infinity;             ///< cost of the answer, from `after`
   /// No masses within the convex bounds cost less (weak duality, see optimise::ConeReport).
   double lower_bound = -infinity;
   /// (cost - lower_bound) / cost; for a cost that vanishes over a thousandth of that of the initial masses.

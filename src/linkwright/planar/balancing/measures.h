@@ -39,14 +39,14 @@ double measure(Measure measure, std::span<const double> samples);
 /// ... of a period: when it `closes`, the last sample is the first one again, and means count one of the two.
 /// rss_over_n keeps both, as it is defined.
 double measure(Measure measure, std::span<const double> samples, bool closes);
-/// How many of the n samples of a period count, the first ones.
+/// Number of the n samples of a period that count, the first ones.
 constexpr std::size_t counted(Measure measure, std::size_t n, bool closes) {
   return closes && n > 1 && (measure == Measure::rms || measure == Measure::mean_abs) ? n - 1 : n;
 }
 
-/// What searches may build on.
+/// The properties of a measure that searches may build on.
 struct MeasureProperties {
-  /// Of the sizes of the samples: it is convex, the same for x and -x, and zero only where all are.
+  /// True for a norm of the samples: it is convex, the same for x and -x, and zero only where all are.
   bool norm = false;
   bool quadratic = false;  ///< root of a sum of squares: smooth but at zero
 };

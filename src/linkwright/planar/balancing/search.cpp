@@ -17,7 +17,8 @@ namespace linkwright::planar {
 namespace {
 
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
-// Of a front: no objective is forgotten altogether, or its value would be left to chance.
+// Least share of an objective on a front: no objective is forgotten altogether, or its value would be left to
+// chance.
 constexpr double least_share = 1e-3;
 // Prices below this are rounding.
 constexpr double least_price = 1e-9;
@@ -40,7 +41,7 @@ optimise::Priorities priorities_of(const BalancingTask& task) {
   return out;
 }
 
-/// What is minimised: the mean, the largest, or what orders designs by priority.
+/// The cost to be minimised: the mean, the largest, or the priority cost that orders designs.
 double cost_of(const BalancingTask& task, Combine combine, std::span<const double> ratios) {
   if (combine == Combine::in_order)
     return optimise::priority_cost(optimise::priority_key(ratios, priorities_of(task)));
@@ -256,7 +257,7 @@ class Answers {
       q.goal = optimise::SmoothGoal::largest;
       for (std::size_t j = 0; j < m; ++j) {
         const double target = p_.task.objectives[j].target;
-        // What comes later hardly counts: it only separates equals.
+        // Later objectives hardly count: they only separate equals.
         q.weights[j] = (k == m || j == k ? 1 : least_share * least_share) / target;
         if (j < k) q.caps[j] = std::min(q.caps[j], target);
       }
@@ -278,7 +279,7 @@ class Answers {
   BalancingRun run_;
 };
 
-/// What a population method minimises; `several`: it takes all objectives together.
+/// The problem for a population method; `several`: it takes all objectives together.
 optimise::Problem population_problem(const BalancingProblem& p, Combine combine, bool several) {
   optimise::Problem problem = optimise::to_problem(p.problem);
   const std::vector<double> caps = caps_of(p.task, false);

@@ -16,7 +16,7 @@
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/planar/balancing/balancing.h"
 
-// How balanced designs are searched.
+// Searches for balanced designs.
 namespace linkwright::planar {
 
 /// `method = "recommended"`: where only masses are designed the convex programme, if its answer is proved;
@@ -99,7 +99,7 @@ void fields(Visitor&& visit, BalancingOptimiser& o) {
 /// Word of the chosen method.
 std::string_view method_name(const BalancingMethod& method);
 
-/// Why the method cannot answer such a question, with what can; nothing when it can.
+/// The reason why the method cannot answer such a question, and a method that can; nothing when it can.
 struct MethodProblem {
   std::string message, hint;
 };
@@ -108,10 +108,10 @@ std::optional<MethodProblem> problem(const BalancingOptimiser& optimiser, std::s
 struct BalancedDesign {
   std::vector<double> x;            ///< variables; empty = no design
   std::vector<double> ratios;       ///< objectives over their references
-  double cost = infinity;           ///< what was minimised
+  double cost = infinity;           ///< cost that was minimised
   double violation = 0;             ///< 0 = every constraint and cap is met
   std::vector<std::string> active;  ///< bounds and limits it rests on, with what they cost where known
-  std::string proof;                ///< of a global optimum: "global optimum, gap 1e-10"; empty = none
+  std::string proof;                ///< proof of a global optimum: "global optimum, gap 1e-10"; empty = none
 };
 
 /// One question about all objectives: the least weighted sum or the least largest weighted objective, none
@@ -124,7 +124,7 @@ struct BalancingQuestion {
 /// when it cannot.
 using ExactBalancing = std::function<BalancedDesign(const BalancingQuestion&, RunContext&)>;
 
-/// What one seed came to.
+/// The outcome of one seed.
 struct BalancingRun {
   struct Step {
     std::int64_t evaluations = 0;
@@ -142,7 +142,7 @@ BalancingRun balance(const BalancingProblem& problem, const BalancingOptimiser& 
                      const ExactBalancing& exact, std::uint64_t seed, std::string_view checkpoint,
                      bool progress, RunContext& context);
 
-/// Those of the feasible designs that no other one dominates, by their first objective.
+/// The front: the feasible designs that no other one dominates, by their first objective.
 std::vector<BalancedDesign> front_of(std::vector<BalancedDesign> designs);
 
 /// A finished seed as a checkpoint keeps it, and the way back with the same bits: what designs are worth is

@@ -82,7 +82,7 @@ class ArmCost {
   std::size_t size_ = 0, samples_ = 0;
   std::vector<double> stroke_;
   std::vector<math::Motion> base_;    // sample by sample, all links
-  std::vector<Complex> swing_;        // of those
+  std::vector<Complex> swing_;        // positions of those
   std::vector<math::Motion> higher_;  // sample by sample, all free coefficients, of a stroke of 1
   std::vector<double> end_terms_;     // a_3, a_4, a_5 by each free coefficient; in front those without any
   double factor_ = 1, scale_ = 1;
@@ -221,7 +221,7 @@ std::vector<optimise::Variable> ArmCost::variables() const {
   for (std::size_t j = 0; j < unknowns_.links; ++j)
     for (std::size_t p = 0; p < unknowns_.per_law; ++p) {
       Range range{-most, most};
-      // With one coefficient the bounds of the others are bounds of it.
+      // The bounds of the other coefficients are bounds of a single free coefficient.
       for (std::size_t q = 0; q < 3 && unknowns_.per_law == 1; ++q) {
         const double at_zero = end_terms_[q], slope = end_terms_[3 + q];
         const double a = (-most - at_zero) / slope, b = (most - at_zero) / slope;

@@ -19,7 +19,7 @@
 // (Boskovic 2018, section 2.2). Counterweights alone are a convex problem, see `balance`; laws are not.
 namespace linkwright::planar {
 
-/// What the arm does, and what counts: sum over the joints of weight times measure of the size of the joint
+/// The motion of the arm and its cost: sum over the joints of weight times measure of the size of the joint
 /// force, over intervals + 1 samples from start to end of the motion.
 struct ArmTask {
   SerialArm arm;
@@ -31,14 +31,14 @@ struct ArmTask {
   Measure measure = Measure::rss_over_n;  ///< rss_over_n (Eq. (2.37)) or rms
 };
 
-/// What may be chosen.
+/// The variables of a design.
 struct ArmDesign {
-  /// Of the laws: 6 has one free coefficient a link (a_6), d has d - 5 (a_6 ... a_d), and a_3, a_4, a_5
-  /// follow from rest at both ends (Eqs. (2.42)-(2.47)). 5: laws stay as they are, of whatever kind.
+  /// Degree of the laws: 6 has one free coefficient a link (a_6), d has d - 5 (a_6 ... a_d), and a_3, a_4,
+  /// a_5 follow from rest at both ends (Eqs. (2.42)-(2.47)). 5: laws stay as they are, of whatever kind.
   /// Otherwise all must be Polynomial345; their own higher coefficients do not count.
   int degree = 5;
-  double largest_coefficient = 100;  ///< of |a_3| ... |a_d|, shares of the stroke
-  /// With an angle each. Unknowns are the mass, and the radius unless it is given.
+  double largest_coefficient = 100;  ///< largest of |a_3| ... |a_d|, shares of the stroke
+  /// Counterweights, with an angle each. Unknowns are the mass, and the radius unless it is given.
   std::vector<Counterweight> counterweights;
 };
 

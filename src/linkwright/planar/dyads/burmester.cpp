@@ -16,8 +16,9 @@ using Complex = std::complex<double>;
 constexpr double no_compatibility_link = 1e-12;
 
 struct Compatibility {
-  std::array<Complex, 3> displacement, turn;  // of poses 2 to 4 from the first: delta, epsilon
-  std::array<Complex, 4> link;                // Delta
+  // Displacement and rotation of poses 2 to 4 from the first: delta, epsilon.
+  std::array<Complex, 3> displacement, turn;
+  std::array<Complex, 4> link;  // Delta
   BodyPose first;
 
   explicit Compatibility(std::span<const BodyPose> poses) : first(poses[0]) {

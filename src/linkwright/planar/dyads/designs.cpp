@@ -180,7 +180,7 @@ class Finder {
       }
   }
 
-  // Of the poses whose rotation is known.
+  // Spread over the poses whose rotation is known.
   double spread_of(const GuidingDyad& dyad) const {
     if (p_.demands.empty()) return spread(dyad, p_.poses);
     std::vector<BodyPose> poses;
@@ -218,7 +218,7 @@ class Finder {
                 std::max(design.rotation, std::abs(math::wrap_angle(reached[k].angle - p_.poses[k].angle)));
         }
       }
-      // Of a sweep many have the same defect: a few show which.
+      // Many designs of a sweep have the same defect: a few show which.
       if (out_.swept && design.passage.defect != PoseDefect::none && kept_defective_++ >= p_.most_designs)
         continue;
       out_.designs.push_back(std::move(design));

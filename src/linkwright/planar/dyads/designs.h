@@ -16,7 +16,7 @@ namespace linkwright::planar {
 
 struct PoseProblem {
   std::vector<BodyPose> poses;
-  std::array<Prescription, 2> pivots;  ///< of the two dyads, either of which may drive
+  std::array<Prescription, 2> pivots;  ///< prescribed pivots of the two dyads, either of which may drive
   std::vector<GuidingDyadType> types = {GuidingDyadType::rr, GuidingDyadType::pr, GuidingDyadType::rp};
   bool exact = true;                ///< every pose is met; else as near as can be, without prescriptions
   std::vector<PoseDemand> demands;  ///< one for each pose, or none (not exact)
@@ -24,15 +24,16 @@ struct PoseProblem {
   int most_designs = 12;
   bool drive_turns = false;  ///< only linkages whose driven dyad can turn round
 };
-/// How many conditions a dyad lacks for a finite number of solutions; up to most_open_numbers are swept.
+/// Number of conditions that a dyad lacks for a finite number of solutions; up to most_open_numbers are
+/// swept.
 int freedoms(const PoseProblem& problem, std::size_t dyad);
 
-/// How many poses may be met exactly beside others; five leave nothing to choose.
+/// Largest number of poses that may be met exactly beside others; five leave nothing to choose.
 inline constexpr int most_exact_demands = 4;
 
 struct PoseDesign {
   GuidingDyad driver, other;
-  std::vector<BodyPose> reached;  ///< where the linkage holds the body next to each pose
+  std::vector<BodyPose> reached;  ///< poses in which the linkage holds the body, next to each given pose
   Passage passage;
   double distance = 0;    ///< m, greatest distance of the body's origin from where it should be
   double rotation = 0;    ///< rad, greatest error of rotation, of poses that have one
@@ -49,17 +50,18 @@ struct GuidedPair {
 struct PoseAnswer {
   Status status = Status::done;  ///< deadline and cancelled: of what was looked at by then
   std::vector<PoseDesign>
-      designs;                     ///< best first: free of defects, then near (not exact), then by pair angle
-  std::vector<GuidingDyad> dyads;  ///< where a finite number fits both prescriptions, those; else of a sweep
-  int solutions = 0;               ///< dyads, complex ones included; 0 where they are swept
-  int outside = 0;  ///< of the real dyads or pairs, those left out for a pivot that is not in its region
+      designs;  ///< best first: free of defects, then near (not exact), then by pair angle
+  /// The finite number that fits both prescriptions, or else those of a sweep.
+  std::vector<GuidingDyad> dyads;
+  int solutions = 0;       ///< dyads, complex ones included; 0 where they are swept
+  int outside = 0;         ///< number of real dyads or pairs that are left out for a pivot outside its region
   bool dependent = false;  ///< poses and prescriptions depend on each other: infinitely many dyads fit
   bool swept = false;
   int pairs = -1;  ///< real pairs of dyads of poses mixed with points, then of so many `solutions`; else -1
   int tried = 0, free = 0;         ///< linkages with a drive, and those without defect
   int swinging = 0;                ///< left out because the driven dyad cannot turn round
-  std::array<int, 4> defects{};    ///< of the tried, by PoseDefect
-  std::array<double, 8> misfit{};  ///< of fit_dyads (not exact)
+  std::array<int, 4> defects{};    ///< numbers of tried ones with each PoseDefect
+  std::array<double, 8> misfit{};  ///< misfits of fit_dyads (not exact)
   int starts = 0;                  ///< pairs that were fitted (not exact)
 };
 

@@ -8,7 +8,7 @@
 
 namespace linkwright::planar {
 
-/// Where a body is: the place of its origin (m) and its rotation (rad).
+/// The pose of a body: the position of its origin (m) and its rotation (rad).
 struct BodyPose {
   std::complex<double> origin;
   double angle = 0;
@@ -16,8 +16,8 @@ struct BodyPose {
 /// A point of the body, given in its frame, as it is seen in the plane.
 std::complex<double> place(const BodyPose& pose, std::complex<double> point);
 
-/// What joins a body to the ground, ground joint first: a link with a pivot at each end, a slide on the
-/// ground with a pivot on the body, or a pivot on the ground with a slide on the body.
+/// The connection of a body to the ground, ground, ground joint first: a link with a pivot at each end, a
+/// slide on the ground with a pivot on the body, or a pivot on the ground with a slide on the body.
 enum class GuidingDyadType { rr, pr, rp };
 constexpr std::array<EnumName<GuidingDyadType>, 3> names(GuidingDyadType) {
   return {{{GuidingDyadType::rr, "RR", "a link: a point of the body stays on a circle"},

@@ -44,7 +44,7 @@ bool contains(const PivotRegion& region, Complex z) {
          z.imag() >= region.lower.imag() && z.imag() <= region.upper.imag();
 }
 
-// Whether a swept dyad has pivots within reach of `middle` and of the origin of the body.
+// True if a swept dyad has pivots within reach of `middle` and of the origin of the body.
 bool near(const GuidingDyad& dyad, const Prescription& given, Complex middle, double reach) {
   const auto far = [&](const Pivot& pivot, Complex from) {
     return !(given.*pivot.region) && dyad.type != pivot.without && std::abs(dyad.*pivot.at - from) > reach;

@@ -12,15 +12,14 @@ namespace linkwright::planar {
 /// Root mean square distance of the places from their middle (m); 1 where they are one place.
 double size_of_motion(std::span<const BodyPose> poses);
 
-/// Whether every pivot with a region is in it; a slide without that pivot is not.
+/// True if every pivot with a region lies in it; a slide without that pivot is not.
 bool in_regions(const GuidingDyad& dyad, const Prescription& prescription);
 
-/// How many numbers of a dyad so many poses and a prescription leave open: 5 - poses - what is prescribed.
+/// Number of open parameters of a dyad for so many poses and a prescription: 5 - poses - what is prescribed.
 int open_numbers(std::size_t poses, const Prescription& prescription);
 inline constexpr int most_open_numbers = 2;
 
-/// How many lines or points are taken for a pivot where one number is open, and how many each way where two
-/// are.
+/// Number of lines or points taken for a pivot with one open parameter, and in each direction with two.
 struct DyadSweep {
   int one = 120, two = 18;
 };

@@ -97,12 +97,13 @@ struct DriveInterval {
   double from, to;
 };
 
-// Where a drive can be, and where the pair angle may have an extreme between two of its places.
+// The intervals in which a drive can be, and the places where the pair angle may have an extreme between two
+// of them.
 struct Track {
   std::vector<DriveInterval> intervals;
-  std::vector<double> turning;  // of u; of a rotation, up to whole turns
+  std::vector<double> turning;  // extremes of u; for a rotation, up to whole turns
   bool whole = false;           // a rotation without ends
-  double rounding = slack;      // of a place
+  double rounding = slack;      // rounding error of a place
 };
 
 // A at O + R e^(i x): u = middle + swing cos(x - reference).
@@ -207,7 +208,8 @@ bool steady(const std::vector<double>& x) {
   return true;
 }
 
-// Of a drive that turns round: the rotations that follow each other in one sense, less than a turn in all.
+// For a drive that rotates fully: unwraps the rotations if they follow each other in one sense, less than a
+// turn in all.
 bool follow(std::vector<double>& x) {
   for (const double sense : {1.0, -1.0}) {
     std::vector<double> out = x;

@@ -7,10 +7,10 @@
 #include "linkwright/core/field.h"
 #include "linkwright/planar/dyads/dyad.h"
 
-// Whether a body on two dyads, one of them driven, passes its poses in one motion.
+// Checks that a body on two dyads, one of them driven, passes its poses in one motion.
 namespace linkwright::planar {
 
-/// What keeps a linkage from it.
+/// The reason why a linkage does not pass them so.
 enum class PoseDefect { none, branch, circuit, order };
 constexpr std::array<EnumName<PoseDefect>, 4> names(PoseDefect) {
   return {{{PoseDefect::none, "none", "passes the poses in one motion"},
@@ -19,10 +19,10 @@ constexpr std::array<EnumName<PoseDefect>, 4> names(PoseDefect) {
            {PoseDefect::order, "order", "the poses are met in another order"}}};
 }
 
-/// How a linkage of two dyads goes through poses. The drive turns an RR dyad about its fixed pivot, or moves
-/// a PR or RP dyad along its slide; its coordinate is the direction from the fixed to the moving pivot (rad),
-/// or the place on the slide (m): of the pivot along i n from the foot of the ground's or body's origin on
-/// the line.
+/// The passage of a linkage of two dyads through poses. The drive turns an RR dyad about its fixed pivot, or
+/// moves a PR or RP dyad along its slide; its coordinate is the direction from the fixed to the moving pivot
+/// (rad), or the place on the slide (m): of the pivot along i n from the foot of the ground's or body's
+/// origin on the line.
 struct Passage {
   PoseDefect defect = PoseDefect::none;
   int from = 0, to = 0;       ///< branch, circuit: numbers of the poses, from 0, between which it is
@@ -35,7 +35,7 @@ struct Passage {
   double side = 0;           ///< +1, -1: assembly branch at the first pose
 };
 
-/// Of poses that both dyads hold, two at least. Throws ContractError for fewer.
+/// The passage through poses that both dyads hold, two at least. Throws ContractError for fewer.
 Passage passage(std::span<const BodyPose> poses, const GuidingDyad& driver, const GuidingDyad& other);
 
 }  // namespace linkwright::planar

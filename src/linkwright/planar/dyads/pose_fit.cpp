@@ -44,9 +44,9 @@ GuidingDyad with_numbers(GuidingDyad d, const double* x) {
   return d;
 }
 
-// Where the body is nearest to a pose with both gaps closed. With J the slopes of the gaps by the pose in
-// lengths and J J' = L L', the way there is J' lambda; `miss` = L' lambda has its length, and moves with the
-// gaps by L^-1.
+// The pose of the body nearest to a given pose with both gaps closed. With J the slopes of the gaps by the
+// pose in lengths and J J' = L L', the way there is J' lambda; `miss` = L' lambda has its length, and moves
+// with the gaps by L^-1.
 struct Nearest2 {
   BodyPose reached;
   std::array<double, 2> miss{};
@@ -139,8 +139,8 @@ std::optional<NearestPoint> nearest_point(const GuidingDyad& a, const GuidingDya
   return std::nullopt;
 }
 
-// What poses that are met exactly weigh next to others, one search after the other, before the numbers are
-// moved to meet them: at once the way would be a narrow valley.
+// Weights of poses that are met exactly, relative to others, one search after the other, before the numbers
+// are moved to meet them: at once the way would be a narrow valley.
 constexpr std::array<double, 3> exact_weights = {1e2, 1e4, 1e6};
 
 // Moves the numbers as little as can be, each in units of its own size, until the dyads hold the poses:

@@ -8,9 +8,9 @@
 
 namespace linkwright::planar {
 
-/// What is asked of a pose.
+/// The accuracy asked for in a pose.
 struct PoseDemand {
-  double weight = 1;   ///< of its errors, > 0
+  double weight = 1;   ///< weight of its errors, > 0
   bool angle = true;   ///< false: a point that the origin of the body is to pass, at any rotation
   bool exact = false;  ///< met exactly, whatever the others need; not of a point
 };

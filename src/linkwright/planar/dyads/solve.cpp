@@ -18,7 +18,7 @@ using Matrix3 = std::array<std::array<double, 3>, 3>;
 constexpr std::size_t most_rows = 7;
 // A direction of the rows that is shorter than this, of rows of length one, is rounding of the others.
 constexpr double dependent_rows = 1e-10;
-// Where the residual of the two conics, of norm one, is no more, a point is on both.
+// A point is on both conics if its residual for the conics, of norm one, is at most this.
 constexpr double on_conics = 1e-12;
 // Solutions that differ by less, in directions of length about one, are one.
 constexpr double same_solution = 1e-7;
@@ -283,7 +283,7 @@ CommonPoints common_points(const Matrix3& a, const Matrix3& b) {
       if (!(polish(a, b, point, 6) <= on_conics)) continue;
       bool known = false;
       for (std::size_t k = 0; k < found.count; ++k) {
-        // Of one direction when the vector product is nothing.
+        // The vector product is zero for equal directions.
         double apart = 0;
         for (std::size_t i = 0; i < 3; ++i)
           apart +=

@@ -20,21 +20,22 @@ namespace linkwright::planar {
 /// A line of the plane or of the body.
 struct PivotLine {
   std::complex<double> point;      ///< on it (m)
-  std::complex<double> direction;  ///< of any length but 0
+  std::complex<double> direction;  ///< direction, of any length but 0
 };
 /// A rectangle of the plane or of the body.
 struct PivotRegion {
   std::complex<double> lower, upper;  ///< least and greatest coordinates (m)
 };
-/// What is known of the pivots of a dyad: each pivot is given, on a line, in a region, or free.
+/// The knowledge of the pivots of a dyad: each pivot is given, on a line, in a region, or free.
 struct Prescription {
-  std::optional<std::complex<double>> fixed, moving;       ///< G in the plane, W in the frame of the body (m)
-  std::optional<PivotLine> fixed_line, moving_line;        ///< likewise; not beside a given pivot
-  std::optional<PivotRegion> fixed_region, moving_region;  ///< of dyad_family; not beside one or a line
+  std::optional<std::complex<double>> fixed, moving;  ///< G in the plane, W in the frame of the body (m)
+  std::optional<PivotLine> fixed_line, moving_line;   ///< likewise; not beside a given pivot
+  /// Regions for dyad_family; not beside a pivot or a line.
+  std::optional<PivotRegion> fixed_region, moving_region;
 };
-/// How many poses a prescription replaces: one for a line, two for a pivot, none for a region.
+/// Number of poses that a prescription replaces: one for a line, two for a pivot, none for a region.
 int poses_replaced(const Prescription& prescription);
-/// Whether it says anything.
+/// True if it prescribes anything.
 bool prescribes(const Prescription& prescription);
 
 /// The real dyads, RR by rising length, then PR and RP.
@@ -44,7 +45,8 @@ struct GuidingDyads {
   Status status = Status::done;
   std::array<GuidingDyad, 4> found;
   int count = 0;
-  int solutions = 0;  ///< of (1), complex ones included, without those that fit whatever is prescribed
+  /// Number of solutions of (1), complex ones included, without those that fit whatever is prescribed.
+  int solutions = 0;
 
   std::span<const GuidingDyad> real() const& { return {found.data(), static_cast<std::size_t>(count)}; }
   std::span<const GuidingDyad> real() const&& = delete;  ///< it would outlive what it shows

@@ -15,7 +15,8 @@ namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t n = four_bar_unknowns;
-constexpr double first_radius = 2, wider = 6;  // of the correction, and of a radius that was too small
+// Radius relative to the correction, and to a radius that was too small.
+constexpr double first_radius = 2, wider = 6;
 constexpr int most_radii = 5;
 
 // An identity proved to this share of its size decides between two classes.
@@ -131,7 +132,7 @@ CertifiedIdentity certified_identity(const ComplexFourBar<T>& z, const SolutionB
 
 namespace {
 
-// What prove_class() tries, sharper and sharper.
+// The attempts of prove_class(), sharper and sharper.
 class ClassProver {
  public:
   ClassProver(const ExactNinePoints& p, bool real) : p_(p), real_(real) {}

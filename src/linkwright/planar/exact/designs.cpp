@@ -45,7 +45,7 @@ std::complex<double> coupler_turn(const TracingFourBar& bars, const std::complex
   return real_turn(curve);
 }
 
-// Whether the crank goes through the points without passing an end of its range.
+// True if the crank passes the points in their order without reaching an end of its range.
 bool turned_in_order(const PathDesign& design) {
   const FourBarClass type = classify(design.linkage);
   const auto [low, high] = std::minmax(design.angles.front(), design.angles.back());
@@ -56,7 +56,7 @@ bool turned_in_order(const PathDesign& design) {
   });
 }
 
-// Whether a crank that does not rotate fully can go to every point, if not in their order.
+// True if a crank that does not rotate fully can reach every point, if not in their order.
 bool one_rocking_interval(const PathDesign& design) {
   const FourBarClass type = classify(design.linkage);
   if (type.crank_rotates_fully || turned_in_order(design)) return false;
@@ -123,7 +123,7 @@ std::vector<int> passing_order(const PathProblem& problem, const ExactDesign& de
   if (problem.timing != Timing::free || problem.closed || severity(design.defects) != 1) return {};
   const FourBarClass type = classify(design.design.linkage);
   const std::vector<double>& angles = design.design.angles;
-  // Of a crank that rocks the angles count from the end of its range, else from the first point.
+  // The angles of a rocking crank count from the end of its range, else from the first point.
   double from = angles[0];
   for (const AngleInterval& interval : type.inputs) {
     if (type.crank_rotates_fully) break;

@@ -36,10 +36,10 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FourBar
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPointSolutions& solutions,
                                        double sense);
 inline constexpr std::size_t most_swept_designs = 60;
-/// Of designs of a sweep, best first, those that differ, `most_swept_designs` at most.
+/// The different designs of a sweep, best first, `most_swept_designs` at most.
 std::vector<ExactDesign> designs_that_differ(const PathProblem& problem, std::vector<ExactDesign> designs);
 
-/// How far a design is from tracing the points: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.
+/// The severity of a design's defects: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.
 int severity(const std::vector<Defect>& defects);
 
 }  // namespace linkwright::planar

@@ -12,7 +12,7 @@
 namespace linkwright::planar {
 namespace {
 
-// How many paths are followed between two looks at the context: a few rounds of the widest registers.
+// Number of paths that are followed between two looks at the context: a few rounds of the widest registers.
 template <class T>
 constexpr std::size_t paths_at_once = std::is_same_v<T, double> ? 96 : 1;
 

@@ -16,7 +16,7 @@ struct TracingFourBar {
   std::complex<double> crank_pivot, crank_pin, rocker_pin, rocker_pivot;
 };
 
-/// How many solutions a target has, complex ones with them.
+/// The number of solutions of a target, complex ones included.
 struct FourBarSolutions {
   Status status = Status::done;  ///< not_converged: paths were lost; or interrupted
   int finite = 0, infinite = 0, lost = 0;
@@ -25,9 +25,9 @@ struct FourBarSolutions {
 };
 
 inline constexpr std::size_t five_point_solutions =
-    36;  ///< of generic points and pivots (Morgan and Wampler 1990)
+    36;  ///< number for generic points and pivots (Morgan and Wampler 1990)
 inline constexpr std::size_t seven_point_solutions =
-    486;  ///< of generic points and one pivot; by monodromy, not a theorem
+    486;  ///< number for generic points and one pivot; by monodromy, not a theorem
 
 /// All four-bars with given fixed pivots whose coupler point passes five points, by following the 36
 /// solutions of a generic complex problem, which are found at the first use and kept. Throws ContractError

@@ -11,19 +11,18 @@
 
 namespace linkwright::planar {
 
-/// What leads a body through poses and points that leave it nothing to choose: RR and RR, RR and PR, RR and
-/// RP.
+/// The linkage that leads a body through poses and points that determine it: RR and RR, RR and PR, RR and RP.
 enum class MixedPoseLinkage { four_bar, slider_crank, inverted_slider_crank };
 
 /// Poses, of which two at least have a rotation, the others are points that the origin of the body passes.
 struct MixedPoses {
   std::span<const BodyPose> poses;
-  std::span<const PoseDemand> demands;  ///< which of them have a rotation
+  std::span<const PoseDemand> demands;  ///< demands, which say which poses have a rotation
 };
 
-/// Which linkages have finitely many solutions: four-bars where twice the poses beside the first and the
-/// points are 8 together, both kinds of slider-cranks where they are 7; none otherwise, and for five poses
-/// without points.
+/// The linkages with finitely many solutions: four-bars where twice the poses beside the first and the points
+/// are 8 together, both kinds of slider-cranks where they are 7; none otherwise, and for five poses without
+/// points.
 std::span<const MixedPoseLinkage> linkages_of(const MixedPoses& target);
 
 /// Solutions that generic poses and points have, complex ones with them: four-bars 30, 201, 1112 for 4 poses
@@ -36,7 +35,7 @@ struct MixedPoseSolutions {
   int whole = 0;                 ///< solutions that generic poses and points have
   int finite = 0, infinite = 0, lost = 0;
   int singular = 0;              ///< ends where solutions meet
-  std::vector<GuidedPair> real;  ///< with the rotations at the points; a slide second
+  std::vector<GuidedPair> real;  ///< real solutions, with the rotations at the points; a slide second
 };
 
 /// All linkages of a kind that lead a body through poses and its origin through points, by

@@ -20,7 +20,8 @@ constexpr int most_monodromy_loops = 80, first_mechanisms = 40;
 constexpr std::uint64_t first_seed = 1;
 constexpr double identity_tolerance = 1e-9;
 
-// Of a dyad at the point P0 + d, D when the body has turned by g, G: s d D + u d + v D + w = 0.
+// The coefficients of a dyad at the point P0 + d, D when the body has turned by g, G: s d D + u d + v D + w =
+// 0.
 struct DyadAtPoint {
   double s;
   std::complex<double> u, v, w;

@@ -86,7 +86,7 @@ TraceTest trace_test(const NineStarts& starts, RunContext& context, int without)
   const std::size_t moving = 2 * NinePointsTrace::others;
   TraceTest out;
   bool lost = false;
-  std::vector<ComplexNumber> share[3];  // of each class
+  std::vector<ComplexNumber> share[3];  // shares of each class
   for (int position = 0; position < 3; ++position) {
     if (position > 0) {
       to[moving] = static_cast<double>(position) * step;

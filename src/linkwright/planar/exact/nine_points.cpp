@@ -36,7 +36,7 @@ struct FoundClass {
   ComplexFourBar<> z;
   bool extended = false;
   ComplexNumber identity;
-  bool identified = false, settled = false;  // with twice the digits
+  bool identified = false, settled = false;  // states with twice the digits
 };
 
 // The target in units of a power of two near its size: the differences to the first point are exact.
@@ -62,9 +62,9 @@ struct NineTarget {
   }
 };
 
-// Where both pins of one half lie in the coupler point, but for rounding to `digits`, whole families solve
-// the equations: Newton's method comes to them from afar, and what it finds there is one of them unless a
-// certificate says otherwise.
+// True if both pins of one half lie in the coupler point, but for rounding to `digits`: there whole families
+// solve the equations: Newton's method comes to them from afar, and what it finds there is one of them unless
+// a certificate says otherwise.
 bool is_of_a_family(const NineTarget& target, const FineFourBar& z, double digits) {
   const double first = static_cast<double>(math::norm(z[pin_x]) + math::norm(z[pin_y])),
                second = static_cast<double>(math::norm(z[pin_X]) + math::norm(z[pin_Y]));
@@ -169,7 +169,7 @@ class ClassCollection {
   static double apart(const ComplexNumber& a, const ComplexNumber& b) {
     return std::sqrt(math::norm(a - b)) / (1 + std::sqrt(math::norm(a)));
   }
-  // Those that may be the same; the real part of an identity may since have changed by rounding.
+  // The classes that may be the same; the real part of an identity may since have changed by rounding.
   std::vector<int> near_to(const ComplexNumber& identity) const {
     const double reach = 3 * perhaps_same * (1 + std::sqrt(math::norm(identity)));
     std::vector<int> out;
@@ -227,7 +227,7 @@ class NineSearch {
     return z;
   }
 
-  // Which paths have not led to a class of their own; both of two that led to the same.
+  // Returns the paths that have not led to a class of their own; both of two that led to the same.
   std::vector<int> attempt(const std::vector<int>& which, const math::TrackerOptions& options,
                            std::string_view stage) {
     Paths<NinePoints> paths;
@@ -276,7 +276,8 @@ class NineSearch {
       if (end) classes.add(std::move(*end), -1);
   }
 
-  // With twice the digits, on from where doubles stopped; what does not arrive is told by how it ends.
+  // Continues with twice the digits from the point where doubles stopped; the end of a path that does not
+  // arrive says why.
   void last_attempt(const std::vector<int>& open, NinePointSolutions& out) {
     enum class End { found, infinite, singular, lost };
     std::vector<End> ends(open.size(), End::lost);
@@ -316,7 +317,7 @@ class NineSearch {
   Paths<NinePoints> stopped_;
 };
 
-// What a class is, with its certificate.
+// A class with its certificate.
 struct ClassProof {
   CurveClass curve;
   std::optional<CertifiedIdentity> identity;
@@ -386,8 +387,8 @@ NinePointSolutions solve_nine_points(std::span<const std::complex<double>> point
   NineSearch search(*starts, target, context);
   search.run(out);
   std::vector<ClassProof> proofs = classify_classes(target, search.classes.found(), options.certify, context);
-  // Where paths end without a class, or there are too many, what cannot be proved to be a simple solution is
-  // one of the places where they meet.
+  // If paths end without a class, or there are too many, a class that cannot be proved to be a simple
+  // solution is a place where several meet.
   if (options.certify && proofs.size() != nine_point_classes && !context.interrupted())
     std::erase_if(proofs, [](const ClassProof& proof) { return !proof.curve.certified; });
   for (const ClassProof& proof : proofs) {

@@ -26,7 +26,7 @@ struct CurveClass {
   bool extended = false;  ///< took more digits than a double has
 };
 
-/// What is known of the set of classes. That generic points have 1442 is a numerical result (trace test,
+/// The knowledge of the set of classes. That generic points have 1442 is a numerical result (trace test,
 /// nine_point_starts.h), not a theorem.
 enum class Completeness {
   complete,              ///< all 1442 classes, each with a certificate
@@ -63,11 +63,11 @@ std::filesystem::path user_cache_folder();
 /// Classes of generic points; six four-bars a class (Wampler, Morgan and Sommese 1992).
 inline constexpr std::size_t nine_point_classes = 1442;
 
-/// Why points have no solution whatever the rest: some are the same, or seven lie on a line or on a circle,
-/// which a coupler curve (degree 6, tricircular) meets in six points at most.
+/// The reason why points have no solution whatever the rest: some are the same, or seven lie on a line or on
+/// a circle, which a coupler curve (degree 6, tricircular) meets in six points at most.
 struct PointObstacle {
   enum Kind { none, repeated, collinear, concyclic } kind = none;
-  std::vector<int> points;  ///< which, from 0
+  std::vector<int> points;  ///< the points, from 0
 };
 PointObstacle obstacle(std::span<const std::complex<double>> points);
 

@@ -12,14 +12,14 @@
 
 namespace linkwright::planar {
 
-/// Where the fixed pivots of a four-bar may be (m): x and y of the crank's, then of the rocker's.
+/// Ranges of the fixed pivots of a four-bar (m): x and y of the crank's, then of the rocker's.
 using PivotRanges = std::array<Range, 4>;
 
-/// What four-bars with pivots at one place of the map pass the points.
+/// The four-bars with pivots at one place of the map that pass the points.
 struct PivotMapPlace {
   std::array<std::complex<double>, 2> pivots;
   int real = 0;     ///< four-bars
-  int answers = 0;  ///< of them without defects and within the limits of the problem
+  int answers = 0;  ///< number of them without defects and within the limits of the problem
   double transmission =
       0;  ///< rad, the largest least transmission angle on the path of an answer; NaN without one
 };

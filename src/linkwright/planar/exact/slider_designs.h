@@ -9,7 +9,7 @@ namespace linkwright::planar {
 
 /// A slider-crank whose tracing point passes all points, if not always in one motion.
 struct ExactSliderDesign {
-  SliderPathDesign design;      ///< with the slider ahead of the crank pin at the first point
+  SliderPathDesign design;      ///< design with the slider ahead of the crank pin at the first point
   std::vector<Defect> defects;  ///< empty = it traces the points in one motion, in their order
   double pressure_angle = 0;    ///< rad, the greatest on the way from the first point to the last
 };

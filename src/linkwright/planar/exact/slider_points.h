@@ -15,7 +15,7 @@ struct TracingSliderCrank {
   std::complex<double> crank_pivot, crank_pin, slider_pin, guide;
 };
 
-/// How many solutions a target has, complex ones with them.
+/// The number of solutions of a target, complex ones included.
 struct SliderPointSolutions {
   Status status = Status::done;  ///< not_converged: paths were lost; or interrupted
   int finite = 0, infinite = 0, lost = 0;
@@ -24,7 +24,7 @@ struct SliderPointSolutions {
 };
 
 inline constexpr std::size_t slider_point_solutions =
-    558;  ///< of eight generic points; by monodromy, not a theorem
+    558;  ///< number for eight generic points; by monodromy, not a theorem
 
 /// All slider-cranks with a point of the rod that passes eight points, by following the 558 solutions of a
 /// generic complex problem, which are found at the first use and kept; two for each curve, which has one

@@ -83,8 +83,8 @@ struct FourBarPosition {
   std::complex<double> crank_pin;                   ///< A
   std::complex<double> coupler_pin = {nan, nan};    ///< B
   std::complex<double> coupler_point = {nan, nan};  ///< C
-  double coupler_angle = nan;                       ///< of A->B, (-pi, pi]
-  double rocker_angle = nan;                        ///< of B0->B, (-pi, pi]
+  double coupler_angle = nan;                       ///< direction of A->B, (-pi, pi]
+  double rocker_angle = nan;                        ///< direction of B0->B, (-pi, pi]
   double transmission_angle = nan;                  ///< between coupler and rocker, folded to [0, pi/2]
   double gap = 0;  ///< metres, >= 0: by how much coupler and rocker together are too short, or differ too
                    ///< much in length, to close; 0 when assembled

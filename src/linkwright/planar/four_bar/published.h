@@ -25,7 +25,7 @@ struct PublishedFourBar {
   /// Reductions in per cent without their signs, of X and Y of O1 ... O4, drive torque, shaking force x and
   /// y, shaking moment; NaN where none is printed.
   std::array<double, 12> unsigned_percent;
-  std::array<double, 12> band;  ///< what rounding of the printed design may do to them, percentage points
+  std::array<double, 12> band;  ///< possible effect of rounding in the printed design, percentage points
   std::optional<FourBarRepair> repaired;
 };
 

@@ -29,8 +29,8 @@ Vector vector(std::complex<double> z) { return {z.real(), z.imag()}; }
 struct Body {
   Vector line;          // own joint to far joint
   Vector arm;           // own joint to mass centre
-  Vector velocity;      // of the mass centre
-  Vector acceleration;  // of the mass centre
+  Vector velocity;      // velocity of the mass centre
+  Vector acceleration;  // acceleration of the mass centre
   double speed, angular_acceleration;
 };
 struct Bodies {
@@ -75,7 +75,7 @@ void require_masses(const FourBarMasses& masses, double gravity) {
   LINKWRIGHT_REQUIRE(std::isfinite(gravity), "gravity {} must be finite", gravity);
 }
 
-// What the ground feels, from the forces on it.
+// Adds the shaking force and moments on the ground, from the forces on it.
 void add_shaking(FourBarReactions& out, const FourBar& linkage, const FourBarRates& rates) {
   const Vector ground = linkage.ground * vector(rates.ground_direction);
   out.shaking_force = -(out.ground_on_crank + out.ground_on_rocker);

@@ -25,14 +25,14 @@ void fields(Visitor&& visit, FourBarMasses& m) {
 /// Forces (N) in the global frame and moments (N m), counter-clockwise positive. All NaN unless `status` is
 /// done.
 struct FourBarReactions {
-  Status status = Status::done;                      ///< that of the rates
+  Status status = Status::done;                      ///< status of the rates
   std::complex<double> ground_on_crank{nan, nan};    ///< at O1 = O
   std::complex<double> crank_on_coupler{nan, nan};   ///< at O2 = A
   std::complex<double> rocker_on_coupler{nan, nan};  ///< at O3 = B
   std::complex<double> ground_on_rocker{nan, nan};   ///< at O4 = B0
-  double drive_torque = nan;                         ///< of the ground's motor on the crank
-  std::complex<double> shaking_force{nan, nan};      ///< of the mechanism on the ground, weight included
-  double shaking_moment = nan;                       ///< on the ground about O by the joint forces alone
+  double drive_torque = nan;                         ///< torque of the ground's motor on the crank
+  std::complex<double> shaking_force{nan, nan};  ///< force of the mechanism on the ground, weight included
+  double shaking_moment = nan;                   ///< on the ground about O by the joint forces alone
   double shaking_moment_with_drive = nan;  ///< the same with the motor's reaction: what the ground feels
 };
 

@@ -62,7 +62,7 @@ struct FourBarSweep::Memory {
   FourBarSweepTask task;
   std::vector<double> constants, angle, cosine, sine, rate, acceleration, data, good;
   std::vector<Status> status;
-  std::size_t samples = 0;  // of a row
+  std::size_t samples = 0;  // number of samples in a row
 
   void prepare(std::span<const FourBarMachine> machines, bool over_machines, double gravity,
                const SweepInput& crank);
@@ -77,7 +77,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
                      "{} crank angles need as many rates and accelerations, one or none, got {} and {}", n,
                      crank.rate.size(), crank.acceleration.size());
   const auto finite = [](std::span<const double> values) {
-    double sum = 0;  // of zeros; NaN with anything that is not finite
+    double sum = 0;  // sum of zeros; NaN with anything that is not finite
     for (const double v : values) sum += v * 0.0;
     return sum == 0;
   };
@@ -110,7 +110,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
   }
 
   const std::size_t steps = over_machines ? n : task.lanes;
-  const std::span<const double> none;  // with no angles there is no room for the one rate of all
+  const std::span<const double> none;  // without angles there is no room for the one rate of all
   spread(n > 0 ? crank.rate : none, steps, rate);
   spread(n > 0 ? crank.acceleration : none, steps, acceleration);
   if (over_machines) {
@@ -133,7 +133,8 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
 void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank) {
   std::fill(status.begin(), status.end(), Status::done);
   if (widest_of<four_bar_sweep_kernels>().run(task)) return;
-  // What the kernel could not settle, one by one: the plain functions name the reason and keep the good part.
+  // The plain functions solve, one by one, the samples that the kernel could not: they name the reason and
+  // keep the good part.
   for (std::size_t i = 0; i < task.angles; ++i)
     for (std::size_t k = 0; k < samples; ++k) {
       if (good[i * task.lanes + k] != 0) continue;

@@ -43,7 +43,7 @@ enum class FourBarRow {
 };
 inline constexpr std::size_t four_bar_row_count = 24;
 
-/// Which rows are kept; what nobody asks for is not computed.
+/// Flags of the rows that are kept; the others are not computed.
 struct FourBarWanted {
   bool directions = true;  ///< crank_x ... transmission_sine
   bool rates = true;       ///< coupler_speed ... rocker_acceleration
@@ -79,7 +79,7 @@ class FourBarSweep {
   /// Numbers of a kind: over the angles of one four-bar; or over the machines, at the angle with this index.
   /// NaN where the rates have it. Throws ContractError for a row that is not wanted.
   std::span<const double> row(FourBarRow row, std::size_t angle = 0) const;
-  /// As the status of `rates`.
+  /// Status of each sample, as that of `rates`.
   std::span<const Status> status(std::size_t angle = 0) const;
 
  private:
@@ -94,7 +94,7 @@ const char* four_bar_sweep_kernel_name();
 /// rocker, sign of the branch, base parameters of crank, coupler and rocker.
 inline constexpr std::size_t four_bar_constants = 19;
 
-/// What a kernel gets.
+/// The task of a kernel.
 struct FourBarSweepTask {
   FourBarWanted wanted;
   bool over_machines = false;  ///< registers hold machines, else angles
@@ -104,7 +104,7 @@ struct FourBarSweepTask {
   std::size_t angles = 0;  ///< number of rows of a kind: 1, or angles where registers hold machines
   // Over `lanes`, the angle from the global x axis; over machines, cosine and sine of the crank angle.
   const double *angle = nullptr, *cosine = nullptr, *sine = nullptr;
-  const double *rate = nullptr, *acceleration = nullptr;  ///< as many as `angle` or `cosine`
+  const double *rate = nullptr, *acceleration = nullptr;  ///< rates, as many as `angle` or `cosine`
   double* data = nullptr;  ///< row r at angle i begins at data[(first[r] + i * rows) * lanes]
   std::size_t rows = 0;    ///< kept ones
   std::array<std::size_t, four_bar_row_count> first{};

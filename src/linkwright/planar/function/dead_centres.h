@@ -31,7 +31,7 @@ struct StrokeLinkage {
   double crank = 0;
   double rocker = 0, ground = 0;  ///< infinite of a slider
   double chord = 0;               ///< distance of the dead centres of B: the stroke of a slider
-  double offset = 0;              ///< of a slider's guide, along the left normal of its direction
+  double offset = 0;              ///< offset of a slider's guide, along the left normal of its direction
   /// Least angle between coupler and rocker (rod and normal of the guide) over the turn, 0 to pi/2.
   double transmission_angle = 0;
 };
@@ -70,8 +70,9 @@ struct SweptStrokes {
   double at_low = 0, at_high = 0;  ///< inputs (rad) at the dead centres of the output
   double transmission_angle = 0;   ///< rad, least over all dyads, at the inputs looked at
 };
-/// Of the rotation of a body, or of its place along x. Dead centres are where the rate of the output changes
-/// its sign. Nothing when the linkage does not assemble over the turn, or has not two dead centres.
+/// The strokes of the rotation of a body, or of its place along x. Dead centres are where the rate of the
+/// output changes its sign. Nothing when the linkage does not assemble over the turn, or has not two dead
+/// centres.
 ///
 /// Throws ContractError when the linkage cannot be solved, or has no single input.
 std::optional<SweptStrokes> sweep_strokes(const Linkage& linkage, int body, bool slides, int samples = 720);

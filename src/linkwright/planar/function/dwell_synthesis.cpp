@@ -50,7 +50,7 @@ DwellLinkage linkage_with(std::span<const double> x, double side) {
 
 template <class T>
 struct DwellPlace {
-  bool there = false;  // whether the loop assembles; `angle` also needs the dyad
+  bool there = false;  // true if the loop assembles; `angle` also needs the dyad
   T cosine{}, angle{};
   bool closed = false;
 };

@@ -54,7 +54,7 @@ std::optional<DwellDesign> assess_dwell(const DwellProblem& problem, const Dwell
 
 struct DwellAnswer {
   Status status = Status::done;      ///< infeasible: no design meets the conditions
-  std::vector<DwellDesign> designs;  ///< that meet them, smallest deviation first, each once
+  std::vector<DwellDesign> designs;  ///< designs that meet them, smallest deviation first, each once
   int starts = 0, refined = 0;
 };
 /// Random four-bars, the circle through each stretch of their coupler curves, and the pivots of the output

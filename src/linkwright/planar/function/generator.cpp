@@ -70,7 +70,7 @@ PairCosine pair_cosine(const FunctionGenerator& g, double input) {
             -pin.real() / g.c,
             {-turn.imag() / g.c, -turn.real() / g.c, 0, 1 / g.c, (pin.imag() - g.b.imag()) / (g.c * g.c)}};
   const double rocker = std::abs(g.b), below = 2 * g.c * rocker;
-  const Complex pull = 2.0 * std::conj(1.0 - pin);  // how the square of the distance falls with the pin
+  const Complex pull = 2.0 * std::conj(1.0 - pin);  // decrease of the square of the distance by the pin
   PairCosine out;
   out.value = (g.c * g.c + rocker * rocker - std::norm(1.0 - pin)) / below;
   const Complex by_b = (2.0 - out.value * 2 * g.c / rocker) * g.b / below;
@@ -120,7 +120,7 @@ std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pa
       continue;
     if (std::abs(dyad.fixed) < trivial || std::abs(dyad.moving) < (slider ? 0 : trivial)) continue;
     FunctionGenerator g{slider, dyad.fixed, dyad.moving, dyad.length, 1};
-    // Where the branches meet, the side is rounding.
+    // The side is rounding where the branches meet.
     for (const FunctionPair& p : pairs) {
       const double here = side(g, p.input, p.output);
       if (!(here * here > least_square)) continue;

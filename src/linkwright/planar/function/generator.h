@@ -58,9 +58,9 @@ struct FunctionPair {
   double input = 0, output = 0;
 };
 
-/// What is given of a generator: directions of the crank at input 0 and of the rocker at output 0 (rad). A
-/// slider-crank may have the first, and the place of the slider at output 0 along the line (m) is not one of
-/// them.
+/// The given start angles of a generator: directions of the crank at input 0 and of the rocker at output 0
+/// (rad). A slider-crank may have the first, and the place of the slider at output 0 along the line (m) is
+/// not one of them.
 struct StartAngles {
   std::optional<double> input, output;
 };

@@ -5,7 +5,7 @@
 
 #include "linkwright/planar/function/synthesis.h"
 
-// What six-bar function generators of all structures have in common.
+// The common base of six-bar function generators of all structures.
 namespace linkwright::planar {
 
 template <class Generator>

@@ -16,8 +16,9 @@ namespace linkwright::planar {
 struct StephensonGenerator {
   std::complex<double> a;
   double coupler = 0, rocker = 0;
-  std::complex<double> point;  ///< of the coupler, from the crank pin, along the coupler and to its left
-  std::complex<double> pivot;  ///< of the output
+  /// Point of the coupler, from the crank pin, along the coupler and to its left.
+  std::complex<double> point;
+  std::complex<double> pivot;  ///< pivot of the output
   double link = 0;             ///< from the coupler point to the output
   std::complex<double> b;
   double branch = 1;  ///< +1 = rocker pin to the left of the line from the crank pin to the rocker pivot
@@ -50,8 +51,9 @@ StephensonDesign assess(const FunctionProblem& problem, const StephensonGenerato
                         int samples = 1001);
 
 using StephensonAnswer = SixBarAnswer<StephensonGenerator>;
-/// As find_watt_generators, from the best four-bars with a parallelogram behind the rocker and from the best
-/// of many random six-bars. No link is shorter than a twentieth of the ground link.
+/// Finds Stephenson generators as find_watt_generators does, from the best four-bars with a parallelogram
+/// behind the rocker and from the best of many random six-bars. No link is shorter than a twentieth of the
+/// ground link.
 ///
 /// Throws ContractError for a slider, or precision points.
 StephensonAnswer find_stephenson_generators(const FunctionProblem& problem, double pair_angle,

@@ -27,8 +27,8 @@ constexpr std::size_t fitted_samples = 81;
 constexpr int random_generators = 60;
 // Designs of a least squares fit that the least greatest error is sought from.
 constexpr std::size_t minimax_starts = 4;
-// With a least pair angle: more of them, the places of the range where it is a condition, by how much it may
-// be less between these (rad), and random generators that have it, of which the best begin a search.
+// Numbers for a least pair angle: more starts, the places of the range where it is a condition, by how much
+// it may be less between these (rad), and random generators that have it, of which the best begin a search.
 constexpr std::size_t steep_starts = 24, pair_conditions = 41, steep_generators = 24;
 constexpr double between_conditions = 2e-3;
 constexpr int screened_generators = 20000, generator_places = 13;

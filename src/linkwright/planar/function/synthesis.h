@@ -14,7 +14,7 @@
 // output_range (y - y(x0)) / (y(x1) - y(x0)).
 namespace linkwright::planar {
 
-/// How the function is met.
+/// The way in which the function is met.
 enum class FunctionFit { points, least_squares, minimax };
 constexpr std::array<EnumName<FunctionFit>, 3> names(FunctionFit) {
   return {
@@ -59,7 +59,7 @@ struct FunctionAnswer {
   std::vector<FunctionDesign> designs;  ///< best first: those that assemble and have no other branch, then
                                         ///< those with the least pair angle that is wanted, then by error; of
                                         ///< a search those within ten times the error of the best
-  int starts = 0;                       ///< of the search
+  int starts = 0;                       ///< starts of the search
 };
 FunctionAnswer find_generators(const FunctionProblem& problem, RunContext& context);
 

@@ -37,7 +37,7 @@ std::optional<double> nearest_assembled(const LinkagePlan& plan, std::span<const
     for (const double turn : {0.0, limits.closed ? -full_turn : 0.0}) {
       const double low = r.from.value + turn, high = r.to.value + turn,
                    apart = std::max({low - start, start - high, 0.0});
-      // Of two as near the one ahead, as a symmetric linkage has them.
+      // If two ranges are equally near, as in a symmetric linkage, the one ahead counts.
       const bool as_near = std::abs(apart - least) <= 1e-9 * (to - from);
       if (as_near ? low < start : apart > least) continue;
       least = apart;
@@ -105,7 +105,7 @@ LinkageAssembly::LinkageAssembly(const LinkagePlan& plan, const InputReach& reac
   if (found_ && plan.inputs() == 1) follow_one(reach, policy);
 }
 
-// Whether the groups without closed form have their places.
+// True if the groups without closed form have their positions.
 bool LinkageAssembly::assembled(const LinkageMotion& m) const {
   return m.failed_group < 0 || at(m.failed_group) > last_general_;
 }
@@ -133,7 +133,7 @@ bool LinkageAssembly::try_near(std::span<const double> inputs) {
   return found_ = true;
 }
 
-// How far the start poses of the first general group are from meeting its joints.
+// The distance of the start poses of the first general group from closure.
 double LinkageAssembly::misfit(std::span<const double> inputs) {
   LinkageMotion motion(plan_);
   motion.modes = modes_;

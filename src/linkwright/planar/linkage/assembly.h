@@ -9,7 +9,7 @@
 
 namespace linkwright::planar {
 
-/// Where inputs go: the least and the largest value of each.
+/// The range of the inputs: the least and the largest value of each.
 struct InputReach {
   std::vector<double> low, high;
 };
@@ -40,12 +40,12 @@ class LinkageAssembly {
   /// form, where the mode does not reach these inputs; limit_reached where it ends at a change point.
   void place(std::span<const InputMotion> inputs, LinkageMotion& motion);
 
-  /// Of one input: the range of the mode, as a list of one; nothing for closed forms and several inputs, and
-  /// where nothing assembles. `modes` of the range are those of the plan, whatever general groups have.
+  /// The range of the mode of a single input, as a list of one; nothing for closed forms and several inputs,
+  /// and where nothing assembles. `modes` of the range are those of the plan, whatever general groups have.
   const std::optional<InputLimits>& limits() const { return limits_; }
-  /// Of one input: the curve; null where there is none.
+  /// The curve of a single input; null where there is none.
   const ModeCurve* curve() const { return curve_ ? &*curve_ : nullptr; }
-  /// Whether some position was found to start from; true for closed forms.
+  /// True if some position was found to start from; true for closed forms.
   bool found() const { return closed_ || found_; }
   /// The inputs there.
   std::span<const double> drawn_inputs() const { return anchor_; }

@@ -18,7 +18,7 @@ struct Way {
   double sense = 1;
   std::vector<BranchPiece> pieces;
   std::vector<RangeEnd> joints;
-  RangeEnd origin;   // what happens at the start itself
+  RangeEnd origin;   // event at the start itself
   bool cut = false;  // ends before the bound that was given
 };
 

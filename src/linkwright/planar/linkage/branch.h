@@ -8,7 +8,8 @@
 
 namespace linkwright::planar {
 
-/// What a linkage does where its assembly modes meet and go on (a parallelogram when all links lie in line).
+/// The behaviour of a linkage at a change point, where its assembly modes meet (a parallelogram when all
+/// links lie in line).
 enum class AtChangePoint {
   smooth,    ///< goes on without a kink: the modes of the groups that meet there change sign
   stop,      ///< the motion ends there: the branch is a choice that has not been made
@@ -57,8 +58,8 @@ Status modes_at(const BranchPath& path, double value, std::span<double> modes);
 /// slider, the toggle of a rocker), or pauses.
 struct DeadCentre {
   double input = 0;         ///< rad or m
-  double coordinate = 0;    ///< of the joint (see joint_motion), rad or m
-  double acceleration = 0;  ///< of the joint at unit rate of the input
+  double coordinate = 0;    ///< coordinate of the joint (see joint_motion), rad or m
+  double acceleration = 0;  ///< acceleration of the joint at unit rate of the input
 };
 /// Along a branch, the inputs others than the path's own at rest; one period, or all of the path. Dead
 /// centres of an output are dead points of the mechanism when that joint is driven. Located to rounding as

@@ -47,8 +47,8 @@ std::vector<std::complex<double>> hull(std::vector<std::complex<double>> points)
   return out;
 }
 
-// Of a body with its mass spread evenly over a bar or plate: its centre, and the mean square of the distances
-// from it.
+// The shape of a body with its mass spread evenly over a bar or plate: its centre, and the mean square of the
+// distances from it.
 struct UniformShape {
   std::complex<double> centre;
   double square = 0;

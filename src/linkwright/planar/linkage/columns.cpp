@@ -54,7 +54,7 @@ double value_of(const LinkageColumn& column, const LinkageInstant& instant) {
 
 const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
 namespace {
-/// Whether a body has the name of a driven joint: the columns of both would be called alike.
+/// True if a body has the name of a driven joint: the columns of both would be called alike.
 bool shares_name(const Linkage& l, std::size_t input) {
   const std::string name = identifier(input_joint(l, input).name);
   return std::any_of(l.bodies.begin(), l.bodies.end(),

@@ -19,11 +19,11 @@ struct LinkageQuantities {
   bool dynamic() const { return reactions || drive || shaking || power; }
 };
 
-/// What `output.quantities` may list, and what a list chooses: all when it is empty.
+/// The words that `output.quantities` may list, and the quantities that a list selects: all when it is empty.
 const std::vector<Word>& linkage_quantity_words();
 LinkageQuantities chosen_quantities(const std::vector<std::string>& listed);
 
-/// What one row is made from.
+/// The data of one row.
 struct LinkageInstant {
   double time = 0;
   std::vector<InputMotion> inputs;
@@ -55,7 +55,7 @@ std::string input_label(const Linkage& linkage, const LinkagePlan& plan, std::si
 Measured input_place(const Linkage& linkage, const LinkagePlan& plan, std::size_t input, double value,
                      int digits);
 
-/// What shaking moments are about, in words: "the origin", or the point of the ground that is there.
+/// The reference point of shaking moments, in words: "the origin", or the point of the ground that is there.
 std::string moment_centre_name(const Linkage& linkage);
 
 /// The columns of the quantities, in their order; those of the inputs are not among them. Linkage and plan

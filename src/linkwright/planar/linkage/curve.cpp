@@ -195,8 +195,8 @@ struct ModeCurve::Memory {
     return out;
   }
 
-  // Whether a cubic through both ends meets the equations in the middle, and the way between the ends is that
-  // of their tangents.
+  // True if a cubic through both ends meets the equations in the middle, and follows the tangents of the ends
+  // between them.
   bool smooth(const CurveNode& a, const CurveNode& b) {
     const double h = b.along - a.along;
     const CurveNode middle = interpolated(a, b, 0.5);
@@ -212,7 +212,7 @@ struct ModeCurve::Memory {
     return worst <= 0.05 * h;
   }
 
-  // Whether the value turns back once between the ends at most: a step can leap over two dead points side by
+  // True if the value turns back at most once between the ends: a step can leap over two dead points side by
   // side, between which the value goes back a little, and looks like one without any. The slope in the middle
   // shows that: a parabola through it and those of the ends must stay clear of zero by a quarter of what it
   // changes.

@@ -52,7 +52,7 @@ class ModeCurve {
   double period() const;
   /// Values of the change points that were passed, rising.
   std::span<const double> change_points() const;
-  /// Whether the steps became too short somewhere, so that the mode may go on beyond its end.
+  /// True if the steps became too short somewhere, so that the mode may continue beyond its end.
   bool lost() const;
   /// Number of places that were computed.
   std::size_t nodes() const;

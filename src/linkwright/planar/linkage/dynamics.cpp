@@ -23,7 +23,7 @@ Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
   const PointMotion a = point(s.first), b = point(s.second);
   const Vec<double> way = b.position - a.position;
   const double length = norm(way);
-  if (length == 0) return {0, 0};  // as applied_loads has it
+  if (length == 0) return {0, 0};  // the same as in applied_loads
   return {length - s.free_length, dot(way, b.velocity - a.velocity) / length};
 }
 Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
@@ -183,8 +183,8 @@ void LinkageDynamics::resolve(std::span<double> right) const {
   }
 }
 
-// With friction the joint forces act on the accelerations and these on the joint forces. The forces that
-// drives at the free joints would have to give are what the accelerations are wrong by.
+// With friction, joint forces and accelerations depend on each other. The forces that drives at the free
+// joints would have to give measure the error of the accelerations.
 Status LinkageDynamics::settle_friction(double time, std::span<InputMotion> inputs) {
   solve_acceleration(plan_, inputs, motion);
   const auto answer = [&](std::span<const double> drives) {
@@ -255,7 +255,7 @@ bool LinkageDynamics::solve_masses(std::span<InputMotion> inputs) {
 void LinkageDynamics::power_of_loads() {
   if (damped_)
     power += lasting_power(linkage_, plan_, motion, loads_);
-  else if (lasting_)  // what springs do is in their potential energy; their loads come first, two each
+  else if (lasting_)  // the work of springs is in their potential energy; their loads come first, two each
     for (std::size_t i = 2 * (linkage_.springs.size() + linkage_.torsion_springs.size()); i < loads_.size();
          ++i)
       power += power_of(plan_, motion, loads_[i]);

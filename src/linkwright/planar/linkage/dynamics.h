@@ -21,7 +21,7 @@ double potential_energy(const Linkage& linkage, const LinkagePlan& plan, const L
 double lasting_power(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
                      std::span<const AppliedLoad> loads);
 
-/// How the accelerations of free inputs are found, with the same answer: by their mass matrix, or by the
+/// The route to the accelerations of free inputs, both with the same answer: by their mass matrix, or by the
 /// joint forces of all parts (LinkageElimination), which many free inputs make cheaper.
 enum class AccelerationRoute { mass_matrix, joint_forces };
 /// The cheaper one where there is a choice: joint_forces from 9 free inputs on, and neither for gears nor for

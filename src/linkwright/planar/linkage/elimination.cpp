@@ -51,7 +51,7 @@ LinkageElimination::LinkageElimination(const LinkagePlan& plan, const std::vecto
       continue;
     }
     part.local = (1 / m.mass) * m.moment;
-    // What rounding leaves of a point mass away from the origin is nothing.
+    // The moment of inertia that rounding leaves of a point mass away from the origin is zero.
     const double inertia = m.inertia - m.mass * dot(part.local, part.local);
     if (inertia > 1e-12 * m.inertia) {
       part.length = std::sqrt(inertia / m.mass);

@@ -16,7 +16,7 @@ namespace linkwright::planar {
 /// mass matrix of the free inputs takes the cube of it. Both have the same answer but for rounding.
 class LinkageElimination {
  public:
-  /// Whether it knows all joints of the plan: it has no gears.
+  /// True if it knows all joints of the plan: it has no gears.
   static bool takes(const LinkagePlan& plan);
   /// `free` as of LinkageDynamics. The plan must outlive this.
   LinkageElimination(const LinkagePlan& plan, const std::vector<bool>& free);
@@ -25,7 +25,7 @@ class LinkageElimination {
   /// a free input moves no mass or the joints are at a dead point.
   bool solve(const LinkageMotion& motion, std::span<const Wrench<double>> needed);
 
-  /// Of a free input at the last `solve`, rad/s2 or m/s2.
+  /// Acceleration of a free input at the last `solve`, rad/s2 or m/s2.
   double acceleration(std::size_t input) const;
   /// Torque or force of a prescribed drive at the last `solve`, on the second body of its joint.
   double drive(std::size_t input) const;
@@ -33,16 +33,16 @@ class LinkageElimination {
  private:
   struct Row {
     const PlanJoint* joint;
-    int input;  // of its drive; -1 = none
+    int input;  // input of its drive; -1 = none
     bool prescribed;
-    std::size_t place;  // of its first unknown
+    std::size_t place;  // place of its first unknown
     int rows() const { return prescribed ? 3 : 2; }
   };
   struct Part {
-    std::size_t place = 0;  // of its first unknown
+    std::size_t place = 0;  // place of its first unknown
     double mass = 0;        // a share of the reference
     double turning = 1;     // inertia about the mass centre / (mass length^2)
-    double length = 1;      // that makes rotations comparable to displacements
+    double length = 1;      // length that makes rotations comparable to displacements
     Vec<double> local{0, 0};
     Vec<double> centre{0, 0};  // mass centre, global
   };

@@ -81,7 +81,7 @@ LinkageBody body_of(const BodyForm& form, bool drawn) {
   return body;
 }
 
-// What is left out of a mass follows from where the body is jointed.
+// Completes a mass from the joints of the body.
 void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
   LinkageBody& body = l.bodies[b];
   if (!form.mass) return;

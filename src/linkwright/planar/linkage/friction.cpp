@@ -11,7 +11,8 @@ namespace {
 
 double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
-// What the friction of a joint is proportional to, times its coefficient: N m of a pin, N of a slide.
+// The load that the friction of a joint is proportional to, times its coefficient: N m of a pin, N of a
+// slide.
 double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<double>& along) {
   if (j.type == JointType::revolute) return j.friction * j.pin_radius * norm(r.force);
   const double normal = cross(along, r.force);
@@ -25,7 +26,7 @@ double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<do
 struct Sliding {
   std::size_t joint;
   double sense;
-  Vec<double> along;  // of a slide
+  Vec<double> along;  // direction of a slide
 };
 std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                                     const std::vector<JointReaction>& joints) {
@@ -210,7 +211,7 @@ class Frictions {
   std::size_t others_;
   double measure_ = 1;
   std::vector<JointReaction> base_;               // without friction
-  std::vector<std::vector<JointReaction>> unit_;  // what a unit of each friction adds
+  std::vector<std::vector<JointReaction>> unit_;  // forces added by a unit of each friction
   std::vector<double> z_;
 };
 

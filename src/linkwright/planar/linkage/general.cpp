@@ -165,7 +165,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
     const PlanJoint& j = g.joints[k];
     const bool driven = j.input >= 0;
     const JointRows r = joint_rows(j, driven, motion.parts);
-    // What the known parts move, to the right side.
+    // The motion of the known parts goes to the right side.
     Vec<double> slip{0, 0};
     double spin = 0;
     for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})

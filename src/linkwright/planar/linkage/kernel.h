@@ -25,22 +25,22 @@ struct PartState {
   T angular_acceleration;
 };
 
-/// What a group knows of its closure.
+/// The state of a group's closure.
 template <class T>
 struct GroupState {
-  /// Of a dyad with two modes: what stands under its root, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot
-  /// be assembled, zero = the modes meet.
+  /// Radicand of a dyad with two modes, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot be assembled, zero
+  /// = the modes meet.
   T radicand;
   /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
   /// transmission angle of an RRR dyad. Zero = dead point.
   T sine;
   Vec<T> reference;             ///< R, global
-  Vec<T> column_x, column_y;    ///< what a unit of each of the two joints moves R by
+  Vec<T> column_x, column_y;    ///< displacements of R by a unit of each of the two joints
   T inverse;                    ///< 1 / cross(column_x, column_y)
   T rate_x, rate_y, rate_zero;  ///< rates of the joints
 };
 
-/// What a dyad's type says of its joints: which are slides, and which one, counted from 0, is the pin at R
+/// The joints of a dyad by its type: which are slides, and which one, counted from 0, is the pin at R
 /// (`zero`) and which are the other two.
 struct DyadLayout {
   bool slide1, slide2, slide3;
@@ -375,7 +375,7 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadTag<type>, const Group& g, PartState<T>
   second.velocity = at_second - second.speed * perpendicular(s.reference - second.origin);
 }
 
-/// What a joint adds to the acceleration at R beyond the acceleration of its own rate: centripetal of a pin,
+/// The acceleration that a joint adds at R beyond the acceleration of its own rate: centripetal of a pin,
 /// Coriolis of a slide.
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& rate, const T& speed_before,

@@ -11,9 +11,9 @@ namespace linkwright::planar {
 
 /// End of a range of an input.
 struct RangeEnd {
-  double value = 0;  ///< of the input (rad or m)
+  double value = 0;  ///< value of the input (rad or m)
   EndKind kind = EndKind::bound;
-  std::vector<int> groups;  ///< that reach their limit or change point there; rising
+  std::vector<int> groups;  ///< groups that reach their limit or change point there; rising
 };
 
 /// A stretch of the input in which the linkage assembles in one combination of modes. At its ends it meets
@@ -25,11 +25,11 @@ struct InputRange {
   int circuit = 0;            ///< from 1
 };
 
-/// Where a linkage assembles while one input moves and the others stay.
+/// The ranges in which a linkage assembles while one input moves and the others stay.
 struct InputLimits {
   int input = 0;
   bool rotary = true;
-  double from = 0, to = 0;         ///< what was asked for
+  double from = 0, to = 0;         ///< range that was asked for
   bool closed = false;             ///< from and to are one full turn of a periodic input
   std::vector<InputRange> ranges;  ///< by modes (plus first), then by input; over all modes
   /// Connected sets of configurations: positions of one circuit can be reached from each other without taking

@@ -88,8 +88,8 @@ struct LinkageJoint {
   double guide_length = 0;  ///< m, >= 0
 };
 
-/// Which of the two ways a pair of bodies can be assembled. The bodies are those of a dyad: `first` and
-/// `second` are joined to each other, and each to bodies that are placed before them.
+/// The assembly mode of a pair of bodies, one of two. The bodies are those of a dyad: `first` and `second`
+/// are joined to each other, and each to bodies that are placed before them.
 ///   three pins (RRR): plus = the inner pin lies to the left of the line from the outer pin of `first` to
 ///   that of `second`;
 ///   pin on a slide (RRP, the slide at the outer end of either body): plus = the inner pin lies forward, in
@@ -131,7 +131,7 @@ struct TorsionSpring {
   double damping = 0;     ///< N m s/rad
 };
 
-/// What a force or torque depends on.
+/// The argument of a force or torque.
 enum class LoadArgument { constant, input, time, x, y, speed };
 constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
@@ -143,7 +143,7 @@ constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
             "of a torque: angular speed of its body against the body it comes from, as of a motor"}}};
 }
 
-/// How strong a load is: a factor that is 1, or interpolated linearly in a table and held at its ends, or
+/// The strength of a load: a factor that is 1, or interpolated linearly in a table and held at its ends, or
 /// repeated.
 struct LoadFactor {
   LoadArgument against = LoadArgument::constant;
@@ -201,8 +201,8 @@ int joint_index(const Linkage& linkage, std::string_view name);
 /// between joint points of the ground (m); 1 when there is none.
 double size_of(const Linkage& linkage);
 
-/// What is wrong with the description by itself: indices, names given twice, numbers that are not finite,
-/// negative masses, links of no length, springs between a body and itself, tables that do not rise. Keys are
+/// Checks the description by itself: indices, names given twice, numbers that are not finite, negative
+/// masses, links of no length, springs between a body and itself, tables that do not rise. Keys are
 /// "joint.<name>", "body.<name>" and so on. Whether it moves as it should is asked of `plan_linkage`.
 Diagnostics check(const Linkage& linkage);
 

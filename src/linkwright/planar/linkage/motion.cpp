@@ -37,7 +37,7 @@ double gap_of(const Group& g, const Dyad& dyad, const LinkageMotion& m, const Gr
   return 0;
 }
 
-// What rounding left open: the inner joint seen from both parts.
+// The error of closure that rounding left: the inner joint seen from both parts.
 double closure_of(const Group& g, const LinkageMotion& m) {
   const PlanJoint& inner = g.joints[1];
   const PartState<double>&before = m.parts[at(inner.before.part)], &after = m.parts[at(inner.after.part)];

@@ -37,7 +37,7 @@ class LinkageMotion {
   std::vector<GroupState<double>> groups;  ///< one a group
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;
-  std::vector<GeneralGroupPointer> general;  ///< of groups with a matrix, else null
+  std::vector<GeneralGroupPointer> general;  ///< states of groups with a matrix, else null
   std::vector<double> twists;  ///< rad, one a torsion spring, see PlanTwist; NaN before the first position
 };
 

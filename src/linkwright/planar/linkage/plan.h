@@ -30,14 +30,14 @@ struct PartPoint {
 struct PlanJoint {
   bool slide = false;
   bool reversed = false;  ///< `before` is on the side of the second body of the joint
-  int joint = -1;         ///< of the linkage; the pin of a pin in a slot carries its index, its slide -1
-  int input = -1;         ///< index into the inputs of the one that drives it, else -1
+  int joint = -1;  ///< index in the linkage; the pin of a pin in a slot carries its index, its slide -1
+  int input = -1;  ///< index into the inputs of the one that drives it, else -1
   PartPoint before, after;
 };
 
-/// What the kind of a group says of it; each kind has its `traits_of`.
+/// The properties of a kind of group; each kind has its `traits_of`.
 struct GroupTraits {
-  std::string_view name;     ///< as users read it
+  std::string_view name;     ///< name in the words of users
   bool closes_loop = false;  ///< it can stand at a dead point, and has a sine that says how far that is
   bool closed_form = true;   ///< it is placed without a search
   bool has_modes = false;    ///< it is assembled in closed form, in two ways
@@ -49,13 +49,13 @@ struct GroupTraits {
 struct Driver {};
 constexpr GroupTraits traits_of(const Driver&) { return {.name = "driver"}; }
 
-/// Where the teeth of two wheels meet. Radii are signed, so that for external and internal teeth alike the
-/// pitch point lies by its radius from a centre towards the other one.
+/// The meshing of two wheels. Radii are signed, so that for external and internal teeth alike the pitch point
+/// lies by its radius from a centre towards the other one.
 struct GearMesh {
   PartPoint first, second;   ///< centres of the wheels
   double first_radius = 0;   ///< m, from the first centre towards the second
   double second_radius = 0;  ///< m, from the second centre towards the first
-  double tangent = 0;        ///< of the pressure angle
+  double tangent = 0;        ///< tangent of the pressure angle
 };
 
 /// A part on a known pin, turned by a gear `ratio` times as fast as part `turning`, both seen from part
@@ -63,7 +63,7 @@ struct GearMesh {
 struct Gear {
   double ratio = 1;
   int turning = 0, carrier = 0;
-  int joint = -1;          ///< of the linkage
+  int joint = -1;          ///< index in the linkage
   bool backwards = false;  ///< turns the first body of its joint from the second
   /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
   std::optional<GearMesh> mesh;
@@ -94,7 +94,7 @@ constexpr std::array<EnumName<DyadType>, 5> names(DyadType) {
 /// Two parts with three joints, in the order of the chain.
 struct Dyad {
   DyadType type = DyadType::rrr;
-  PlanLink first, second;  ///< of RPR seen from the direction of the slide
+  PlanLink first, second;  ///< links; those of RPR are seen from the direction of the slide
   double per_length = 1;   ///< one over the links between pins: both of RRR, the first of RRP
 };
 constexpr GroupTraits traits_of(const Dyad& dyad) {
@@ -125,7 +125,7 @@ constexpr GroupTraits traits_of(const Triangle&) {
 
 /// A group without closed form, solved by Newton's method.
 struct GeneralGroup {
-  std::vector<math::Pose> start;  ///< of the parts, where given; else empty
+  std::vector<math::Pose> start;  ///< poses of the parts, where given; else empty
 };
 constexpr GroupTraits traits_of(const GeneralGroup&) {
   return {.name = "general", .closes_loop = true, .closed_form = false, .has_matrix = true};
@@ -135,7 +135,7 @@ constexpr GroupTraits traits_of(const GeneralGroup&) {
 struct Group {
   std::variant<Driver, Gear, Dyad, Triangle, GeneralGroup> kind;
   std::string name;               ///< "coupler + rocker"
-  std::vector<int> parts;         ///< that this group places; in the order of the chain, if it is one
+  std::vector<int> parts;         ///< parts that this group places; in the order of the chain, if it is one
   std::vector<PlanJoint> joints;  ///< one of a driver or gear; in the order of the chain, if it is one
   /// Sign of the assembly mode that the model names or its start poses show; +1 where there is none.
   double mode = 1;
@@ -183,10 +183,10 @@ struct DrivenAngle {
 /// The twist of a torsion spring: the angle of its second body from its first, with its turns.
 struct PlanTwist {
   int first = 0, second = 0;  ///< parts
-  Vec<double> turn{1, 0};     ///< of the second body on its part, less that of the first on its
-  /// Where drives and gears alone turn both, their joints count the turns: the twist is `angle` + the sum of
-  /// `gains` times the inputs. Else it goes on from the last position by less than half a turn, from the
-  /// first one to the angle that is nearest to `free` but for its whole turns.
+  Vec<double> turn{1, 0};     ///< direction of the second body on its part, less that of the first on its
+  /// True if drives and gears alone turn both: their joints count the turns, and the twist is `angle` + the
+  /// sum of `gains` times the inputs. Else it goes on from the last position by less than half a turn, from
+  /// the first one to the angle that is nearest to `free` but for its whole turns.
   bool counted = false;
   double angle = 0, free = 0;
   std::vector<double> gains;
@@ -196,7 +196,7 @@ struct PlanTwist {
 /// does not matter for the motion. Where the plan needs other pairs than the model has, to find its dyads,
 /// the forces in the joints of the model follow from those in the pairs of the plan.
 struct SharedPin {
-  std::vector<int> joints;  ///< of the model
+  std::vector<int> joints;  ///< joints of the model
   /// The force in joint i of the model is the sum over k of share[i][k] (-1, 0 or 1) times the force in the
   /// pair of the plan that has the number joints[k].
   std::vector<std::vector<double>> share;
@@ -213,7 +213,7 @@ struct LinkagePlan {
   std::vector<int> group_of_part;                  ///< -1 of the ground
   std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
   std::vector<PlanTwist> twists;                   ///< one a torsion spring
-  std::vector<SharedPin> shared_pins;              ///< those with other pairs than in the model
+  std::vector<SharedPin> shared_pins;              ///< pins whose pairs differ from those of the model
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<bool> rotary;                        ///< one an input: whether its joint turns
   double size = 1;                                 ///< characteristic length, m
@@ -222,7 +222,7 @@ struct LinkagePlan {
   std::vector<double> drawn_inputs;
 
   std::size_t inputs() const { return rotary.size(); }
-  /// Whether all groups have closed forms, so that no search and no history is needed.
+  /// True if all groups have closed forms, so that no search and no history is needed.
   bool closed_form() const;
 };
 
@@ -240,8 +240,8 @@ struct PlanResult {
   Diagnostics problems;  ///< errors: the plan is not complete
 };
 
-/// How a plan solves: along the groups that the linkage falls into, or all parts at once as one general
-/// group, the independent route that checks the other (no gears).
+/// The route by which a plan is solved: along the groups that the linkage falls into, or all parts at once as
+/// one general group, the independent route that checks the other (no gears).
 enum class PlanRoute { along_groups, all_at_once };
 
 /// Decomposes a linkage. Problems are named in plain words with the bodies and joints that take part: bodies

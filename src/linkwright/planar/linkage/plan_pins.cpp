@@ -68,8 +68,8 @@ std::vector<LinksAtPin> pins_of_several(const PlanDraft& d) {
   return pins;
 }
 
-// Whether each link, by its place at the pin, is on the side of `from` when joint number `without` is taken
-// out.
+// True for each link, by its place at the pin, that is on the side of `from` when joint number `without` is
+// taken out.
 std::vector<bool> side_of(const LinksAtPin& pin, const std::vector<PartJoint>& joints, std::size_t without,
                           int from) {
   std::vector<bool> side(pin.links.size(), false);

@@ -37,7 +37,7 @@ std::string freedoms_and_drives(const PlanDraft& d) {
                      freedoms == 1 ? "" : "s", drives, drives == 1 ? "" : "s");
 }
 
-// Why parts stay without a place.
+// Reports why parts have no position.
 void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
   const auto names = [&](const std::vector<int>& of) {
     std::vector<std::string> out;

@@ -10,8 +10,9 @@
 
 namespace linkwright::planar {
 
-/// How well a dyad passes on force, at one position: the angle, folded to [0, pi/2], between what its two
-/// joints other than the pin at `GroupState::reference` let that pin move along. pi/2 = best, 0 = dead point.
+/// The quality of the force transmission of a dyad at one position: the angle, folded to [0, pi/2], between
+/// what its two joints other than the pin at `GroupState::reference` let that pin move along. pi/2 = best, 0
+/// = dead point.
 ///   RRR: the transmission angle between the two links at the inner pin;
 ///   RRP: the angle between the link and the normal of the slide;
 ///   RPR: the angle between the slide and the normal of the line from the outer pin of the second body to
@@ -63,7 +64,7 @@ struct Advantage {
 Advantage advantage(const Linkage& linkage, const LinkagePlan& plan, int input, int joint,
                     LinkageMotion& motion);
 
-/// Where two bodies have the same velocity, by the velocities in the motion.
+/// The point where two bodies have the same velocity, by the velocities in the motion.
 struct InstantCentre {
   enum class Kind { point, at_infinity, undetermined };
   /// at_infinity: the bodies turn alike, and `direction` points to the centre (both ways);
@@ -74,19 +75,19 @@ struct InstantCentre {
   Vec<double> direction{0, 0};  ///< unit vector
 };
 InstantCentre instant_centre(const LinkagePlan& plan, const LinkageMotion& motion, int first, int second);
-/// Of all n (n - 1) / 2 pairs of bodies. By the theorem of Aronhold and Kennedy the three centres of any
-/// three bodies lie on a line.
+/// The instant centres of all n (n - 1) / 2 pairs of bodies. By the theorem of Aronhold and Kennedy the three
+/// centres of any three bodies lie on a line.
 std::vector<InstantCentre> instant_centres(const LinkagePlan& plan, const LinkageMotion& motion);
 
 /// Second-order geometry of the motion of a body as seen from a reference body, by the velocities and
 /// accelerations in the motion; global coordinates at this instant. Independent of the speed along the motion
 /// but for the acceleration pole.
 struct PoleGeometry {
-  bool turns = false;             ///< else the rest is NaN: the bodies do not turn against each other
-  Vec<double> pole;               ///< instant centre P
-  Vec<double> inflection_pole;    ///< W: PW is the diameter of the inflection circle
-  Vec<double> circle_centre;      ///< of the inflection circle: its points pass inflections of their paths
-  double circle_radius = 0;       ///< m
+  bool turns = false;           ///< else the rest is NaN: the bodies do not turn against each other
+  Vec<double> pole;             ///< instant centre P
+  Vec<double> inflection_pole;  ///< W: PW is the diameter of the inflection circle
+  Vec<double> circle_centre;  ///< centre of the inflection circle: its points pass inflections of their paths
+  double circle_radius = 0;   ///< m
   Vec<double> acceleration_pole;  ///< point of the body without acceleration
 };
 PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion, int body, int reference = 0);

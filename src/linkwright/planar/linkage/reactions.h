@@ -8,8 +8,8 @@
 
 namespace linkwright::planar {
 
-/// What a joint carries: force (N, global frame) and moment (N m) of its first body on its second, at
-/// `point`: where the point of the second body is. Revolute joints and pins in slots have no moment; of a
+/// The load that a joint carries: force (N, global frame) and moment (N m) of its first body on its second,
+/// at `point`: where the point of the second body is. Revolute joints and pins in slots have no moment; of a
 /// driven joint the drive's torque or force is included. A gear's moment is what it turns its second body
 /// with; its force is that of the teeth at the pitch point, where that is known (Gear::mesh). Friction of the
 /// joint is not in it: it is among the loads.
@@ -32,12 +32,12 @@ struct AppliedLoad {
 
 /// Joint forces of a linkage at one instant; use one again and again.
 struct LinkageForces {
-  Status status = Status::done;       ///< that of the motion; self_locking when friction blocks it
+  Status status = Status::done;       ///< status of the motion; self_locking when friction blocks it
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
   std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
   Vec<double> shaking_force{
-      0, 0};  ///< of the mechanism, and of what is welded to the ground, on the ground, weight included
+      0, 0};  ///< force of the mechanism, and of bodies welded to the ground, on the ground, weight included
   /// The moment on the ground about Linkage::moment_centre, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
   /// ... and without the torques of drives that stand on the ground.
@@ -46,7 +46,7 @@ struct LinkageForces {
   double load_power = 0;     ///< W, of springs, forces, torques and friction on the moving bodies
   double weight_power = 0;   ///< W
   double kinetic_power = 0;  ///< W: rate of the kinetic energy by velocities and accelerations
-  int iterations = 0;        ///< of friction; 0 = none
+  int iterations = 0;        ///< iterations of the friction; 0 = none
   // Memory.
   std::vector<Wrench<double>> needed, group_joints;
   std::vector<double> group_drives;

@@ -14,12 +14,12 @@ namespace linkwright::planar {
 /// assembly modes has its mode, by name or by its start poses.
 struct LinkageSample {
   std::string name;     ///< "jansen_leg"
-  std::string summary;  ///< what it is and what to look at
+  std::string summary;  ///< description and hint what to look at
   Linkage linkage;
   /// Inputs of the motion to look at: all inputs run from `from` to `to` (rad or m) together. The start poses
   /// are those at `from`.
   std::vector<double> from, to;
-  double speed = 1;               ///< of the first input (rad/s or m/s)
+  double speed = 1;               ///< speed of the first input (rad/s or m/s)
   std::vector<BodyPoint> traces;  ///< points whose paths are worth drawing
 };
 

@@ -109,7 +109,7 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
   LINKWRIGHT_REQUIRE(std::isfinite(from) && std::isfinite(to) && from < to, "no stretch: {} to {}", from, to);
   const GroupTraits traits = traits_of(levels_[k].groups[k]);
   if (!traits.has_limits) return {{from, to, EndKind::bound, EndKind::bound}};
-  const bool slides_only = !traits.has_modes;  // which may become parallel
+  const bool slides_only = !traits.has_modes;  // the slides may become parallel
   for (std::size_t g = 0; g < k; ++g) motions_[k].modes[g] = modes[g];
   // The input runs as a cosine over the stretch: analytic also at limits of groups before, where positions
   // go with the square root of the distance.

@@ -8,7 +8,7 @@
 
 namespace linkwright::planar {
 
-/// What happens at the end of a stretch of an input.
+/// The event at the end of a range of an input.
 enum class EndKind {
   bound,         ///< nothing: the stretch that was asked for ends
   limit,         ///< a group reaches its limit: dead point of the input, both modes meet and turn back
@@ -46,10 +46,10 @@ class GroupScan {
  private:
   struct Closure {
     double value;      // >= 0: assembles; NaN where a group before fails
-    double slope;      // with the input
+    double slope;      // derivative by the input
     double closeness;  // to a zero, as a share of lengths
   };
-  // Of a group that assembles wherever those before it do.
+  // Closure of a group that assembles wherever those before it do.
   static constexpr Closure no_limit{1, 0, 1};
   Closure closure(std::size_t group, double input);
   bool touches_at_end(std::size_t group, double end, double inward);
@@ -60,7 +60,7 @@ class GroupScan {
   std::size_t input_;
 };
 
-/// Whether a full turn of the input brings the same position: it turns, and gears turn by whole turns with
+/// True if a full turn of the input brings the same position: it turns, and gears turn by whole turns with
 /// it.
 bool periodic(const LinkagePlan& plan, int input);
 

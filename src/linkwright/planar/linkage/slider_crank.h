@@ -16,7 +16,8 @@ namespace linkwright::planar {
 /// crank O-A, rod A-B, slider B on a guide.
 struct SliderCrankForm {
   double crank = 0, rod = 0;
-  double offset = 0;       ///< of the guide line from the crank pivot, along the left normal of its direction
+  /// Offset of the guide line from the crank pivot, along the left normal of its direction.
+  double offset = 0;
   double guide_angle = 0;  ///< direction of the guide
   double pivot_x = 0, pivot_y = 0;
   double rod_u = 0, rod_v = 0;  ///< tracing point on the rod, from A along A->B and along its left normal

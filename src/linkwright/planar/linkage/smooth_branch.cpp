@@ -76,7 +76,7 @@ class Limit {
     }
   }
   std::span<const double> values() const { return sum_; }
-  // Of number i; beside the largest of all, what rounding leaves of a number that is small is no pole.
+  // True if number i has a pole; the rounding error of a small number, beside the largest of all, is none.
   bool has_pole(std::size_t i) const {
     const double largest = *std::max_element(scale_.begin(), scale_.end());
     return !(std::abs(residue_[i]) <= std::max(1e-5 * scale_[i], 1e-10 * largest));

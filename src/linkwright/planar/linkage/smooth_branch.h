@@ -30,8 +30,8 @@ class SmoothBranch {
 
   const BranchPath& path() const { return path_; }
   bool has_change_points() const { return !path_.change_points.empty(); }
-  /// Of the zones about change points, rad or m: less than ChangeZone::width where the nodes would come near
-  /// to another change point or an end.
+  /// Half width of the zones about change points, rad or m: less than ChangeZone::width where the nodes would
+  /// come near to another change point or an end.
   double half_width() const { return half_width_; }
   /// Puts the modes at a value into the motion.
   void set_modes(double value, LinkageMotion& motion) const { modes_at(path_, value, motion.modes); }

@@ -49,7 +49,7 @@ struct LinkageSweep::Memory {
   LinkageForces forces;
   std::vector<InputMotion> inputs;
   std::vector<double> modes;                // signs, one a group
-  std::optional<LinkageAssembly> assembly;  // of plans without closed form
+  std::optional<LinkageAssembly> assembly;  // assembly of plans without closed form
 
   double& number(std::size_t row, std::size_t sample) { return task.data[row * task.stride + sample]; }
   std::span<const double> row(std::size_t r) const { return {task.data + r * task.stride, samples}; }

@@ -13,7 +13,7 @@
 
 namespace linkwright::planar {
 
-/// What a sweep computes.
+/// The quantities that a sweep computes.
 struct SweepWanted {
   bool rates = true;    ///< velocities and accelerations
   bool forces = false;  ///< joint forces and drives; needs rates and the masses of all bodies
@@ -72,7 +72,7 @@ class LinkageSweep {
   std::span<const double> drive(int input) const;  ///< N m or N
   std::span<const double> shaking(ShakingRow row) const;
 
-  /// Whether samples go together through SIMD registers, with these wishes.
+  /// True if samples go together through SIMD registers, with these wishes.
   bool batched() const;
 
  private:
@@ -83,7 +83,7 @@ class LinkageSweep {
 /// Name of the instruction set that sweeps use: "avx512", "avx2" or "baseline".
 const char* sweep_kernel_name();
 
-/// What a kernel gets; rows are numbered from 0, `stride` numbers apart.
+/// The task of a kernel; rows are numbered from 0, `stride` numbers apart.
 struct SweepTask {
   const LinkagePlan* plan = nullptr;
   const double* modes = nullptr;

@@ -35,7 +35,7 @@ void place_triangle(const Group& g, const Triangle& triangle, double value, doub
   &arm = parts[at(g.parts[2])];
   const Vec<double> a = point_on(parts[at(foot.before.part)], foot.before.at),
                     b = point_on(parts[at(base.after.part)], base.after.at), d = b - a;
-  // As the dyad of three pins (place_rrr).
+  // The formulas are those of the dyad of three pins (place_rrr).
   const double d2 = dot(d, d), square = dot(side.way, side.way), length = std::sqrt(square);
   const double reach = length + triangle.arm.length, fold = length - triangle.arm.length;
   state = {};

@@ -9,9 +9,9 @@
 // Joint forces and torques of a serial arm whose motion is given.
 namespace linkwright::planar {
 
-/// What acts in the own joint of one link.
+/// The loads in the own joint of one link.
 struct ArmJointLoads {
-  std::complex<double> force;  ///< of the link before (or the ground) on this link (N), global frame
+  std::complex<double> force;  ///< force of the link before (or the ground) on this link (N), global frame
   /// Torque on this link when all motors stand on the ground: the generalised force of the absolute angle
   /// (N m).
   double absolute_torque = 0;

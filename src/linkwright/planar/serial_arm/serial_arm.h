@@ -15,7 +15,7 @@ namespace linkwright::planar {
 struct ArmLink {
   double length = 0;                ///< m, own joint to next joint or tip, > 0
   LinkMass body;                    ///< the link itself
-  std::vector<PointMass> attached;  ///< what is fixed to it
+  std::vector<PointMass> attached;  ///< masses fixed to it
 };
 
 struct SerialArm {

@@ -6,7 +6,7 @@
 
 namespace linkwright::planar {
 
-/// Whether a linkage whose inputs are all free stands in unstable balance where they are: at rest, without
+/// True if a linkage whose inputs are all free is in unstable balance where they are: at rest, without
 /// acceleration but for rounding, and with a displacement that grows by itself, as an inverted pendulum has.
 /// There the rounding of the start decides when the linkage leaves its place, and to which side.
 ///

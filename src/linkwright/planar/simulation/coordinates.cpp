@@ -390,8 +390,8 @@ class Coordinates {
     now.status = rows_.status == Status::done ? Status::done : Status::singular;
     return !output_ || output_(now);
   }
-  // What the groups know of their closure, in the modes that the places show; places and motion of the parts
-  // are those of the state.
+  // Sets the state of the groups' closure, in the modes of the present positions; places show; places and
+  // motion of the parts are those of the state.
   void place_groups() {
     if (!plan_.closed_form()) rows_.parts = motion_.parts;
     for (std::size_t g = 0; g < plan_.groups.size(); ++g) {
@@ -418,13 +418,14 @@ class Coordinates {
   std::span<const InputDrive> drives_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
-  LinkageMotion motion_, rows_;  // of the state; of the rows, with groups
+  LinkageMotion motion_, rows_;  // motions of the state; of the rows, with groups
   std::vector<InputMotion> inputs_;
   std::vector<std::optional<math::MotionCurve>> laws_;
   std::vector<int> parts_, column_;  // parts that carry bodies; first coordinate of a part, -1 of others
   std::vector<Equation> equations_, coordinate_;
   std::span<const double> angles_;
-  std::vector<double> twists_;  // of the torsion springs, less the angles between their bodies in the state
+  // Twists of the torsion springs, less the angles between their bodies in the state.
+  std::vector<double> twists_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_, solution_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

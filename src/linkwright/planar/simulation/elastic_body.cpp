@@ -270,7 +270,7 @@ class Builder {
     const Group& group = plan.groups[at(plan.group_of_part[at(part)])];
     if (!group.as<Dyad>()) return -1;
     const int joint = group.joints[group.parts[0] == part ? 0 : 2].joint;
-    // Of a pin of several links the plan may pair others than the model.
+    // The plan may pair other links at a pin of several links than the model.
     const bool of_model = joint >= 0 && (rigid_.joints[at(joint)].first.body == beam.body ||
                                          rigid_.joints[at(joint)].second.body == beam.body);
     return of_model ? joint : -1;
@@ -321,7 +321,7 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
     out.deflections.push_back(i % n == 0 ? 0 : from_line(i, pieces.nodes[i]));
     if (std::abs(out.deflections[i]) > std::abs(out.largest)) out.largest = out.deflections[i];
   }
-  // Of an odd number of cells the middle is where two pieces meet.
+  // The middle of an odd number of cells is the joint of two pieces.
   out.middle = from_line(n / 2, (pieces.nodes[0] + pieces.nodes[n]) / 2.0);
 
   const Vec<double> along = vec((pieces.nodes[n] - pieces.nodes[0]) / pieces.length);
@@ -358,7 +358,7 @@ SegmentErrors segment_errors(int segments) {
   LINKWRIGHT_REQUIRE(segments >= 1, "{} segments", segments);
   double even = 0, rising = 0;
   for (int i = 0; i < segments; ++i) {
-    const double x = (i + 0.5) / segments;  // of the length
+    const double x = (i + 0.5) / segments;  // fraction of the length
     even = std::max(even, 4 * x * (1 - x));
     rising = std::max(rising, 1.5 * std::sqrt(3.0) * x * (1 - x * x));
   }

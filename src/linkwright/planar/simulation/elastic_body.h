@@ -34,24 +34,24 @@ namespace linkwright::planar {
 /// A flexible body of a linkage, as a uniform Euler-Bernoulli beam. Its mass is density area L along the
 /// line between its ends: it takes the place of `BodyMass`, while attached masses stay.
 struct ElasticBody {
-  int body = 0;                ///< of the linkage
+  int body = 0;                ///< body of the linkage
   double elastic_modulus = 0;  ///< Pa, > 0
-  double second_moment = 0;    ///< of the section about the axis of bending, m4, > 0
-  double area = 0;             ///< of the section, m2, > 0
+  double second_moment = 0;    ///< second moment of area about the axis of bending, m4, > 0
+  double area = 0;             ///< area of the section, m2, > 0
   double density = 0;          ///< kg/m3, > 0
   int segments = 4;            ///< cells, each with a spring in its middle: 1 to 64
   double damping = 0;          ///< retardation time of the material, s, >= 0
-  double fibre_distance = 0;   ///< of the outermost fibre from the axis of bending, m, >= 0
+  double fibre_distance = 0;   ///< distance of the outermost fibre from the axis of bending, m, >= 0
   /// Points of the body where the beam ends; -1: where its joints are, which must be two places.
   int from = -1, to = -1;
 };
 
-/// What has become of an elastic body.
+/// The pieces that an elastic body was cut into.
 struct ElasticPieces {
-  ElasticBody beam;   ///< with `from` and `to` filled in
+  ElasticBody beam;   ///< beam with `from` and `to` filled in
   double length = 0;  ///< L, m
   std::vector<int>
-      bodies;  ///< of the new linkage, from `from` to `to`: segments + 1, the first is the old one
+      bodies;  ///< bodies of the new linkage, from `from` to `to`: segments + 1, the first is the old one
   std::vector<int> joints;                  ///< between them, with a spring each: segments
   std::vector<int> springs;                 ///< torsion springs of the new linkage, one a joint
   std::vector<std::complex<double>> nodes;  ///< ends of the cells, segments + 1: one a piece, in its frame, m
@@ -93,13 +93,13 @@ struct ElasticLinkage {
 ElasticLinkage with_elastic_bodies(const Linkage& linkage, std::span<const ElasticBody> bodies,
                                    std::span<const InputMotion> inputs);
 
-/// How a beam is bent at one instant.
+/// The bending of a beam at one instant.
 struct BentBody {
-  /// Of the nodes from the straight line from the first to the last, m: positive to its left. segments + 1,
-  /// with 0 at both ends.
+  /// Deflections of the nodes from the straight line from the straight line from the first to the last, m:
+  /// positive to its left. segments + 1, with 0 at both ends.
   std::vector<double> deflections;
-  double middle = 0;   ///< of the middle of the beam from that line, m
-  double largest = 0;  ///< that of the node with the largest size, m
+  double middle = 0;   ///< deflection of the middle of the beam from that line, m
+  double largest = 0;  ///< deflection of the node with the largest size, m
   /// Bending moments at the springs, that of their dampers included, N m: positive bends the beam to the left
   /// (anticlockwise) from `from` to `to`. One a segment, in the middle of its cell.
   std::vector<double> moments;
@@ -109,15 +109,15 @@ struct BentBody {
   /// Pa, >= 0: largest |moment| fibre_distance / second_moment + |normal force| / area; without joint forces
   /// that of bending alone.
   double stress = 0;
-  int spring = 0;    ///< where
-  double place = 0;  ///< of that spring along the unbent beam, from `from`, m
+  int spring = 0;    ///< index of the spring at that section
+  double place = 0;  ///< position of that spring along the unbent beam, from `from`, m
 };
 /// `motion` is that of `elastic.plan`, velocities included; pieces that of one of its bodies; `forces`, which
 /// may be null, those of `elastic.linkage` with that motion.
 BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion,
                    const LinkageForces* forces = nullptr);
 
-/// What so many segments leave out, of a beam on two pins that is loaded by its own mass.
+/// The errors of so many segments, for a beam on two pins that is loaded by its own mass.
 struct SegmentErrors {
   /// Share of the largest bending moment that no spring feels, as each sits in the middle of its cell: the
   /// larger one of a load that is the same all along and of one that grows from zero at an end. Moments at
@@ -126,7 +126,7 @@ struct SegmentErrors {
   double frequency = 0;  ///< by what share the first frequency is too low
 };
 SegmentErrors segment_errors(int segments);
-/// Whether one of them matters: more than a tenth of the moment, or a twentieth of the frequency.
+/// True if one of them matters: more than a tenth of the moment, or a twentieth of the frequency.
 bool too_few_segments(int segments);
 /// Least number from which on none does.
 int enough_segments();

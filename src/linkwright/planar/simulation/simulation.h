@@ -15,7 +15,8 @@
 
 namespace linkwright::planar {
 
-/// How an input moves: as its law says, or, without a law, freely from a value and rate at the first time.
+/// The motion of an input: as its law says, or, without a law, freely from a value and rate at the first
+/// time.
 struct InputDrive {
   std::optional<math::MotionLaw> law;
   double value = 0, rate = 0;  ///< rad or m, per second; of a free input
@@ -54,7 +55,7 @@ using SimulationOutput = std::function<bool(const SimulationInstant&)>;
 /// Quantities whose changes of sign are found within the steps, however far apart the rows are (see
 /// math::OdeHooks). Of energies the instants have the work alone.
 struct SimulationWatch {
-  std::size_t count = 0;  ///< of the quantities
+  std::size_t count = 0;  ///< number of quantities
   std::function<void(const SimulationInstant&, std::span<double> values)> values = {};
   /// After every step, and where quantities change signs: `crossed` are their indices. false ends the
   /// simulation.
@@ -64,8 +65,8 @@ struct SimulationWatch {
 /// A change point that the linkage went through.
 struct ChangePassage {
   double time = 0;
-  double value = 0;         ///< of the input
-  std::vector<int> groups;  ///< whose modes meet there
+  double value = 0;         ///< value of the input
+  std::vector<int> groups;  ///< groups whose modes meet there
   double energy_lost = 0;   ///< J: in the kink of `keep_sign`
 };
 
@@ -83,9 +84,9 @@ struct SimulationReport {
   /// free it later; self_locking: friction jams it while it moves (see settle_friction); not_converged;
   /// cancelled, deadline. Rows so far are kept.
   Status status = Status::done;
-  Sentence message;          ///< why it is not `done`, in plain words; else empty
+  Sentence message;          ///< says in plain words why it is not `done`; else empty
   double time = 0;           ///< reached, s
-  int group = -1;            ///< of the plan, where a limit or start failed
+  int group = -1;            ///< index of the group in the plan where a limit or start failed
   double largest_drift = 0;  ///< J, over the rows
   double peak_energy = 0;    ///< J: largest kinetic energy, change of potential energy or work of a row
   std::vector<ChangePassage> passages;  ///< the first 1000

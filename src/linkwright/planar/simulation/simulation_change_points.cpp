@@ -8,7 +8,7 @@
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/simulation/detail/simulation_run.h"
 
-// What a simulation does at change points: passes them smoothly, or turns onto the other branch.
+// The behaviour of a simulation at change points: passes them smoothly, or turns onto the other branch.
 namespace linkwright::planar {
 namespace {
 

@@ -10,7 +10,7 @@
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/simulation/detail/simulation_run.h"
 
-// How a simulation ended, and the words for it.
+// The end of a simulation, and the words for it.
 namespace linkwright::planar {
 namespace {
 

@@ -110,7 +110,7 @@ bool Simulation::sticks(double t, int joint) {
 Simulation::Push Simulation::push_from_rest(double t) {
   const std::vector<InputMotion> here = inputs_;
   const bool resting = std::exchange(resting_, false);
-  Push most{-1, 0};  // where there is no answer it cannot move in this sense
+  Push most{-1, 0};  // without an answer it cannot move in this sense
   for (const double sense : {1.0, -1.0}) {
     inputs_ = here;
     free_input() = {free_input().value, sense * slowest(), 0};
@@ -194,7 +194,7 @@ const LinkageForces& Simulation::forces_at_rest(double t) {
   const double with_all = missing(1, sense);
   // At the moment at which friction gives way rounding may leave it too small by a digit.
   if (held_.status == Status::done && (with_all < 0) != (without < 0)) {
-    // Where friction locks it holds, too.
+    // Friction that locks holds, too.
     const auto left = [&](double part) {
       const double force = missing(part, sense);
       return held_.status == Status::done ? force : with_all;

@@ -51,7 +51,7 @@ int turns_of_cycle(const Linkage& l) {
   return 0;
 }
 
-// Whether the input rotates fully; else why not.
+// True if the input rotates fully; else says why not.
 template <class Answer>
 bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answer& out) {
   const LinkageMotion motion(plan);
@@ -73,7 +73,7 @@ bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answ
   return out.status == Status::done;
 }
 
-// Whether the loads repeat after whole turns, and after how many.
+// True if the loads repeat after whole turns; sets after how many.
 template <class Answer>
 bool has_cycle(const Linkage& l, Answer& out) {
   out.turns = turns_of_cycle(l);

@@ -15,15 +15,15 @@ struct SpeedFluctuationSetup {
   double start = 0;           ///< rad: input where the cycle begins
   double mean_speed = 1;      ///< rad/s, a turn over its time; not 0; negative: backwards
   double fluctuation = 0.02;  ///< wanted (largest - least) / mean speed, > 0
-  int samples = 720;          ///< of a turn, at least 16
+  int samples = 720;          ///< samples of a turn, at least 16
 };
 
 /// A driven cycle seen from the input: everything that moves as one inertia J that changes with the angle,
 /// and all loads as one torque Q on it; J a + J' speed^2 / 2 = Q + motor.
 struct SpeedFluctuation {
   Status status = Status::done;
-  Sentence message;             ///< why it is not `done`, in plain words
-  int turns = 1;                ///< of the cycle: after so many the loads repeat
+  Sentence message;             ///< says in plain words why it is not `done`
+  int turns = 1;                ///< turns of the cycle: after so many the loads repeat
   std::vector<double> input;    ///< rad, evenly from the start in the sense of turning, end excluded
   std::vector<double> inertia;  ///< kg m2: twice the kinetic energy over the squared speed
   std::vector<double> torque;   ///< N m: of weight, springs, loads and friction at the mean speed
@@ -52,13 +52,13 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
 struct SteadyCycle {
   Status status = Status::done;
   Sentence message;
-  int turns = 1;              ///< of the cycle
+  int turns = 1;              ///< turns of the cycle
   std::vector<double> input;  ///< rad, evenly from the start, the cycle with both ends
   std::vector<double> speed;  ///< rad/s
   double period = 0;          ///< s
   double mean_speed = 0;      ///< rad/s, a turn over its time
   double fluctuation = 0;     ///< (largest - least) / mean
-  int cycles = 0;             ///< that were integrated until it repeated itself
+  int cycles = 0;             ///< cycles that were integrated until it repeated itself
 };
 
 /// Finds the speed at the start that repeats itself after a turn, to a relative 1e-9, from the mean speed of

@@ -74,7 +74,7 @@ struct BalancingStudy {
   const BalancedMechanism* mechanism = nullptr;
   study::DesignedTables designed;
   std::vector<BalancingGoal> objectives;
-  std::vector<BalancingLimit> constraints;  ///< those that are enabled
+  std::vector<BalancingLimit> constraints;  ///< constraints that are enabled
   BalancingOptimiser optimiser;
 };
 
@@ -92,7 +92,7 @@ Value design_tables(const BalancingStudy& study, std::span<const double> x);
 /// mechanism.
 Table design_table(const BalancingStudy& study, std::span<const double> x,
                    std::span<const std::string> columns);
-/// Whether the rows of the initial design are those of a period with both its ends: means count one of them,
+/// True if the rows of the initial design are those of a period with both its ends: means count one of them,
 /// for all designs alike.
 bool closes(const BalancingStudy& study);
 /// The whole analysis of one design.

@@ -29,8 +29,9 @@ constexpr std::array<std::string_view, 5> table_keys = {"mechanism", "drive", "e
 // Every candidate is evaluated at all rows.
 constexpr std::size_t most_rows = 20000;
 
-// What keeps inertias physical: the radius of gyration of a link about its own joint, without what is
-// attached to it, is at most the distance of its material that is furthest away. Constant over the rows.
+// Adds the limit that keeps inertias physical: the radius of gyration of a link about its own joint, without
+// what is attached to it, is at most the distance of its material that is furthest away. Constant over the
+// rows.
 void add_gyration(Table& table, const std::string& link, double mass, double inertia,
                   std::complex<double> centre) {
   const double radius = mass > 0 ? std::sqrt(inertia / mass + std::norm(centre)) : 0;
@@ -109,7 +110,7 @@ void check_quantities(study::ObjectReader& document, std::string_view list,
   }
 }
 
-// Which row of the initial design has no answer, "" if all have.
+// The row of the initial design without an answer, "" if all have one.
 std::string first_bad_row(const Table& table) {
   for (std::size_t r = 0; r < table.status.size(); ++r)
     if (table.status[r] != "done")

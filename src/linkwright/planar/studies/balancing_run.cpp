@@ -326,7 +326,7 @@ class Report {
       front(fmt::format("front-{}", k),
             "Front: " + p_.task.objectives[k].quantity + " against " + p_.task.objectives[0].quantity,
             {ratio_key(k)});
-    // What was asked for, then the other loads; magnitudes and components.
+    // Loads that were asked for come first, then the others; magnitudes and components.
     std::vector<std::string> keys;
     for (const BalancingGoal& o : p_.task.objectives)
       if (std::find(keys.begin(), keys.end(), o.quantity) == keys.end()) keys.push_back(o.quantity);
@@ -393,7 +393,7 @@ class Report {
       result_.headline = say("No design meets every constraint; the nearest one has {}.", told);
     else
       result_.headline = say("Balanced: {}{}.", told, values.size() > 3 ? " and so on" : "");
-    // What it costs: the drive, and mass.
+    // The cost of balancing: the drive, and mass.
     for (const Column& c : balanced().columns) {
       const Column* before = initial().find(c.key);
       const bool drive = c.key.find("drive_torque") != std::string::npos ||
@@ -435,7 +435,7 @@ class Report {
     study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size(), false);
   }
 
-  // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
+  // The complete balance of a four-bar, in closed form: additions to the answer for a shaking force of its
   // weight alone.
   Sentence complete_balance() const {
     if (s_.mechanism->type != std::string_view("planar.four_bar")) return {};

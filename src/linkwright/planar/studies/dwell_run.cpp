@@ -47,7 +47,7 @@ class DwellMotion {
     const PartState<double> state = body_state(planned_.plan, motion_, resting_body);
     return std::atan2(state.direction.y, state.direction.x);
   }
-  // Of four-bar and dyad.
+  // Transmission angles of four-bar and dyad.
   std::vector<double> transmission() const {
     std::vector<double> out;
     for (std::size_t g = 0; g < planned_.plan.groups.size(); ++g)

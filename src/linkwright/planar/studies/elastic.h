@@ -59,7 +59,7 @@ void fields(Visitor&& visit, ElasticBodyForm& f) {
         f.beam.damping);
 }
 
-/// How the motion of an elastic linkage is integrated when the file leaves it open.
+/// The integration of an elastic linkage when the file leaves it open.
 struct SuggestedMethod {
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
   std::string why;
@@ -81,15 +81,15 @@ void describe_elastic(study::SchemaWriter& document);
 /// Values and rates of the inputs at a time: of laws there, of free ones where they start.
 std::vector<InputMotion> inputs_at(const std::vector<InputDrive>& drives, double time);
 
-/// What a body that turns on the ground, a slide on it or a traced point does beside the rigid linkage.
+/// The deviation of a body that turns on the ground, a slide on it or a traced point from the rigid linkage.
 struct OutputError {
   enum class Of { angle, displacement, path };
   std::string key, label;
   Of of = Of::angle;
-  int index = 0;               ///< of the body, joint or trace
+  int index = 0;               ///< index of the body, joint or trace
   std::vector<double> values;  ///< rad or m; of a path the distance. One a row, NaN where not known
 };
-/// What a bent body shows over the rows: of the worst section, and (deflections) of the beam.
+/// The values of a bent body over the rows: of the worst section, and (deflections) of the beam.
 struct BeamRows {
   std::vector<double> middle, largest, moment, normal, bending, stress, place;
 };
@@ -101,8 +101,8 @@ struct ElasticRecording {
   std::vector<OutputError> errors;
   std::vector<ElasticRecord> records;
   Table motion, rigid;      ///< `rigid` has columns of `motion`, by the same keys
-  Sentence rigid_message;   ///< why the rigid linkage ends early; else empty
-  double largest_rate = 0;  ///< of the inputs, rad/s or m/s
+  Sentence rigid_message;   ///< says why the rigid linkage ends early; else empty
+  double largest_rate = 0;  ///< largest rate of the inputs, rad/s or m/s
   SimulationReport report;
 };
 /// Tables, scene, plots, facts and headline.

@@ -112,7 +112,7 @@ SuggestedMethod suggested_method(const Linkage& l, const std::vector<ElasticPiec
   double damped = 0;
   const ElasticBody* most = nullptr;
   for (const ElasticPieces& p : bodies) {
-    // Of a spring and damper side by side, as a share of the critical damping.
+    // Damping of a spring and damper side by side, as a share of the critical damping.
     const double here = highest_frequency(p.beam, p.length) * p.beam.damping / 2;
     if (here > damped) damped = here, most = &p.beam;
   }

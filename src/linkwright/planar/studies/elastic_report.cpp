@@ -16,7 +16,8 @@
 namespace linkwright::planar {
 namespace {
 
-// Of the length of a beam: beyond it the straight theory of its bending is off by some per cent.
+// Share of the length of a beam: a larger deflection makes the straight theory of its bending wrong by some
+// per cent.
 constexpr double far_bent = 0.1;
 // Explicit steps of a fast vibration: at least so many a period.
 constexpr double steps_a_period = 2;
@@ -128,7 +129,7 @@ class ElasticReporter {
     plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
   }
 
-  // Of a column that a table may have; NaN when there is none.
+  // Largest size in a column that a table may have; NaN when there is none.
   static double largest(const Column* c) { return c ? std::abs(study::largest(c->values).value) : nan; }
   Sentence place_text(const ElasticPieces& p, double place) const {
     const auto& points = s_.linkage.bodies[at(p.beam.body)].points;

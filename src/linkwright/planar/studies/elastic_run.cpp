@@ -93,8 +93,8 @@ class ElasticRecorder {
 
   // ---- columns ------------------------------------------------------------------------------------------
 
-  // Those of the rigid linkage, each as the elastic one has it: traced points on the piece that they are on,
-  // flexible bodies as their lines.
+  // Chooses the columns of the rigid linkage, each as the elastic one has it: traced points on the piece that
+  // they are on, flexible bodies as their lines.
   void choose_columns() {
     std::vector<BodyPoint> moved;
     std::vector<std::pair<std::string, std::string>> renamed;

@@ -12,7 +12,7 @@
 namespace linkwright::planar {
 namespace {
 
-// Of the size of the linkage: as far as a deflection is drawn.
+// Drawn size of a deflection, as a share of the size of the linkage.
 constexpr double drawn_share = 0.05;
 
 Vec<double> across(const Vec<double>& away, const Vec<double>& line) {
@@ -50,7 +50,7 @@ class ElasticArtist {
               std::abs(dot(r.away[e][i], perpendicular(line(e, r.record.bodies[at(pieces_[e].beam.body)])))));
     return out;
   }
-  // Where a node or point is drawn in every record.
+  // Sets the drawn positions of a node or point in every record.
   void put(std::size_t e, std::size_t index, std::complex<double> unbent, study::Scene::Point& p) const {
     p.x.clear();
     p.y.clear();
@@ -90,7 +90,7 @@ class ElasticArtist {
     scene_.bodies.push_back(
         {body.name + ", unbent", {nodes.front(), nodes.back()}, study::Scene::BodyStyle::axis});
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) bar(nodes[i], nodes[i + 1]);
-    // What stands off the beam stands on the node nearest to it.
+    // A point off the beam is fixed to the node nearest to it.
     for (std::size_t i = 0; i < body.points.size(); ++i) {
       std::size_t nearest = 0;
       for (std::size_t k = 1; k < p.nodes.size(); ++k)

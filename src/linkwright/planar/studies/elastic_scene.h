@@ -13,9 +13,10 @@ namespace linkwright::planar {
 PartState<double> chord_state(const ElasticLinkage& elastic, const ElasticPieces& pieces,
                               const LinkageMotion& motion);
 
-/// What a drawing needs of one instant of an elastic linkage.
+/// The data of a drawing for one instant of an elastic linkage.
 struct ElasticRecord {
-  LinkageRecord record;  ///< of the bodies and joints of the rigid linkage; elastic bodies lie on their lines
+  /// Record of the bodies and joints of the rigid linkage; elastic bodies lie on their lines.
+  LinkageRecord record;
   /// One an elastic body: of its nodes, then its points, how far they are away from where they would lie
   /// unbent, global, m.
   std::vector<std::vector<Vec<double>>> away;

@@ -13,10 +13,10 @@
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/result.h"
 
-// What exact synthesis says of its answers, whatever the mechanism.
+// The findings of exact synthesis, for any mechanism.
 namespace linkwright::planar {
 
-/// How many solutions an exact synthesis has, and what they are like as mechanisms.
+/// The number of solutions of an exact synthesis, and their properties as mechanisms.
 struct ExactFindings {
   std::string_view mechanism = "four-bar";
   const char* what = "";  ///< the solutions, as "coupler curves through the nine points"
@@ -39,14 +39,14 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
 bool check_exact_targets(study::ObjectReader& target, const PathTargetForm& form, const PathTargets& targets,
                          std::string_view instead);
 
-/// How complete the set of a solver without certificates is.
+/// The completeness of the set of a solver without certificates.
 Completeness completeness_of(const ExactFindings& findings);
 
 /// "All 1442 coupler curves through the nine points, each certified; 64 of them are real."
 Sentence found_text(const ExactFindings& findings);
 
-/// How many of the mechanisms pass the points in one motion; `whose`: "their" or "these", `best`: what the
-/// first one is called.
+/// Says how many of the mechanisms pass the points in one motion; `whose`: "their" or "these", `best`: what
+/// the first one is called.
 Sentence answer_text(const ExactFindings& findings, const char* whose, const Sentence& best);
 
 /// Status of a result and the outcome in a word.
@@ -64,8 +64,8 @@ void add_path_counts(Table& counts, const ExactFindings& findings);
 void add_design_facts(const study::AddFact& fact, const ExactFindings& findings);
 void add_path_facts(const study::AddFact& fact, const ExactFindings& findings);
 
-/// Where points in another order would make answers: the order that most mechanisms pass them in; each has
-/// its own, from 0, or none.
+/// Offers another order of the points if it would make answers: the order that most mechanisms pass them in;
+/// each has its own, from 0, or none.
 void offer_order(const study::AddWarning& warn, const ExactFindings& findings,
                  const std::vector<std::vector<int>>& orders);
 

@@ -14,7 +14,7 @@
 namespace linkwright::planar {
 namespace {
 
-// Which of the sixteen numbers a designed one is.
+// The number among the sixteen that a designed one is.
 std::optional<FourBarNumber> number_at(const std::vector<study::DesignedStep>& steps) {
   using N = FourBarNumber;
   if (steps.size() < 3 || steps[0].key != "mechanism") return std::nullopt;

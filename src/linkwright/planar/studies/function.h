@@ -47,7 +47,7 @@ struct FunctionTarget {
   std::optional<int> points;
   std::optional<std::vector<double>> at;
 };
-/// Of a four-bar the output range is an angle, of a slider-crank a length.
+/// The output range of a four-bar is an angle, that of a slider-crank a length.
 template <class Visitor>
 void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
   visit(Field{.key = "function", .summary = "what is to be generated; or a table"}, t.function);
@@ -146,7 +146,7 @@ void fields(Visitor&& visit, SliderMechanism& m) {
       m.input_start);
 }
 
-/// What a six-bar is made of.
+/// The structure of a six-bar.
 enum class SixBarStructure { watt_2, stephenson_3 };
 constexpr std::array<EnumName<SixBarStructure>, 2> names(SixBarStructure) {
   return {{{SixBarStructure::watt_2, "watt_2", "two four-bars in a row"},
@@ -184,11 +184,11 @@ void fields(Visitor&& visit, SixBarMechanism& m) {
 }
 
 struct FunctionStudy {
-  RockerMechanism mechanism;  ///< of a slider-crank the ground is 1 m
+  RockerMechanism mechanism;  ///< mechanism; the ground of a slider-crank is 1 m
   FunctionTarget target;
   double x_from = 0, x_to = 1;
-  FunctionProblem problem;  ///< what follows from the above
-  std::string name;         ///< of the function, for people
+  FunctionProblem problem;  ///< problem that follows from the above
+  std::string name;         ///< name of the function, for people
   double transmission = 0;  ///< rad, that six-bars are to have
   SixBarStructure structure = SixBarStructure::watt_2;
 };
@@ -196,7 +196,7 @@ struct FunctionStudy {
 /// "synthesis" of "planar.four_bar" and "planar.slider_crank" for "function".
 study::Kind rocker_function_kind();
 study::Kind slider_function_kind();
-/// That of "planar.six_bar".
+/// The kind for "planar.six_bar".
 study::Kind six_bar_function_kind();
 
 /// Tells the greatest error; one of more than a tenth of what the output moves is

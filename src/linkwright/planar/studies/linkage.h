@@ -23,7 +23,7 @@
 // and reported. `planar.four_bar` and `planar.slider_crank` are shorthands: linkages by a few parameters.
 namespace linkwright::planar {
 
-/// How a driven joint moves: over a grid its rate and acceleration, over time its law.
+/// The motion of a driven joint: over a grid its rate and acceleration, over time its law.
 struct LinkageDrive {
   std::string joint;
   double rate = 0, acceleration = 0;
@@ -38,14 +38,14 @@ struct InputSamples {
 /// The rows of a table: all combinations of inputs, the first input slowest; or times.
 struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
-  /// Of one input: that its ends are those of the range in which the linkage assembles.
+  /// Range of a single input, if its ends are those between which the linkage assembles.
   std::optional<InputRange> assembled;
 };
 
-/// Which rows of a grid over one input count.
+/// The rows of a grid over one input that count.
 enum class CircuitRows {
-  reached,  ///< those on the circuit of the drawing, or of the first row that assembles
-  all       ///< those of all circuits in the assembly modes of the study
+  reached,  ///< rows on the circuit of the drawing, or of the first row that assembles
+  all       ///< rows of all circuits in the assembly modes of the study
 };
 constexpr std::array<EnumName<CircuitRows>, 2> names(CircuitRows) {
   return {{{CircuitRows::reached, "reached",
@@ -69,13 +69,13 @@ struct LinkageStudy {
   LinkagePlan plan;
   std::vector<LinkageDrive> drives;  ///< one an input
   std::variant<InputGrid, study::TimeSamples> sweep;
-  AtChangePoint at_change_point = AtChangePoint::smooth;  ///< of a grid over one input
+  AtChangePoint at_change_point = AtChangePoint::smooth;  ///< for a grid over one input
   CircuitRows circuits = CircuitRows::reached;            ///< likewise
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
   LinkageQuantities quantities;
-  std::optional<FourBarMechanism> four_bar;  ///< that it was written as
-  study::DisplayUnits units;                 ///< of its messages
+  std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
+  study::DisplayUnits units;                 ///< units of its messages
 };
 
 /// "analysis" of "planar.linkage" and of its shorthands.
@@ -84,7 +84,7 @@ study::Kind four_bar_kind();
 study::Kind slider_crank_kind();
 
 enum class LinkageType { linkage, four_bar, slider_crank };
-/// What becomes of a study that lists no quantities, of a linkage of which no mass is known: forces may be
+/// The treatment of a study that lists no quantities, for a linkage without any known mass: forces may be
 /// what it is for, or one of many things that could be shown.
 enum class WithoutMasses { refused, motion_alone };
 /// Reads the tables of the study and writes them into the canonical one unless that is null; nothing when
@@ -93,10 +93,10 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
                                                LinkageType type, Value* canonical,
                                                WithoutMasses without_masses = WithoutMasses::refused);
 
-/// What the rows are placed at: combinations of a grid with time 0, or times.
+/// The rows to be solved: combinations of a grid with time 0, or times.
 struct LinkageRows {
   std::vector<double> time;
-  std::vector<std::vector<InputMotion>> inputs;  ///< of each row, one an input
+  std::vector<std::vector<InputMotion>> inputs;  ///< inputs of each row
 };
 LinkageRows rows_of(const LinkageStudy& study);
 
@@ -135,7 +135,7 @@ struct LinkageDescription {
   LinkagePlan plan;
   std::vector<BodyPoint> traces;
   Value shorthand;                           ///< `[mechanism]` as it is written; null of planar.linkage
-  std::optional<FourBarMechanism> four_bar;  ///< that it was written as
+  std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
   std::string sample;                        ///< its name when the mechanism is a canned one
   std::vector<double> sample_from;           ///< and the inputs where its motion begins
 };
@@ -146,7 +146,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
                                                bool lists_quantities = false);
 /// Adds to the facts the inertias and mass centres that the study leaves out, as they were taken.
 void tell_assumed_masses(const Linkage& linkage, study::Result& result);
-/// Whether every body has its mass; says which do not.
+/// True if every body has its mass; says which do not.
 bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan,
                     bool lists_quantities = false);
 /// The tables of `read_linkage` as a canonical study holds them.

@@ -18,8 +18,8 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
-// What all studies of linkages read alike: the mechanism, what acts from outside, traced points, driven
-// joints.
+// The part that all studies of linkages read alike: the mechanism, what acts from outside, traced points,
+// driven joints.
 namespace linkwright::planar {
 namespace {
 
@@ -104,7 +104,7 @@ std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   return std::nullopt;
 }
 
-/// What else names one of two is not to be read.
+/// The other keys that name one of two are not to be read.
 template <class Form>
 void require_own_names(study::ObjectReader& mechanism, std::string_view list,
                        const std::vector<Form>& forms) {
@@ -138,7 +138,7 @@ bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const
   return false;
 }
 
-/// Whether the points are those of a drawing though nothing says so: every pin has one place, some of them
+/// True if the points are those of a drawing though nothing says so: every pin has one place, some of them
 /// away from the origin, and neither starts nor assembly modes are given.
 bool looks_drawn(const LinkageForm& form) {
   if (form.drawn || !form.assembly.empty() || form.joints.size() < 3) return false;

@@ -102,8 +102,8 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
   }
 }
 
-// What a linkage is asked for of which nothing but lengths is known, by a study that lists no quantities: how
-// it moves. Half of the masses are a mistake, and so are loads or springs without any.
+// Leaves out the forces of a linkage of which only lengths are known, in a study that lists no quantities: it
+// asks for the motion. Half of the masses are a mistake, and so are loads or springs without any.
 bool leave_out_forces(study::ObjectReader& document, LinkageType type, const LinkageDescription& described,
                       LinkageQuantities& quantities) {
   const Linkage& l = described.linkage;
@@ -224,7 +224,7 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
   s.sweep = std::move(grid);
 }
 
-// What only dyads tell, of a linkage with groups that have no closed form.
+// Reports the quantities that only dyads have, for a linkage with groups that have no closed form.
 void say_what_is_not_known(study::ObjectReader& document, const LinkagePlan& plan,
                            const std::vector<std::string>& listed, const LinkageQuality& quality) {
   std::string groups;

@@ -5,7 +5,7 @@
 #include "linkwright/planar/linkage/open_pose.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 
-// What a scene needs of a position.
+// The data of a position for a scene.
 namespace linkwright::planar {
 
 LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,

@@ -161,7 +161,8 @@ bool RowSolver::at_change() const {
          std::any_of(branch->change_points.begin(), branch->change_points.end(), here);
 }
 
-// Of the moving parts: the ground stands still, and nothing else would set its rates for the next row.
+// Sets the rates of the moving parts to unknown; the ground is fixed, and nothing else would set its rates
+// for the next row.
 void RowSolver::forget_rates() {
   for (PartState<double>& s : std::span(motion.parts).subspan(1))
     s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;

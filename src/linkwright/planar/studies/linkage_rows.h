@@ -12,7 +12,7 @@
 // The rows of a linkage study, the columns of its table, and how both are filled.
 namespace linkwright::planar {
 
-/// Whether the linkage is driven over time, not over a grid of inputs.
+/// True if the linkage is driven over time, not over a grid of inputs.
 bool over_time(const LinkageStudy& s);
 
 /// Columns of the table: time or not, inputs, quantities.
@@ -30,7 +30,7 @@ class RowSolver {
   LinkageMotion motion;
   LinkageForces forces;
   LinkageInstant now;
-  bool passed = false;  ///< whether the row stands at a change point that the branch passes or ends at
+  bool passed = false;  ///< true if the row is at a change point that the branch passes or ends at
   std::optional<InputLimits> limits;  ///< ranges of the one input
   std::optional<BranchPath> branch;
 
@@ -43,7 +43,7 @@ class RowSolver {
   const LinkageStudy& s_;
   const LinkageRows& rows_;
   LinkageAssembly assembly_;
-  std::optional<InputLimits> circuits_;  ///< where rows may be on another circuit than `circuit_`
+  std::optional<InputLimits> circuits_;  ///< limits, if rows may be on another circuit than `circuit_`
   int circuit_ = 0;
 };
 

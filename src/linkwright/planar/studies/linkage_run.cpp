@@ -29,7 +29,7 @@ namespace {
 
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
-constexpr double work_rounding = 1e-12;  // of the absolute work
+constexpr double work_rounding = 1e-12;  // share of the absolute work
 
 // Rows without an answer, by why they have none and by the group that stops there.
 class Failures {
@@ -321,7 +321,7 @@ class Runner {
            say("within {} of the largest power", plain_number(std::abs(balance_.value / power_.value), 2)));
   }
 
-  // Of one drive over whole turns of its joint: mean square of the torque, and its work, which is 0 at
+  // Facts of one drive over whole turns of its joint: mean square of the torque, and its work, which is 0 at
   // constant speed without friction and losses.
   void facts_of_turn(const study::AddFact& fact) const {
     if (!s_.quantities.drive || over_time() || s_.plan.inputs() != 1 || !s_.plan.rotary[0]) return;
@@ -394,11 +394,11 @@ class Runner {
                s_.plan.groups[weakest_].name, degrees_of(transmission_.value).fixed(2),
                where(transmission_.row)));
   }
-  // Where the linkage assembles: exactly for one input in closed form, else nothing.
+  // The ranges in which the linkage assembles: exactly for one input in closed form, else nothing.
   Sentence assembled_ranges() const {
     return limits_ ? "it " + assembly_range_text(*limits_, modes_) + ends_of_ranges() : Sentence();
   }
-  // Which group stops the motion at which end; of several that could.
+  // Says which group stops the motion at which end, if several could.
   Sentence ends_of_ranges() const {
     const auto loops = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
                                      [](const Group& g) { return traits_of(g).closes_loop; });
@@ -417,7 +417,7 @@ class Runner {
     }
     return out;
   }
-  // Whether the rows come to that input, of an angle in any of its turns.
+  // True if the rows reach that input, of an angle in any of its turns.
   bool passes(double value) const {
     const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
     const double low = std::min(axis.from, axis.to) - 1e-6, high = std::max(axis.from, axis.to) + 1e-6;
@@ -455,7 +455,7 @@ class Runner {
     }
   }
 
-  // Of a sweep over the range in which the linkage assembles; empty for others.
+  // The range of a sweep over all inputs for which the linkage assembles; empty for others.
   Sentence range_in_words() const {
     const InputGrid* grid = std::get_if<InputGrid>(&s_.sweep);
     if (!grid || !grid->assembled) return {};

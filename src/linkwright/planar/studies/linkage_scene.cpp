@@ -186,7 +186,7 @@ class Artist {
   int point_named(int body, std::string_view name) const {
     return body < 0 ? -1 : point_index(l_.bodies[at(body)], name);
   }
-  /// Whether a drive turns a body against the ground.
+  /// True if a drive turns a body against the ground.
   bool driven(int body) const {
     return std::any_of(l_.driven.begin(), l_.driven.end(), [&](int k) {
       const LinkageJoint& j = l_.joints[at(k)];
@@ -194,7 +194,8 @@ class Artist {
     });
   }
 
-  // Of four-bars and slider-cranks by their parameters: by the names that their bodies and points have.
+  // Handles of four-bars and slider-cranks by their parameters: by the names that their bodies and points
+  // have.
   void parameter_handles() {
     using Measure = study::Scene::Handle::Measure;
     struct Parameter {
@@ -246,7 +247,7 @@ class Artist {
     scene_.frames.push_back(std::move(frame));
     return static_cast<int>(scene_.frames.size()) - 1;
   }
-  /// That of the guide of a slider-crank, in which the offset is measured; -1 = there is none.
+  /// Index of the frame of a slider-crank's guide, in which the offset is measured; -1 = there is none.
   int guide_frame() {
     const int pivot = point_named(0, "O"), joint = joint_index(l_, "guide");
     if (pivot < 0 || joint < 0) return -1;
@@ -280,7 +281,7 @@ class Artist {
     parameter_handles();
   }
 
-  // What does not close, a line for each group that fails somewhere.
+  // Draws the gaps of loops that do not close, a line for each group that fails somewhere.
   void gaps() {
     std::vector<int> open;
     for (const LinkageRecord& r : records_)

@@ -12,17 +12,18 @@
 
 namespace linkwright::planar {
 
-/// What a drawing needs of one instant.
+/// The data of a drawing for one instant.
 struct LinkageRecord {
   Status status = Status::done;
   double input = 0;
   /// One a body; empty when not assembled and nothing is known. NaN for bodies without a place.
   std::vector<PartState<double>> bodies;
-  std::array<Vec<double>, 2> gap{{{nan, nan}, {nan, nan}}};  ///< what does not close (lay_open)
+  std::array<Vec<double>, 2> gap{{{nan, nan}, {nan, nan}}};  ///< gap of a loop that does not close (lay_open)
   int open_group = -1;                                       ///< the group that does not
   std::vector<JointReaction> joints;                         ///< empty without forces
   std::vector<double> drives;
-  std::vector<AppliedLoad> loads;   ///< of Linkage::forces and then of Linkage::torques; empty without forces
+  /// Loads of Linkage::forces and then of Linkage::torques; empty without forces.
+  std::vector<AppliedLoad> loads;
   Vec<double> shaking_force{0, 0};  ///< only with forces
 };
 /// `forces` may be null.

@@ -30,8 +30,9 @@ struct MassHolder {
   bool attached = false;
   bool polar = true;
   std::string name;
-  std::array<double, 6> numbers{};                       // by Part, SI
-  std::array<std::optional<std::size_t>, 6> designed{};  // which number of the study it is
+  std::array<double, 6> numbers{};  // by Part, SI
+  // The study's design variable for each of the six numbers.
+  std::array<std::optional<std::size_t>, 6> designed{};
 
   std::complex<double> place() const {
     return polar ? std::polar(1.0, numbers[3]) * numbers[2] : std::complex<double>(numbers[4], numbers[5]);
@@ -44,8 +45,8 @@ struct MassHolder {
 
 namespace {
 
-// Where the numbers of masses stand: [owner] under "mass" by name, under "body" or "link" by number; own
-// numbers, then attached masses by number.
+// The place of a mass's number: [owner] under "mass" by name, under "body" or "link" by number; own numbers,
+// then attached masses by number.
 struct Found {
   std::string owner_key;
   std::size_t owner_number = 0;
@@ -163,7 +164,7 @@ class Maker {
     h.numbers[3] = m.angle;
     return h;
   }
-  // Which numbers of the study belong to an owner, by name or by number.
+  // Finds the numbers of the study that belong to an owner, by name or by number.
   template <class Owns>
   void bind(MassHolder& h, std::optional<std::size_t> attached, Owns&& owns) {
     for (std::size_t j = 0; j < found_.size(); ++j)

@@ -7,11 +7,11 @@
 #include "linkwright/planar/dyads/designs.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 
-// What a linkage that leads a body through poses is called, and where it is shown.
+// Name and drawing of a linkage that leads a body through poses.
 namespace linkwright::planar {
 
 bool defective(const PoseDesign& design);
-/// Whether its drive turns; else it slides.
+/// True if its drive turns; else it slides.
 bool rotary(const PoseDesign& design);
 
 /// "RR+PR", the driven dyad first.

@@ -118,7 +118,7 @@ void fields(Visitor&& visit, PoseMechanism& m) {
         m.crank_rotates_fully);
 }
 
-/// How the poses are met.
+/// The way in which the poses are met.
 enum class PoseFitting { automatic, exact, least_squares };
 constexpr std::array<EnumName<PoseFitting>, 3> names(PoseFitting) {
   return {
@@ -168,9 +168,9 @@ struct PoseStudy {
   PoseMechanism mechanism;
   PoseTarget target;
   PoseSearch search;
-  PoseProblem problem;  ///< what follows from the above
+  PoseProblem problem;  ///< problem that follows from the above
   bool mixed = false;   ///< points among the poses, weights, or poses that are marked exact
-  std::vector<MixedPoseLinkage> exact_linkages;  ///< that meet them exactly, where they are mixed
+  std::vector<MixedPoseLinkage> exact_linkages;  ///< linkages that meet them exactly, where they are mixed
 };
 
 /// "synthesis" of "planar.four_bar" for "poses".

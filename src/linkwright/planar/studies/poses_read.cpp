@@ -58,7 +58,7 @@ std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Co
   return out;
 }
 
-// Whether two poses are one; a point is the same as what is at its place.
+// True if two poses are equal; a point is the same as what is at its place.
 bool same(const PoseProblem& p, std::size_t a, std::size_t b, double size) {
   const BodyPose &one = p.poses[a], &other = p.poses[b];
   const bool angles = p.demands.empty() || (p.demands[a].angle && p.demands[b].angle);
@@ -87,7 +87,7 @@ void guess_rotations(PoseProblem& p) {
   }
 }
 
-// What is asked of each pose, where that is not the same of all.
+// Sets the demands on each pose, where they differ.
 void set_demands(study::ObjectReader& target, PoseStudy& s) {
   const std::vector<PoseForm>& forms = s.target.poses;
   s.mixed = std::any_of(forms.begin(), forms.end(),
@@ -117,7 +117,7 @@ void set_demands(study::ObjectReader& target, PoseStudy& s) {
   guess_rotations(s.problem);
 }
 
-// What is wrong with poses by themselves; they are reported at `key`.
+// Checks poses by themselves; they are reported at `key`.
 void check_poses(study::ObjectReader& target, const char* key, PoseProblem& p) {
   std::vector<BodyPose>& poses = p.poses;
   const std::size_t n = poses.size();
@@ -215,7 +215,7 @@ bool allows(const PoseStudy& s, GuidingDyadType type) {
   return std::find(s.mechanism.dyads.begin(), s.mechanism.dyads.end(), type) != s.mechanism.dyads.end();
 }
 
-// What stands beside an RR dyad.
+// The dyad beside an RR dyad.
 GuidingDyadType other_dyad(MixedPoseLinkage linkage) {
   switch (linkage) {
     case MixedPoseLinkage::slider_crank:
@@ -227,7 +227,7 @@ GuidingDyadType other_dyad(MixedPoseLinkage linkage) {
   }
 }
 
-// Whether poses and points together leave nothing to choose of a four-bar or of a slider-crank.
+// Checks that poses and points together determine a four-bar or of a slider-crank.
 void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
   const std::vector<PoseDemand>& demands = s.problem.demands;
   if (std::any_of(demands.begin(), demands.end(),
@@ -263,7 +263,7 @@ void check_mixed_counts(study::ObjectReader& target, PoseStudy& s, int given) {
                  hint);
 }
 
-// Whether poses and pivots leave a number of linkages that can be listed.
+// Checks that poses and pivots leave a number of linkages that can be listed.
 void check_counts(study::ObjectReader& target, PoseStudy& s) {
   const std::size_t n = s.problem.poses.size();
   const int given = poses_replaced(s.problem.pivots[0]) + poses_replaced(s.problem.pivots[1]);

@@ -43,7 +43,7 @@ class PoseReport {
     result_.status = answer_.status != Status::done ? answer_.status
                      : answer_.free > 0             ? Status::done
                                                     : Status::infeasible;
-    // Where some pass the poses, the others are only counted.
+    // If some pass the poses, the others are only counted.
     for (const PoseDesign& design : answer_.designs)
       if (answer_.free == 0 || !defective(design)) shown_.push_back(&design);
     for (std::size_t i = 0; i < shown_.size(); ++i) solution(*shown_[i], i + 1);
@@ -239,7 +239,7 @@ class PoseReport {
     scene.handles.push_back({.key = pose + "y_m", .measure = Measure::y, .target = 0, .index = index});
   }
 
-  // What is drawn of the body beside its origin turns a pose.
+  // The drawn points of the body other than its origin turn a pose.
   static void rotation_handles(study::Scene& scene, const study::Scene::Body& ghost, std::size_t k) {
     const int origin = ghost.points.back();
     for (const int point : ghost.points)
@@ -373,7 +373,7 @@ class PoseReport {
     result_.tables.push_back(std::move(table));
   }
 
-  // Where the pivots of links through four poses can be.
+  // Draws the curves on which the pivots of links through four poses can lie.
   void curves() {
     if (!p_.exact || p_.poses.size() != 4 || !p_.demands.empty()) return;
     const std::vector<BurmesterPoint> points = burmester_curves(p_.poses, curve_samples);

@@ -106,7 +106,7 @@ void fields(Visitor&& visit, TimeSweep& s) {
   visit(Field{.key = "time", .summary = "times of the rows", .required = true}, s.time);
 }
 
-/// What the table holds.
+/// The columns of the table.
 struct ArmQuantities {
   bool position = true, rates = true, reactions = true, torques = true, power = true, energy = true;
 };

@@ -34,10 +34,10 @@ struct LinkageSimulationStudy {
   std::vector<BodyPoint> traces;
   LinkageQuantities quantities;
   std::vector<ElasticBody> elastic;        ///< flexible bodies; empty = none
-  std::string method_reason;               ///< why the method was taken; empty: the file names it
+  std::string method_reason;               ///< says why the method was taken; empty: the file names it
   double settle = 0;                       ///< s: elastic bodies move so long before `from`, without rows
-  std::optional<double> deflection_scale;  ///< of drawings; absent: chosen
-  int scene_samples = 361;                 ///< of drawings of elastic bodies, at most about
+  std::optional<double> deflection_scale;  ///< scale of deflections in drawings; absent: chosen
+  int scene_samples = 361;  ///< largest number of samples in drawings of elastic bodies, approximately
 };
 
 /// "simulation" of "planar.linkage" and of its shorthands.

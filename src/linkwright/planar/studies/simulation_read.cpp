@@ -73,9 +73,9 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
 
 namespace {
 
-// Of steps with flexible bodies, rtol and atol: pieces turn against each other by differences of large
-// angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without being
-// better.
+// Tolerance of steps with flexible bodies, rtol and atol: pieces turn against each other by differences of
+// large angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without
+// being better.
 constexpr double elastic_tolerance = 1e-7;
 constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
 
@@ -123,7 +123,7 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
     drives[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
-    if (!told[i]) write_start(i);  // of samples and shorthands: free
+    if (!told[i]) write_start(i);  // samples and shorthands start free
   return drives;
 }
 
@@ -234,8 +234,8 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
   if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
-    // Of a linkage with flexible bodies there are the rows of the rigid one, too, some of each beam, and the
-    // places of its nodes, which are drawn.
+    // A linkage with flexible bodies also has the rows of the rigid one, some of each beam, and the places of
+    // its nodes, which are drawn.
     constexpr double of_motion = 10, of_beam = 10;
     const auto columns = static_cast<double>(
         linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());

@@ -18,13 +18,13 @@ constexpr std::array<EnumName<Rotation>, 2> names(Rotation) {
   return {{{Rotation::counterclockwise, "counterclockwise"}, {Rotation::clockwise, "clockwise"}}};
 }
 
-/// Which way the rocker turns during the slow stroke.
+/// The sense in which the rocker turns during the slow stroke.
 enum class SlowSwing { with_crank, against_crank };
 constexpr std::array<EnumName<SlowSwing>, 2> names(SlowSwing) {
   return {{{SlowSwing::with_crank, "with_crank", "the rocker turns as the crank does"},
            {SlowSwing::against_crank, "against_crank", "it turns the other way"}}};
 }
-/// Which way the slider moves during the slow stroke.
+/// The direction in which the slider moves during the slow stroke.
 enum class SlowStroke { outward, inward };
 constexpr std::array<EnumName<SlowStroke>, 2> names(SlowStroke) {
   return {{{SlowStroke::outward, "outward", "away from the crank"},
@@ -132,14 +132,14 @@ struct GivenLength {
   StrokeLength which = StrokeLength::ground;
   double length = 0;  ///< m
 };
-/// What is asked: of a crank-rocker one or both senses of the slow stroke, of a slider-crank one.
+/// The question: for a crank-rocker one or both senses of the slow stroke, for a slider-crank one.
 struct SwingStudy {
   bool slider = false;
   double swing = 0;                  ///< rad; 0 of a slider
   double imbalance = 0;              ///< rad, >= 0
-  std::vector<Strokes> senses;       ///< those that are possible
+  std::vector<Strokes> senses;       ///< senses that are possible
   std::array<GivenLength, 2> given;  ///< the scale, and what settles the linkage
-  bool settled = false;              ///< whether the second one is given
+  bool settled = false;              ///< true if the second one is given
   double largest_ratio = 10;
   Branch branch = Branch::open;
   Rotation rotation = Rotation::counterclockwise;

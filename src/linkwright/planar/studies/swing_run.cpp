@@ -211,7 +211,7 @@ class SwingReport {
     result_.scenes.push_back(std::move(scene));
   }
 
-  // What another length of the crank would give: all linkages of the strokes.
+  // Lists all linkages of the strokes, for other lengths of the crank.
   void choice_table() {
     Table table;
     table.name = "choice";
@@ -251,7 +251,7 @@ class SwingReport {
          {"least_transmission_angle_rad"});
   }
 
-  // What other time ratios would give with this swing.
+  // Lists other time ratios with this swing.
   void ratio_table() {
     Table table;
     table.name = "time_ratios";

@@ -12,7 +12,7 @@ using DoubleDoubleComplex = math::Complex<math::DoubleDouble>;
 /// The data of nine points, exact as a rule: differences of doubles.
 using ExactNinePoints = std::array<DoubleDoubleComplex, NinePoints::data>;
 
-/// Where exactly one solution lies: within `radius[i]` of each unknown.
+/// A ball that holds exactly one solution: within `radius[i]` of each unknown.
 struct SolutionBall {
   std::array<double, four_bar_unknowns> radius{};
 };

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 
-// How a crank turns from point to point.
+// Rotation of a crank from point to point.
 namespace linkwright::planar {
 
 /// The way from one crank angle to another in a sense, in [0, 2 pi).
@@ -17,7 +17,7 @@ inline double forward_step(double sense, double from, double to) {
   return step - 2 * pi * std::floor(step / (2 * pi));
 }
 
-/// What a crank turns in all that goes through angles in their order.
+/// The total rotation of a crank that passes angles in their order.
 inline double turned_in_all(const std::vector<double>& angles, double sense) {
   double sum = 0;
   for (std::size_t k = 1; k < angles.size(); ++k) sum += forward_step(sense, angles[k - 1], angles[k]);

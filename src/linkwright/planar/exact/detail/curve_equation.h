@@ -22,9 +22,9 @@ enum SliderCrankUnknown {
   slider_crank_unknowns
 };
 
-/// Whether a body that two dyads lead can be at a point: 0 where it can. It turns by e^(i gamma) with
-/// g = e^(i gamma) - 1, G its conjugate; each dyad says p g + q G = r, both together give g = gt / delta,
-/// G = ht / delta, and g + G + g G = 0 the equation
+/// The condition that a body on two dyads can be at a point: 0 where it can. It turns by e^(i gamma) with g =
+/// e^(i gamma) - 1, G its conjugate; each dyad says p g + q G = r, both together give g = gt / delta, G = ht
+/// / delta, and g + G + g G = 0 the equation
 ///     gt ht + delta (gt + ht) = 0
 /// (own elimination after Wampler, Morgan and Sommese 1992). Any complex scalar C.
 template <class C>

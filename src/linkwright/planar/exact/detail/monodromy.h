@@ -14,11 +14,11 @@ template <class System>
 struct StartSet {
   SystemData<System> base{};
   std::vector<SystemPoint<System>> points;
-  int loops = 0, followed = 0, lost = 0;  ///< what it took to find them
+  int loops = 0, followed = 0, lost = 0;  ///< number of loops, and of paths followed and lost, to find them
   Status status = Status::done;           ///< not_converged: fewer than expected; or interrupted
 };
 
-/// Whether two identities are those of one solution.
+/// True if two identities are those of one solution.
 bool same_identity(const ComplexNumber& a, const ComplexNumber& b);
 
 /// Identities that were met, found again by their neighbours on a line.

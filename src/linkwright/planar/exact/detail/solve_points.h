@@ -18,7 +18,7 @@ namespace linkwright::planar {
 /// Throws ContractError unless all points are finite and different.
 void require_different(std::span<const std::complex<double>> points);
 
-/// What becomes of all paths from a start set to real data.
+/// The ends of all paths from a start set to real data.
 template <class System>
 struct PointSolutions {
   Status status = Status::done;  ///< not_converged: paths were lost; or interrupted
@@ -29,7 +29,7 @@ struct PointSolutions {
 
 namespace solve_points_detail {
 
-inline constexpr double arrived_accuracy = 1e-9;  // of the last step of Newton's method
+inline constexpr double arrived_accuracy = 1e-9;  // size of the last step of Newton's method
 
 // The data are real: what stands for conjugates becomes the places, and the places become the conjugates.
 template <class System>
@@ -41,8 +41,8 @@ SystemPoint<System> conjugate_solution(const SystemPoint<System>& z) {
   return out;
 }
 
-// Whether a solution stands alone, so that small changes of the equations move it little: a family of them,
-// or a place where some meet, does not. `z` has a size near 1.
+// True if a solution is isolated, so that small changes of the equations move it little: a family of them, or
+// a place where some meet, does not. `z` has a size near 1.
 template <class System>
 bool stands_alone(const System& system, const SystemData<System>& p, const SystemPoint<System>& z) {
   constexpr double most_moved = 1e13;
@@ -75,11 +75,11 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
   const Scaling scaling = scale_towards<System>(starts.base, scaled), back = inverse(scaling);
   const std::size_t all = starts.points.size();
   Identities met;
-  std::vector<SystemPoint<System>> found;         // of the scaled data
+  std::vector<SystemPoint<System>> found;         // solutions of the scaled data
   std::vector<std::optional<std::size_t>> owner;  // the path that came to it
   std::vector<std::size_t> open(all);
   for (std::size_t i = 0; i < all; ++i) open[i] = i;
-  // Of two paths that come to one solution, one has left its way.
+  // One of two paths that come to the same solution has jumped.
   const auto take = [&](const SystemPoint<System>& z, std::optional<std::size_t> path,
                         std::vector<std::size_t>& again) {
     const ComplexNumber identity = System::identity(z);
@@ -166,7 +166,7 @@ PointSolutions<System> solve_points(const StartSet<System>& starts, const System
   return out;
 }
 
-/// Whether a solution is real, so that its partners are its conjugates; `size` (m) is that of the points.
+/// True if a solution is real, so that its partners are its conjugates; `size` (m) is that of the points.
 template <class System>
 bool is_real_solution(const SystemPoint<System>& z, double size) {
   constexpr double real_tolerance = 1e-8;

@@ -63,7 +63,8 @@ LINKWRIGHT_KERNEL FourBarDirections<T> four_bar_directions(const FourBarShape<T>
           (dx * across + dy * along) * to_rocker};
 }
 
-/// How fast the links turn (rad/s, rad/s2), 1 crank, 2 coupler, 3 rocker, and the acceleration of A.
+/// The angular velocities and accelerations of the links (rad/s, rad/s2), 1 crank, 2 coupler, 3 rocker, and
+/// the acceleration of A.
 template <class T>
 struct FourBarTurning {
   T w1, w2, w3, a1, a2, a3;
@@ -107,7 +108,7 @@ struct FourBarBases {
   LinkBase<T> crank, coupler, rocker;
 };
 
-/// As FourBarReactions.
+/// The forces in the order of FourBarReactions.
 template <class T>
 struct FourBarForces {
   T ground_on_crank_x, ground_on_crank_y, crank_on_coupler_x, crank_on_coupler_y;

@@ -8,7 +8,7 @@
 
 namespace linkwright::planar {
 
-/// What stays the same over the angles, for the machines of a register or for one in all its lanes.
+/// The data that stay the same over the angles, for the machines of a register or for one in all its lanes.
 template <class Batch>
 struct FourBarSweepMachine {
   Batch fx, fy;

@@ -11,11 +11,12 @@ struct PlaceError {
   double error = 0, sine = 1;
 };
 
-/// What a function generator does over the range.
+/// The errors of a function generator over the range.
 struct RangeErrors {
-  bool assembles = true;                     ///< everywhere
-  double greatest_error = 0, rms_error = 0;  ///< where it assembles (rad or m); rms infinity if nowhere
-  double pair_angle = 0;                     ///< rad, the least; 0 unless it assembles everywhere
+  bool assembles = true;  ///< everywhere
+  /// Errors where it assembles (rad or m); rms infinity if nowhere.
+  double greatest_error = 0, rms_error = 0;
+  double pair_angle = 0;  ///< rad, the least; 0 unless it assembles everywhere
 };
 
 /// From `samples` places with shares 0 to 1; `at` gives nothing where the generator does not assemble. Throws

@@ -74,7 +74,7 @@ class CurveEquations {
     for (std::size_t i = 0; i < inputs_.size(); ++i)
       inputs_[i].value = line_.base[i] + value * line_.direction[i];
   }
-  // What rounding leaves of the residuals.
+  // The rounding error of the residuals.
   double rounding(const CurveNode& y) const {
     double reach = plan_.size;
     for (const int p : parts_) reach = std::max(reach, norm(y.parts[part_index(p)].origin));

@@ -8,7 +8,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
 
-// What a joint demands of the places of its two parts, for those who solve many joints at once.
+// The equations by which a joint constrains its two parts, for those who solve many joints at once.
 namespace linkwright::planar {
 
 // The equations of a joint at the present places, as rows over the velocities of two parts: `force` is the
@@ -20,7 +20,7 @@ struct JointEquation {
 };
 struct JointRows {
   Vec<double> point;
-  Vec<double> along;  // of a slide
+  Vec<double> along;  // direction of a slide
   std::array<JointEquation, 3> rows;
   int count = 2;
 };
@@ -44,7 +44,7 @@ inline JointRows joint_rows(const PlanJoint& j, bool driven, const std::vector<P
 
 inline double sense(const PlanJoint& j) { return j.reversed ? -1.0 : 1.0; }
 
-// How far the joint's equations are from being met.
+// The residuals of the joint's equations.
 inline std::array<double, 3> joint_residuals(const PlanJoint& j, const JointRows& r, const InputMotion* input,
                                              const std::vector<PartState<double>>& parts, double size) {
   const PartState<double>&before = parts[static_cast<std::size_t>(j.before.part)],

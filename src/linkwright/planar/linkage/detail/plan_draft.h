@@ -34,9 +34,9 @@ struct PlanDraft {
   std::vector<PartJoint> written;  // the joints before pins of several links were paired otherwise
   std::vector<PartGear> gears;
   // One a part.
-  std::vector<std::optional<math::Pose>> start;    // where the model shows it
+  std::vector<std::optional<math::Pose>> start;    // poses in which the model shows the parts
   std::vector<bool> known;                         // placed by the groups so far
-  std::vector<std::optional<DrivenAngle>> angles;  // of those that drives and gears alone turn
+  std::vector<std::optional<DrivenAngle>> angles;  // angles of the parts that drives and gears alone turn
 
   LinkagePlan& plan() { return result.plan; }
   const LinkagePlan& plan() const { return result.plan; }
@@ -66,14 +66,15 @@ void find_shared_pins(PlanDraft& d);
 // The first free joint of a part to a known one; drives stay out of dyads.
 PartJoint* to_known(PlanDraft& d, int part);
 bool geared(const PlanDraft& d, int part);
-// Where the teeth of the gears meet, as far as their wheels have one pin each on the carrier.
+// Finds the points where the teeth of the gears mesh, as far as their wheels have one pin each on the
+// carrier.
 void find_meshes(PlanDraft& d);
 
 // plan_general.cpp: the smallest group without closed form, or all parts as one in the place of all groups.
 bool find_general_group(PlanDraft& d);
 void merge_groups(PlanDraft& d);
 std::vector<int> unknown_parts(const PlanDraft& d);
-// Whether a joint not used yet runs inside `chosen` or from there to a known part.
+// True if a joint not used yet connects parts inside `chosen`, or one of them with a known part.
 bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen);
 // Equations of these joints, or -1 when a gear is among them.
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen);

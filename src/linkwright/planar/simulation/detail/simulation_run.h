@@ -33,7 +33,7 @@ class Simulation {
     return static_cast<std::size_t>(
         std::count_if(drives.begin(), drives.end(), [](const InputDrive& c) { return !c.law; }));
   }
-  // Of an only input; many have no use for it.
+  // Inertia at a single input; not used with many.
   double first_inertia() const { return dynamics_.inertia().empty() ? 0 : dynamics_.inertia()[0]; }
   bool stops_at_changes() const {
     return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
@@ -96,7 +96,7 @@ class Simulation {
   // Watches groups that come to their dead points: their sine falls to zero evenly in time. Steps are kept
   // from reaching beyond; near enough the motion ends.
   bool clear_of_limits(double t, double step);
-  // Whether the end of the branch that the input is nearer to is a limit of this group.
+  // True if the end of the branch that the input is nearer to is a limit of this group.
   bool ends_here(int group) const;
   const RangeEnd& nearer_end() const;
 
@@ -118,12 +118,12 @@ class Simulation {
 
   // ---- friction -----------------------------------------------------------------------------------------
 
-  // Where friction turns round again and again while time hardly passes, a joint sticks while others move:
-  // the equations of joints that slide have no motion there. Before the place where friction locks forces
-  // grow without bound, and time hardly passes either.
+  // True if a joint sticks while others move: friction reverses again and again while time hardly passes,
+  // since the equations of joints that slide have no motion there. Before the place where friction locks
+  // forces grow without bound, and time hardly passes either.
   bool chatters(double t);
 
-  // Whether friction locks a millionth of a radian, or of the linkage's size, further on.
+  // True if friction locks a millionth of a radian, or of the linkage's size, further on.
   bool locks_ahead(double t);
   double fastest() const;
   // Rates of the joints with friction; beyond what can be placed they stay what they were.
@@ -131,20 +131,20 @@ class Simulation {
   // A joint that has come to rest sticks when friction stops it either way. inputs_ are those of the moment.
   bool sticks(double t, int joint);
 
-  // How strongly the linkage starts to move from rest in the sense that is easier: acceleration of the free
-  // input in that sense, negative when friction stops motion either way.
+  // The acceleration from rest in the sense that is easier: acceleration of the free input in that sense,
+  // negative when friction stops motion either way.
   struct Push {
     double acceleration, sense;
   };
   Push push_from_rest(double t);
   bool holds(double t) { return push_from_rest(t).acceleration < 0; }
-  // Whether something changes with time while the linkage is at rest.
+  // True if something changes with time while the linkage is at rest.
   bool may_be_freed(double t) const;
-  // What friction has begun to hold: to the end, or until something frees it.
+  // Starts a rest held by friction: to the end, or until something frees it.
   math::OdeAction come_to_rest(double t, std::span<double> y);
   void set_free(double t, std::span<double> y);
   void end_rest(double t);
-  // With the free input at rest; drives may move the others.
+  // Solves with the free input at rest; drives may move the others.
   Answer solve_at_rest(double t);
   // Joint forces at rest: of the joints that the free input moves, each bears the same part of the friction
   // that it could bear.
@@ -191,9 +191,9 @@ class Simulation {
   std::optional<Linkage> yielding_;  // the linkage with a part of its friction
   LinkageForces held_;
   std::vector<int> rubbing_;             // joints with friction, when several inputs are free
-  std::vector<double> rates_;            // of these joints
+  std::vector<double> rates_;            // rates of these joints
   std::vector<double> breaks_, senses_;  // senses of joints with friction, one a joint
-  std::vector<long> turns_;              // of the senses, within the window
+  std::vector<long> turns_;              // reversals of the senses, within the window
   double span_ = 1, window_ = 0, largest_rate_ = 0;
   long steps_ = 0;
   int chattering_ = -1;  // joint
