@@ -1,4 +1,4 @@
-// How reliably all four-bars through nine points are found, over random targets:
+// The reliability of the search for all four-bars through nine points, over random targets:
 //
 //   exact_statistics [TARGETS [FIRST [KINDS]]]
 //

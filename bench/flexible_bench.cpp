@@ -64,7 +64,7 @@ void kane_spin_up(benchmark::State& state) {
 }
 BENCHMARK(kane_spin_up)->Arg(4)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
 
-// With half the step again and the limit of both: the tip to 1e-6 m.
+// Halves the step again and takes the limit of both: the tip to 1e-6 m.
 void extrapolated_spin_up(benchmark::State& state) {
   const Chain chain = discretise(spin_up_beam(), int(state.range(0)));
   const double breaks[] = {15};

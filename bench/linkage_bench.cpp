@@ -12,7 +12,7 @@
 namespace linkwright::planar {
 namespace {
 
-// What is asked of each position.
+// The task at each position.
 enum Task { position, rates, forces };
 
 // A turn of the crank in `count` positions, along the groups or with all bodies at once.

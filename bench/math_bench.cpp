@@ -9,7 +9,7 @@
 namespace linkwright::math {
 namespace {
 
-// What an integration costs besides the right-hand side: two components that cost nothing, ten turns.
+// The cost of an integration besides the right-hand side: two components that cost nothing, ten turns.
 void ode_overhead(benchmark::State& state, OdeMethod method, bool events) {
   OdeOptions o;
   o.method = method;

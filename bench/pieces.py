@@ -19,9 +19,9 @@ STUDIES = [
     ("balance-stephenson-six-bar", ["optimiser.seeds.count=1000"], "seed"),
     ("strut-suspension-sensitivity", [], "64 trials"),
 ]
-# Of rank 0: what a message and each byte of it take (bench/shared_run_bench.cpp), in seconds.
+# Rank 0 needs this time (s) for a message and for each byte of it (bench/shared_run_bench.cpp).
 MESSAGE, BYTE = 7e-6, 1 / 78e6
-START = 1.0  # of mpirun, on many machines, in seconds: an assumption
+START = 1.0  # start of mpirun on many machines, in seconds: an assumption
 
 
 def seconds(command):
@@ -50,7 +50,8 @@ def main():
             for ranks in (64, 1024):
                 work = 100 * ranks
                 served = work * (MESSAGE + BYTE * size / pieces)
-                end = alone * work / pieces  # what grows with the number of pieces, and all else with it: an upper bound
+                # The part that grows with the number of pieces, and all else with it: an upper bound.
+                end = alone * work / pieces
                 shares.append(100 * piece / (START + max(100 * piece, served) + end))
             print(f"| `{name}` | {pieces} x {unit} | {1e3 * piece:.3g} ms | {size / pieces:.0f} B | {1e3 * alone:.0f} ms "
                   f"| {100 * shares[0]:.0f} % | {100 * shares[1]:.0f} % |")

@@ -5,8 +5,8 @@
 
 #include "linkwright/app/shared_run.h"
 
-// What rank 0 has to do for each piece of a study that another rank does: with the time of a piece, it says
-// how many ranks one rank can serve.
+// The work of rank 0 for each piece of a study that another rank does: with the time of a piece, it says how
+// many ranks one rank can serve.
 namespace linkwright::app {
 namespace {
 

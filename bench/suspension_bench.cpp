@@ -10,7 +10,7 @@
 namespace linkwright::suspension {
 namespace {
 
-// What is asked of each position.
+// The task at each position.
 enum Task { position, rates, parameters };
 
 // Travel from -80 to +80 mm in steps of 5 mm at some racks, each position from the one before.

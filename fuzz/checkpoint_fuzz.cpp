@@ -1,5 +1,5 @@
-// Whatever bytes a checkpoint holds, reading it ends with what can be used or with one message; also when
-// somebody has made owner and checksum fit.
+// Reading any bytes of a checkpoint ends with what can be used or with one message; also when somebody has
+// made owner and checksum fit.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
-// Whatever bytes come, reading a list of hard points ends with points or with diagnostics, and points that
-// were read survive being written and read again.
+// Reading any bytes as a list of hard points ends with points or with diagnostics, and points that were read
+// survive being written and read again.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

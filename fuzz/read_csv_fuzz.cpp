@@ -1,5 +1,5 @@
-// Whatever bytes come, reading CSV ends with a table or with diagnostics, and a table that was read survives
-// being written and read again.
+// Reading any bytes as CSV ends with a table or with diagnostics, and a table that was read survives being
+// written and read again.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Whatever bytes come, reading a study ends with a tree or with diagnostics, and what was read can be written
-// and read again.
+// Reading any bytes as a study ends with a tree or with diagnostics, and what was read can be written and
+// read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Whatever a page sends as a run, it is refused with one line that says why, or it is a run with a name and
-// with files that stay in their folder; the guards of the head take any bytes.
+// Any run that a page sends is refused with one line that says why, or it is a run with a name and with files
+// that stay in their folder; the guards of the head take any bytes.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

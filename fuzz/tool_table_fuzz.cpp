@@ -1,5 +1,5 @@
-// Whatever bytes come, reading a tool's points in time ends with a table or with diagnostics, and a table
-// that was read is a step that can be laid out from its first point.
+// Reading any bytes as a tool's points in time ends with a table or with diagnostics, and a table that was
+// read is a step that can be laid out from its first point.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -10,7 +10,8 @@ import sys
 
 import repository
 
-# What a header is included for. Only names that people write out: std::get belongs to three headers and is none's.
+# The names for which a header is included. Only names that people write out: std::get belongs to three headers and is
+# none's.
 NAMES = {
     "array": "array|to_array",
     "complex": "complex|polar",

@@ -25,7 +25,7 @@ LAYERS = [
 LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance", "parameter_study"}
 
-# What a module may not use although it lies below.
+# The modules that a module may not use although they lie below.
 FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS}}
 
 # Inside a domain: its folders, bottom up. A folder uses the ones below its own, never one of the same line. BASE are the

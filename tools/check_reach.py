@@ -16,7 +16,7 @@ DECLARATION = re.compile(r"^(?:\[\[nodiscard\]\] )?(?:inline |constexpr )*(?!usi
                          r"extern|typedef|public|private|else|case|throw|delete|visit)[A-Za-z_][\w:<>,&* ]*[ &*>](\w+)\(", re.M)
 WORD = re.compile(r"\w+")
 
-# Who wants what the program does not call. An entry that is called, or gone, is a finding.
+# Public functions that the program does not call, with their users. An entry that is called, or gone, is a finding.
 LIBRARY = "for users of the library"
 ROUTE = "a second route that tests compare with"
 SAMPLE = "a published case that tests and benchmarks run"

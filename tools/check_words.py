@@ -33,7 +33,7 @@ def words(pattern, instead):
     return re.compile(rf"\b(?:{pattern})\b", re.I), f"say {instead}"
 
 
-# What users read has other words for these.
+# Words that users do not read, each with its replacement.
 GIVEN_UP = [
     words("told|tells", "reported, given, listed, says"),
     words("even motion", "uniform motion"),
@@ -66,7 +66,7 @@ GIVEN_UP = [
     words("(?:is|are) to become", "is minimised"),
     words(r"how far (?:the|they|it)\b.*\boff", "deviation"),
 ]
-# Where the old words are quoted.
+# Files that quote the old words.
 QUOTED = {"CHANGELOG.md", "src/linkwright/study/renamed.cpp"}
 # Written by tools, not by people.
 RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.S)

@@ -16,7 +16,7 @@ import repository
 
 PICTURE = Path("docs") / "includes.svg"
 DOORS = "kinds, reproductions"
-# Of a box, between boxes and rows, of a card.
+# Sizes of a box, of the gaps between boxes and rows, and of a card.
 WIDTH, HEIGHT, GAP, ROW, MARGIN, TITLE = 156, 34, 18, 84, 24, 44
 
 

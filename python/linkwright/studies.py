@@ -46,7 +46,7 @@ class Solution(NamedTuple):
     objectives: dict
     classification: dict
     defects: list
-    study: Optional[Study]  # of this design, to go on with; None = there is none
+    study: Optional[Study]  # The study of this design, for further work; None = there is none
 
 
 class Kind(NamedTuple):

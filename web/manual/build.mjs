@@ -125,7 +125,7 @@ ${live ? `<aside aria-label="The mechanism"><iframe title="The workbench" id="li
 `;
 }
 
-/** What is searched: each part of a page from heading to heading. */
+/** The units of the search: each part of a page from heading to heading. */
 function parts({ path, section, title, body, lead }) {
   const plain = (html) => html.replace(/<!--formula-->[^]*?<!--end-->/g, " ").replace(/<[^>]*>/g, " ").replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&quot;/g, '"').replace(/&amp;/g, "&").replace(/\s+/g, " ").trim();
   return body.split(/(?=<h[23] id=)/).map((part, i) => {

@@ -5,8 +5,8 @@ import { readFileSync, readdirSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
-// Who says what is wrong with a study, an option or a file; what is remarkable; why a result is what it is; what a caller of the
-// library did wrong; and what the program says beside them.
+// The sources of messages: what is wrong with a study, an option or a file; what is remarkable; why a result is what it
+// is; what a caller of the library did wrong; and the program's other remarks.
 const sayers = {
   error: /^(?:error|unreadable|refuse|complain|wrong|refuse_shards|problem|require_memory|CheckpointError|fail_at|unknown|mistake|value_error|clash|trouble)$/,
   warning: /^(?:warn|warning|remark|caution)$/,
@@ -56,7 +56,7 @@ function argumentsOf(all, open) {
 }
 const sentences = (part) => part.filter((t) => t.said !== undefined && isSentence(t.said)).map((t) => t.said);
 
-/** What one source says. */
+/** The messages of one source. */
 function said(source) {
   const all = [...tokens(source)];
   const out = [];

@@ -14,7 +14,7 @@ const huge = 1e9; // such bounds only keep nonsense out
 const forms = (node) => [node, ...(node.anyOf ?? []), ...(node.oneOf ?? [])];
 const part = (node, has) => forms(node).find(has);
 
-/** What may stand for a key, in words. */
+/** The values that a key may have, in words. */
 function valueOf(node) {
   const words = (node.oneOf ?? []).filter((w) => typeof w.const === "string");
   if (words.length) return words.map((w) => `<code>"${escaped(w.const)}"</code>${w.description ? ` ${escaped(w.description)}` : ""}`).join("<br>");

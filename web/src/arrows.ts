@@ -179,7 +179,7 @@ export interface Reading {
   direction: string;
 }
 
-/** What a vector is at a position, as text with its unit. */
+/** The value of a vector at a position, as text with its unit. */
 export function readVector(vector: Vector, position: number): Reading {
   const c = componentsNear(vector, position);
   const degrees = c && c.z === undefined && (Math.atan2(c.y, c.x) * 180) / Math.PI;

@@ -1,4 +1,4 @@
-// What part of the plane is on the screen, and how large things are drawn there.
+// The part of the plane on the screen, and the scale of the drawing.
 import { computed, signal } from "@preact/signals";
 import { arrowScale, boundsWith, extentOf, quantities } from "./arrows";
 import { isSpatial } from "./grid";

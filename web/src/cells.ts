@@ -57,7 +57,7 @@ export interface Level {
 export interface Maps {
   x: Axis;
   y: Axis;
-  unit: Unit; // of both coordinates
+  unit: Unit;  // unit of both coordinates
   xLabel: string;
   yLabel: string;
   valueUnit: Unit;
@@ -65,7 +65,7 @@ export interface Maps {
   levels: Level[];
   low: number;
   high: number;
-  missing: boolean; // whether a place has no value
+  missing: boolean;  // true if a place has no value
   logarithmic: boolean; // low and high are logarithms then, values are not
 }
 

@@ -25,11 +25,11 @@ export interface Curve {
 
 export interface Side {
   label: string;
-  symbol: string; // of its unit
+  symbol: string;  // symbol of its unit
   log?: boolean; // the data are logarithms
 }
 
-/** How the x of a diagram and an input of the scene follow each other. */
+/** The link between the x of a diagram and an input of the scene, which follow each other. */
 export interface Link {
   now: () => number;
   go: (x: number) => void;
@@ -47,7 +47,7 @@ interface Props {
   baseline?: string; // name of what is drawn behind
   family?: boolean; // many curves are one family, without names until they are chosen
   pick?: (row: number) => void; // a click at a row of the data
-  range?: (low: number, high: number) => Range; // of y
+  range?: (low: number, high: number) => Range;  // zoomed range of y
   upright?: boolean; // x points up
 }
 
@@ -82,7 +82,7 @@ export function Sign({ look, points }: { look: { stroke: string; dash: number[] 
   );
 }
 
-/** Which curves of a bundle have a look and a name of their own. */
+/** Chooses the curves of a bundle that have a look and a name of their own. */
 export function Chooser({ names, choice, choose }: { names: string[]; choice: Choice; choose: (choice: Choice) => void }): JSX.Element {
   const all = () => names.reduce<Choice>((c, _, i) => chosen(c, i, true), new Map());
   return (
@@ -124,7 +124,7 @@ interface Look {
   alpha: number;
 }
 
-/** How a curve is drawn when the group `now` is present and the curve `told` is pointed at. */
+/** The look of a curve when the group `now` is present and the curve `told` is pointed at. */
 function drawn(curve: Curve, look: number | undefined, bundle: boolean, anyNamed: boolean, now: number, told: boolean): Look {
   const here = now < 0 || curve.group === now;
   if (curve.kind === "baseline") return { stroke: "--soft", dash: [5, 4], width: told ? 2.4 : 1.4, alpha: here || told ? 0.85 : bundle ? 0.12 : 0.35 };
@@ -282,7 +282,7 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
         const at = u.over.getBoundingClientRect();
         const place = { left: event.clientX - at.left, top: event.clientY - at.top };
         link?.go(u.posToVal(upright ? place.top : place.left, "x"));
-        if (event.pointerType !== "mouse") u.setCursor(place); // which uPlot does for a mouse
+        if (event.pointerType !== "mouse") u.setCursor(place);  // uPlot does this for a mouse
       }, { signal });
       gestures.current = gesturesOf(u);
       stopListening = listen(u.over, element, gestures.current);
@@ -346,13 +346,13 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
       name.textContent = `${curve!.kind === "baseline" ? `${baseline}: ` : ""}${curve!.name}${value === null ? "" : `: ${valueText(value)}${difference(told! - 1, value)}`}`;
       name.style.transform = `translate(${left > u.over.clientWidth / 2 ? `calc(${left - 10}px - 100%)` : `${left + 10}px`}, ${Math.max(0, top - 30)}px)`;
     };
-    /** Where the moving cursor is; null = nowhere. */
+    /** The position of the moving cursor; null = nowhere. */
     const here = (): number | null => {
       if (link) return link.now();
       const at = plot && inside ? (upright ? plot.cursor.top : plot.cursor.left) ?? -1 : -1;
       return at < 0 ? null : plot!.posToVal(at, "x");
     };
-    /** How much the value at B is more than that at A. */
+    /** The value at B less that at A. */
     const difference = (i: number, value: Num): string => {
       if (mark.peek() === null) return "";
       const [a, b] = [numberOf(valueAt(data[i + 1] as Num[], nearestRow(xs, mark.peek()!))), numberOf(value)];

@@ -23,7 +23,7 @@ export function curvesOf(plot: Plot, table: Table): { curves: Curve[]; unit: Uni
   const size = pairs.flat().flatMap((i) => table.data[i]).reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
   const unit = unitOf(plot.y[0] ?? "", size);
   const scaled = (i: number) => table.data[i].map((v) => (v === null ? null : v * unit.factor));
-  // Where points go: the origin is a place like any other.
+  // The diagram shows paths of points: the origin is a place like any other.
   const path = plot.y.every((key) => key.endsWith("_m") && !key.endsWith("_N_m"));
   return { unit, path, curves: pairs.map(([x, y]) => ({ label: nameOfPair(table.columns[x].label, table.columns[x].key), x: scaled(x), y: scaled(y) })) };
 }

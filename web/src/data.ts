@@ -25,7 +25,7 @@ export interface Scene {
   discs?: Disc[];
   vectors: Vector[];
   moments: Moment[];
-  /** Of pages with the program behind them: the numbers of the study that points and targets show, and the frames these are in. */
+  /** Only in pages with the program behind them: the numbers of the study that points and targets show, and the frames these are in. */
   frames?: { x: Num[]; y: Num[]; angle: Num[] }[];
   handles?: { key: string; measure: "place" | "x" | "y" | "length" | "angle"; frame: number; point: number; target: number; index: number; from: number; held: boolean }[];
 }
@@ -90,7 +90,7 @@ export interface Plot {
   logarithmic_y: boolean;
   scene: string;
   group?: string; // column whose values split the rows into curves
-  group_names?: string[]; // what its values 1, 2, ... are called
+  group_names?: string[];  // names of its values 1, 2, ...
   bands?: { lower: string; upper: string; label: string }[];
   baseline?: string; // table drawn pale behind
   upright?: boolean; // x points up
@@ -118,20 +118,20 @@ export interface Comparison {
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type JsonObject = { [key: string]: Json };
 
-/** How numbers are shown whose keys end in a suffix; longer suffixes come first. */
+/** The unit of numbers whose keys end in a suffix; longer suffixes come first. */
 export interface ShownSuffix {
   suffix: string; // "_rad_per_s"
   symbol: string; // "rpm"
   factor: number; // from the number of the data to the one that is shown
   key: string; // in files: "_rpm", and the number times and by these, by turns
   steps: number[];
-  by_size: boolean; // whether the size of the numbers decides
+  by_size: boolean;  // true if the size of the numbers decides
 }
 
 /** A solution as a study of its own. */
 export interface Design {
   solution: number;
-  name: string; // of its file, without ending
+  name: string;  // name of its file, without ending
   toml: string;
 }
 
@@ -169,7 +169,7 @@ export const oneStudy = ({ study_toml }: Pick<View, "study_toml">) => (study_tom
 
 export interface Table {
   name: string;
-  names?: string[]; // of the rows, if they have any
+  names?: string[];  // names of the rows, if they have any
   columns: { key: string; label: string }[];
   data: Num[][];
   status: string[];
@@ -200,7 +200,7 @@ export interface Result {
   }[];
 }
 
-/** What a report carries, unpacked by boot.ts, and what the engine of the workbench gives; a result of null = there is none. */
+/** The contents of a report, unpacked by boot.ts, or of the engine's answer in the workbench; a result of null = there is none. */
 export interface Carried {
   view: View;
   result: (Partial<Omit<Result, "tables">> & { tables?: RawTable[] }) | null;
@@ -246,7 +246,7 @@ export const readResult = (carried: Carried): Result => {
     statistics: result.statistics ?? null,
     log: result.log ?? null,
     tables: (result.tables ?? []).map(readTable),
-    // As the program has typeset them.
+    // The diagnostics are taken as the program has typeset them.
     diagnostics: (result.diagnostics ?? []).map((d, i) => ({ ...d, ...carried.view.remarks[i] })),
   };
 };

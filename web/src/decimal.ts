@@ -1,6 +1,6 @@
 // Numbers in files, as the program writes them: the fewest digits that read back the same.
 
-/** As in CSV: "0.5", "1e-05", "1e+16". */
+/** The number as in CSV: "0.5", "1e-05", "1e+16". */
 export function decimal(value: number): string {
   if (Object.is(value, -0)) return "-0";
   const size = Math.abs(value);
@@ -10,7 +10,7 @@ export function decimal(value: number): string {
   return String(value);
 }
 
-/** As in JSON: "1.0" for a whole number, null for a missing one. */
+/** The number as in JSON: "1.0" for a whole number, null for a missing one. */
 export function jsonNumber(value: number | null): string {
   if (value === null) return "null";
   const text = decimal(value);

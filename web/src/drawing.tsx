@@ -16,7 +16,7 @@ import * as state from "./state";
 import { format, lengthUnit, quantity, unitOf } from "./units";
 import { bodyColours, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
 
-/** How many times larger the whiskers are drawn. */
+/** The factor by which the whiskers are enlarged. */
 export const whiskerFactor = computed(() => {
   if (state.whisker.value !== "auto") return state.whisker.value;
   const target = state.scene.value?.targets[0];
@@ -144,7 +144,7 @@ function Targets({ scene }: { scene: Scene }) {
   );
 }
 
-/** Where the poses of a target are turned by hand. */
+/** Handles that turn the poses of a target by hand. */
 function Turns({ scene }: { scene: Scene }) {
   const turns = scene.handles?.filter((h) => h.target >= 0 && h.point >= 0) ?? [];
   if (!turns.length || !state.showTargets.value) return null;
@@ -180,7 +180,7 @@ function Circles({ scene, at }: { scene: Scene; at: number }) {
 
 const symbolWidth = 18; // px
 
-/** What does not close, with its length. */
+/** The gap of a loop that does not close, with its length. */
 function Gap({ name, ends: [a, b] }: { name: string; ends: Place[] }) {
   const [p, q] = [screen(a)!, screen(b)!];
   const unit = lengthUnit(extent.value);
@@ -193,13 +193,13 @@ function Gap({ name, ends: [a, b] }: { name: string; ends: Place[] }) {
   );
 }
 
-/** How a mechanism is drawn that others are compared with: like its curves in the diagrams. */
+/** The look of a mechanism that others are compared with: like its curves in the diagrams. */
 function runLook(run: number): { stroke: string; strokeDasharray: string } {
   const { stroke, dash } = lookOf(run);
   return { stroke: `var(${stroke})`, strokeDasharray: dash.join(" ") };
 }
 
-/** Whose the mechanisms are that are drawn over each other. */
+/** The names of the mechanisms that are drawn over each other. */
 export function Runs() {
   const runs = state.scene.value?.runs;
   if (!runs) return null;

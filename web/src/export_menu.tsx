@@ -1,4 +1,4 @@
-// What can be taken out of the report at the place where it stands.
+// Exports of the report at the present position.
 import { useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
 import { drawingSvg, dxf, png, save, slug } from "./exports";

@@ -20,7 +20,7 @@ export function csv(table: Table): string {
   return lines.join("\r\n") + "\r\n";
 }
 
-/** Whether a table is in other units than those that are shown. */
+/** True if a table is in other units than those that are shown. */
 export const inOtherUnits = (table: Table): boolean => table.columns.some((c) => inFile(c.key, []).key !== c.key);
 
 /** The table in the units that are shown; nothing when it is in them already. */
@@ -30,7 +30,7 @@ export function tableInFile(table: Table): Table | undefined {
   return { ...table, columns: table.columns.map((c, i) => ({ ...c, key: made[i].key })), data: made.map((column) => column.values) };
 }
 
-/** How far each target is missed, as a table. */
+/** The deviation from each target, as a table. */
 export function targetTable(scene: Scene): Table | null {
   const target = scene.targets[0];
   if (!target) return null;

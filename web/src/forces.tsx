@@ -110,7 +110,7 @@ export function Arrows({ scene }: { scene: Scene }) {
   );
 }
 
-/** What an arrow of the length shown is worth, at the top left of the drawing. */
+/** The key: the value of an arrow of the length shown, at the top left of the drawing. */
 export function Key({ scene }: { scene: Scene }) {
   const most = largestMoment(scene.moments);
   const rows = quantities.flatMap((quantity) => {
@@ -173,7 +173,7 @@ export function ArrowBar() {
   );
 }
 
-/** What an arrow is worth in space. */
+/** The key of the arrows in space. */
 export function SpaceKey({ scene }: { scene: Scene }) {
   const rows = quantities.filter((q) => state.showArrows[q].value && (scales.value.find((s) => s.quantity === q)?.scale ?? 0) > 0);
   if (!rows.length) return null;

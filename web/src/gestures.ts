@@ -10,7 +10,7 @@ export interface Spot {
 
 export interface Gestures {
   zoomed: () => boolean;
-  box: (from: Spot, to: Spot, done: boolean) => void; // as it is drawn, and when it is done
+  box: (from: Spot, to: Spot, done: boolean) => void;  // called as the box is drawn, and when it is done
   cancel: () => void; // a box that was begun is none
   zoom: (factor: number, about?: Spot) => void; // about the middle when not given
   move: (dx: number, dy: number) => void; // px by which the picture follows the pointer
@@ -80,7 +80,7 @@ export function listen(element: HTMLElement | SVGElement, keys: HTMLElement, on:
     fingers.delete(event.pointerId);
     if (press?.id === event.pointerId) drop();
   });
-  let far = false; // whether the click that follows is the end of a drag
+  let far = false;  // true if the click that follows is the end of a drag
   listenTo<PointerEvent>(element, "pointerdown", () => (far = false));
   listenTo<PointerEvent>(element, "pointermove", () => (far ||= press?.far ?? false));
   listenTo<MouseEvent>(element, "click", (event) => !far && event.detail < 2 && on.click(at(event)));

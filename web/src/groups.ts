@@ -8,7 +8,7 @@ const column = (table: Table, key: string | undefined) => table.columns.findInde
 /** Factor from a table's number to SI, by the unit of its key. */
 const toSi = (key: string) => (key.endsWith("_mm") ? 1e-3 : key.endsWith("_deg") ? Math.PI / 180 : key.endsWith("_rpm") ? Math.PI / 30 : 1);
 
-/** Which input of a scene a column is, by its name without the unit: 1, 2 or 0 for none; and its factor to the scene's numbers. */
+/** The input of a scene that a column is, by its name without the unit: 1, 2 or 0 for none; and its factor to the scene's numbers. */
 export function inputOf(scene: Scene | undefined, key: string): { input: 0 | 1 | 2; factor: number } {
   const factor = toSi(key);
   if (scene?.second_key && nameOf(key) === nameOf(scene.second_key)) return { input: 2, factor: factor / toSi(scene.second_key) };
@@ -47,7 +47,7 @@ export interface Line {
   kind: "curve" | "baseline" | "lower" | "upper";
   label: string;
   group: number;
-  y: number; // which of the plot's columns, or which band
+  y: number;  // index of the plot's column or band
   xs: number[];
   ys: Num[];
 }

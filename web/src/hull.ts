@@ -1,4 +1,4 @@
-// What a thread around places in a plane runs along.
+// The convex hull: the line of a thread around places in a plane.
 import type { Spot } from "./gestures";
 
 const turn = (o: Spot, a: Spot, b: Spot) => (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);

@@ -11,7 +11,7 @@ export interface Placed {
   x: number; // px from the place: where the text begins, is in its middle, or ends, on its baseline
   y: number;
   anchor: "start" | "middle" | "end";
-  slot: number; // which of the positions beside a place it is
+  slot: number;  // index of its position beside a place
   far: boolean; // a leader should go to the place
 }
 
@@ -68,6 +68,6 @@ export function placeLabels(labels: readonly (Label | null)[], before: readonly 
   });
 }
 
-/** What is written at an arrow: nothing when a joint has that name already, for it begins there. */
+/** The text at an arrow: nothing when a joint has that name already, for it begins there. */
 export const symbolOf = (scene: Scene, vector: Vector): string =>
   scene.joints.some((j) => j.name === vector.symbol) ? "" : vector.symbol;

@@ -8,7 +8,7 @@ export interface Run {
   final: number | null;
   x: number[];
   y: number[];
-  counts: "evaluations" | "steps"; // what x counts
+  counts: "evaluations" | "steps";  // unit of x
 }
 
 const costNames = ["best", "error", "cost"];

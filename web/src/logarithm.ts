@@ -7,7 +7,7 @@ export const rounding = 1e-16;
 
 export interface Logarithms {
   lists: (Num | undefined)[][];
-  clipped: boolean; // whether a value was raised to the lower edge
+  clipped: boolean;  // true if a value was raised to the lower edge
 }
 
 /** Decimal logarithms of the values, none below that of `rounding` times the largest of all; zero is such a value when `zero` says so, or else missing as negative ones are. */
@@ -43,7 +43,7 @@ export function logTicks(low: number, high: number): number[] {
     const found = decades.flatMap((d) => mantissas.map((m) => d + Math.log10(m))).filter((v) => v >= low && v <= high);
     if (found.length > 2) return found;
   }
-  const [from, to] = [1, 10 ** (high - low)]; // of the lowest, so that neither is too small
+  const [from, to] = [1, 10 ** (high - low)];  // relative to the lowest, so that neither is too small
   const scale = 10 ** (low - Math.floor(low));
   return ticks(from * scale, to * scale, niceStep(((to - from) * scale) / 4)).map((v) => Math.floor(low) + Math.log10(v));
 }

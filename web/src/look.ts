@@ -1,4 +1,4 @@
-// How the curves of one diagram are told apart.
+// Colours and strokes that distinguish the curves of one diagram.
 export const strokes = ["--c0", "--c5", "--c2", "--c3", "--c1", "--c4"]; // variables of the page
 const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2]];
 
@@ -11,7 +11,7 @@ export const lookOf = (index: number): { stroke: string; dash: number[] } => ({
 /** More curves than this are a bundle: those that are chosen have a look and a name of their own, the others are pale. */
 export const mostNamed = 6;
 
-/** Which look each chosen curve has. */
+/** The look of each chosen curve. */
 export type Choice = ReadonlyMap<number, number>;
 
 /** All curves when there are few, or else the first; of a bundle that is one family none. */

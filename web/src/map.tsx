@@ -40,7 +40,7 @@ export function MapPlot({ plot, table }: { plot: Plot; table: Table }) {
   const box = useRef<HTMLDivElement>(null);
   const [room, setRoom] = useState(500);
   const [place, setPlace] = useState<Place | null>(null);
-  const [part, setPart] = useState<Box | null>(null); // that is zoomed into, in all maps
+  const [part, setPart] = useState<Box | null>(null);  // zoomed part, in all maps
   const maps = useMemo(() => mapsOf(plot, table), [plot, table]);
   useEffect(() => {
     const measure = () => setRoom(box.current!.clientWidth || 500);
@@ -129,7 +129,7 @@ function Panel({ maps, level, layout, place, show, whole, seen, zoom, keys, labe
   live.current = seen;
   useEffect(() => {
     const element = svg.current!;
-    /** Of px on the screen, where the drawing may be smaller, within the axes. */
+    /** Limits a point in px on the screen, where the drawing may be smaller, within the axes. */
     const within = (p: Spot): Spot => {
       const drawn = width / (element.clientWidth || width);
       return { x: p.x * drawn - margin.left, y: p.y * drawn - margin.top };

@@ -32,7 +32,7 @@ export function Menu({ label, title, kind = "", id, busy = false, children }: { 
       }
     }}>
       <summary aria-disabled={busy} title={title} onClick={(e) => busy && e.preventDefault()}>{label}</summary>
-      {/* What is chosen may take the focus itself. */}
+      {/* The chosen entry may take the focus itself. */}
       <div class="choices" onClickCapture={(e) => (e.target as HTMLElement).closest("button") && close()}>{children}</div>
     </details>
   );

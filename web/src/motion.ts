@@ -1,4 +1,4 @@
-// How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
+// Motion of a scene: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
 import type { Turn } from "./rows";
 import { unitOf } from "./units";

@@ -11,7 +11,7 @@ export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
-/** What base64 of raw deflate stands for. */
+/** The bytes that base64 of raw deflate encodes. */
 export async function inflate(base64: string): Promise<ArrayBuffer> {
   return new Response(new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
 }
@@ -75,7 +75,7 @@ export const parseWith = (lists: Num[][], text: string) =>
 /** The same text with its lists, as the program writes files. */
 export const textWith = (lists: Num[][], text: string) => text.replace(place, (_, i) => `[${lists[i].map(jsonNumber).join(", ")}]`);
 
-/** What a report carries, from the texts of its elements. */
+/** The contents of a report, from the texts of its elements. */
 export async function unpackReport(textOf: (id: string) => string) {
   const [numbers, ...texts] = await Promise.all(["numbers", "numbers-index", "result-data", "view-data"].map((id) => inflate(textOf(id))));
   const [index, result, view] = texts.map((bytes) => new TextDecoder().decode(bytes));

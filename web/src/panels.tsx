@@ -35,7 +35,7 @@ function Fold({ text }: { text: string }) {
   );
 }
 
-/** What was studied and how it ended: one strip, so that the mechanism stands on the first screen. */
+/** The subject of the study and its outcome: one strip, so that the mechanism stands on the first screen. */
 export function Banner() {
   const failed = result.checks.filter((c) => !c.passed).length;
   const checks = result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`;

@@ -118,7 +118,7 @@ function Readout() {
   const length = lengthUnit(extent.value);
   const value = inputAt(motion, at) * unit.factor;
   const decimals = motion.timed ? Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(spanOf(motion) || 1)))) : 1;
-  const even = unit.symbol === "°" || motion.timed; // as many digits at every instant
+  const even = unit.symbol === "°" || motion.timed;  // the same number of digits at every instant
   return (
     <dl class="title-block">
       <div class="wide"><dt>mechanism</dt><dd>{state.view.title || scene.title}</dd></div>

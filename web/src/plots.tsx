@@ -122,7 +122,7 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
 }
 
 const maximumOfDots = 200;
-const w = 520; // of the drawing of dots
+const w = 520;  // width of the drawing of dots
 
 function Histogram({ plot, table }: { plot: Plot; table: Table }) {
   const made = useMemo(() => {
@@ -131,7 +131,7 @@ function Histogram({ plot, table }: { plot: Plot; table: Table }) {
     const label = columns.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit)).join(", ");
     const groups = groupsOf(plot, table);
     const one = groups.length === 1;
-    // What is compared shares its rows with longer lists.
+    // A group may share its rows with longer lists.
     const lists = groups.map(({ rows }) => scaled(columns.flatMap((i) => rows.map((row) => table.data[i][row])), unit.factor).filter((v) => one || v !== null));
     const { middles, counts } = histogram(lists);
     return {
@@ -158,7 +158,7 @@ export function Dots({ values, names, label, groups, of }: { values: Num[]; name
   useEffect(() => {
     const element = svg.current;
     if (!element) return;
-    /** Of px on the screen: the place in the drawing, and on the axis. */
+    /** Converts px on the screen: the place in the drawing, and on the axis. */
     const across = (p: Spot) => (p.x * w) / (element.clientWidth || w);
     const share = (p: Spot) => live.current[0] + ((across(p) - 16) / (w - 32)) * (live.current[1] - live.current[0]);
     const all: Range = [0, 1];
@@ -207,7 +207,7 @@ export function Dots({ values, names, label, groups, of }: { values: Num[]; name
   );
 }
 
-/** Of the plots, those that have anything to show. */
+/** The plots that have anything to show. */
 const withTable = (plots: Plot[]) =>
   plots.flatMap((plot) => {
     const table = state.result.tables.find((t) => t.name === plot.table);
@@ -275,7 +275,7 @@ const unlinked = () => state.view.plots.filter((p) => p.scene === "");
 const isFront = (plot: Plot) => state.result.tables.some((t) => t.name === plot.table && t.columns.some((c) => c.key === "solution"));
 const loose = () => unlinked().filter((p) => !isFront(p));
 
-/** What one objective costs in another. */
+/** The cost of one objective in terms of another. */
 export function Fronts() {
   const fronts = unlinked().filter(isFront);
   if (withTable(fronts).length === 0) return null;

@@ -22,7 +22,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   const box = useRef<HTMLDivElement>(null);
   const svg = useRef<SVGSVGElement>(null);
   const [width, setWidth] = useState(500);
-  const [part, setPart] = useState<Box | null>(null); // that is zoomed into
+  const [part, setPart] = useState<Box | null>(null);  // zoomed part
   const [drag, setDrag] = useState<[Spot, Spot] | null>(null);
   const [mark, setMark] = useState<number | null>(null); // row of the fixed cursor
   const [hovered, setHovered] = useState<number | null>(null); // row of the table
@@ -80,10 +80,10 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
       unmark: () => setMark(null),
     });
   }, [all, width]);
-  // What is inside of the axes; nothing of it is seen outside.
+  // The size of the area inside the axes; nothing of it is seen outside.
   const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
   const plane = { x: margin.left, y: margin.top, width: w, height: h, viewBox: `${margin.left} ${margin.top} ${w} ${h}` };
-  // What does not move is not written again as the mechanism moves.
+  // Parts that do not move are not written again as the mechanism moves.
   const still = useMemo(() => frame && (
     <>
       <g class="grid">

@@ -6,7 +6,7 @@ const superscripts: Record<string, string> = { "2": "²", "3": "³", "4": "⁴" 
 export const unitSign = (word: string) =>
   spaced(word.replace(/deg/g, "°").replace(/^um$/, "µm").replace(/(?<=[a-z])[234]\b/g, (digit) => superscripts[digit]));
 
-// What is smaller than this comes from rounding, in a sentence about a machine.
+// The size below which a number comes from rounding, in a sentence about a machine.
 const rounding = (word: string) => (word === "um" || word === "µm" ? 1e-6 : word === "mm" ? 1e-9 : 1e-12);
 const significant = (digits: string) => Math.max(1, digits.replace(/[-.]/g, "").replace(/^0+/, "").length);
 const escaped = (word: string) => word.replace(/[/.]/g, "\\$&");
@@ -31,7 +31,7 @@ export function prose(text: string): string {
     const plain = (v: number, few: number) => (power ? format(v, few) : digits.replace("-", "−"));
     if (word === undefined) return plain(value, significant(digits));
     const found = suffixCalled(word);
-    // Of numbers that share a unit only the last one has it: "0.1 to 0.2 m", but not "at B0, 0.2 m".
+    // Only the last of several numbers that share a unit has it: "0.1 to 0.2 m", but not "at B0, 0.2 m".
     const shares = /(^|[^\w.-])-?\d+(\.\d+)?(e[+-]?\d+)?(,| to| and|;| \.\.) $/.test(before);
     const sign = found && found.factor !== 1 && !shares ? spaced(found.symbol) : unitSign(word);
     if (value !== 0 && Math.abs(value) < rounding(word) && word !== "%") return `0${sign.startsWith("°") ? "" : "\u202f"}${sign} (rounding)`;

@@ -7,7 +7,7 @@ export interface Turn {
   length: number;
 }
 
-const near = 1e-6; // of a turn: rows this close to its ends are there
+const near = 1e-6;  // share of a turn: rows this close to its ends are there
 
 /** Rows with an x in rising order, as plots want them. Those outside of the turn, if one is given, come into it; a row at its ends
  *  then stands at both, so that curves go from the one to the other. What lies within the turn stays where it is. */

@@ -11,7 +11,7 @@ import { hasFastWebgl, paint } from "./space_flat";
 import { bounds3, cloudOf, fit3, lowestTyre, middleOf, sizeOf, viewpoints, type V3, type ViewName } from "./space_view";
 import { bodyColours, niceStep } from "./view";
 
-/** What is to be seen beside the mechanism itself. */
+/** The parts that are shown beside the mechanism itself. */
 export interface Shown {
   labels: boolean;
   traces: boolean;
@@ -40,7 +40,7 @@ export interface SpaceView {
   zoom: (factor: number) => void;
   recolour: () => void;
   picture: () => Promise<Blob>;
-  /** What is on the screen, with the names: for pictures that move. */
+  /** The picture on the screen, with the names: for pictures that move. */
   frame: () => HTMLCanvasElement;
   close: () => void;
 }
@@ -277,7 +277,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     request();
   }
 
-  // What lies under the pointer: joints within a few pixels first, then whatever is hit.
+  // The object under the pointer: joints within a few pixels first, then whatever is hit.
   const ray = new Raycaster();
   function pickAt(event: PointerEvent): string {
     const frameOf = canvas.getBoundingClientRect();
@@ -306,7 +306,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     ray.setFromCamera(new Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height), camera);
     return ray.ray;
   };
-  // What is held comes before the turning of the view.
+  // A held object comes before the turning of the view.
   let held: Plane | null = null;
   const down = (event: PointerEvent) => {
     const [kind, joint] = event.button === 0 ? pickAt(event).split(" ") : [];
@@ -386,7 +386,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
       return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made")))));
     },
     frame: () => {
-      cancelAnimationFrame(frame); // what is asked for is drawn here
+      cancelAnimationFrame(frame);  // the requested frame is drawn here
       draw();
       const [out, scale] = [document.createElement("canvas"), canvas.width / Math.max(1, host.clientWidth)];
       [out.width, out.height] = [canvas.width, canvas.height];

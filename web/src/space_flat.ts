@@ -8,11 +8,11 @@ import { hullOf } from "./hull";
 type Coloured = Material & { color: Color; opacity: number; linewidth?: number };
 interface Item {
   depth: number; // away from the eye
-  over?: number; // where things are at one place, what has more of it is seen
+  over?: number;  // order of things at one place: the one with more of it is seen
   paint: (to: CanvasRenderingContext2D) => void;
 }
 
-/** Whether the browser has a graphics card for WebGL: what it computes itself is too slow to move. */
+/** True if the browser has a graphics card for WebGL: computing the pictures itself, a browser is too slow to move them. */
 export function hasFastWebgl(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return false;
@@ -38,7 +38,7 @@ function cornersOf(shape: BufferGeometry): Vector3[] {
   return all;
 }
 
-const pieces = 4; // of a bar
+const pieces = 4;  // pieces of a bar
 const shades = new Map<string, string>();
 function shade(colour: Color, by: number): string {
   const key = `${colour.getHex()} ${by}`;
@@ -55,7 +55,7 @@ export function paint(to: CanvasRenderingContext2D, stage: Scene, camera: Camera
   const whole = new Matrix4().multiplyMatrices(camera.projectionMatrix, view);
   const seen = new Vector3();
   const depthOf = (place: Vector3) => -seen.copy(place).applyMatrix4(view).z;
-  /** Where a place is on the canvas; null = behind the eye. */
+  /** The position of a place on the canvas; null = behind the eye. */
   const spot = (place: Vector3): Spot | null => {
     const e = whole.elements;
     const w = e[3] * place.x + e[7] * place.y + e[11] * place.z + e[15];

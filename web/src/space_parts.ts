@@ -123,7 +123,7 @@ function dashed(palette: Palette, colour: string, width: number, body: Body, pit
         if (!a || !b) continue;
         const from = a.clone().lerp(b, -beyond);
         const to = b.clone().lerp(a, -beyond);
-        // As many pieces at every instant, so that they do not flicker.
+        // The number of pieces is the same at every instant, so that they do not flicker.
         if (!counts.has(i)) counts.set(i, dashDots(from.distanceTo(to), pitch));
         for (const [s, e] of counts.get(i)!) ends.push(...from.clone().lerp(to, s).toArray(), ...from.clone().lerp(to, e).toArray());
       }

@@ -55,7 +55,7 @@ function Still() {
   return <div class="still" ref={box} />;
 }
 
-/** What the parts of a view are made from; scenes that agree in it are drawn by the same view. */
+/** The data that the parts of a view are made from; scenes that agree in it are drawn by the same view. */
 const partsOf = onceOf(({ bodies, discs, joints, vectors }) => JSON.stringify([bodies, discs, joints, vectors.map(({ name, quantity, symbol }) => [name, quantity, symbol])]));
 
 export function SpaceDrawing() {
@@ -124,7 +124,7 @@ export function ViewBar() {
   );
 }
 
-/** Where everything is at this instant: the same for keyboards and screen readers, and to copy. */
+/** A table of all positions at this instant: the same for keyboards and screen readers, and to copy. */
 export function Positions() {
   const [open, setOpen] = useState(false);
   const scene = state.scene.value;

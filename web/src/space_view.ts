@@ -36,7 +36,7 @@ export interface Basis {
   back: V3; // to the eye
 }
 
-/** What is right and up on the screen for an eye in this direction. */
+/** The directions to the right and up on the screen for an eye in this direction. */
 export function basisOf(eye: V3): Basis {
   const back = unit(eye);
   const level = cross([0, 0, 1], back);
@@ -74,7 +74,7 @@ export function bounds3(scene: Scene): Box3 | null {
   return low[0] <= high[0] ? { low, high } : null;
 }
 
-/** How far a wheel reaches from its centre along each coordinate. */
+/** The extent of a wheel from its centre along each coordinate. */
 export const reachOf = (axis: V3, disc: { radius: number; width: number }): V3 =>
   axis.map((a) => disc.radius * Math.sqrt(Math.max(0, 1 - a * a)) + (disc.width / 2) * Math.abs(a)) as V3;
 
@@ -136,11 +136,11 @@ export function beyond(places: Place[]): Place[] {
 
 export interface Fit {
   target: V3;
-  distance: number; // of the eye from the target, in perspective
-  halfHeight: number; // of what a parallel projection shows
+  distance: number;  // distance of the eye from the target, in perspective
+  halfHeight: number;  // half height of a parallel projection
 }
 
-/** How the places come into view; `fov` is the vertical angle of view (rad), `aspect` width over height. */
+/** Fits the places into the view; `fov` is the vertical angle of view (rad), `aspect` width over height. */
 export function fit3(places: V3[], eye: V3, fov: number, aspect: number, margin = 1.15): Fit {
   const axes = basisOf(eye);
   const ranges = [axes.right, axes.up, axes.back].map((axis) => {

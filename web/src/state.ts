@@ -1,4 +1,4 @@
-// What is shown, and what the reader has chosen.
+// The state of the page: shown results, and choices of the reader.
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import { extentOf } from "./arrows";
 import { readResult, readView, type Carried, type Quantity, type Result, type Scene, type View } from "./data";
@@ -21,12 +21,12 @@ export const revision = signal(0);
 export const paced = signal(0);
 
 export const sceneIndex = signal(0);
-/** Which value of the second input is shown. */
+/** Index of the value of the second input that is shown. */
 export const row = signal(0);
 /** All samples of the scene that is shown. */
 export const whole = computed<Scene | undefined>(() => (revision.value ? view.scenes[sceneIndex.value] : undefined));
 export const sceneName = computed(() => whole.value?.name);
-/** Those at the second input that is shown. */
+/** The scene at the second input that is shown. */
 export const scene = computed<Scene | undefined>(() => whole.value && rowOf(whole.value, row.value));
 const none: Motion = { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false };
 export const motion = computed<Motion>(() => (scene.value ? analyse(scene.value) : none));
@@ -53,7 +53,7 @@ export const showLabels = signal(true);
 export const showArrows: Record<Quantity, Signal<boolean>> = { force: signal(true), velocity: signal(true), acceleration: signal(true) };
 /** Times the scale at which the largest arrow is a quarter of the scene. */
 export const magnify: Record<Quantity, Signal<number>> = { force: signal(1), velocity: signal(1), acceleration: signal(1) };
-/** What is pointed at and what was chosen: "vector 3", "moment 0", "joint 2"; empty = nothing. */
+/** The object under the pointer, and the chosen one: "vector 3", "moment 0", "joint 2"; empty = nothing. */
 export const hovered = signal("");
 export const picked = signal("");
 export const whisker = signal<number | "auto">("auto");
@@ -129,7 +129,7 @@ export function showScene(index: number): void {
   if (!isAssembled(m, position.value)) position.value = m.runs[0]?.[0] ?? 0;
 }
 
-/** What comes before the drawing's own gestures: where the study itself is changed by hand. */
+/** The gestures that come before the drawing's own ones: there the study itself is changed by hand. */
 export interface Hand {
   /** A press at a place; true = it has taken hold of something within reach (m). */
   down(scene: Scene, at: Place, reach: number, alone: boolean): boolean;
@@ -164,13 +164,13 @@ export const pacedScene = computed(() => {
   return scene.peek();
 });
 
-/** What the diagrams draw behind their own curves, to compare with. */
+/** The curves that the diagrams draw behind their own curves, to compare with. */
 export const behind = signal<{ name: string; tables: Result["tables"] } | null>(null);
 
-/** What is being drawn by hand. */
+/** The stroke that is being drawn by hand. */
 export const stroke = signal<Place[]>([]);
 
-/** Where a study can be gone on with on the page itself, this does it. */
+/** The function that continues with a study on the page itself, where that is possible. */
 export const goOn: { now: ((name: string, text: string) => void) | null } = { now: null };
 
 /** Shows a place of the motion; the animation stops. */

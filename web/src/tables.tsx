@@ -16,7 +16,7 @@ export function DataTable({ table }: { table: Table }) {
   const [all, setAll] = useState(false);
   const rows = table.data[0]?.length ?? 0;
   const shown = Math.min(rows, mostRows);
-  // Of a table that is closed nothing is computed before it is asked for: there may be many, while a mechanism is dragged.
+  // A closed table is not computed before it is asked for: there may be many, while a mechanism is dragged.
   const heads = useMemo(() => (open ? table.columns.map((c, i) => labelWith(c.label, c.key, unitOf(c.key, largestSize(table.data[i])))) : []), [table, open]);
   const otherUnits = inOtherUnits(table);
   const name = slug(table.name);

@@ -90,5 +90,5 @@ export const quantity = (key: string, value: number | null, digits = 6): string 
   return unit.symbol ? `${text}${unit.symbol === "°" ? "" : "\u202f"}${unit.symbol}` : text;
 };
 
-/** Of lengths of a drawing of this size (m). */
+/** Unit for lengths of a drawing of this size (m). */
 export const lengthUnit = (size: number): Unit => unitOf("_m", size);

@@ -1,4 +1,4 @@
-// Where the drawing stands on the screen.
+// Position of the drawing on the screen.
 import type { Num, Scene } from "./data";
 import type { Place } from "./motion";
 
@@ -133,14 +133,15 @@ export function targetErrors(target: { x: Num[]; y: Num[]; achieved_x: Num[]; ac
   return { distance, worst };
 }
 
-/** How many times larger errors should be drawn to be seen: 1, 2, 5, 10 ... so that the worst is about 5 % of the drawing. Not what is only rounding. */
+/** The factor by which errors are enlarged to be seen: 1, 2, 5, 10 ... so that the worst is about 5 % of the drawing. Not what is only
+ *  rounding. */
 export function whiskerScale(worst: number, size: number): number {
   if (!(worst > 1e-9 * size) || !(size > 0)) return 1;
   return Math.max(1, niceStep((0.06 * size) / worst));
 }
 
-/** What each body is, whichever side or leg it belongs to: "left tie rod" and "right tie rod" are "tie rod"; "rod 1" and "rod 2" are "rod"
- *  where legs are repeated, that is when their numbers are those of another role, too. */
+/** The role of each body, whichever side or leg it belongs to: "left tie rod" and "right tie rod" are "tie rod"; "rod 1" and "rod 2"
+ *  are "rod" where legs are repeated, that is when their numbers are those of another role, too. */
 export function roles(names: readonly string[]): string[] {
   const parts = names.map((name) => {
     const bare = name.replace(/^(left|right) /, "");

@@ -1,9 +1,9 @@
-// Which part of a diagram is shown.
+// The part of a diagram that is shown.
 import type { Box } from "./view";
 
 export type Range = [number, number];
 
-const closest = 1e-7; // of the whole range: no nearer than this
+const closest = 1e-7;  // share of the whole range: no nearer than this
 
 /** A part of the whole, as long as it should be and inside of it; null when that is the whole. */
 function inside([low, high]: Range, [from, to]: Range): Range | null {

@@ -3,9 +3,9 @@ import { batch, computed, signal } from "@preact/signals";
 import { pack, unpack } from "../packed";
 
 export interface Document {
-  name: string; // of the file
+  name: string;  // name of the file
   text: string;
-  files: Record<string, string>; // that the study reads
+  files: Record<string, string>;  // files that the study reads
 }
 
 const empty: Document = { name: "study.toml", text: "", files: {} };
@@ -76,7 +76,8 @@ export function kept(): Document | null {
 /** Forms in which a study can be taken along, and what makes each. */
 export const copies = { "command line": asCommand, Python: asPython, "C++": asCpp };
 
-/** What runs a study in a terminal: the files that it reads are written first, and nothing in them is taken for anything but text. */
+/** The command that runs a study in a terminal: the files that it reads are written first, and nothing in them is taken for anything
+ *  but text. */
 export function asCommand({ text, files }: Document): string {
   const here = (command: string, content: string) => {
     const lines = content.split("\n");

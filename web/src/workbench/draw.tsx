@@ -17,7 +17,7 @@ const tool = signal(tools[0]);
 const from = signal<number | null>(null); // the point from which the next link, spring or gear goes
 const snap = signal(true);
 const picture = signal<{ url: string; width: number } | null>(null);
-/** What the keyboard points at, while the board has the focus. */
+/** The place at which the keyboard points, while the board has the focus. */
 const cursor = signal<Place | null>(null);
 
 /** mm that are seen: what a finger can press on a phone. */
@@ -190,7 +190,7 @@ function NumberField({ label, name, value, unit, least = -most, set: to }: { lab
       <input type="number" step="any" value={Number(value.toFixed(4))} data-number={name} aria-label={`${label} of ${name.split(".")[0]}`} onChange={(e) => {
         const typed = Number(e.currentTarget.value);
         if (e.currentTarget.value !== "" && typed >= least && typed <= most) to(typed);
-        else e.currentTarget.value = String(value); // what it was
+        else e.currentTarget.value = String(value);  // restores the old value
       }} />
       <em>{unit}</em>
     </label>
@@ -244,7 +244,7 @@ function Tools() {
 
 const freedoms = (count: number) => `${count} degree${count === 1 ? "" : "s"} of freedom`;
 
-/** What is under the cursor of the keyboard. */
+/** The object under the cursor of the keyboard. */
 function underCursor(): string {
   if (!cursor.value) return "";
   const { x, y } = cursor.value;

@@ -1,4 +1,4 @@
-// What the workbench asks of the program, wherever that runs.
+// The questions of the workbench to the program, wherever that runs.
 import { once, type Carried, type Json, type JsonObject, type Num } from "../data";
 import { jsonNumber } from "../decimal";
 import type { Question, Reply } from "./worker";
@@ -19,7 +19,7 @@ export interface Edit {
 
 /** A study that the program has read and, if it is without errors, run. */
 export interface Answer {
-  text: string; // with the edits in it
+  text: string;  // text with the edits in it
   diagnostics: Diagnostic[];
   canonical?: JsonObject;
   carried?: Carried;
@@ -51,9 +51,9 @@ export interface Progress {
 export interface Task {
   text: string;
   edits?: Edit[];
-  files?: Record<string, string>; // that the study reads, by name
+  files?: Record<string, string>;  // files that the study reads, by name
   seconds?: number; // after which the best so far is good enough; 0 = never
-  kept?: string[]; // what earlier runs of it have kept
+  kept?: string[];  // checkpoints of earlier runs of it
 }
 
 export interface Engine {
@@ -61,7 +61,7 @@ export interface Engine {
   /** JSON Schema of the studies of a kind; null if there is no such kind. */
   schema(kind: string): Promise<JsonObject | null>;
   run(task: Task, progress?: (p: Progress) => void): Promise<Answer>;
-  /** What the run of now, or the last one, has kept for other runs of the same task. */
+  /** The checkpoints of the present or last run, for other runs of the same task. */
   kept(): string[];
   /** Asks the run to end: its answer is then the best so far. */
   finish(): void;
@@ -156,7 +156,7 @@ function workerOf(module: WebAssembly.Module, script: string) {
         if ("leaves" in data) return who?.leaves?.();
         waiting.delete(data.id);
         if ("problem" in data) {
-          // What has thrown past its own answers may have lost its memory: the next question gets a new one.
+          // An engine that has thrown past its own answers may have lost its memory: the next question gets a new one.
           give_up(new Error(data.problem));
           who?.failed(new Error(data.problem));
         } else who?.done(data);
@@ -209,7 +209,7 @@ export function workerEngine(module: WebAssembly.Module, script: string, workers
         const help: Promise<unknown>[] = [];
         const answer = await within(seconds, { index: 0, count, kept: [] }, {
           ...hears(0),
-          // What another does not come to, because it has stopped, the first does in the end.
+          // Pieces that another worker does not reach, because it has stopped, are done by the first in the end.
           leaves: () => others.forEach((other, k) => help.push(within(seconds, { index: k + 1, count, kept: [] }, hears(k + 1), other).catch(() => {}))),
         });
         if (!help.length) return answer;

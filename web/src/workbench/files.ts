@@ -1,4 +1,5 @@
-// What users open or drop: studies, the tables that they read, and the reports and results that were made of studies.
+// Files that users open or drop: studies, the tables that they read, and the reports and results that were made of
+// studies.
 import { oneStudy, type JsonObject } from "../data";
 import { unpackReport } from "../packed";
 

@@ -1,4 +1,4 @@
-// What there is to begin with.
+// The examples and templates to begin with.
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Example } from "./engine";

@@ -5,7 +5,7 @@ import type { Edit } from "./engine";
 
 export type Handle = NonNullable<Scene["handles"]>[number];
 
-/** What a press takes hold of: the numbers of the study behind a drawn place. */
+/** A grip of the pointer: the numbers of the study behind a drawn place. */
 export interface Grip {
   handles: Handle[];
   points: number[]; // all that are one with the point that is held
@@ -20,7 +20,7 @@ const entry = (list: Num[], i: number) => (list.length === 1 ? list[0] : list[i]
 
 const distance = (a: Place, b: Place) => Math.hypot(a.x - b.x, a.y - b.y, (a.z ?? 0) - (b.z ?? 0));
 
-/** Whether two points of a scene are one wherever it is assembled, as the ends of two links on a pin are. */
+/** True if two points of a scene are one wherever it is assembled, as the ends of two links on a pin are. */
 function joined(scene: Scene, a: number, b: number, size: number): boolean {
   if (a === b) return true;
   let any = false;
@@ -36,8 +36,8 @@ function joined(scene: Scene, a: number, b: number, size: number): boolean {
 /** All numbers that move with a drawn point at a sample, but for those that are locked; null if the study has none of it. */
 export function gripPoint(scene: Scene, point: number, sample: number, size: number, locked: ReadonlySet<string> = new Set()): Grip | null {
   const at = placeAt(scene, point, sample);
-  // Of two points of one body in one place, such as a pivot on a guide, the pin is meant. What no number of the study places, such as
-  // a centre of mass, is there by chance.
+  // If two points of one body coincide, such as a pivot on a guide, the pin is meant. A point that no number of the
+  // study places, such as a centre of mass, coincides by chance.
   const pins = new Set(scene.joints?.map((j) => j.point));
   const told = new Set([point, ...pins, ...(scene.handles ?? []).flatMap((h) => [h.point, h.from])]);
   const one = at ? scene.points.flatMap((_, i) => (told.has(i) && joined(scene, i, point, size) ? [i] : [])) : [];
@@ -98,12 +98,12 @@ export function valueOf(study: JsonObject | null, key: string): Json | null {
   return at ?? null;
 }
 
-const shortest = 1e-3; // of a link, as a share of its length when it was taken hold of
+const shortest = 1e-3;  // shortest link, as a share of its length when it was taken hold of
 
 const origin: Place = { x: 0, y: 0, z: 0 };
 const endOf = (scene: Scene, grip: Grip, point: number) => (point < 0 ? origin : placeAt(scene, point, grip.sample));
 
-/** Where what is held comes to when it is dragged to a place: what an input turns, or a slide guides, stays on its line. */
+/** The position of a held point when it is dragged to a place: what an input turns, or a slide guides, stays on its line. */
 export function within(scene: Scene, grip: Grip, to: Place): Place | null {
   if (grip.along) {
     const way = (to.x - grip.at.x) * grip.along.x + (to.y - grip.at.y) * grip.along.y;
@@ -125,7 +125,8 @@ export const isRobot = (study: JsonObject | null) => String((study?.mechanism as
 
 const pinned = ["planar.four_bar", "planar.slider_crank", "parallel.five_bar", "parallel.constant_orientation"];
 
-/** Whether all other joints stay where they are while a point is dragged: where nothing slides on what moves, and no frame is turned. */
+/** True if all other joints stay where they are while a point is dragged: where they are while a point is dragged: where nothing
+ *  slides on what moves, and no frame is turned. */
 function othersStay(study: JsonObject | null, grip: Grip): boolean {
   const mechanism = study?.mechanism as JsonObject | undefined;
   const joints = mechanism?.type === "planar.linkage" ? (mechanism.joint as JsonObject[] | undefined) : undefined;
@@ -133,7 +134,7 @@ function othersStay(study: JsonObject | null, grip: Grip): boolean {
   return grip.handles.every((h) => h.measure !== "angle" && !(h.frame < 0 && (h.measure === "x" || h.measure === "y")));
 }
 
-/** Whether a drag has done what it should: what was held is drawn at its place, and the rest where it was. Past a dead point it would
+/** True if a drag has done what it should: the held point is drawn at its place, and the rest is unchanged. Past a dead point it would
  *  be elsewhere, on the other branch. `study` is the one before. */
 export function reached(before: Scene, after: Scene, grip: Grip, at: Place, size: number, study: JsonObject | null): boolean {
   const near = (point: number, place: Place | null) => {

@@ -12,17 +12,17 @@ const entry = /^(?:trace|mechanism\.(?:spring|torsion_spring|force|torque))\[\d+
 const bodiesOf = (study: JsonObject) => ((study.mechanism as JsonObject).body ?? []) as JsonObject[];
 const pointsOf = (body: JsonObject) => Object.keys((body.points_m ?? {}) as JsonObject).map((point) => `${body.name}.${point}`);
 
-/** What a word of a spring, load or trace may name: points, "body.point", or bodies. */
+/** The names that a word of a spring, load or trace may have: points, "body.point", or bodies. */
 export function places(study: JsonObject, key: string): string[] {
   const [, load, end] = /^(?:mechanism\.)?(\w+)\[\d+\]\.(point|first|second|body|from)$/.exec(entry.test(key) ? key : "") ?? [];
   if (!end) return [];
   return load === "torque" || load === "torsion_spring" ? bodiesOf(study).map((b) => String(b.name)) : bodiesOf(study).flatMap(pointsOf);
 }
 
-/** Whether a table can be taken out of its list. */
+/** True if a table can be taken out of its list. */
 export const isLoad = (path: string) => entry.exec(path)?.[0] === path;
 
-/** Those that studies of the kind may have. */
+/** The loads that studies of the kind may have. */
 export const possible = (study: JsonObject, schema: JsonObject | null): Load[] =>
   bodiesOf(study).length > 1 ? loads.filter((load) => nodeAt(schema, study, `${listOf(load)}[0]`) !== null) : [];
 

@@ -1,4 +1,5 @@
-// Whether a sketch moves: its freedoms by count and by what its joints allow, and what it lacks until its drive moves all of it.
+// Mobility of a sketch: its freedoms by count and by what its joints allow, and what it lacks until its drive moves all
+// of it.
 import { bodiesAt, driveOf, elementName, jointOf, jointsAt, kinds, least, movingBodies, pinName, sliderName, valueOf, wheelsOf, type Place, type Sketch } from "./sketch";
 
 const gearsOf = (sketch: Sketch) => sketch.elements.flatMap((e) => {
@@ -13,8 +14,8 @@ export function freedom(sketch: Sketch): number {
   return 3 * movingBodies(sketch).length - 2 * joints - gearsOf(sketch).length;
 }
 
-/** What joints, gears and, where it is asked for, the drive say of the speeds of bodies (x, y of the origin, angle) between themselves and
- *  those that are known, which are at rest. */
+/** The equations of joints, gears and, where it is asked for, the drive: for the speeds of bodies (x, y of the origin, angle) against
+ *  each other and against the known ones, which are at rest. */
 function equations(sketch: Sketch, bodies: string[], known: Set<string>, driven: boolean, places: Place[] = sketch.pins): number[][] {
   const size = Math.max(1, ...places.map((p) => Math.hypot(p.x, p.y)));
   const column = new Map(bodies.map((body, k) => [body, 3 * k]));
@@ -72,8 +73,8 @@ function moved(sketch: Sketch): Place[] {
   return sketch.pins.map((p, i) => ({ x: p.x + 0.05 * size * Math.sin(12.9898 * (i + 1)), y: p.y + 0.05 * size * Math.sin(78.233 * (i + 1)) }));
 }
 
-/** Whether all gears can be followed from the drive, as the program asks: one wheel and the carrier are turned by drives and gears alone,
- *  and the other wheel has a pin on a body that has its place. */
+/** True if all gears can be followed from the drive, as the program asks: one wheel and the carrier are turned by drives and gears
+ *  alone, and the other wheel has a pin on a body that has its place. */
 function gearsFollow(sketch: Sketch): boolean {
   const known = new Set(["ground"]); // have their place
   const turned = new Set(["ground"]); // by drives and gears alone
@@ -103,7 +104,7 @@ function gearsFollow(sketch: Sketch): boolean {
 
 const capital = (words: string) => words[0].toUpperCase() + words.slice(1);
 
-/** What is still missing before it moves; "" = nothing. */
+/** The elements that are still missing before it moves; "" = nothing. */
 export function missing(sketch: Sketch): string {
   const { pins, links, elements } = sketch;
   if (!links.length) return "Draw a link: press where its pins are.";

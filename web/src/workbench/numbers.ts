@@ -5,10 +5,10 @@ import { places } from "./loads";
 import { ruleAt, type Rule } from "./schema";
 
 export interface Entry {
-  key: string; // of the study
+  key: string;  // key of the study
   label: string;
   value: number | string | boolean | { min: number; max: number };
-  rule: Rule | null; // what the schema says of it
+  rule: Rule | null;  // rule of the schema for it
 }
 /** Rows of two numbers that rows can be added to: points, or a table of a function. */
 export interface List {
@@ -19,7 +19,7 @@ export interface List {
 }
 export interface Group {
   title: string;
-  path: string; // of its table
+  path: string;  // path of its table
   entries: Entry[];
   lists: List[];
 }
@@ -31,7 +31,7 @@ const isPlace = (key: string) => /^([µmkc]?m(\/s²?)?|k?N( m)?)$/.test(unitOf(u
 const isRange = (value: Json): value is { min: number; max: number } =>
   value !== null && typeof value === "object" && !Array.isArray(value) && Object.keys(value).length === 2 && typeof value.min === "number" && typeof value.max === "number";
 
-/** Those of a whole study, but for what only says how results are written and checked. */
+/** The numbers of a whole study, except those for what only says how results are written and checked. */
 export function numbersOf(study: JsonObject, schema: JsonObject | null = null): Group[] {
   const groups: Group[] = [];
   const rule = (key: string) => ruleAt(schema, study, key);
@@ -78,7 +78,7 @@ export function numbersOf(study: JsonObject, schema: JsonObject | null = null): 
 }
 
 export interface PointRow {
-  key: string; // of the list of three
+  key: string;  // key of the list of three
   owner: string; // "link front arm"
   name: string; // "body"
   entries: Entry[]; // x, y and z

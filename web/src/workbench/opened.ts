@@ -1,4 +1,5 @@
-// Where the study is saved: in the file that the program was started with, while that is what is worked on, or as a download.
+// The place where the study is saved: the file that the program was started with, while that one is edited, or a
+// download.
 import { computed, signal } from "@preact/signals";
 import { save } from "../exports";
 import { document_ } from "./document";

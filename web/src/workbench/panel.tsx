@@ -50,7 +50,7 @@ function Text() {
   );
 }
 
-/** What a search may choose becomes a number, as the best solution has it, and a number becomes what it may choose. */
+/** A range that a search may choose from becomes a number, as the best solution has it, and a number becomes such a range. */
 function freed({ key, value, rule }: Entry): { min: number; max: number } | number {
   if (typeof value === "object") {
     return bestOf(key.split(".").pop()!) ?? (value.min + value.max) / 2;

@@ -1,6 +1,6 @@
-// What the page carries to be seen before its engine answers, drawn when it was built (draw_examples.mjs).
+// The pictures that the page carries to show before its engine answers, drawn when it was built (draw_examples.mjs).
 export interface Pictures {
-  examples: Record<string, string>; // what stands in the <svg> of each, by its name
+  examples: Record<string, string>;  // contents of the <svg> of each, by its name
   first: { name: string; title: string; text: string }; // the study that the page opens with
 }
 let read: Pictures | undefined;

@@ -9,7 +9,7 @@ export function listOf(scene: Scene | undefined): string {
   const key = scene?.handles?.find((h) => h.target === 0)?.key ?? "";
   return key.replace(/\[\d+\](\.\w+)?$/, "");
 }
-/** Whether what is aimed at is a list of poses, tables of a place and an angle. */
+/** True if the target is a list of poses, tables of a place and an angle. */
 export const isPoses = (key: string) => key.endsWith(".pose");
 
 /** To a ten-thousandth of the drawing: what is below comes from the screen's pixels. */

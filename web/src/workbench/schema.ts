@@ -1,4 +1,4 @@
-// What the JSON Schema of a kind says of a key of its studies.
+// The rules of a kind's JSON Schema for a key of its studies.
 import type { Json, JsonObject } from "../data";
 
 export interface Rule {
@@ -9,7 +9,7 @@ export interface Rule {
   choices?: { value: string; help: string }[];
   flag: boolean;
   free: boolean; // a number that a search may choose between bounds
-  count: number; // of the numbers of a list; 0 = one number
+  count: number;  // count of numbers in a list; 0 = one number
   start?: Json; // default
 }
 
@@ -67,7 +67,8 @@ export function ruleOf(node: JsonObject): Rule {
   };
 }
 
-/** What a schema says of a study that differs from the last one by its numbers alone is what it said of that: which it is while something is dragged. */
+/** The last study and the rules of the schema for it. They stay valid for a study that differs by its numbers alone, as while
+ *  something is dragged. */
 interface Said {
   schema: JsonObject | null;
   shape: string;

@@ -15,13 +15,13 @@ export const diagnostics = signal<Diagnostic[]>([]);
 export const canonical = signal<JsonObject | null>(null);
 /** It, as words and numbers have it. */
 export const pacedStudy = computed(() => (state.paced.value, canonical.peek()));
-/** What may stand in studies of the present kind. */
+/** The schema of studies of the present kind. */
 export const schema = signal<JsonObject | null>(null);
 /** Keys of the study that the drawing shows, and those of them that are kept while it is dragged. */
 export const handleKeys = signal<ReadonlySet<string>>(new Set());
 export const locked = signal(new Set<string>());
 const none: ReadonlySet<string> = new Set();
-/** What is the same as before stays the very same, so that nothing is drawn anew for it. */
+/** A set that is the same as before stays the very same, so that nothing is drawn again for it. */
 const kept = (before: ReadonlySet<string>, now: ReadonlySet<string>) => (before.size === now.size && [...now].every((key) => before.has(key)) ? before : now);
 const keysAt = (scene: Scene, joint: number) => new Set(gripPoint(scene, scene.joints[joint].point, Math.round(state.position.peek()), extent.peek())?.handles.map((h) => h.key));
 let lastPicked = none;
@@ -49,7 +49,7 @@ export function toggleLock(key: string): void {
 }
 /** There is an answer to show. */
 export const shown = signal(false);
-/** What is shown is of an earlier text: the present one has errors. */
+/** True if the shown results belong to an earlier text: the present one has errors. */
 export const stale = signal(false);
 export const busy = signal(false);
 /** It has been for so long that one wants to know. */
@@ -58,13 +58,13 @@ export const waiting = signal(false);
 export const ending = signal(false);
 export const progress = signal<Progress | null>(null);
 export const trouble = signal("");
-/** Why what is done by hand is not taken; "" = it is. */
+/** The reason why a change by hand is not taken; "" = it is taken. */
 export const stopped = signal("");
 /** ms of the last run in the engine, and from the question to the page. */
 export const took = signal<{ engine: number; whole: number } | null>(null);
-/** Whether a press on the drawing changes the mechanism or moves it. */
+/** True if a press on the drawing changes the mechanism, false if it moves it. */
 export const editing = signal(true);
-/** Whether a press where nothing is adds a point to the target, and a drag draws its path. */
+/** True if a press on an empty place adds a point to the target, and a drag draws its path. */
 export const adding = signal(false);
 /** The key of the target's points, where the study has some that can be set by hand. */
 export const targetKey = computed(() => (shown.value && canonical.value ? listOf(state.scene.value) : ""));
@@ -75,14 +75,14 @@ let looking = false; // the second engine is at work
 interface Wanted {
   task: Task;
   gesture?: unknown;
-  /** Why the answer is not what the gesture means, and is left; "" = it is. */
+  /** The reason why the answer is not what the gesture means, and is dropped; "" = it is right. */
   hinders?: (answer: Answer) => string;
 }
 let flying: { task: Task; since: number } | null = null;
 let wanted: Wanted | null = null;
 let answered = ""; // text and files of what is shown
 let subject = "";
-let kind = ""; // that the schema is of
+let kind = "";  // kind of the schema
 const schemas = new Map<string, Promise<JsonObject | null>>();
 
 async function learn(study: JsonObject): Promise<void> {
@@ -106,7 +106,7 @@ const tellAfter = 150; // ms after which is said that the engine is at work
 const patience = 300; // ms after which a run that nobody waits for any longer is ended
 const timeLimit = 60; // s; the program itself has no limit
 const quick = 0.2; // s for what is seen while something is dragged
-let unfinished = false; // what is shown was cut short by that
+let unfinished = false;  // true if the shown run was cut short by that
 const print = (task: Task) => JSON.stringify([task.text, task.files]);
 
 function accept(answer: Answer): void {
@@ -125,7 +125,7 @@ function accept(answer: Answer): void {
   shown.value = true;
 }
 
-/** What a search has found by now is found again within the same time, and shown, while the search goes on. */
+/** The solution that a search has found by now is found again within the same time, and shown, while the search goes on. */
 async function preview(of: NonNullable<typeof flying>): Promise<void> {
   const goesOn = () => flying === of && !held;
   for (;;) {
@@ -208,7 +208,7 @@ function complete(): void {
   want({ task: { text, files, seconds: timeLimit } });
 }
 
-/** Of the best solution, a parameter by its name. */
+/** The parameter of the best solution, by its name. */
 export const bestOf = (name: string) => {
   const value = state.result.solutions[0]?.parameters[name];
   return typeof value === "number" ? value : null;
@@ -237,7 +237,7 @@ export function open(document: Document): void {
   begin(document);
 }
 
-/** What is held of the study: a pin with all links on it, a pivot, a target point. */
+/** The held element of the study: a pin with all links on it, a pivot, a target point. */
 let held: { grip: Grip; gesture: symbol; scene: Scene; study: JsonObject | null } | null = null;
 
 function take(scene: Scene, grip: Grip): void {
@@ -277,7 +277,7 @@ export async function takePoints(name: string, text: string): Promise<void> {
   const key = targetKey.peek();
   const { text: study, files } = document_.peek();
   const edits: Edit[] = [{ key, value: null }, { key: `${key.slice(0, key.lastIndexOf("."))}.${isPoses(key) ? "file" : "points_file"}`, value: name }];
-  // What is asked for is the study with the points in it, not what a search finds.
+  // The request is for the study with the points in it, not for the result of a search.
   const answer = await engine.run({ text: study, files: { ...files, [name]: text }, edits, seconds: 0.05 });
   const points = valueOf(answer.canonical ?? null, key);
   if (!points) throw new Error(problemOf(answer));

@@ -18,7 +18,8 @@ export type ElementKind = "drive" | "gear" | "spring" | "torsion_spring" | "forc
 export interface SketchElement {
   kind: ElementKind;
   pins: number[];
-  /** Of a drive or torsion spring: which of the joints at its pin; of a gear: which of the bodies there are its wheels. */
+  /** The index of a joint or body: for a drive or torsion spring among the joints at its pin, for a gear among the bodies there, its
+   *  wheels. */
   joint: number;
   /** By the keys that a study has for them; what is left out begins as the kind says. */
   values: Record<string, number>;
@@ -102,7 +103,7 @@ interface Kind {
   numbers: (sketch: Sketch, element: SketchElement) => ElementNumber[];
   /** The other lines of its table. */
   lines: (sketch: Sketch, element: SketchElement) => Line[];
-  /** What is wrong with it where it is; "" = nothing. */
+  /** The problem of the element at its place; "" = nothing. */
   problem: (sketch: Sketch, element: SketchElement) => string;
 }
 const number = (key: string, label: string, unit: string, start: number | ElementNumber["start"], least = -most): ElementNumber =>

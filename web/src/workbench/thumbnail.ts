@@ -4,9 +4,9 @@ import { isSpatial, middleRow, rowOf } from "../grid";
 import { analyse, placeAt, type Place } from "../motion";
 import { bodyColours, bounds, fit, toScreen, type Size } from "../view";
 
-/** Of the pictures in the gallery; on the screen they are half as large. */
+/** Size of the pictures in the gallery; on the screen they are half as large. */
 export const small: Size = { width: 400, height: 248 };
-/** Of the one that a page opens with: as wide as the mechanism asks for. */
+/** Size of the picture that a page opens with: as wide as the mechanism asks for. */
 export function large(scene: Scene): Size {
   const height = 900;
   const box = bounds(scene);

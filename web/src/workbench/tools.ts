@@ -6,7 +6,7 @@ import { bodiesAt, driveOf, jointsAt, radiiOf, valueOf, withoutPin, type Element
 export interface Press extends Place {
   reach: number; // mm within which something is meant
   grid: number; // mm that places snap to; 0 = none
-  more: boolean; // with Shift
+  more: boolean;  // true with Shift
 }
 export type Drag = (sketch: Sketch, to: Press) => Sketch;
 export interface Outcome {
@@ -71,7 +71,7 @@ export function tipOf(s: Sketch, force: SketchElement): Place {
   const { x: x0, y: y0 } = s.pins[force.pins[0]];
   return { x: x0 + scale * x, y: y0 + scale * y };
 }
-/** Where the pitch circles of a gear touch. */
+/** The point where the pitch circles of a gear touch. */
 export function pitchOf(s: Sketch, gear: SketchElement): Place {
   const [a, b] = gear.pins.map((i) => s.pins[i]);
   const share = radiiOf(s, gear)[0] / distance(a, b);
@@ -121,7 +121,7 @@ const slidePitch = (k: number): Drag => (s, to) => {
   const ratio = round(first / (first - size), to.grid ? 0.05 : 0.001);
   return Math.abs(ratio) > 0.02 && Math.abs(ratio) < 50 ? withElement(s, k, { values: { ratio } }) : s;
 };
-/** What is taken hold of at a place. */
+/** The grip at a place. */
 export function gripAt(s: Sketch, at: Press): Drag | null {
   const grips: [Place, Drag][] = [...s.pins.map((p, i): [Place, Drag] => [p, dragPin(i)]),
     ...s.elements.flatMap((e, k): [Place, Drag][] => (e.kind === "force" ? [[tipOf(s, e), aim(k)]] : e.kind === "gear" ? [[pitchOf(s, e), slidePitch(k)]] : []))];

@@ -54,7 +54,7 @@ async function openFiles(list: FileList): Promise<void> {
     if (study) return open({ ...study, files: tables });
     const [name, ...more] = Object.keys(tables);
     if (targetKey.value && !more.length && !document_.value.text.includes(name)) return await takePoints(name, tables[name]);
-    // What the present study reads.
+    // The files that the present study reads.
     replace({ ...document_.value, files: { ...document_.value.files, ...tables } });
   } catch (error) {
     stopped.value = error instanceof Error ? error.message : String(error);
@@ -103,7 +103,7 @@ function Bar() {
   );
 }
 
-/** What stands in the page until the engine answers; the page has it from the start, so that it is seen at once. */
+/** The contents of the page until the engine answers; the page has it from the start, so that it is seen at once. */
 const opening = document.querySelector(".opening")?.innerHTML ?? '<p class="note">The engine starts.</p>';
 
 function Workbench() {
@@ -143,7 +143,7 @@ async function asked(hash: string, known: Promise<Catalogue>): Promise<Document 
 /** After the page has been painted; a page in the background is not. */
 const painted = () => new Promise((resolve) => (document.hidden ? resolve(null) : requestAnimationFrame(() => setTimeout(resolve))));
 
-/** What answers this page: the engine that it carries, or the program that serves it. */
+/** The source of answers for this page: the engine that it carries, or the program that serves it. */
 interface Source {
   engine: () => Engine;
   file: { file: Opened; ask: Ask } | null;

@@ -14,7 +14,7 @@ interface Module {
   _engine_run(text: number, size: number, edits: number, editsSize: number, sharing: number, sharingSize: number, seconds: number): void;
 }
 declare function createEngine(options: object): Promise<Module>;
-/** What of a worker's own scope is used; the types of the page do not know it. */
+/** The part of a worker's own scope that is used; the types of the page do not know it. */
 interface Scope {
   onmessage: ((event: MessageEvent<Question>) => void) | null;
   postMessage(message: Reply, transfer?: Transferable[]): void;
@@ -28,7 +28,7 @@ export type Question =
 export type Reply =
   | { id: number; json: string; numbers: Float64Array }
   | { id: number; progress: { stage: string; fraction: number; best: number } }
-  | { id: number; kept: string } // what other runs of the same study can begin with
+  | { id: number; kept: string }  // checkpoint with which other runs of the same study can begin
   | { id: number; leaves: true } // the run leaves something to others that share it
   | { id: number; problem: string };
 
