@@ -76,7 +76,7 @@ SKIPPED_NAMES = {"package-lock.json", "LICENSE"}
 # A comment that begins so leans on the line before it, or leaves out what it speaks of.
 FRAGMENT = re.compile(r"(?:of|what|whatever|whether|where|that|those|with|how|than|as|which|who|whose|why|when(?![^.]*,))\b",
                       re.I)
-MOST_FRAGMENTS = 0.05
+MOST_FRAGMENTS = 0.05  # share of the comments of a module of the program
 # Comments that are no prose: ends of namespaces, words for tools, rulers.
 NO_PROSE = re.compile(r"namespace\b|NOLINT|clang-format|eslint|@ts-|noqa|!/|-\*-|[^\w\s]*$")
 # A string, a character, a regular expression of TypeScript, or a comment, which alone has a name.
@@ -188,6 +188,10 @@ def check(root):
             for pattern, instead in GIVEN_UP:
                 if match := pattern.search(line):
                     findings.append(f"{where}:{number}: '{match[0]}': {instead}")
+    for module, (all_of, found) in fragments(root).items():
+        if module.startswith("src/linkwright/") and len(found) > MOST_FRAGMENTS * all_of:
+            findings += [f"{where}:{number}: '{said}': a fragment; write a sentence or name the thing"
+                         for where, number, said in found]
     return findings
 
 

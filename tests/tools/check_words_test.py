@@ -58,6 +58,13 @@ class CheckWords(ScratchCase):
         (self.root / "web/src/a.ts").unlink()
         self.assertEqual(self.fragments('a = "# of"  # how long\n', "tools/a.py"), [(1, [(1, "how long")])])
 
+    def test_a_module_has_few_fragments(self):
+        sentences = "// The force.\n\n" * 19
+        self.assertEqual(self.findings(sentences + "// of the pin\n", "src/linkwright/core/a.cpp"), [])
+        [first, second] = self.findings(sentences + "// of the pin\n\n// whether it moves\n", "src/linkwright/core/a.cpp")
+        self.assertEqual(first, "src/linkwright/core/a.cpp:39: 'of the pin': a fragment; write a sentence or name the thing")
+        self.assertIn("a.cpp:41: 'whether it moves'", second)
+
     def test_names_given_up(self):
         self.write("src/linkwright/core/a.h", 'int tell_all, wayOf, subway, tellAll;  // told\nauto x = "kept";\n')
         self.assertEqual(check_words.names_given_up(self.root), {"tell": 2, "way": 1})

@@ -100,7 +100,7 @@ class MpiRanks final : public app::Ranks {
     return std::exchange(woken_, false) ? shortest_sleep : longest;
   }
 
-  /// With the lock held: urgent messages are handled at once, and answers are polled often.
+  /// Call with the lock held: urgent messages are handled at once, and answers are polled often.
   void wake() {
     woken_ = true;
     changes_.notify_all();

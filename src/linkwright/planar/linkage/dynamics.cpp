@@ -183,7 +183,7 @@ void LinkageDynamics::resolve(std::span<double> right) const {
   }
 }
 
-// With friction, joint forces and accelerations depend on each other. The forces that drives at the free
+// Joint forces and accelerations depend on each other by friction. The forces that drives at the free
 // joints would have to give measure the error of the accelerations.
 Status LinkageDynamics::settle_friction(double time, std::span<InputMotion> inputs) {
   solve_acceleration(plan_, inputs, motion);

@@ -134,8 +134,8 @@ double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack,
 double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);
 
-/// How much a US link, or a distance of another link, is too long (+) or too short (-) at a place: the
-/// largest, and the link that has it. Hinges and struts are measured as they miss each other.
+/// The largest error of a US link's length, or of a distance that another link keeps, in a pose: too long (+)
+/// or too short (-), and the link that has it. Hinges and struts are measured as they miss each other.
 struct Misfit {
   int link = -1;   ///< links first, then couplers
   double gap = 0;  ///< m

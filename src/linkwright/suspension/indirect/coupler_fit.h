@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 
 /// The coupler found, and how well it fits.
 struct CouplerFit {
-  Status status = Status::infeasible;  ///< as LinkFit::status; infeasible also when a link is missing
+  Status status = Status::infeasible;  ///< see LinkFit::status; infeasible also when a link is missing
   Coupler coupler;
   double offset = 0;                     ///< m, from the body point of the first link
   double rms = infinity, largest = rms;  ///< m: change of its length

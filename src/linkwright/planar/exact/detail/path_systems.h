@@ -82,7 +82,7 @@ LINKWRIGHT_KERNEL bool take_smaller_cognate(ComplexFourBar<T>& z, double share) 
   return true;
 }
 
-/// What identities of solutions are made of, the same in every program.
+/// The linear forms that make the identities of solutions, the same in every program.
 struct RandomForms {
   static constexpr std::size_t count = 4;
   std::array<ComplexNumber, count> d, D, above, below;
