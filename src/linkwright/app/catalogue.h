@@ -31,7 +31,7 @@ bool holds_words(std::span<const std::string> words, std::initializer_list<std::
 const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
                              Diagnostics& diagnostics);
 
-/// Every published table that this program can compute anew.
+/// Every published table that this program can recompute.
 std::span<const study::Reproduction> reproductions();
 
 /// The reproductions with an id, with ids that begin with it, or all ("all"). Empty and a diagnostic if there

@@ -63,7 +63,7 @@ std::optional<CheckpointLines> read_checkpoint(std::string_view text, const Chec
 /// For a file that could be read, but does not hold what a run of the study keeps.
 Diagnostic unusable_checkpoint(const std::filesystem::path& file, const CheckpointError& error);
 
-/// Keeps a run's checkpoint in a file, which a thread of its own writes anew, whole or not at all, half a
+/// Keeps a run's checkpoint in a file, which a thread of its own rewrites, whole or not at all, half a
 /// second after something was kept, or later where writing would else take more than a twentieth of the time.
 class CheckpointFile final : public Checkpoint {
  public:

@@ -24,7 +24,7 @@ bool has_key(const Value& document, std::string_view key);
 
 /// The text with some of its values replaced, and everything else - order, comments, units - as it was. What
 /// the text does not name, because it is a default or comes from a sample, is put in: then the whole study is
-/// written anew, with all its numbers where a sample was opened (in the units of the study, lengths and
+/// rewritten, with all its numbers where a sample was opened (in the units of the study, lengths and
 /// angles without one in mm and deg), and only the comment at its top is kept. Problems are appended to
 /// `diagnostics`, and the text comes back as it is.
 std::string edited(std::string_view text, std::span<const Edit> edits, Diagnostics& diagnostics);

@@ -40,7 +40,7 @@ std::string long_table_file(const Table& table);
 /// are left, without the maps that are drawn of them.
 study::Result with_short_tables(study::Result shown, std::size_t most_rows);
 
-/// A published table with its numbers computed anew.
+/// A published table with its numbers recomputed.
 Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows);
 
 }  // namespace linkwright::app

@@ -22,7 +22,7 @@ namespace linkwright::app {
 /// ranks meanwhile do a first share of the pieces, which is divided beforehand.
 enum class RanksBegin { at_once, with_what_was_kept };
 
-/// Tells all other ranks that there is nothing, or nothing more, to do.
+/// Informs all other ranks that there is nothing, or nothing more, to do.
 void end_others(Ranks& ranks);
 
 /// The checkpoint of rank 0, which puts the result together: hands out the pieces of a loop as they are asked
@@ -55,7 +55,7 @@ class LeadingRank final : public Checkpoint {
   std::map<std::string, std::size_t, std::less<>> next_;  ///< piece of each loop that nobody has been given
   std::vector<bool> at_work_;                             ///< the ranks that have not ended
   bool leaving_ = false;                                  ///< this rank has ended
-  bool stopping_ = false;                                 ///< the others were told to end
+  bool stopping_ = false;                                 ///< the others were ordered to end
   std::thread watch_;  ///< ends the other ranks when the run is interrupted, or has ended
 };
 

@@ -29,7 +29,7 @@ namespace {
 // One unit for all lengths of a report also where the study has none, as with built-in linkages.
 study::DisplayUnits page_units(const study::Study& study, const study::Result& result) {
   study::DisplayUnits units = study::shown_units(study.common.output.units, study.common.units);
-  constexpr double hall = 10;  // m: what is larger is told in metres
+  constexpr double hall = 10;  // m: what is larger is given in metres
   double largest = 0;
   for (const study::Scene& scene : result.scenes) largest = std::max(largest, report::extent(scene));
   if (!units.chosen(Dimension::length) && largest > 0) {

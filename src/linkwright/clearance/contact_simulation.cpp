@@ -337,7 +337,7 @@ class ContactMotion {
   }
 
   // Fastest rate (1/s) at which damping and friction of the contacts bring speeds to rest: beyond some per
-  // step explicit formulas are of no use. Long contacts that begin slowly are so.
+  // step explicit formulas are unusable. Long contacts that begin slowly are so.
   double stiffness() const {
     double most = 0;
     for (std::size_t k = 0; k < joints_.size(); ++k) {

@@ -12,7 +12,7 @@
 #include "linkwright/planar/simulation/simulation.h"
 
 // Continuous contact in any pins of any planar linkage: the model of four_bar_clearance.h, for all others. It
-// is the linkage of planar/ with a massless bar in the place of each pin that has clearance.
+// is the linkage of planar/ with a massless bar instead of each pin that has clearance.
 namespace linkwright::clearance {
 
 /// A pin that has clearance, and how it starts.
@@ -25,7 +25,7 @@ struct JointClearance {
   double damping = 0;  ///< N m s, >= 0: viscous torque against the absolute rate
 };
 
-/// The bar in the place of a pin.
+/// The bar that replaces a pin.
 struct ClearanceBar {
   int body = 0;   ///< body of the new linkage; its x axis points from the first body's point to the second's
   int input = 0;  ///< input that turns it: angle of the bar from its carrier
@@ -34,7 +34,7 @@ struct ClearanceBar {
   double clearance = 0;
 };
 
-/// A linkage with bars in the place of pins.
+/// A linkage with bars instead of pins.
 struct ClearedLinkage {
   /// done; no_assembly and the like when the ideal linkage has no position at the start; infeasible when the
   /// linkage cannot be planned.

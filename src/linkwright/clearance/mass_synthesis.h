@@ -67,7 +67,7 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& problem, s
 /// The recommended method. First the limit of small clearances, where the force of the ideal joint must point
 /// along the wanted link: without integration, as that force is linear in masses, moments and inertias, by
 /// least squares from `starts` places of the bounds. Then least squares on the periodic orbit itself, found
-/// anew by shooting for every trial. Deterministic for a seed.
+/// again by shooting for every trial. Deterministic for a seed.
 ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& problem, int starts,
                                                 const optimise::Seed& seed, RunContext& context);
 

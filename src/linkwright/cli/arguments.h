@@ -61,7 +61,7 @@ struct Arguments {
 /// text.
 Arguments parse_arguments(int argc, const char* const* argv);
 
-/// A command as the manual and the completions of shells describe it; what stands in the place of a value
+/// A command as the manual and the completions of shells describe it; what replaces a value
 /// (STUDY, FOLDER, KIND) says what it is.
 struct CommandHelp {
   struct Option {

@@ -142,7 +142,7 @@ app::RanksBegin beginning_of(const Arguments& arguments) {
 }
 
 /// A rank other than 0: does pieces of the study, and leaves the result to rank 0. What it cannot do is no
-/// error of the run: rank 0 goes on without it.
+/// error of the run: rank 0 continues without it.
 void follow(const Arguments& arguments, std::span<const study::Kind> kinds, app::Ranks& ranks,
             RunContext& context) {
   Diagnostics diagnostics;

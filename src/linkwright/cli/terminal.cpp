@@ -89,7 +89,7 @@ Diagnostic unwritten(std::string file, std::string_view problem) {
 
 void print_diagnostics(const Diagnostics& diagnostics) {
   const bool colours = wants_colours(Stream::err);
-  // A stream that takes no more is no reason to throw here, where errors are told.
+  // A stream that takes no more is no reason to throw here, where errors are reported.
   for (const Diagnostic& diagnostic : diagnostics)
     std::fputs((painted(diagnostic, colours) + "\n").c_str(), stderr);
   const auto errors = std::count_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {

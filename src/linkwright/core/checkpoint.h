@@ -34,9 +34,9 @@ class Checkpoint {
   /// Returns the value saved under a name, null if there is none.
   virtual Value find(std::string_view name) const = 0;
 
-  /// Keeps a value in the place of what was kept under this name and of all below it. Numbers that must come
+  /// Saves a value, which replaces everything saved under this name and below it. Numbers that must come
   /// back with the same bits are packed, see pack_numbers. Never throws for want of space or of permission:
-  /// a run goes on without its checkpoint.
+  /// a run continues without its checkpoint.
   virtual void keep(std::string_view name, const Value& value) = 0;
 
   /// Shortest time between two saves of a loop: a short loop would otherwise do little but save.

@@ -6,8 +6,8 @@
 
 namespace linkwright {
 
-/// Leaves a computation that is of no use half done, when its run is to stop: the value of a candidate, a
-/// pass over all nodes of a grid. Who holds the best so far catches it and returns that with the status; at
+/// Leaves a computation whose partial result is unusable, when its run is to stop: the value of a candidate,
+/// a pass over all nodes of a grid. Who holds the best so far catches it and returns that with the status; at
 /// the latest `study::run_study` does. It never leaves a function that returns a Status.
 class Interrupted : public std::exception {
  public:

@@ -53,7 +53,7 @@ class RunContext {
   void set_checkpoint(Checkpoint* checkpoint) { checkpoint_ = checkpoint; }
   Checkpoint* checkpoint() const { return checkpoint_; }
 
-  /// `done` to go on, else `cancelled` or `deadline`.
+  /// `done` to continue, else `cancelled` or `deadline`.
   Status interruption() const;
   bool interrupted() const { return interruption() != Status::done; }
 

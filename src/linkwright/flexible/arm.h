@@ -9,7 +9,7 @@
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/links.h"
 
-/// Arms of elastic links in series: which part of the chain is which link, and what each link feels.
+/// Arms of elastic links in series: which part of the chain is which link, and the loads on each link.
 namespace linkwright::flexible {
 
 struct ArmLink {

@@ -40,7 +40,7 @@ struct Cell {
   double shortening = 0;  ///< c2: e = l delta^2 / 12 - c2 w^2 / l (chord_consistent)
   double shear = 0;       ///< k_L: force for each metre of slide (N/m)
   double bending = 0;     ///< k_R: couple for each radian between the bars (N m)
-  double axial = 0;       ///< k_A: force for each metre of extension (N/m); of use if the chain is extensible
+  double axial = 0;       ///< k_A: force for each metre of extension (N/m); used if the chain is extensible
   double mass = 0;        ///< mass of node s (kg)
   double inertia = 0;     ///< moment of inertia of node s (kg m2)
   double damping = 0;     ///< damping of the rotation, beside that of the link's material (N m s)

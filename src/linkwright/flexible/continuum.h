@@ -18,7 +18,7 @@ namespace linkwright::flexible {
 std::vector<double> continuum_frequencies(const Beam& beam, int count, Hub hub = Hub::driven);
 
 /// First `count` frequencies (rad/s) of vibrations along the link, that of the driven and the free hub alike:
-/// omega = z sqrt(E / rho) / L with cos z = z mu sin z, mu = m_p / m. Of use if the link is extensible.
+/// omega = z sqrt(E / rho) / L with cos z = z mu sin z, mu = m_p / m. Used if the link is extensible.
 std::vector<double> axial_frequencies(const Beam& beam, int count);
 
 /// Deflection of the tip (m) under a small force there (N): L^3 / (3 E I) + L / (G A k) for each newton.

@@ -49,7 +49,7 @@ std::vector<Impulse> combined(std::span<const Impulse> first, std::span<const Im
 double residual_vibration(std::span<const Impulse> impulses, const ShapedMode& mode);
 
 /// The shaped drive at a time. The law is asked at earlier times, too, before time 0 among them, where it
-/// must state what it was then: rest, or the uniform or harmonic motion that goes on.
+/// must state what it was then: rest, or the uniform or harmonic motion that continues.
 HubMotion shaped(AngleLaw law, std::span<const Impulse> impulses, double time);
 /// No torque before time 0.
 double shaped_torque(TorqueLaw law, std::span<const Impulse> impulses, double time);

@@ -162,7 +162,7 @@ class Run {
   }
   double torque(double t) const { return drive_.torque ? (*drive_.torque)(t) : equations_.forces().torque; }
 
-  // From one time to another in equal steps; after a jump of the drive the accelerations are found anew.
+  // From one time to another in equal steps; after a jump of the drive the accelerations are found again.
   void advance(double from, double to, bool jump) {
     const long count = std::max(1L, std::lround(std::ceil((to - from) / options_.step - 1e-9))) * pieces_;
     const double h = (to - from) / double(count);

@@ -7,7 +7,7 @@ namespace linkwright::math {
 /// The search for a minimum of a function between `low` and `high` (in either order) by golden sections
 /// (Kiefer 1953): two places inside divide the bracket, and `narrow` drops what lies beyond the higher of
 /// them, 38 % of the bracket for one value. It finds the only minimum, of several one; the place comes down
-/// to about the square root of rounding. Where both values are the same, it goes on towards `high`. The
+/// to about the square root of rounding. Where both values are the same, it continues towards `high`. The
 /// caller says when it ends.
 template <class F>
 struct GoldenSection {

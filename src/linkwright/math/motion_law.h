@@ -47,7 +47,7 @@ struct Polynomial345 {
 std::vector<double> coefficients(const Polynomial345& law);
 
 /// The polynomial of least degree that meets the conditions which are given, any of them at either end.
-/// Outside it goes on at the rate that it has at the end.
+/// Outside it continues at the rate that it has at the end.
 struct EndConditions {
   double from = 0;
   std::optional<double> to;

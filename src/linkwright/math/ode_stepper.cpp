@@ -258,7 +258,7 @@ void OdeStepper::prepare(const OdeFunction& f, std::size_t n, double from, doubl
     ERKStepSetMaxStep(s.arkode, longest);
     // ERKStep of SUNDIALS 6.4 takes every pair that ends with a stage at the end of the step for one
     // whose last stage is the first of the next step, which costs Verner's pair its order. With a function
-    // to be called after steps it evaluates f anew.
+    // to be called after steps it evaluates f again.
     const bool last_stage_is_first = o.method == OdeMethod::explicit_runge_kutta_5;
     ERKStepSetPostprocessStepFn(s.arkode,
                                 hooks.project || !last_stage_is_first ? OdeCallbacks::project : nullptr);

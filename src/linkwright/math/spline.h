@@ -15,8 +15,8 @@ struct PiecewisePolynomial {
   std::vector<double> coefficients;
 };
 
-/// Value and the first three derivatives at t; outside the knots the first or last piece goes on. At an inner
-/// knot the piece to the right counts.
+/// Value and the first three derivatives at t; outside the knots the first or last piece continues. At an
+/// inner knot the piece to the right counts.
 std::array<double, 4> evaluate(const PiecewisePolynomial& polynomial, double t);
 
 enum class SplineDegree { cubic, quintic };

@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 /// less than 1e-25 of the box there are no further candidates, and generations count on without evaluations.
 ///
 /// Candidates that violate constraints rank as the feasibility rules have it; the method uses nothing but the
-/// ranks. Its random numbers are those of pagmo and of the standard library it was built with, sown anew in
+/// ranks. Its random numbers are those of pagmo and of the standard library it was built with, reseeded in
 /// every generation: results are the same bits on one system, not on all. It allocates in every generation.
 struct CmaEsOptions {
   int population = 0;  ///< lambda; 0 = 4 + floor(3 ln n) for n variables, at least 5

@@ -17,7 +17,7 @@ namespace linkwright::optimise {
 struct GreyWolfOptions {
   int population = 30;
   int generations = 50;  ///< also the length of the schedule of `a`; it stays 0 afterwards
-  /// Before each move the worse half of the pack is placed anew: anywhere in the box, or at alpha, beta or
+  /// Before each move the worse half of the pack is placed again: anywhere in the box, or at alpha, beta or
   /// delta
   /// +- ((upper - lower) r + lower), a quarter of the cases each. Recalled from Saremi, Mirjalili, Mirjalili
   /// 2015; the equation is missing in Boskovic 2018. The term "+ lower" makes it depend on where the box

@@ -138,7 +138,7 @@ struct Report {
 /// combine.h and priorities.h.
 ///
 /// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
-/// an interruption (before the generation that it cut short); a later call goes on from there and ends with
+/// an interruption (before the generation that it cut short); a later call continues from there and ends with
 /// the same bits. Throws CheckpointError when
 /// what was kept is not of such a minimisation.
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,

@@ -114,7 +114,7 @@ struct SmoothReport {
 /// where a neighbour does not exist). It ends when the best found has been found again, or after all starts.
 ///
 /// Starts run in rounds of eight, in parallel on RunContext::threads() threads; the same bits for any number
-/// of threads. With a checkpoint, finished rounds are kept, and a later call goes on after them; it throws
+/// of threads. With a checkpoint, finished rounds are kept, and a later call continues after them; it throws
 /// CheckpointError when what was kept is not of such a minimisation. Throws ContractError for options out of
 /// range, weights below 0 or all 0, caps that are NaN, lists of wrong length and bounds that are not finite
 /// or not ordered.

@@ -13,7 +13,7 @@
 
 namespace linkwright::optimise {
 
-/// Writes start number `start` to x; false = no such start can be made, go on with the next. Draws from
+/// Writes start number `start` to x; false = no such start can be made, continue with the next. Draws from
 /// `random` only, whose numbers belong to (seed, run, start), so that a start is the same wherever and
 /// whenever it is made.
 using StartGenerator = math::FunctionRef<bool(std::size_t start, RandomStream& random, std::span<double> x)>;

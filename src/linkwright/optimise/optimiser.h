@@ -22,16 +22,16 @@
 namespace linkwright::optimise {
 
 /// The key of the random numbers of an optimiser: its whole course is a function of this, its options and the
-/// costs told.
+/// costs received.
 struct Seed {
   std::uint64_t seed = 1;
-  std::uint32_t run = 0;  ///< tells apart several optimisers of one seed
+  std::uint32_t run = 0;  ///< distinguishes several optimisers of one seed
 };
 
 /// The state that determines the further course of an optimiser, besides the variables, options and seed that
 /// it was made with.
 struct OptimiserState {
-  std::uint32_t generation = 0;  ///< told so far
+  std::uint32_t generation = 0;  ///< received so far
   std::vector<double> numbers;   ///< all others, in the order in which the method lists them
   friend bool operator==(const OptimiserState&, const OptimiserState&) = default;
 };
@@ -78,12 +78,12 @@ class Optimiser {
   std::size_t dimension() const { return lower_.size(); }
   std::size_t objectives() const { return objectives_; }
   std::size_t population() const { return candidates_.size(); }
-  /// Generations told so far, completely.
+  /// Generations received so far, completely.
   std::uint32_t generation() const { return generation_; }
   /// No generation after the first asks for more candidates than this.
   virtual std::size_t largest_generation() const { return population(); }
 
-  /// Best candidate told so far, by the feasibility rules; empty before the first `tell`.
+  /// Best candidate received so far, by the feasibility rules; empty before the first `tell`.
   ///
   /// With several objectives it is the incumbent (Boskovic 2018, Algorithm 2.5): every candidate is compared
   /// with it, one after the other, and takes its place if it is feasible and dominates it, that is, no cost
@@ -106,7 +106,7 @@ class Optimiser {
   virtual PopulationView members() const = 0;
 
   /// The state between two generations, at least one told. An optimiser made with the same arguments that
-  /// restores it goes on with the same bits. Throws ContractError within a generation.
+  /// restores it continues with the same bits. Throws ContractError within a generation.
   OptimiserState state() const;
   /// Takes up a state instead of its own; `improved`, `equalled` and `best_candidate` count from then on.
   /// False for a state that these arguments cannot lead to (wrong number of numbers, a candidate out of its

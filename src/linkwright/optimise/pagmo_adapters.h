@@ -24,9 +24,9 @@ pagmo::problem pagmo_problem(Problem problem);
 /// One of our population methods for a population of pagmo, of a problem with one objective, with or without
 /// constraints (the sum of what exceeds their tolerances is the violation).
 ///
-/// `evolve` begins with the members and costs of the population, in the place of the first random ones, and
+/// `evolve` begins with the members and costs of the population, instead of the first random ones, and
 /// runs the generations of the options; the population of the options does not count. Schedules and
-/// adapted factors begin anew with each `evolve`. At its end the members of the method are evaluated once
+/// adapted factors begin again with each `evolve`. At its end the members of the method are evaluated once
 /// more, as pagmo asks for their costs, and the best candidate found takes the place of the worst member if
 /// it is not among them. Batches are used where the problem takes them. Integer variables are refused.
 ///

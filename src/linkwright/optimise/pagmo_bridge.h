@@ -146,7 +146,7 @@ struct FrontReport {
 ///
 /// Interruption is looked for after every generation; the first one always runs. The first population is
 /// uniform in the box and the same for all methods of one seed. The random numbers after that are those of
-/// pagmo and of the standard library it was built with, sown anew in every generation from the seed: results
+/// pagmo and of the standard library it was built with, reseeded in every generation from the seed: results
 /// are the same bits on one system for any number of threads. With a checkpoint the state is kept as in
 /// `minimise`; throws CheckpointError when what was kept is not of such a minimisation.
 ///

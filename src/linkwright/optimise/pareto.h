@@ -31,10 +31,10 @@ std::vector<std::size_t> non_dominated(std::span<const double> costs, std::size_
 /// dominate or equal: the common front of several runs, for example.
 std::vector<ParetoPoint> non_dominated(std::vector<ParetoPoint> points);
 
-/// Keeps the designs that no other one told so far dominates, up to a capacity. When there are more, the one
-/// with the least crowding distance goes (Deb et al. 2002, section III.B; of equals the last one told), so
-/// that those that remain are spread over the front and the least of every objective is among them. What it
-/// keeps depends on the designs and their order alone.
+/// Keeps the designs that no other one received so far dominates, up to a capacity. When there are more, the
+/// one with the least crowding distance goes (Deb et al. 2002, section III.B; of equals the last one
+/// received), so that those that remain are spread over the front and the least of every objective is among
+/// them. What it keeps depends on the designs and their order alone.
 ///
 /// A design that has gone is forgotten: one that it would dominate may come in later.
 ///

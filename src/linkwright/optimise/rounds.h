@@ -19,7 +19,7 @@ namespace linkwright::optimise {
 ///     }
 ///
 /// Nothing may outlive a generation but members of the optimiser: a state restored between two generations
-/// then needs no other place to go on from.
+/// then needs no other place to continue from.
 class Rounds {
  public:
   static constexpr std::size_t generation_over = 0;
@@ -48,7 +48,7 @@ class Rounds {
     if (handle_) handle_.destroy();
   }
 
-  /// Goes on to the next evaluation: the number of candidates made, or generation_over.
+  /// Continues to the next evaluation: the number of candidates made, or generation_over.
   std::size_t next() {
     handle_.resume();
     return handle_.promise().candidates;

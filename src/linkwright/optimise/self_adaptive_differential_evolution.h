@@ -9,8 +9,8 @@
 namespace linkwright::optimise {
 
 /// jDE (Brest, Greiner, Boskovic, Mernik, Zumer 2006): rand/1/bin in which every member carries its own F and
-/// CR. Both are drawn anew at times, and the new ones stay if the trial made with them survives. Bounds as in
-/// differential_evolution. Defaults of the paper.
+/// CR. Both are drawn again at times, and the new ones stay if the trial made with them survives. Bounds as
+/// in differential_evolution. Defaults of the paper.
 struct SelfAdaptiveDifferentialEvolutionOptions {
   int population = 100;
   int generations = 1500;

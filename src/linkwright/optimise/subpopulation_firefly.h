@@ -12,7 +12,7 @@
 namespace linkwright::optimise {
 
 /// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.1). In
-/// every generation the fireflies are split anew at random; each makes Levy flights from where it is until
+/// every generation the fireflies are split again at random; each makes Levy flights from where it is until
 /// one meets every constraint, and stays at the last if that is better; the two parts exchange their best
 /// fireflies and are swept as in firefly, each by itself. With several objectives the best firefly of a part
 /// is the feasible one with the least mean of its costs relative to those of the best so far. Candidates are

@@ -3,7 +3,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 
-// In the place of what calls NLopt, when the library is built without it.
+// Replaces the calls of NLopt when the library is built without it.
 namespace linkwright::optimise {
 
 LocalReport minimise_local(CostFunction, std::size_t, ValuesFunction, std::span<double>,

@@ -5,7 +5,7 @@
 #include "linkwright/optimise/cma_es.h"
 #include "linkwright/optimise/pagmo_bridge.h"
 
-// In the place of what calls pagmo, when the library is built without it.
+// Replaces the calls of pagmo when the library is built without it.
 namespace linkwright::optimise {
 namespace {
 

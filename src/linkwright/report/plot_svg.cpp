@@ -101,7 +101,7 @@ std::vector<Curve> curves_of(const study::Plot& plot, const Table& table, const 
   return out;
 }
 
-// Puts decimal logarithms in the place of values; none is less than that of `rounding` times the largest.
+// Replaces values by their decimal logarithms; none is less than that of `rounding` times the largest.
 // True when a value was raised to that.
 bool take_logarithms(std::initializer_list<std::vector<Curve>*> drawn) {
   double most = 0;

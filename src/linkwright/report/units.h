@@ -11,7 +11,7 @@
 #include "linkwright/study/display_units.h"
 
 /// Units in which numbers are shown: SI in the data, in diagrams those that were chosen, or else degrees and
-/// millimetres. The viewer is told of them (shown_suffixes).
+/// millimetres. The viewer receives them (shown_suffixes).
 namespace linkwright::report {
 
 /// A shown number is the one of the data times `factor`.

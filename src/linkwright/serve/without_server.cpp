@@ -2,7 +2,7 @@
 
 #include "linkwright/serve/server.h"
 
-// In the place of the server, when the program is built without cpp-httplib.
+// Replaces the server when the program is built without cpp-httplib.
 namespace linkwright::serve {
 
 struct Server::Parts {};

@@ -8,7 +8,7 @@
 #include "linkwright/study/display_units.h"
 #include "linkwright/study/result.h"
 
-// Found designs as studies to go on with: Solution::study.
+// Found designs as studies to continue with: Solution::study.
 namespace linkwright::study {
 
 /// A study in SI units with all numbers in the given units; one that is converted is rounded to 15 digits.
@@ -27,7 +27,7 @@ void complete_designs(Result& result, std::string_view title, const DisplayUnits
 /// long labels are cut off.
 std::string design_name(const Solution& solution, std::size_t number);
 
-/// The text of that file: TOML after the line by which editors find the schema and a remark that tells where
+/// The text of that file: TOML after the line by which editors find the schema and a remark that says where
 /// the design comes from. The study must be complete; `source` is the title of the study that found it,
 /// `tool` the program and its version.
 std::string design_toml(const Solution& solution, std::size_t number, std::string_view source,

@@ -9,7 +9,7 @@
 
 namespace linkwright::study {
 
-/// A published table that is computed anew.
+/// A published table that is recomputed.
 struct Reproduction {
   std::string id;                  ///< "boskovic-2018-table-2.7"
   std::string title;               ///< title of the table

@@ -119,12 +119,12 @@ struct Solution {
   Value classification;  ///< object: type, branch, sense, transmission angle, ...
   Value defects;         ///< array of texts; empty = none
   std::string scene;     ///< name of its scene; empty = none
-  /// A study of this design to go on with, as study/design.h completes it. The domain gives the tables, in
+  /// A study of this design to continue with, as study/design.h completes it. The domain gives the tables, in
   /// any units: the mechanism with the found numbers and what an analysis of it needs. null = there is none.
   Value study;
 };
 
-/// Something that stands in the way of an answer: a limit that is exceeded, a place that cannot be reached.
+/// An obstacle to an answer: a limit that is exceeded, a place that cannot be reached.
 struct Trouble {
   struct Place {
     std::string key;  ///< key with unit: "crank_angle_rad", "time_s"

@@ -99,7 +99,7 @@ struct Scene {
     std::vector<double> x, y, angle;
   };
   /// A number, or a list of coordinates, of the study that a drawn point or target shows. With these numbers
-  /// measured anew at a place, the mechanism is at the same input where it was, but for that point.
+  /// measured again at a place, the mechanism is at the same input where it was, but for that point.
   struct Handle {
     enum class Measure {
       place,   ///< the coordinates of the point in the frame (m), a list

@@ -31,7 +31,7 @@ const Field quantities_field{.key = "quantities", .summary = "what is computed; 
 const Field seeds_field{.key = "seeds", .summary = "one run for each seed"};
 const Field check_field{.key = "check", .summary = "makes the study a regression test"};
 
-/// Keeps the kinds whose `part` is the word at a key. A misspelt word is an error, and the reading goes on
+/// Keeps the kinds whose `part` is the word at a key. A misspelt word is an error, and the reading continues
 /// with the word that was probably meant, so that the other problems of the file are found too.
 void choose(std::vector<const Kind*>& kinds, std::string Kind::*part, ObjectReader& table,
             const Field& field) {

@@ -258,7 +258,7 @@ class Recorder {
   }
   // Continuous contact has its periodic motion found by shooting, whether or not the motion from the start
   // would settle on it. Of pins that may part it counts where it keeps contact and is not unstable. All
-  // others go on period after period until a section repeats.
+  // others continue period after period until a section repeats.
   void find_regime() {
     out_.regime.emplace();
     const std::vector<JointClearance> given = starts_;

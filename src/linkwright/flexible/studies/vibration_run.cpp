@@ -218,7 +218,7 @@ class Analyst {
                lost_, chain_.cells.size()),
            hint_for_cells());
       result_.status = Status::singular;
-      // A chain that stretches has no frequencies beyond it; the others go on with the modes that vibrate.
+      // A chain that stretches has no frequencies beyond it; the others continue with the modes that vibrate.
       if (beam().extensible) speeds.erase(bad, speeds.end());
     }
     if (speeds.empty()) return;

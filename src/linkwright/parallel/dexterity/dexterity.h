@@ -24,10 +24,10 @@ struct DexterityMeasures {
 /// The constraint index (constraint.h) has the sign of det C relative to that of the design: it goes through
 /// 0 where the platform is free to turn, smoothly as long as one singular value does.
 ///
-/// Beyond reach indices go on as numbers below 0 that say how far: of a leg that cannot reach, the square of
-/// the input index is that of an imaginary one, (rho^2 - c^2) / L^2 < 0, and conditioning and constraint are
-/// the least of these squares. Derivatives are those of these numbers. Where two singular values cross, the
-/// conditioning has a kink, and the derivative is that of one side.
+/// Beyond reach indices continue as numbers below 0 that say how far: of a leg that cannot reach, the square
+/// of the input index is that of an imaginary one, (rho^2 - c^2) / L^2 < 0, and conditioning and constraint
+/// are the least of these squares. Derivatives are those of these numbers. Where two singular values cross,
+/// the conditioning has a kink, and the derivative is that of one side.
 template <class T>
 struct PoseDexterity {
   T conditioning;  ///< LCI: least over largest singular value of J, with the sign of the assembly

@@ -13,7 +13,7 @@ namespace linkwright::parallel {
 ///             at most 120 deg, a side swing of the rods of at most 40 deg and an input index of at least 0.5
 DexterityTask dexterity_benchmark(DexterityGoal goal);
 
-/// B3 with Pi-joints, designed together with the robot, in the place of the limit of the arm travel: their
+/// B3 with Pi-joints, designed together with the robot, instead of the limit of the arm travel: their
 /// diagonals telescope by 2 at most, and their transmission angles are at least `transmission` (rad).
 DexterityTask dexterity_benchmark_with_pi_joints(double transmission);
 

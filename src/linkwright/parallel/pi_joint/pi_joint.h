@@ -22,7 +22,7 @@
 ///
 /// A point of the coupler moves as if it sat on a link of length a about O, but the coupler keeps its
 /// orientation. All formulas are those of the parallelogram: at theta = +-pi/2, where the pivots lie on a
-/// line, the joint could also go on as an antiparallelogram.
+/// line, the joint could also continue as an antiparallelogram.
 namespace linkwright::parallel {
 
 struct PiJoint {

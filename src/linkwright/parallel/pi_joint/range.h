@@ -16,7 +16,8 @@ struct PiRange {
   PiRangeNumber rate_low, rate_high;                  ///< J at the ends (m)
   PiRangeNumber rate_most;                            ///< largest J between them (m)
 };
-/// Angles lowest <= highest (rad). Beyond +-pi/2 the formulas go on: diagonals fall again and J is negative.
+/// Angles lowest <= highest (rad). Beyond +-pi/2 the formulas continue: diagonals fall again and J is
+/// negative.
 PiRange pi_range(const PiJoint& joint, double lowest, double highest);
 
 }  // namespace linkwright::parallel

@@ -236,7 +236,7 @@ Placed direct_near(const Robot& robot, std::span<const double> angles, const Pos
   const std::array<Vec3, most_legs> elbows = elbows_of(robot, angles);
   double scale = 0;
   for (int i = 0; i < robot.legs(); ++i) scale = std::max(scale, robot.leg[i].rod * robot.leg[i].rod);
-  // Quadratic convergence goes on to where rounding stops it; a pose counts when it is near that.
+  // Quadratic convergence continues to where rounding stops it; a pose counts when it is near that.
   const double goal = 1e-15 * scale, enough = 1e-12 * scale;
 
   Placed out{.pose = start};

@@ -22,8 +22,8 @@ Sentence coordinates_of(const Vec3& place);
 /// The freedom of the platform, which fixes the number of legs.
 enum class Freedom { space_translation, space, plane_translation };
 
-/// Leg i: the arm is at A + l u(alpha) with u = cos(alpha) e + sin(alpha) w, the rod goes on from its end to
-/// the platform joint g = p + R b. Its angle alpha is positive about e x w.
+/// Leg i: the arm is at A + l u(alpha) with u = cos(alpha) e + sin(alpha) w, the rod continues from its end
+/// to the platform joint g = p + R b. Its angle alpha is positive about e x w.
 struct Leg {
   Vec3 base;            ///< A: pivot of the arm (m)
   Vec3 ahead{1, 0, 0};  ///< e: unit direction of the arm at angle 0

@@ -97,7 +97,7 @@ Status PathJudge::judge(Look look, double end, const RunContext& context) {
   for (std::size_t piece = 0; piece + 1 < breaks.size() && breaks[piece] < end; ++piece) {
     if (const Status stop = context.interruption(); stop != Status::done) return stop;
     const double from = breaks[piece], to = std::min(breaks[piece + 1], end);
-    // Just before where the path cannot go on there is nothing to be asked for.
+    // Just before where the path cannot continue there is nothing to be asked for.
     const int count = to < breaks[piece + 1] ? steps : steps + 1;
     // On the right of a break the next law counts, on its left the old one.
     const double edge = 1e-9 * (to - from);

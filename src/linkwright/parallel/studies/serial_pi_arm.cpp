@@ -170,7 +170,7 @@ std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const 
   return out;
 }
 
-/// Motions begin there; without one a home is of no use.
+/// Motions begin there; without one a home is not used.
 std::optional<Pose> read_home(study::ObjectReader& document, const SerialDescription& d, Value& canonical) {
   auto table = document.table("home");
   if (!table) {

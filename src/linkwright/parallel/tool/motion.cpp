@@ -51,7 +51,7 @@ Vector3<T> angular_velocity(const Vector3<T>& r, const Vector3<T>& v) {
 }
 
 // The rotation vectors of a table, each the one of its rotation that is nearest to that before it: a turn may
-// go on beyond half a turn.
+// continue beyond half a turn.
 std::vector<Vec3> unwound(const std::vector<Coordinates>& rotations) {
   std::vector<Vec3> out;
   for (const Coordinates& c : rotations) {

@@ -77,7 +77,7 @@ struct ToolStep {
 struct ToolPath {
   std::vector<ToolStep> steps;
   TimeLaw law = TimeLaw::double_s;
-  /// Lines, arcs and circles that go on in the same direction (within 1e-6 rad) are run through. Where the
+  /// Lines, arcs and circles that continue in the same direction (within 1e-6 rad) are run through. Where the
   /// curvature changes there the acceleration has a step, within its limit; the jerk is limited on either
   /// side.
   bool blend = false;

@@ -271,7 +271,7 @@ class Search {
     return out;
   }
   // Tries all moves of a length, and as many again in between: along a ridge, where the body touches at
-  // several places, few directions lead up. Goes on along each that makes the body larger.
+  // several places, few directions lead up. Continues along each that makes the body larger.
   bool improved(Candidate& best, const std::vector<std::array<double, 5>>& moves, double scale,
                 const RunContext& context, Status& status) {
     bool better = false;

@@ -14,7 +14,7 @@
 #include "linkwright/planar/balancing/measures.h"
 
 // Balancing as a problem of numbers: measures of the columns of a mechanism's table, relative to a reference,
-// are to become small.
+// are minimised.
 namespace linkwright::planar {
 
 struct BalancingGoal {

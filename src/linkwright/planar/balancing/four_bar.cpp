@@ -61,7 +61,7 @@ double assembly_margin(const FourBar& l, const Diagonals& d) {
 }
 
 // Rocker angle when crank and coupler lie in line, stretched (+1) or folded (-1), without the sign of the
-// branch. Beyond the triangle it goes on linearly in the cosine, so that a search that strays finds back.
+// branch. Beyond the triangle it continues linearly in the cosine, so that a search that strays finds back.
 double rocker_angle_in_line(const FourBar& l, double stretched) {
   const double reach = l.coupler + stretched * l.crank;
   const double c = (l.ground * l.ground + l.rocker * l.rocker - reach * reach) / (2 * l.ground * l.rocker);

@@ -89,7 +89,7 @@ struct BalancingObjective {
   double reference = 1;
 };
 
-/// Balancing of a four-bar: which numbers may change and how far, the motion, what is to become small, and
+/// Balancing of a four-bar: which numbers may change and how far, the motion, what is minimised, and
 /// what must be kept.
 struct FourBarBalancing {
   std::array<Range, four_bar_number_count> bounds{};  ///< lower = upper: fixed

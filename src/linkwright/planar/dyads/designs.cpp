@@ -135,7 +135,7 @@ class Finder {
     out_.misfit = fit.misfit;
     out_.dyads = fit.dyads;
     pairs(fit.dyads);
-    // The algebraic start is one; where it ends with a defect, or is of no use because rotations are missing,
+    // The algebraic start is one; where it ends with a defect, or is unusable because rotations are missing,
     // five poses at a time give others: those that are met exactly and random ones, points at random
     // rotations.
     const std::size_t n = p_.poses.size();

@@ -95,7 +95,7 @@ std::vector<Prescription> at_points(const Prescription& given, const Pivot& pivo
   return out;
 }
 
-// Prescriptions that leave nothing open, in the place of one that leaves one number or two.
+// Prescriptions that leave nothing open, instead of one that leaves one number or two.
 std::vector<Prescription> swept(const Prescription& given, int missing, Complex middle, double reach,
                                 const DyadSweep& sweep) {
   const auto one_more = [&](const Prescription& p, const Pivot& pivot, int count) {

@@ -33,11 +33,11 @@ struct FourBarReactions {
   double drive_torque = nan;                         ///< torque of the ground's motor on the crank
   std::complex<double> shaking_force{nan, nan};  ///< force of the mechanism on the ground, weight included
   double shaking_moment = nan;                   ///< on the ground about O by the joint forces alone
-  double shaking_moment_with_drive = nan;  ///< the same with the motor's reaction: what the ground feels
+  double shaking_moment_with_drive = nan;  ///< the same with the motor's reaction: the loads on the ground
 };
 
 /// Joint forces and drive torque by cutting the loop at B, closed form (Boskovic 2018, section 2.4.1, with
-/// the sine in the place of the printed cosine of Eqs. (2.112), (2.113)); shaking force and moments by Eqs.
+/// the sine instead of the printed cosine of Eqs. (2.112), (2.113)); shaking force and moments by Eqs.
 /// (2.76)-(2.78). `gravity` (m/s2) acts along -y of the global frame. `rates` are those of the same linkage.
 /// Forces grow like 1 / transmission_sine towards a dead point.
 ///

@@ -11,7 +11,7 @@ namespace linkwright::planar {
 /// The behaviour of a linkage at a change point, where its assembly modes meet (a parallelogram when all
 /// links lie in line).
 enum class AtChangePoint {
-  smooth,    ///< goes on without a kink: the modes of the groups that meet there change sign
+  smooth,    ///< continues without a kink: the modes of the groups that meet there change sign
   stop,      ///< the motion ends there: the branch is a choice that has not been made
   keep_sign  ///< the modes keep their signs: the other branch, with a kink in the velocities
 };
@@ -54,7 +54,7 @@ BranchPath branch_path(const LinkagePlan& plan, std::span<const double> inputs, 
 /// beyond its ends, where the modes stay as they are.
 Status modes_at(const BranchPath& path, double value, std::span<double> modes);
 
-/// Position where a joint stands still while the input goes on: the joint reverses (a dead centre of a
+/// Position where a joint is at rest while the input continues: the joint reverses (a dead centre of a
 /// slider, the toggle of a rocker), or pauses.
 struct DeadCentre {
   double input = 0;         ///< rad or m

@@ -86,7 +86,7 @@ void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
   LinkageBody& body = l.bodies[b];
   if (!form.mass) return;
   if (!body.points.empty() && (!form.inertia || !form.centre)) {
-    Linkage alone = l;  // bodies may share a name, which is told elsewhere
+    Linkage alone = l;  // bodies may share a name, which is reported elsewhere
     alone.bodies[b].name = "\n";
     set_uniform(alone, "\n", *form.mass);
     body.mass = alone.bodies[b].mass;

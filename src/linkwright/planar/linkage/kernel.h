@@ -96,7 +96,7 @@ LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>&
   return part.acceleration + part.angular_acceleration * perpendicular(arm) - (part.speed * part.speed) * arm;
 }
 
-// The same for a part by number: the ground, part 0, stands still in the global frame, and nothing is
+// The same for a part by number: the ground, part 0, is at rest in the global frame, and nothing is
 // computed for it.
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>* parts, const PartPoint& p) {

@@ -14,7 +14,7 @@ namespace linkwright::planar {
 /// One assembly mode of a linkage at given inputs.
 struct AssembledMode {
   std::vector<double> modes;  ///< signs, one a group; of a general group the sign of its determinant
-  std::vector<PartState<double>> parts;  ///< positions; put them into a LinkageMotion to go on from here
+  std::vector<PartState<double>> parts;  ///< positions; put them into a LinkageMotion to continue from here
   double closure_residual = 0;           ///< m
 };
 

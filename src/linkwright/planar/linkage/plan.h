@@ -185,7 +185,7 @@ struct PlanTwist {
   int first = 0, second = 0;  ///< parts
   Vec<double> turn{1, 0};     ///< direction of the second body on its part, less that of the first on its
   /// True if drives and gears alone turn both: their joints count the turns, and the twist is `angle` + the
-  /// sum of `gains` times the inputs. Else it goes on from the last position by less than half a turn, from
+  /// sum of `gains` times the inputs. Else it continues from the last position by less than half a turn, from
   /// the first one to the angle that is nearest to `free` but for its whole turns.
   bool counted = false;
   double angle = 0, free = 0;

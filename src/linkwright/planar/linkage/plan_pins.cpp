@@ -84,7 +84,7 @@ std::vector<bool> side_of(const LinksAtPin& pin, const std::vector<PartJoint>& j
   return side;
 }
 
-// Pins a link to one that has its place, in the place of a joint that joins two without.
+// Pins a link to one that has its place, instead of a joint that joins two without.
 bool pair_with_known(PlanDraft& d, const LinksAtPin& pin) {
   const auto known = std::find_if(pin.links.begin(), pin.links.end(),
                                   [&](const PartPoint& link) { return d.known[at(link.part)]; });

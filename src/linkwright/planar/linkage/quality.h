@@ -56,7 +56,7 @@ struct Advantage {
   /// Rate of the joint over that of the input: rad or m of the joint a rad or m of the input.
   double rate_ratio = 0;
   /// Force or torque that the joint can hold over that of the drive: 1 / rate_ratio; infinite where the joint
-  /// stands still.
+  /// is at rest.
   double force_ratio = 0;
 };
 /// After solve_position; the velocities in `motion` become those of a unit rate of the input. NaN unless the
@@ -92,7 +92,7 @@ struct PoleGeometry {
 };
 PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion, int body, int reference = 0);
 
-/// Curvature of the path of a point (1/m), positive when it turns left; NaN where the point stands still.
+/// Curvature of the path of a point (1/m), positive when it turns left; NaN where the point is at rest.
 double path_curvature(const PointMotion& point);
 
 /// The fixed and the moving centrode of a body against a reference body while one input runs: columns

@@ -62,7 +62,7 @@ void applied_loads(const Linkage& linkage, const LinkagePlan& plan, const Linkag
 /// accelerations so that the free inputs ask for none.
 using FreeAccelerations = std::function<void(std::span<const double> drives)>;
 
-/// All joint forces, drive torques and what the ground feels, by d'Alembert's principle along the
+/// All joint forces, drive torques and the loads on the ground, by d'Alembert's principle along the
 /// decomposition, last group first: 3 x 3 (in fact 2 x 2) equations a dyad. After solve_acceleration of the
 /// same motion; with a plan made `all_at_once` the Newton-Euler equations of all bodies in one linear system,
 /// the independent route. Friction of joints is that of settle_friction, with its status.

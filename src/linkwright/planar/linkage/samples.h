@@ -10,7 +10,7 @@
 
 namespace linkwright::planar {
 
-/// A canned linkage with its drive, ready to be analysed: every body has its mass, and every pair with two
+/// A built-in linkage with its drive, ready to be analysed: every body has its mass, and every pair with two
 /// assembly modes has its mode, by name or by its start poses.
 struct LinkageSample {
   std::string name;     ///< "jansen_leg"

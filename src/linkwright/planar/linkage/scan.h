@@ -12,7 +12,7 @@ namespace linkwright::planar {
 enum class EndKind {
   bound,         ///< nothing: the stretch that was asked for ends
   limit,         ///< a group reaches its limit: dead point of the input, both modes meet and turn back
-  change_point,  ///< both modes meet and go on: which way is a choice
+  change_point,  ///< both modes meet and continue: which way is a choice
   singular,  ///< two slides become parallel: the group runs away to infinity, or its place is undetermined
 };
 constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {

@@ -54,10 +54,10 @@ class SmoothBranch {
 };
 
 /// Motion and forces at a change point of a linkage with one input in closed form: the limits from both sides
-/// of the branch that goes on smoothly through it. `path` is a branch with a change point at `value`, `input`
-/// the motion of the input there. Places and rates go into `motion`; where `linkage` is given (forces are
-/// wanted), forces go into `forces`, with NaN for those that grow without bound, and then the status
-/// singular. False, and the motion is of no use, when there is no such limit.
+/// of the branch that continues smoothly through it. `path` is a branch with a change point at `value`,
+/// `input` the motion of the input there. Places and rates go into `motion`; where `linkage` is given (forces
+/// are wanted), forces go into `forces`, with NaN for those that grow without bound, and then the status
+/// singular. False, and the motion is unusable, when there is no such limit.
 bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double value, const InputMotion& input,
                      LinkageMotion& motion, const Linkage* linkage, LinkageForces& forces);
 

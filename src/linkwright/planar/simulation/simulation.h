@@ -99,7 +99,7 @@ struct SimulationReport {
 /// at least; the first is the start) and calls `output` at each of them.
 ///
 /// The motion ends where a group comes to its limit (dead point): there the free input turns back while the
-/// linkage goes on in the other assembly mode, so that another coordinate is needed
+/// linkage continues in the other assembly mode, so that another coordinate is needed
 /// (simulate_all_coordinates). With one input in closed form, change points are passed as `at_change_point`
 /// says: `smooth` changes the signs of the modes that meet, as a moving linkage does by itself; `keep_sign`
 /// turns onto the other branch, by an inelastic impact that keeps the momentum along it, or stops where that

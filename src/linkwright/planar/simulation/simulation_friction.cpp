@@ -92,7 +92,7 @@ bool Simulation::sticks(double t, int joint) {
     share.push_back(rate_of(one));
     square += share.back() * share.back();
   }
-  if (!(square > 1e-12)) return false;  // the joint stands still whatever moves
+  if (!(square > 1e-12)) return false;  // the joint is at rest whatever moves
   bool stopped = true;
   for (const double sense : {1.0, -1.0}) {
     inputs_ = here;

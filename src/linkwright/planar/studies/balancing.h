@@ -15,7 +15,7 @@
 #include "linkwright/study/kind.h"
 
 // Balancing of any mechanism that has an analysis: the tables of the analysis with open numbers in them, what
-// is to become small, what must hold, and how designs are searched.
+// is minimised, what must hold, and how designs are searched.
 namespace linkwright::planar {
 
 template <class Visitor>

@@ -32,7 +32,7 @@ int point_of(study::ObjectReader& entry, const LinkageBody& body, std::string_vi
   return -1;
 }
 
-// The mass of the beam in the place of that of the body, so that the rigid linkage has the same.
+// The mass of the beam instead of that of the body, so that the rigid linkage has the same.
 void give_mass(study::ObjectReader& entry, LinkageBody& body, const ElasticPieces& pieces) {
   const double mass = pieces.beam.density * pieces.beam.area * pieces.length;
   if (body.mass && std::abs(body.mass->mass - mass) > other_mass * mass)

@@ -199,7 +199,7 @@ study::Kind slider_function_kind();
 /// The kind for "planar.six_bar".
 study::Kind six_bar_function_kind();
 
-/// Tells the greatest error; one of more than a tenth of what the output moves is
+/// Reports the greatest error; one of more than a tenth of what the output moves is
 /// bad and warned of: the linkage does not follow the function.
 void tell_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result);
 

@@ -136,7 +136,7 @@ struct LinkageDescription {
   std::vector<BodyPoint> traces;
   Value shorthand;                           ///< `[mechanism]` as it is written; null of planar.linkage
   std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
-  std::string sample;                        ///< its name when the mechanism is a canned one
+  std::string sample;                        ///< its name when the mechanism is a built-in one
   std::vector<double> sample_from;           ///< and the inputs where its motion begins
 };
 /// Reads and plans; nothing when there are problems, which go to the reader in the given units.

@@ -55,8 +55,8 @@ void check_lengths(study::ObjectReader& mechanism, FourBar l, const study::Displ
       l);
 }
 
-// Problems of the model as the plan tells them, put where the file has their cause: "joint.A" is the entry of
-// [[mechanism.joint]] with that name.
+// Problems of the model as the plan reports them, put where the file has their cause: "joint.A" is the entry
+// of [[mechanism.joint]] with that name.
 void report(study::ObjectReader& document, study::ObjectReader& mechanism, const Diagnostics& problems) {
   for (const Diagnostic& d : problems) {
     const auto dot = d.key.find('.');

@@ -99,7 +99,7 @@ void centres_table(const LinkageStudy& s, const InputSamples& axis, LinkageAssem
   result.tables.push_back(std::move(table));
 }
 
-// Lists the inputs at which the output stands still along the branch of the study.
+// Lists the inputs at which the output is at rest along the branch of the study.
 void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
                         const std::optional<BranchPath>& branch, study::Result& result) {
   if (!s.plan.closed_form()) return;

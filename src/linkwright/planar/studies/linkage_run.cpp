@@ -51,7 +51,7 @@ class Failures {
     ++one->rows;
     if (status == Status::no_assembly) one->gap = std::max(one->gap, motion.gap);
   }
-  // In the order in which they are told.
+  // In the order in which they are reported.
   std::vector<One> sorted() const {
     std::vector<One> out;
     for (const Status s : {Status::singular, Status::no_assembly, Status::other_circuit,

@@ -266,7 +266,7 @@ Block turn_block(const Matrix3d& m) {
 }
 
 /// Geometric stiffness: second derivatives of the work of the forces that the position holds in balance.
-/// Forces of a joint act in its axes, which turn with the carrier (joints there) or stand still.
+/// Forces of a joint act in its axes, which turn with the carrier (joints there) or are at rest.
 void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad& load, Saddle& to) {
   to.add(0, 0, -turn_block(turning_arm(load.force, of.arm(0, load.point))));
   for (const ElasticJoint& joint : of.joints) {
@@ -275,7 +275,7 @@ void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad
     const int a = joint.first, b = joint.second;
     const Vec3 rb = of.arm(b, joint.point);
     to.add(b, b, turn_block(turning_arm(force, rb)));
-    if (a == ground) continue;  // its axes stand still, and a moment has no arm
+    if (a == ground) continue;  // its axes are at rest, and a moment has no arm
     const Vec3 ra = of.arm(a, joint.point);
     to.add(a, a, -turn_block(turning_arm(force, ra)));
     // The axes turn with the second body (the carrier): - turn . (force x relative shift).

@@ -12,7 +12,7 @@
 /// The bodies and elastic elements of a suspension at a position, as `solve_compliance` puts them together.
 namespace linkwright::suspension {
 
-/// In the place of a body's number: the vehicle body, which stands still.
+/// Instead of a body's number: the vehicle body, which is at rest.
 inline constexpr int ground = -1;
 
 /// Joint between two bodies: relative displacement of the second against the first, in its axes.

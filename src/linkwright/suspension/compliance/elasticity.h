@@ -28,7 +28,7 @@ struct JointStiffness {
   Vec3 axis;
   /// The second axis is this direction (at the reference) as far as it is across the first one. Zero: any.
   Vec3 across;
-  /// Full stiffness in these axes (translations, then rotations) in the place of the numbers above:
+  /// Full stiffness in these axes (translations, then rotations) instead of the numbers above:
   /// symmetric, positive semidefinite.
   std::optional<Matrix6> matrix;
 };

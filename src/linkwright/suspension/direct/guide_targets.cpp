@@ -9,7 +9,7 @@ namespace linkwright::suspension {
 namespace {
 
 /// Steps between targets are a few centimetres. A design that needs steps below a millimetre is next to a
-/// fold, where it is of no use and its limit is not sought out.
+/// fold, where it is unusable and its limit is not sought out.
 constexpr GuideStepping stepping{.first = 0.03, .smallest = 1e-3};
 
 double apart(const GuideInput& a, const GuideInput& b) {

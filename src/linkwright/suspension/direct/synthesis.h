@@ -39,7 +39,7 @@ struct DirectOptions {
   int one = 0;              ///< objective of the goal `one`
   int starts = 50;          ///< local searches
   int draws = 30;           ///< random designs tried for a start, until one assembles
-  int refined = 3;          ///< best different ends of the starts that go on to the goal
+  int refined = 3;          ///< best different ends of the starts that continue to the goal
   int evaluations = 400;    ///< largest number of evaluations of a local search
   double same_cost = 1e-6;  ///< relative: ends of least squares that count as the same
 };

@@ -8,7 +8,7 @@
 
 namespace linkwright::suspension {
 
-/// A canned wheel suspension.
+/// A built-in wheel suspension.
 struct GuideSample {
   std::string name;     ///< "2RS-US": a basic mechanism; or that of a published example
   std::string summary;  ///< description in one line

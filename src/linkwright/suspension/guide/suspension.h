@@ -43,7 +43,7 @@ struct BasicGuideLink {
   LinkType type = LinkType::US;
   std::vector<Vector3<T>> body;
   std::vector<Vector3<T>> carrier;
-  /// Length of a US or SS link (m) in the place of the distance of its points: they then are no position, and
+  /// Length of a US or SS link (m) instead of the distance of its points: they then are no position, and
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
   bool moved_by_rack = false;  ///< its body points move with the rack

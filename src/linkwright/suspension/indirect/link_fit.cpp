@@ -65,7 +65,7 @@ class Search {
     return e;
   }
 
-  /// Variable projection from `link`, whose eliminated points do not matter; as a polish it goes on to
+  /// Variable projection from `link`, whose eliminated points do not matter; as a polish it continues to
   /// rounding, across bounds.
   bool project(GuideLink& link, bool polish) {
     x_.clear();

@@ -10,7 +10,7 @@ namespace linkwright::suspension {
 
 /// A link with the points of one side eliminated (variable projection): for given points of the carrier each
 /// body point of a US, RS or RR link solves a linear least-squares problem, its squared distances from their
-/// places being constant; for SR the carrier is what stands still. For SP the track of the body point, seen
+/// places being constant; for SR the carrier is what is at rest. For SP the track of the body point, seen
 /// from the carrier, gives the line of the strut. What is left are 3 unknowns, 4 with RR, and no valley where
 /// positions determine a link poorly.
 class LinkProjection {

@@ -80,7 +80,7 @@ struct RsDyad {
   Mat3 rotation;  ///< rotation of the carrier from the reference, by `relative` (74)
 };
 
-/// The dyad at one position, whose carrier pitch is not looked at. With atan2 in the place of the arccosine
+/// The dyad at one position, whose carrier pitch is not looked at. With atan2 instead of the arccosine
 /// (70) and of the quotient (73), which are inexact or undefined where the axis hardly turns and where g = e.
 RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod);
 

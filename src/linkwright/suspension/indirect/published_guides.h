@@ -51,7 +51,7 @@ std::span<const PublishedGuide> published_guides();
 const PublishedEvolution& published_quadratic();
 const PublishedEvolution& published_dyad();
 
-/// Example 2 with the four decimals of figure 6-3 in the place of the refined ones.
+/// Example 2 with the four decimals of figure 6-3 instead of the refined ones.
 WheelGuide strut_as_printed();
 
 /// The result of the run in the appendix (example 1), true less found, m: of each link body x, y, z, carrier

@@ -69,7 +69,7 @@ constexpr Field place(std::string_view key, std::string_view summary, bool requi
 
 struct WheelForm {
   std::optional<PointsForm> centre;
-  std::string point;  ///< hard point in the place of `centre`
+  std::string point;  ///< hard point instead of `centre`
   double toe = 0, camber = 0;
   double tyre_diameter = 0.6;
   std::optional<double> rim_diameter;

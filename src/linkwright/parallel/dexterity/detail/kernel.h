@@ -90,8 +90,8 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
   std::array<LegAt<T>, order> at;
   std::array<T, order> drive;                             // l s . u'
   std::array<std::array<T, order>, order> rows, inverse;  // rows of Jx, inverse J^-1 = Jq^-1 Jx
-  // Smooth minimum of the squares of an input index and of the leg it belongs to: beyond reach it goes on as
-  // an index that is less than 0, so that a search finds its way back.
+  // Smooth minimum of the squares of an input index and of the leg it belongs to: beyond reach it continues
+  // as an index that is less than 0, so that a search finds its way back.
   T least(0.0);
   std::array<T, most_dimensions> least_by;
   for (int j = 0; j < n; ++j) least_by[j] = T(0.0);

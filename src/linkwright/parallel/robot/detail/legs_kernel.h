@@ -40,7 +40,7 @@ LINKWRIGHT_KERNEL JointSeen<T> joint_seen(const Leg& leg, const math::Vector3<T>
 
 /// The arm that reaches the platform joint `g` with the working mode `sign` (of s . u', 1 or -1), without any
 /// trigonometry: the law of cosines turned by the direction of the joint seen from the pivot. Where it cannot
-/// reach, `reach` is negative (or NaN) and the rest is of no use.
+/// reach, `reach` is negative (or NaN) and the rest is unusable.
 template <class T>
 LINKWRIGHT_KERNEL LegAt<T> leg_at(const Leg& leg, const math::Vector3<T>& g, double sign) {
   using std::sqrt;

@@ -34,7 +34,7 @@ CertifiedIdentity certified_identity(const ComplexFourBar<T>& z, const SolutionB
 
 /// The identity of the class near `z`, certified with as many digits as that takes: those of doubles, unless
 /// they are known not to do (`extended`), twice as many, four times as many, about each of the three
-/// cognates. Where no identity is sharp enough to tell classes apart, the sharpest; nullopt where none is
+/// cognates. Where no identity is sharp enough to distinguish classes, the sharpest; nullopt where none is
 /// certified. `real`: the certificate is of a real class.
 std::optional<CertifiedIdentity> prove_class(const ExactNinePoints& p,
                                              const ComplexFourBar<math::DoubleDouble>& z, bool extended,

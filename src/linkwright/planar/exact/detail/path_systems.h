@@ -136,8 +136,8 @@ struct NinePoints {
     z = four_bar;
     for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[others + j] = D[j];
   }
-  /// A number that tells solutions apart and that all six four-bars of a class share: the ratio of two random
-  /// linear forms in the coefficients of their curve.
+  /// A number that distinguishes solutions and that all six four-bars of a class share: the ratio of two
+  /// random linear forms in the coefficients of their curve.
   static ComplexNumber identity(const SystemPoint<NinePoints>& z);
   /// The two forms, of any complex number that is made from a ComplexNumber.
   template <class C>
@@ -203,7 +203,7 @@ struct NinePointsTrace {
   }
 };
 
-/// A number that tells solutions apart: a random linear form of the unknowns.
+/// A number that distinguishes solutions: a random linear form of the unknowns.
 template <std::size_t n>
 ComplexNumber form_of_unknowns(const std::array<ComplexNumber, n>& z) {
   const RandomForms& forms = random_forms();

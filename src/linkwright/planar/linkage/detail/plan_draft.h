@@ -70,7 +70,7 @@ bool geared(const PlanDraft& d, int part);
 // carrier.
 void find_meshes(PlanDraft& d);
 
-// plan_general.cpp: the smallest group without closed form, or all parts as one in the place of all groups.
+// plan_general.cpp: the smallest group without closed form, or all parts as one instead of all groups.
 bool find_general_group(PlanDraft& d);
 void merge_groups(PlanDraft& d);
 std::vector<int> unknown_parts(const PlanDraft& d);

@@ -40,7 +40,7 @@ LINKWRIGHT_KERNEL void store_reaction(const SweepTask& task, const SweepRows<Bat
 }
 
 /// Registers of samples that go through each step together: one waits for its square roots and divisions
-/// while the next goes on.
+/// while the next continues.
 inline constexpr std::size_t sweep_together = 4;
 
 /// Motion of all parts for `sweep_together` registers of samples.
