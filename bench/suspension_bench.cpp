@@ -56,7 +56,7 @@ void guide_5US_limits(benchmark::State& state) {
 BENCHMARK(guide_5US_limits)->Unit(benchmark::kMicrosecond);
 
 // A suspension with rubber in every joint, elastic in all six directions but for balls, or with rods that
-// give way along their line only: the whole compliance with all joint forces at one position.
+// yield along their line only: the whole compliance with all joint forces at one position.
 enum Elastic { rubber, rods };
 void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
   const WheelGuide& guide = guide_sample(name).guide;

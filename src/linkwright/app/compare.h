@@ -38,7 +38,7 @@ std::vector<std::string> names_of(std::span<const std::filesystem::path> paths,
 /// end in "-differences" are each minus the first.
 study::Result compare(std::span<const Compared> all);
 
-/// A study that stands for the comparison where results are written: its canonical form holds all studies
+/// A study that represents the comparison where results are written: its canonical form holds all studies
 /// under `compare`.
 study::Study comparison_study(std::span<const Compared> all);
 

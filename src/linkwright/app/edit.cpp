@@ -83,7 +83,7 @@ std::size_t end_of_list(std::string_view text, std::size_t begin) {
 }
 
 /// The end of the number, the word, or the list or table of such that begins at a place; npos = something
-/// else stands there.
+/// else is there.
 std::size_t end_of(std::string_view text, std::size_t begin) {
   constexpr std::string_view stops = ",]}# \t\r\n";
   if (begin >= text.size()) return std::string_view::npos;
@@ -151,7 +151,7 @@ std::optional<std::string> text_of(const Value& value, const Found& found, study
   return value.is_array() ? list_text(value, found) : std::nullopt;
 }
 
-/// The text with one value replaced where it stands; nothing if it does not stand there as a number, a word,
+/// The text with one value replaced in its place; nothing if it is not there as a number, a word,
 /// or a list or table of such in one piece.
 std::optional<std::string> replaced(std::string_view text, const Value& document, const Edit& edit,
                                     study::Syntax syntax) {

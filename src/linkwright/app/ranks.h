@@ -37,9 +37,9 @@ class Ranks {
 };
 
 /// The function that the plug-in exports as `linkwright_join_ranks`: joins the ranks that were started
-/// together, once in a process. Where the launcher has told rank and count, it returns at once and joins them
-/// meanwhile; where it has not (count 0), it returns when they are known. Ranks that cannot be joined end the
-/// process.
+/// together, once in a process. Where the launcher has given rank and count, it returns at once and joins
+/// them meanwhile; where it has not (count 0), it returns when they are known. Ranks that cannot be joined
+/// end the process.
 using JoinRanks = Ranks*(int rank, int count);
 
 }  // namespace linkwright::app

@@ -22,7 +22,7 @@ struct RunOptions {
   std::vector<std::string> set;      ///< "key=value", applied before validation
 };
 
-/// The file that stands for standard input, and what messages call it.
+/// The name for standard input in messages.
 inline constexpr const char* standard_input = "-";
 inline constexpr const char* standard_input_name = "standard input";
 
@@ -35,11 +35,11 @@ std::optional<study::Study> load_study(const std::filesystem::path& file, const 
 
 /// Folder for the results of a study: options.out, output.dir of the study, or "out/" and the name of its
 /// file ("out/standard-input" without one). Where that holds the results of a study of the same name in
-/// another folder, the name of the study's folder stands before it: "out/b-lever".
+/// another folder, the name of the study's folder comes first: "out/b-lever".
 std::filesystem::path output_folder(const study::Study& study, const std::filesystem::path& file,
                                     const RunOptions& options);
 
-/// Notes in the folder which study it belongs to, where that is not told by its name: a study of the same
+/// Notes in the folder which study it belongs to, where its name does not say it: a study of the same
 /// name in another folder then takes another one. Returns what went wrong, empty if nothing did.
 std::string note_owner(const std::filesystem::path& folder, const std::filesystem::path& file,
                        const RunOptions& options, const study::Study& study);

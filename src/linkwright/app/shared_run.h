@@ -67,7 +67,7 @@ class FollowingRank final : public Checkpoint {
 
   /// Waits for what rank 0 begins with, unless it need not; false if there is nothing to do.
   bool begin();
-  /// Waits until rank 0 has begun, and tells it that no more comes from here. Returns why it has taken
+  /// Waits until rank 0 has begun, and informs it that no more comes from here. Returns why it has taken
   /// nothing of this rank, if its study is another one.
   Diagnostics finish();
 

@@ -22,7 +22,7 @@ namespace linkwright::app {
 report::ReportInput report_input(const study::Study& study, const study::Result& shown, std::string command,
                                  std::string result_json);
 
-/// A document in JSON and its lists of numbers, which stand apart (core/number_lists.h).
+/// A document in JSON and its lists of numbers, which are separate (core/number_lists.h).
 struct View {
   std::string json;
   std::vector<double> numbers;

@@ -31,7 +31,7 @@ Spectrum amplitude_spectrum(std::span<const double> samples, double interval, bo
   Spectrum out;
   for (std::size_t k = 0; k <= n / 2; ++k) {
     out.frequency.push_back(static_cast<double>(k) / (static_cast<double>(n) * interval));
-    const bool edge = 2 * k == n;  // stands for itself alone
+    const bool edge = 2 * k == n;  // has no mirror image
     out.amplitude.push_back((edge ? 1 : 2) * std::abs(transformed[k]) / weight);
   }
   out.amplitude[0] = mean;

@@ -266,7 +266,7 @@ class ContactMotion {
     for (std::size_t k = 0; k < joints_.size(); ++k)
       if (slipped(k)) change(k, t, y);
   }
-  // Mass that a force between pin and bush along the normal feels.
+  // The effective mass for a force between pin and bush along the normal.
   double effective_mass(std::size_t k, double t) {
     const auto with = [&](double force) {
       for (PinForce& f : forces_) f = {};

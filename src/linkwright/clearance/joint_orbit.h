@@ -17,9 +17,9 @@ struct DrivePeriod {
   double period = 0;  ///< s; 0: there is none
   int input = -1;     ///< input that has no period, or none that all share
 };
-/// Shortest time after which all inputs stand and move as before, angles up to whole turns. Inputs that rest
-/// have any period; without one that moves there is none. Loads that depend on time have none, either, but
-/// are not looked at here (see load_against_time).
+/// Shortest time after which all inputs have the same values and rates, angles up to whole turns. Inputs that
+/// rest have any period; without one that moves there is none. Loads that depend on time have none, either,
+/// but are not looked at here (see load_against_time).
 DrivePeriod drive_period(std::span<const planar::InputDrive> drives, const std::vector<bool>& rotary);
 
 /// Name of a load whose factor is a table against time; empty: there is none.

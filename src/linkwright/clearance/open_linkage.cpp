@@ -51,7 +51,7 @@ std::vector<int> loose_bodies(const Linkage& l) {
 }
 
 // Two massless blocks and a pin, all driven, between the ground and a body.
-// Copies of the pose and of the name: both stand in the list of bodies, which grows.
+// Copies of the pose and of the name: both are in the list of bodies, which grows.
 void guide(Linkage& l, int body, math::Pose pose) {
   const std::string name = l.bodies[at(body)].name;
   const int origin = static_cast<int>(l.bodies[0].points.size());

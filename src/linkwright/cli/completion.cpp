@@ -23,7 +23,8 @@ std::string names_of(const std::vector<CommandHelp>& commands) {
   return names;
 }
 
-/// For bash: what completes the current word where such a value stands; nothing where any text may stand.
+/// For bash: the code that completes the current word, a value of this kind; nothing where any text is
+/// allowed.
 std::string bash_value(std::string_view value, const CompletionWords& words) {
   if (const std::string fixed = words_of(value, words); !fixed.empty())
     return fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"))", fixed);

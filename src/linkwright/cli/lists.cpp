@@ -36,8 +36,8 @@ struct Entry {
   std::string group, name, text;
 };
 
-/// Entries of a group stand together, in the order in which they come. `beside`: name and text in one line,
-/// the texts in a column; else the text below the name.
+/// Entries of a group are listed together, in the order in which they come. `beside`: name and text in one
+/// line, the texts in a column; else the text below the name.
 std::string grouped(const std::vector<Entry>& entries, bool beside) {
   const bool colours = wants_colours(Stream::out);
   std::size_t width = 0;

@@ -92,7 +92,7 @@ void print_outcome(const Arguments& arguments, const study::Study& study, const 
                          app::result_json(study, app::presented(study, outcome.result), outcome.record)));
   else if (!arguments.quiet)
     fmt::print("{}", summary(study.common.title, outcome.result, written, wants_colours(Stream::out)));
-  flush_output();  // the answer stands before what is said about it
+  flush_output();  // the answer comes before remarks on it
   print_diagnostics(problems);
   if (arguments.open) open_report(written);
 }

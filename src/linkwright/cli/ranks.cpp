@@ -41,7 +41,7 @@ JoinedRanks join_ranks() {
       library ? reinterpret_cast<app::JoinRanks*>(platform::function_of(library, "linkwright_join_ranks"))
               : nullptr;
   std::unique_ptr<app::Ranks> ranks(
-      // Open MPI's tells both to all; of the others it is not sure that they do.
+      // Open MPI's gives both to all; others may not.
       join ? join(number_in({"OMPI_COMM_WORLD_RANK"}), number_in({"OMPI_COMM_WORLD_SIZE"})) : nullptr);
   if (!ranks)
     return {nullptr,

@@ -57,7 +57,7 @@ std::string painted(const Diagnostic& diagnostic, bool on) {
   std::string text = to_string(diagnostic);
   const bool error = diagnostic.severity == Diagnostic::Severity::error;
   const std::string_view word = error ? "error:" : "warning:";
-  // The name of the file stands before the word and may hold it.
+  // The name of the file precedes the word and may contain it.
   if (const std::size_t place = text.find(word, diagnostic.file.size()); place != std::string::npos)
     text.replace(place, word.size(), paint(word, error ? Colour::red : Colour::yellow, on));
   return text;

@@ -23,7 +23,7 @@ class CheckpointError : public std::runtime_error {
 /// with the same bits. The run decides what it saves and what the names mean; it does not know where the
 /// parts are saved. Usable from any thread.
 ///
-/// Names form a tree: "seed 7" stands above "seed 7/positive".
+/// Names form a tree: "seed 7" is above "seed 7/positive".
 class Checkpoint {
  public:
   Checkpoint() = default;

@@ -166,7 +166,7 @@ class Scanner {
 };
 
 std::string_view trimmed(std::string_view s) {
-  // The last of them marks the beginning of a file, and stands inside one that was joined from several.
+  // The last of them marks the beginning of a file, and is inside one that was joined from several.
   constexpr std::string_view spaces[] = {" ", "\t", "\xC2\xA0", "\xEF\xBB\xBF"};
   for (bool again = true; again;) {
     again = false;

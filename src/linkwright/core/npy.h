@@ -11,7 +11,7 @@ namespace linkwright {
 /// A table as a file of NumPy (.npy), which takes a tenth of the time of text and can be mapped into memory:
 /// a record for each row, with a field of 8 bytes for each column, named by its key; before them `name`, if
 /// rows have names, and after them `status`, both as bytes (UTF-8). NaN = missing. Given in pieces, so that
-/// it never stands in memory as a whole.
+/// it is never in memory as a whole.
 class NpyPieces {
  public:
   /// Throws ContractError when the columns differ in length. The table must outlive this.

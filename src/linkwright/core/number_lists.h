@@ -8,7 +8,7 @@
 namespace linkwright {
 
 /// The form in which a document holds its long lists of numbers: as any other value, or apart from it, for
-/// readers that take numbers as they stand in memory. A list apart is `{"": [first, count]}` in the document;
+/// readers that take numbers in their binary form. A list apart is `{"": [first, count]}` in the document;
 /// NaN stands for what would be null.
 class NumberLists {
  public:

@@ -92,7 +92,7 @@ class Sentence {
   std::vector<Part> parts_;  // neighbouring texts are one
 };
 
-/// The text of a number and of a sentence as they stand: "5.567 N m at 343°".
+/// The text of a number and of a sentence in their own units: "5.567 N m at 343°".
 std::string to_string(const Measured& number);
 std::string to_string(const Sentence& sentence);
 

@@ -175,7 +175,7 @@ void ChainEquations::balance(const ChainState& state, const TipLoad& load) {
     }
     force += j.force;
     moment += cross(node.z - weld, j.force) + j.couple;
-    if (chain_->mass_damping > 0) {  // acts between link and hub, so the whole does not feel it
+    if (chain_->mass_damping > 0) {  // acts between link and hub, so it is internal to the whole
       j.force += chain_->mass_damping * cell.mass * node.drift;
       j.couple += chain_->mass_damping * cell.inertia * (node.rate - state.rate);
     }

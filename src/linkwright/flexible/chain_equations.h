@@ -55,7 +55,7 @@ struct TangentScale {
 /// Evaluates and solves the equations of one chain; holds the memory for it. Residuals are found by sums from
 /// the hub outwards (motion) and back (forces); the tangent is eliminated cell by cell from the tip inwards,
 /// as articulated bodies are (Featherstone 1983), with coordinates of the joints, whose stiffnesses then
-/// stand on the diagonal. The chain must outlive it and stay as it is.
+/// are on the diagonal. The chain must outlive it and stay as it is.
 class ChainEquations {
  public:
   explicit ChainEquations(const Chain& chain);
@@ -85,7 +85,7 @@ class ChainEquations {
   ChainEnergy energy(const ChainState& state) const;
   /// Section forces of the state evaluated last, with its load: cuts at the weld, at all joints and outside
   /// of the tip mass. Damping by mass acts on the link from outside and counts at the joints; at the weld
-  /// stands what the hub does to the whole. Not of source_linearised (ContractError).
+  /// the load of the hub on the whole is given. Not of source_linearised (ContractError).
   std::vector<SectionForce> sections() const;
 
   /// Eliminates bp M + gp C + K at the state evaluated last: masses, dampers, stiffnesses, the stiffness that

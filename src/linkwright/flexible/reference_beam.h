@@ -14,8 +14,8 @@
 /// The link as an elastica, without cells: the angle of its line against the hub is
 /// phi(s, t) = sum over k of a_k(t) times the integral of Legendre's P_k from 0 to s, and X' = cos phi, Y' =
 /// sin phi. Geometrically exact for inextensible links without shear, of spectral accuracy; another
-/// formulation, and another way through time, to check chains with. Uniform links by Euler and Bernoulli or
-/// Rayleigh, without damping and gravity; anything else is a ContractError.
+/// formulation, and another integration in time, to check chains with. Uniform links by Euler and Bernoulli
+/// or Rayleigh, without damping and gravity; anything else is a ContractError.
 namespace linkwright::flexible {
 
 struct ReferenceOptions {

@@ -5,8 +5,8 @@
 /// Beams of publications, for tests, examples and benchmarks.
 namespace linkwright::flexible {
 
-/// The 8 m link that is spun up (Boskovic 2018, Table 3.1, after Cai, Hong and Yang 2005). G and k are not
-/// printed: nu = 0.3 and k = 5/6 are assumed where Timoshenko's theory is asked for.
+/// The 8 m link that is accelerated to its speed (Boskovic 2018, Table 3.1, after Cai, Hong and Yang 2005). G
+/// and k are not printed: nu = 0.3 and k = 5/6 are assumed where Timoshenko's theory is asked for.
 Beam spin_up_beam(Theory theory = Theory::rayleigh);
 
 /// The strip on a hub under torque (Boskovic 2018, Table 3.2); G and k as above.

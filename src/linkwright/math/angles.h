@@ -16,8 +16,8 @@ double wrap_angle(double angle);
 /// The angle in a range (rad) that differs from `angle` by whole turns, `angle` where there is none.
 double into_range(double angle, double lower, double upper);
 
-/// Shortest way from `from` to `to` (rad), in (-pi, pi]: what to add to `from` to arrive at `to` up to whole
-/// turns.
+/// Smallest rotation from `from` to `to` (rad), in (-pi, pi]: what to add to `from` to arrive at `to` up to
+/// whole turns.
 double angle_difference(double to, double from);
 
 /// Adds whole turns so that neighbours differ by at most half a turn; the first angle (rad) stays as it is.

@@ -6,7 +6,7 @@
 namespace linkwright::math {
 
 /// Rows of a square matrix whose entries lie within `width` places of the diagonal, with room for what row
-/// exchanges fill in: entry (i, j) stands at entries[i * stride(width) + (j - i + width)].
+/// exchanges fill in: entry (i, j) is at entries[i * stride(width) + (j - i + width)].
 constexpr std::size_t band_stride(std::size_t width) { return 3 * width + 1; }
 
 /// x of A x = right, in place of the right side, by Gauss's elimination with row pivots: time and memory go

@@ -65,7 +65,7 @@ struct JacobianCheck {
 ///
 /// A deviation is taken relative to size_ij = R_i / scale_j, where R_i is the largest of |r_i| and of the
 /// changes |dr_i/dx_k| scale_k: what residual i is made of. That does not depend on the units of residuals
-/// and variables, and is the size in which rounding is felt.
+/// and variables, and is the scale of rounding errors.
 ///
 /// The tolerance of an entry is ten times the error of the difference itself: rounding eps^(2/3) of size_ij,
 /// and truncation as the step shows it, |D(2h) - D(h)| / 3. Ten, because a residual of some dozen operations

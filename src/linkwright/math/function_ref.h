@@ -18,7 +18,7 @@ class FunctionRef<Result(Arguments...)> {
   template <class F>
   requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef> &&
            std::is_invocable_r_v<Result, F&, Arguments...>)
-      FunctionRef(F&& callable) {  // implicit on purpose: a lambda is passed as it stands
+      FunctionRef(F&& callable) {  // implicit on purpose: a lambda is passed directly
     using Callable = std::remove_reference_t<F>;
     if constexpr (std::is_function_v<Callable>) {
       target_.function = reinterpret_cast<void (*)()>(std::addressof(callable));

@@ -9,7 +9,8 @@
 #include "linkwright/math/lanes.h"
 
 /// Solutions of polynomial equations F(z; p) = 0 followed while the data p go straight from a base to a
-/// target through complex numbers, where for generic data none is in the way. Shows xsimd, as simd.h does.
+/// target through complex numbers, where for generic data no singular one lies on the path. Shows xsimd, as
+/// simd.h does.
 namespace linkwright::math {
 
 struct TrackerOptions {
@@ -25,7 +26,7 @@ struct TrackerOptions {
 template <class T, std::size_t n>
 struct TrackedPath {
   std::array<Complex<T>, n> z{};
-  double at = 0;  ///< share of the way, 1 = arrived
+  double at = 0;  ///< share of the path, 1 = arrived
   bool arrived = false;
   int steps = 0;
 };
@@ -99,7 +100,7 @@ LINKWRIGHT_KERNEL T size(const Complex<T> (&z)[n]) {
 /// Follows `starts`, one path a lane; a lane that has finished takes up the next. What a path gives does not
 /// depend on its neighbours, so neither on how the starts are split into calls.
 ///
-/// System: `unknowns`, `data`; evaluate(z, p, values, jacobian) and, with the rate of p along the way,
+/// System: `unknowns`, `data`; evaluate(z, p, values, jacobian) and, with the rate of p along the path,
 /// evaluate(z, p, rate, values, jacobian, values' rate), for any complex scalar; better_chart(z), which may
 /// replace a point by another one of the same solution that has better coordinates, true = replaced;
 /// largest_chart: |z| from which that is asked.
@@ -156,7 +157,7 @@ LINKWRIGHT_KERNEL void track_paths(
   for (int lane = 0; lane < L::count; ++lane) load(lane);
 
   while (running > 0) {
-    // A path that has been (re)started is corrected where it stands.
+    // A path that has been (re)started is corrected in place.
     const Mask fresh = known < T(0.5);
     const T ahead = t[0] + L::choose(fresh, T(0), step);
     const Mask last = ahead > T(1 - 1e-14);
@@ -188,7 +189,7 @@ LINKWRIGHT_KERNEL void track_paths(
       point[i] = sum;
     }
 
-    // Two steps of Newton's method, the second with the derivative along the way.
+    // Two steps of Newton's method, the second with the derivative along the path.
     tracker::Lu<T, n> lu;
     C first[1][n];
     system.evaluate(point, p, first[0], lu.a);

@@ -19,7 +19,7 @@ Pose inverse(const Pose& pose) {
 }
 
 Pose difference(const Pose& to, const Pose& from) {
-  // Not by way of the inverse: the difference of near poses far from the origin keeps its digits.
+  // Not through the inverse: the difference of near poses far from the origin keeps its digits.
   const std::complex<double> way(to.x - from.x, to.y - from.y);
   const std::complex<double> seen = std::polar(1.0, -from.angle) * way;
   return {seen.real(), seen.imag(), angle_difference(to.angle, from.angle)};

@@ -59,7 +59,7 @@ PiecewisePolynomial solve(std::span<const double> t, std::span<const double> y, 
     const double h = width(piece), scaled = factor / std::pow(h, static_cast<double>(order));
     const auto part = [&](const Ends<m>& e) { return scaled * derivative(coefficients<m>(e), order, end); };
     Ends<m> e{};
-    e[1][0] = y[piece + 1] - y[piece];  // derivatives do not feel the level
+    e[1][0] = y[piece + 1] - y[piece];  // derivatives do not depend on the level
     right(row) -= part(e);
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t k = 1; k <= m; ++k) {

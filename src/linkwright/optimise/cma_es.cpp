@@ -75,11 +75,11 @@ struct ExchangeProblem {
   }
 };
 
-/// The numbers that pagmo's CMA-ES continues with, by way of its text archive: there is no other way to them.
-/// In the archive every floating-point number has a decimal point (or is not finite) and nothing else has;
-/// they come in this order: seven options, sigma, mean (n), scratch (n), candidates (lambda n, made again in
-/// every generation), B, D, C and C^-1/2 (n^2 each), the paths p_c and p_sigma (n each), and then two
-/// counters of evaluations.
+/// The numbers that pagmo's CMA-ES continues with, through its text archive: there is no other access to
+/// them. In the archive every floating-point number has a decimal point (or is not finite) and nothing else
+/// has; they come in this order: seven options, sigma, mean (n), scratch (n), candidates (lambda n, made
+/// again in every generation), B, D, C and C^-1/2 (n^2 each), the paths p_c and p_sigma (n each), and then
+/// two counters of evaluations.
 class Archive {
  public:
   Archive(const pagmo::algorithm& algorithm, std::size_t n, std::size_t lambda) : n_(n) {

@@ -12,7 +12,7 @@
 
 namespace linkwright::optimise {
 
-/// constant + the sum over i of factors[i] x[variables[i]]; a variable may stand in it once.
+/// constant + the sum over i of factors[i] x[variables[i]]; a variable may appear in it once.
 struct Affine {
   std::vector<std::size_t> variables;
   std::vector<double> factors;
@@ -31,7 +31,7 @@ struct Cone {
 /// |(2 parts, first - second)| <= first + second.
 Cone rotated_cone(const std::vector<Affine>& parts, const Affine& first, const Affine& second);
 
-/// Minimise the sum of cost[j] x[j] subject to all cones. Every variable must stand in a cone.
+/// Minimise the sum of cost[j] x[j] subject to all cones. Every variable must appear in a cone.
 struct ConeProgramme {
   std::vector<double> cost;
   std::vector<Cone> cones;
@@ -92,13 +92,13 @@ struct ConeReport {
 /// Solves a cone programme by the homogeneous primal-dual interior-point method with scaling of Nesterov and
 /// Todd and Mehrotra's correction (Andersen, Roos and Terlaky 2003; Vandenberghe 2010, "The CVXOPT linear and
 /// quadratic cone program solvers"): no start is needed, and an infeasible programme is proved so. Equations
-/// are sparse and symmetric (LDL'), so that variables which stand in few cones cost little. Deterministic.
+/// are sparse and symmetric (LDL'), so that variables which appear in few cones cost little. Deterministic.
 ///
 /// `gap` in the options is relative to the larger of |cost| and |lower bound|, but at least to 1e-10 of the
 /// largest sum of |cost[j] x[j]|. The run context is asked before every iteration.
 ///
 /// Throws ContractError for no variables, numbers that are not finite, a variable out of range, one that
-/// stands in no cone or twice in an expression, and options out of range.
+/// appears in no cone or twice in an expression, and options out of range.
 ConeReport solve(const ConeProgramme& programme, const ConeOptions& options, RunContext& context);
 
 }  // namespace linkwright::optimise

@@ -133,8 +133,8 @@ struct Report {
 /// Throws ContractError for options out of range.
 ///
 /// Several objectives are minimised together by those methods that can, see takes_several_objectives: what
-/// is best, and stays so, is told at Optimiser::best. The target cost and the log are about the mean of the
-/// objectives; a penalty counts for each of them. Methods of one objective minimise them combined, see
+/// is best, and stays so, is described at Optimiser::best. The target cost and the log are about the mean of
+/// the objectives; a penalty counts for each of them. Methods of one objective minimise them combined, see
 /// combine.h and priorities.h.
 ///
 /// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at

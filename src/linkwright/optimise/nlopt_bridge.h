@@ -68,7 +68,7 @@ enum class LocalEnd {
   rounding,     ///< no progress for rounding: often as good as it gets
   evaluations,  ///< max_evaluations
   not_finite,   ///< a value or derivative was not finite
-  failed,       ///< the method found no way on, for example towards a feasible point
+  failed,       ///< the method could not continue, for example towards a feasible point
   interrupted,  ///< by the run context
 };
 constexpr std::array<EnumName<LocalEnd>, 8> names(LocalEnd) {
@@ -84,7 +84,7 @@ constexpr std::array<EnumName<LocalEnd>, 8> names(LocalEnd) {
 
 struct LocalReport {
   /// deadline, cancelled; else infeasible: no point met every constraint; not_converged: evaluations used up,
-  /// a value that was not finite, or no way on; else done.
+  /// a value that was not finite, or no possible step; else done.
   Status status = Status::done;
   LocalEnd end = LocalEnd::success;
   double cost = infinity;  ///< at x; infinite: not finite at the start

@@ -18,7 +18,7 @@ namespace linkwright::optimise {
 /// A problem for the algorithms of pagmo, with as many objectives and its bounds, one at a time or in
 /// batches. It has no constraints, as most of those algorithms take none: candidates that violate constraints
 /// have in every objective the cost of `cost_by_feasibility_rules`. Algorithms that leave the bounds (CMA-ES
-/// and xNES unless they are told to keep them) evaluate outside of them.
+/// and xNES unless they are set to keep them) evaluate outside of them.
 pagmo::problem pagmo_problem(Problem problem);
 
 /// One of our population methods for a population of pagmo, of a problem with one objective, with or without

@@ -51,7 +51,7 @@ class Evaluator {
 
   std::size_t objectives() const { return problem_.objectives; }
 
-  /// x is design after design; likewise the costs that pagmo is told.
+  /// x is design after design; likewise the costs that pagmo receives.
   pagmo::vector_double operator()(const pagmo::vector_double& x) {
     if (evaluations > 0) go_on(context_);  // moead asks for one design after the other
     const std::size_t n = free_.size(), m = problem_.objectives, count = x.size() / n;
@@ -135,7 +135,7 @@ struct EvaluatorProblem {
 
 /// One generation of a method.
 pagmo::algorithm make_algorithm(const PagmoOptions& o, std::size_t free, std::size_t objectives) {
-  constexpr unsigned seed = 0;  // sown before each generation
+  constexpr unsigned seed = 0;  // seeded before each generation
   if (o.method == PagmoMethod::moead)
     return pagmo::algorithm(pagmo::moead(1, objectives == 2 ? "grid" : "low discrepancy", "tchebycheff",
                                          static_cast<std::size_t>(o.moead.neighbours), 1.0, 0.5, 20, 0.9, 2,

@@ -140,9 +140,9 @@ struct FrontReport {
 };
 
 /// Minimises several objectives together. All candidates lie in the bounds; variables without a range stay
-/// what they are. The methods know no constraints: a candidate that violates some is told to have, in every
-/// objective, the cost of `cost_by_feasibility_rules`, so that each feasible one dominates it and of two
-/// infeasible ones the less violated dominates (the constrained domination of Deb et al. 2002).
+/// what they are. The methods know no constraints: a candidate that violates some is reported to have, in
+/// every objective, the cost of `cost_by_feasibility_rules`, so that each feasible one dominates it and of
+/// two infeasible ones the less violated dominates (the constrained domination of Deb et al. 2002).
 ///
 /// Interruption is looked for after every generation; the first one always runs. The first population is
 /// uniform in the box and the same for all methods of one seed. The random numbers after that are those of

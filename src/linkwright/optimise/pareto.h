@@ -15,7 +15,7 @@ bool dominates(std::span<const double> a, std::span<const double> b);
 bool less_by_more_than_rounding(double a, double b);
 
 /// True if none of the costs a, as many as b, is more than that of b by more than rounding: a dominates b, or
-/// they are equal as far as searches can tell. Not transitive: for a list that is shown.
+/// they are equal to the accuracy of searches. Not transitive: for a list that is shown.
 bool no_cost_more(std::span<const double> a, std::span<const double> b);
 
 /// A design and its costs.

@@ -28,7 +28,7 @@ PieceLoop for_each_piece(std::size_t count, RunContext& context, std::string_vie
                          math::FunctionRef<double(std::size_t index)> body);
 
 /// The same with a checkpoint, if the run context has one: pieces that it holds under their name(i) are not
-/// done again; what a body keeps on the way has names below it. `save(i)` turns what piece i came to into a
+/// done again; what a body saves meanwhile has names below it. `save(i)` turns what piece i came to into a
 /// value, null if it was interrupted and is to be done again. `restore(i, value)` puts it back to the place
 /// of index i and returns the cost as the body does; it throws CheckpointError for a value that it cannot
 /// use. All pieces that an earlier run has kept are restored before the first one is done, those of runs that

@@ -21,7 +21,7 @@ struct SmoothProblem {
   /// Values of candidate i from values[i (objectives + constraints)] on: first the objectives, relative to
   /// references of theirs and to be minimised, then the constraints, dimensionless and met when g <= 0. An
   /// objective that is not finite says that the candidate does not exist, for example because a mechanism
-  /// does not assemble; constraints may still be known then, and tell how far it is from existing. Must be
+  /// does not assemble; constraints may still be known then, and say how far it is from existing. Must be
   /// pure, as Problem::evaluate, and smooth: with continuous first derivatives where candidates exist. May
   /// throw Interrupted (core/interruption.h); values of candidates that it has not come to are then
   /// untouched.

@@ -56,7 +56,7 @@ SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshol
 PieceLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
                         math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body);
 
-/// Name of a seed in the checkpoint: "seed 7". What the body keeps on the way has names below it.
+/// Name of a seed in the checkpoint: "seed 7". What the body saves meanwhile has names below it.
 std::string seed_name(std::uint64_t seed);
 
 /// The same with a checkpoint, if the run context has one, which holds seeds under their names.

@@ -74,8 +74,8 @@ void fields(Visitor&& visit, PointMass& m) {
         m.angle);
 }
 
-/// All that the motion of a rigid link in the plane feels of its masses, in the frame of the link: own joint
-/// in the origin, link line along x. Forces and torques are linear in these numbers.
+/// All properties of its masses that affect the motion of a rigid link in the plane, in the frame of the
+/// link: own joint in the origin, link line along x. Forces and torques are linear in these numbers.
 struct BaseParameters {
   double mass = 0;                 ///< kg
   std::complex<double> moment{0};  ///< first moment (kg m)

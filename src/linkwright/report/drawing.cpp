@@ -179,7 +179,7 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 
 bool assembled(const study::Scene& scene, std::size_t sample) {
   if (sample < scene.status.size() && scene.status[sample] != "done") return false;
-  // A mark such as a roll centre or a gap may be without a place while the mechanism stands.
+  // A mark such as a roll centre or a gap may be without a place while the mechanism has a position.
   if (!scene.status.empty()) return true;
   for (int i = 0; i < static_cast<int>(scene.points.size()); ++i)
     if (!place(scene, i, sample).finite()) return false;
@@ -206,7 +206,7 @@ std::vector<Place> simplified(const std::vector<Place>& line, double tolerance) 
     std::size_t farthest = from;
     double most = tolerance;
     for (std::size_t i = from + 1; i < to; ++i) {
-      // Seen from the start, along and across the way; without a way all is across.
+      // Seen from the start, along and across the path; without a path all is across.
       const std::complex<double> p = std::complex<double>(line[i].x, line[i].y) - start;
       const double length = std::abs(way);
       const std::complex<double> seen = length > 0 ? p * std::conj(way) / length : p;

@@ -30,8 +30,8 @@ struct ReportInput {
 /// cost, which is the first number named `best`, `error` or `cost`, or else with one of these words in its
 /// key
 /// ("path_error_sum_sq_m2"); and the convergence, which is the first array among `history`, `convergence`,
-/// `trace`: numbers, or objects with `evaluations` and a cost. Plots without a scene stand beside them; a
-/// histogram among them takes the place of the distribution over the seeds.
+/// `trace`: numbers, or objects with `evaluations` and a cost. Plots without a scene are placed beside them;
+/// a histogram among them takes the place of the distribution over the seeds.
 std::string html(const ReportInput& input);
 
 }  // namespace linkwright::report

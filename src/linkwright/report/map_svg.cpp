@@ -218,7 +218,7 @@ void draw_bar(std::string& out, const Maps& maps, const Column& values, bool log
     put(out, "<path d=\"M{:.1f} {:.1f}h{:.1f}v{}h-{:.1f}z\" fill=\"{}\"/>", left_margin + k * each, y, each,
         bar_height, each, class_colour(maps.high > maps.low ? k : colour_classes - 1));
   out += "</g>\n<g fill=\"#526170\" font-size=\"11\">";
-  // The ends have their numbers always, so that the range is known, round numbers stand between them.
+  // The ends have their numbers always, so that the range is known, round numbers are between them.
   const double span = maps.high - maps.low;
   const auto named = [&](double share, const char* anchor, double value, int digits) {
     put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", left_margin + share * length,

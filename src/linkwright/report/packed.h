@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// The small form in which a report carries its data. The viewer has the way back (web/src/packed.ts).
+/// The small form in which a report carries its data. The viewer unpacks it (web/src/packed.ts).
 namespace linkwright::report {
 
 /// RFC 1951 without header, in base64: for a DecompressionStream("deflate-raw").
@@ -19,7 +19,7 @@ std::string packed(std::string_view bytes);
 class NumberPack {
  public:
   /// The text with each list of at least `shortest` numbers or nulls replaced by {"":i}, where i counts the
-  /// different lists; `separator` stands between the numbers. A list that to_json() would not write in the
+  /// different lists; `separator` separates the numbers. A list that to_json() would not write in the
   /// same way, such as one of integers, stays.
   std::string take(std::string_view json, std::string_view separator);
 

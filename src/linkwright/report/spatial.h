@@ -19,7 +19,7 @@ struct Viewpoint {
 };
 
 /// Rear (y to the left, z up), side from the left (x to the left, z up) and top (y to the left, x up): so put
-/// that the side stands right of the rear view and the top below it in first-angle projection (ISO 5456-2).
+/// that the side is right of the rear view and the top below it in first-angle projection (ISO 5456-2).
 extern const std::array<Viewpoint, 3> viewpoints;
 
 /// The scene at one value of its second input, with the samples of its first input only; the scene itself

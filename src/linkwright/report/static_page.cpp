@@ -66,7 +66,7 @@ void write_banner(std::string& out, const ReportInput& input) {
   out += "</span></header>\n";
 }
 
-constexpr std::size_t longest_beside = 34;  // letters of a fact that stand beside its name
+constexpr std::size_t longest_beside = 34;  // letters of a fact that fit beside its name
 
 std::string fact_text(const Brief& fact) {
   std::string out = escape(fact.head);

@@ -11,7 +11,7 @@
 namespace linkwright::study {
 namespace {
 
-/// Columns that say where a row is: the inputs, which stand before what is computed from them.
+/// Columns that say where a row is: the inputs, which come before the results computed from them.
 std::vector<Trouble::Place> place_of(const Table& table, std::size_t row) {
   std::vector<Trouble::Place> out;
   if (!table.columns.empty() && row < table.columns[0].values.size())

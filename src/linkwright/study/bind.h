@@ -31,7 +31,7 @@
 //     constexpr Word choice_word(const GreyWolfOptions&) { return {"grey_wolf", "pack hunting of Mirjalili et
 //     al. 2014"}; }
 //
-// found by argument-dependent lookup; the word stands at the variant's key and the keys of the chosen struct
+// found by argument-dependent lookup; the word is at the variant's key and the keys of the chosen struct
 // beside it in the same table. bind_write.h and bind_schema.h use the same lists.
 namespace linkwright::study {
 
@@ -95,7 +95,7 @@ class DocumentReader {
   };
   struct Meaning {
     std::size_t diagnostic;
-    const Record* lacking = nullptr;  // told of a key that is not there: only follows when one is misspelt
+    const Record* lacking = nullptr;  // reported for a missing key: only follows when one is misspelt
   };
   Record& open(const Value& object, std::string path, const Unit* unit);
   void finish_object(const Value& value, const std::vector<const Value*>& schemas);

@@ -286,7 +286,7 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
 }
 
 void DocumentReader::finish_missing(const Value& table, Record& record) {
-  // A part of the table may stand under a misspelt name.
+  // A part of the table may be under a misspelt name.
   const bool elsewhere = std::find(misspelt_.begin(), misspelt_.end(), record.path) != misspelt_.end();
   if (record.misspelt || elsewhere) return;
   for (const Known& missing : record.missing) {

@@ -82,7 +82,7 @@ void SchemaWriter::property(const Field& field, Value schema) {
 void SchemaWriter::alternative(const Field& field, const Word& word, SchemaWriter options, bool chosen,
                                Value::Array& alternatives) {
   Value schema = std::move(options).finish();
-  // Keys of the surrounding table stand beside these.
+  // Keys of the surrounding table are beside these.
   std::erase_if(schema.as_object(),
                 [](const Value::Member& member) { return member.key == "unevaluatedProperties"; });
   schema["properties"][field.key] = with("const", word.name);

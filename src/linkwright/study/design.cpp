@@ -13,7 +13,7 @@
 namespace linkwright::study {
 namespace {
 
-/// Every number in a value, converted like the key that it stands under.
+/// Every number in a value, converted like its key.
 void convert(Value& value, const DisplayUnits::Key& key) {
   if (value.is_array())
     for (Value& element : value.as_array()) convert(element, key);
@@ -35,7 +35,7 @@ bool has_numbers(const Value& value) {
   return false;
 }
 
-/// Tables in these units. What stands under a key with a unit has none of its own.
+/// Tables in these units. A value of a key with a unit has none of its own.
 void put_in_units(Value& value, const DisplayUnits& units) {
   if (value.is_array())
     for (Value& element : value.as_array()) put_in_units(element, units);

@@ -78,7 +78,7 @@ class Taker {
     const Position position = value.position;
     value = Value(good ? number.initial : 1.0);
     value.position = position;
-    // Most stand in the mechanism, which goes without saying.
+    // Most are in the mechanism, which goes without saying.
     constexpr std::string_view mechanism = "mechanism.";
     if (number.key.starts_with(mechanism)) number.key.erase(0, mechanism.size());
     if (good) numbers_.push_back(std::move(number));

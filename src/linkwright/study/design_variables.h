@@ -11,8 +11,8 @@
 #include "linkwright/core/value.h"
 #include "linkwright/study/bind.h"
 
-// Numbers that a study leaves open: wherever a number may stand, `{ min = 0.1, max = 0.5, initial = 0.2 }`
-// may stand in its place. What is around them is then read as if the number were there, once for every
+// Numbers that a study leaves open: wherever a number is allowed, `{ min = 0.1, max = 0.5, initial = 0.2 }`
+// may replace it. What is around them is then read as if the number were there, once for every
 // candidate, by the reader that reads the same tables of an analysis: every number that a mechanism has can
 // be designed.
 namespace linkwright::study {
@@ -24,7 +24,7 @@ struct DesignVariable {
   double upper = 0;
   double initial = 0;  ///< value of the design that answers are compared with; may lie outside the bounds
   UnitKey unit;        ///< unit of the key; no unit for plain numbers and inside arrays of arrays
-  std::vector<std::size_t> place;  ///< members and elements on the way to it
+  std::vector<std::size_t> place;  ///< members and elements that lead to it
 };
 
 /// Tables with the initial numbers filled in, and what of them is open.
@@ -38,7 +38,7 @@ struct DesignedTables {
 /// Numbers that are no numbers, min > max and a missing initial number are errors.
 DesignedTables take_designed(ObjectReader& document, std::span<const std::string_view> keys);
 
-/// The way to a number: keys of tables, and numbers of the elements of arrays.
+/// The path to a number: keys of tables, and numbers of the elements of arrays.
 struct DesignedStep {
   std::string key;
   std::optional<std::size_t> element;

@@ -12,7 +12,7 @@ namespace linkwright::study {
 
 /// Files larger than this are refused before they are read.
 inline constexpr std::size_t largest_document = std::size_t{16} << 20;
-/// Tables and arrays may stand in each other this deep.
+/// Tables and arrays may be nested this deep.
 inline constexpr int deepest_nesting = 64;
 
 enum class Syntax { toml, json };

@@ -38,7 +38,7 @@ unsigned code_point(std::string_view character) {
   return (first & 0x07u) << 18 | bits(1) << 12 | bits(2) << 6 | bits(3);
 }
 
-/// Walks over a text character by character and knows which of them stand in strings and comments.
+/// Walks over a text character by character and knows which of them are in strings and comments.
 class Scanner {
  public:
   Scanner(std::string_view text, Syntax syntax) : text_(text), syntax_(syntax) {}
@@ -112,7 +112,7 @@ class Scanner {
       advance(1);  // the escaped character is no quote
     } else if (long_string_) {
       if (text_.substr(at_, 3) != std::string(3, quote_)) return;
-      // Up to two quotes may stand before the closing three.
+      // Up to two quotes may precede the closing three.
       std::size_t run = 3;
       while (run < 5 && at_ + run < text_.size() && text_[at_ + run] == quote_) ++run;
       for (std::size_t i = 1; i < run; ++i) advance(1);

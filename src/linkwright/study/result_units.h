@@ -11,7 +11,7 @@ namespace linkwright::study {
 Result in_units(Result result, const DisplayUnits& units);
 
 /// In which units people are shown a study: those that it lists for its files, else those of its own keys.
-/// Micrometres then give way to millimetres: they are for tolerances, not for whole mechanisms.
+/// Micrometres are then replaced by millimetres: they are for tolerances, not for whole mechanisms.
 DisplayUnits shown_units(const OutputUnits& choice, const DisplayUnits& study);
 
 }  // namespace linkwright::study

@@ -98,7 +98,7 @@ void write_history(Value& entry, std::vector<Point> points, std::int64_t evaluat
 }
 
 /// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have. Where
-/// a cost is minus what is to become large, sign = -1 writes what it stands for.
+/// a cost is minus the quantity to be maximised, sign = -1 writes that quantity.
 void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign = 1);
 
 /// "7 of 10": how many of the seeds that ran succeeded by the statistics of a result.

@@ -229,7 +229,7 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
     if (study.kind->seeded) require_room_for_candidates(root, document, common);
     prepared = study.kind->prepare(root, common);
   } else {
-    // Without a kind nobody knows what else may stand here.
+    // Without a kind it is not known what else is allowed here.
     root.members();
     for (const char* name : {"mechanism", "target"})
       if (root.is_table(Field{.key = name, .summary = {}})) root.table(name)->members();

@@ -14,7 +14,7 @@ struct TradeWords {
   std::string_view theirs;  ///< in small letters and digits only, separated by blanks
 };
 
-// A word of the trade may stand for several of ours; the first that is allowed counts.
+// A word of the trade may mean several of ours; the first that is allowed counts.
 constexpr std::array trade_words{
     TradeWords{"four_bar",
                "4bar fourbarlinkage 4barlinkage crankrocker gelenkviereck viergelenk viergelenkgetriebe "

@@ -28,7 +28,7 @@ struct ContinuousPin {
   bool angle_given = false, rate_given = false;
 };
 
-/// The model of contact between pins and bushes of a study; all of them in the same way.
+/// The model of contact between pins and bushes of a study; all of them alike.
 enum class PinModel { contact, continuous, automatic };
 
 /// The duration of a study.

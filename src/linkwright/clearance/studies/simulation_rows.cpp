@@ -158,7 +158,7 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
     pressed_.bodies[at(force.point.body)].points[at(force.point.point)].at =
         number(rotate_inverse(frame.direction, where - frame.origin));
   }
-  // The clearance link, had it stayed: the way between the points from the first body to the second.
+  // The clearance link, had it stayed: the vector between the points from the first body to the second.
   const std::complex<double> way = pin_first ? -state.eccentricity : state.eccentricity;
   return {.eccentricity = state.eccentricity,
           .rate = state.rate,

@@ -61,7 +61,7 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
     }
     moved.x = std::move(x);
     moved.y = std::move(y);
-    // A circle as large as the way that the pin has in its bush.
+    // A circle as large as the clearance of the pin in its bush.
     scene.points.push_back(std::move(rim));
     scene.circles.push_back({fmt::format("clearance of {}, {:.4g} mm", joint.name, 1e3 * s.clearance_of(k)),
                              point(bush), static_cast<int>(scene.points.size()) - 1});

@@ -88,7 +88,7 @@ struct ToleranceRecording {
 ToleranceRecording record_tolerances(const ToleranceStudy& study, RunContext& context);
 
 /// Worst error of a point across its path at every sample, m, and the normal of the path there (to the left);
-/// NaN where the point has no way.
+/// NaN where the point does not move.
 struct PathBand {
   std::vector<double> across;
   std::vector<planar::Vec<double>> normal;

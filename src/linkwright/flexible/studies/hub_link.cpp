@@ -131,8 +131,8 @@ void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vecto
                    study::Fact::Verdict::plain});
 }
 
-/// The same by another formulation and another way through time. Curvatures of degree 8 and steps to 1e-7 are
-/// right to some 1e-6 of the length up to speeds at which the link bends by a fifth of it.
+/// The same by another formulation and another integration in time. Curvatures of degree 8 and steps to 1e-7
+/// are right to some 1e-6 of the length up to speeds at which the link bends by a fifth of it.
 void compare_elastica(const HubLinkStudy& s, study::Result& result, std::vector<study::Fact>& facts,
                       const RunContext& context) {
   if (!s.simulation.compare_elastica) return;

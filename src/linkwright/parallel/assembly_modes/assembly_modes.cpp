@@ -73,7 +73,7 @@ double between(const HeldRobot& held, const Pose& a, const Pose& b) {
   return out;
 }
 
-// The real mode at most `way` from a point that is as good as real.
+// The real mode at a distance of at most `way` from a point that is as good as real.
 std::optional<AssemblyMode> mode_at(const HeldRobot& held, const std::array<double, 8>& x, double way) {
   const Pose start = held.pose(x);
   const Placed placed = direct_near(held.robot, held.angles, start);
@@ -105,7 +105,7 @@ PlatformPoint as_point(const std::array<double, 8>& x) {
   return out;
 }
 
-// The generic platform seen another way, which leads through other complex platforms to the same end: legs in
+// The generic platform in another form, which leads through other complex platforms to the same end: legs in
 // another order, lengths times a complex number.
 struct Start {
   PlatformLegs legs;

@@ -24,12 +24,12 @@ struct AssemblyMode {
 
 struct AssemblyModesOptions {
   std::uint64_t seed = 1;  ///< seed of the paths through complex platforms: another path, the same modes
-  int attempts = 4;        ///< at most, each on another way, until all solutions are found
+  int attempts = 4;        ///< at most, each along another path, until all solutions are found
 };
 
 /// All modes, highest platform point last, and how sure it is that they are all.
 struct AssemblyModes {
-  /// done: all 40 complex solutions are found, or those missing are at infinity on two ways at least;
+  /// done: all 40 complex solutions are found, or those missing are at infinity on two paths at least;
   /// singular: solutions meet, as at a type 2 singularity, or the platform can move with the drives held;
   /// such modes are known to half the digits or missing; not_converged: solutions are missing for no such
   /// reason.

@@ -86,7 +86,7 @@ struct PlatformValues {
 void evaluate(const PlatformLegs& legs, const PlatformPoint& x, const PlatformPoint& chart,
               PlatformValues& out);
 
-/// Terms of the power series of the solution that goes through x at `from`, on the way to `from` + `rate`:
+/// Terms of the power series of the solution that goes through x at `from`, on the path to `from` + `rate`:
 /// x(t) = sum of term[k] t^k with conj(x) . x(t) constant. All are found with the one factorised Jacobian at
 /// x, as the equations are quadratic.
 inline constexpr int series_order = 8;

@@ -5,15 +5,16 @@
 
 #include "linkwright/parallel/assembly_modes/platform_equations.h"
 
-/// Solutions followed from one platform to another through complex platforms, where none is in the way: the
-/// exceptions (double solutions, solutions at infinity) have measure 0 on a way from a generic platform.
+/// Solutions followed from one platform to another through complex platforms, where no singular one lies on
+/// the path: the exceptions (double solutions, solutions at infinity) have measure 0 on a path from a generic
+/// platform.
 namespace linkwright::parallel {
 
 enum class PathEnd {
   regular,   ///< arrived, the solution is simple
-  infinite,  ///< on the way out: e gets small against h, where no solution is left at the end
+  infinite,  ///< on the path to infinity: e gets small against h, where no solution is left at the end
   singular,  ///< nearly arrived: solutions meet at the end
-  lost       ///< stuck on the way
+  lost       ///< stuck on the path
 };
 
 struct PlatformPath {
@@ -43,7 +44,7 @@ struct SolvedPlatform {
   int paths = 0;  ///< followed to find them
 };
 
-/// Finds them by monodromy: from one solution, made together with its platform, around closed ways through
+/// Finds them by monodromy: from one solution, made together with its platform, around closed paths through
 /// random platforms, which permute the solutions; until there are 40.
 SolvedPlatform monodromy(std::uint64_t seed);
 

@@ -53,7 +53,7 @@ std::optional<std::string> problem(const PiMasses& masses);
 
 /// The external load on the joint.
 struct PiLoad {
-  double gravity_x = 0;  ///< in axes of the joint (m/s2); for a base that stands upright (0, -9.81)
+  double gravity_x = 0;  ///< in axes of the joint (m/s2); for a vertical base (0, -9.81)
   double gravity_y = 0;
   double torque = 0;  ///< on the arms, positive where it increases theta (N m)
 };

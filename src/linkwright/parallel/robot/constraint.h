@@ -7,7 +7,7 @@
 
 /// The constraint that keeps the platform of a DELTA from turning. Each of its legs has two rods, joined to
 /// elbow and platform at +-h along the axis t of the arm. With the arms locked half the difference of the two
-/// rod equations is (t x s) . omega = 0: three such rows C, scaled by the rods' lengths, stand against the
+/// rod equations is (t x s) . omega = 0: three such rows C, scaled by the rods' lengths, oppose the
 /// turning omega.
 namespace linkwright::parallel {
 

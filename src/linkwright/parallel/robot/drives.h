@@ -20,7 +20,8 @@ constexpr std::array<EnumName<DriveType>, 2> names(DriveType) {
             "Pi-joint: the arm is one side of a parallelogram with a screw as diagonal"}}};
 }
 
-/// Drive of one arm. A Pi-joint's arm is the robot's arm; it stands so that alpha = mounting + mirror theta.
+/// Drive of one arm. A Pi-joint's arm is the robot's arm; it is mounted so that alpha = mounting + mirror
+/// theta.
 struct Drive {
   DriveType type = DriveType::revolute;
   double ratio = 0.4;         ///< k of a Pi-joint

@@ -48,8 +48,8 @@ struct DesignedRobot {
   int assembly = 1;   ///< sign of det Jx where the platform is on the side of the region, elbows out
   int constraint =
       1;  ///< sign of det C (constraint.h) of a DELTA where its constraint index counts as positive
-  /// Arms of equal legs stand alike at equal outward angles, which are measured from the outward direction,
-  /// positive towards the region: outward = alpha where this is 1, pi - alpha where it is -1.
+  /// Arms of equal legs have equal positions at equal outward angles, which are measured from the outward
+  /// direction, positive towards the region: outward = alpha where this is 1, pi - alpha where it is -1.
   std::array<int, most_legs> sense{1, 1, 1, 1, 1, 1};
 
   int arm() const { return count - 3; }
@@ -59,7 +59,7 @@ struct DesignedRobot {
 /// `values`: one a dimension. Throws ContractError for another number of them.
 DesignedRobot design(RobotFamily family, std::span<const double> values);
 
-/// Working mode in which all elbows stand outwards.
+/// Working mode in which all elbows point outwards.
 WorkingMode elbows_out(RobotFamily family);
 
 /// alpha of a leg for an outward angle (rad), and the other way round; in (-pi, pi].

@@ -9,7 +9,7 @@
 namespace linkwright::parallel {
 
 struct LedPose {
-  /// done; no_assembly or not_converged: the platform cannot follow; singular: on the way the rods do not
+  /// done; no_assembly or not_converged: the platform cannot follow; singular: on the path the rods do not
   /// hold it, and what is beyond may be another assembly
   Status status = Status::done;
   Pose pose;            ///< at `share`
@@ -18,11 +18,11 @@ struct LedPose {
   int steps = 0;
 };
 
-/// All arms turn at once, in proportion, by the shorter way from their angles at home to `angles`. Steps are
-/// as long as Newton's method ends close to where the velocity of the platform leads; the way ends where the
-/// least singular value of the rods' rows falls below rods_floor (regular_ball.h), which is found to 1e-9 of
-/// it, or their determinant changes its sign. `length` (m) makes the turning of a HEXA comparable. Allocates
-/// nothing.
+/// All arms turn at once, in proportion, by the smaller rotation from their angles at home to `angles`. Steps
+/// are as long as Newton's method ends close to where the velocity of the platform leads; the path ends where
+/// the least singular value of the rods' rows falls below rods_floor (regular_ball.h), which is found to 1e-9
+/// of it, or their determinant changes its sign. `length` (m) makes the turning of a HEXA comparable.
+/// Allocates nothing.
 ///
 /// Throws ContractError when the arms do not fit at home.
 LedPose lead_arms(const Robot& robot, const Pose& home, std::span<const double> home_angles,

@@ -12,7 +12,7 @@
 /// nothing between two looks is stepped over, neither two crossings nor a touch.
 namespace linkwright::parallel {
 
-/// A way by one parameter that grows along it.
+/// A path by one parameter that grows along it.
 struct PlatformWay {
   math::FunctionRef<Pose(double)> at;
   /// Bound of how far the platform goes between two parameters; that of a straight line is its length.
@@ -23,7 +23,7 @@ struct TroubleTask {
   Robot robot;
   WorkingMode mode = all_positive;
   double length = 1;            ///< characteristic one of a HEXA (m), see `quality`
-  Marks home;                   ///< the way begins at a pose with these
+  Marks home;                   ///< the path begins at a pose with these
   double least_constraint = 0;  ///< limit of the constraint index; the floor (constraint.h) holds always
 };
 /// ... of home; nothing where its legs do not reach.
@@ -57,7 +57,7 @@ std::optional<PathTrouble> first_trouble(const TroubleTask& task, const Platform
 std::optional<PathTrouble> first_trouble(const TroubleTask& task, const PlatformWay& way,
                                          std::span<const double> breaks);
 
-/// The straight way between two poses: the place linear, the rotation about one axis by the least angle.
+/// The straight path between two poses: the position linear, the rotation about one axis by the least angle.
 std::optional<PathTrouble> first_trouble(const TroubleTask& task, const Pose& from, const Pose& to);
 /// A pose on it, at a share of it in [0, 1].
 Pose straight_between(const Pose& from, const Pose& to, double share);

@@ -37,7 +37,7 @@ struct PoseConditions {
 /// Says what keeps them from being conditions, with the value; nothing if they are.
 std::optional<std::string> problem(const PoseConditions& conditions);
 
-/// Sign of det Jx where the legs stand as `mode` says; 0 in a pose that they do not reach or that is
+/// Sign of det Jx in the working mode `mode`; 0 in a pose that they do not reach or that is
 /// singular.
 int assembly_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = all_positive);
 

@@ -40,7 +40,7 @@ struct RegularAt {
 /// `length` (m) makes the turning of a HEXA comparable, see `quality`. Allocates nothing.
 RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mode, double length);
 
-/// `rods` of a pose whose arms stand anyhow.
+/// `rods` of a pose with any arm angles.
 double least_rods(const Robot& robot, const Jacobians& at, double length);
 
 /// A displacement of a platform: by at most so much.
@@ -49,9 +49,9 @@ struct Displaced {
   double turn = 0;   ///< rad; of robots that turn
 };
 
-/// The largest change of `rods` and `constraint` within a displacement of the pose, on the way no arm and rod
-/// aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r the
-/// way of its platform joint,
+/// The largest change of `rods` and `constraint` within a displacement of the pose, on the path no arm and
+/// rod aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r
+/// the displacement of its platform joint,
 ///     q^2 >= q0^2 - r [2 (rho + r) + 2/l (|c| + r/l (v + r/2)) (v + r)],  |d(s/L)|, |d(t x s/L)| <= r / |q|,
 /// as ds is the oblique projection of dg along u', of norm L/|q|; singular values move by no more than the
 /// Frobenius norm of the change.

@@ -50,7 +50,7 @@ struct Pose {
   Mat3 rotation{};
 };
 
-/// Symmetric DELTA. Legs stand at `azimuth` (rad, counter-clockwise from x, seen from above); arm angles are
+/// Symmetric DELTA. Legs are at `azimuth` (rad, counter-clockwise from x, seen from above); arm angles are
 /// positive downwards, the platform hangs below. Only base_radius - platform_radius matters.
 struct DeltaDimensions {
   double base_radius = 0;      ///< m, axis of the robot to the arms' pivots

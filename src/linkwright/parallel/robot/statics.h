@@ -5,7 +5,8 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/parallel/robot/drives.h"
 
-/// Forces at rest, and what gives way under them. Weights are in dynamics.h, which at rest gives their share.
+/// Forces at rest, and the displacements that they cause. Weights are in dynamics.h, which at rest gives
+/// their share.
 namespace linkwright::parallel {
 
 /// Force and moment that the surroundings exert on the platform, base axes. A moment counts for robots that
@@ -17,7 +18,7 @@ struct Wrench {
 
 /// The forces that hold a load at rest.
 struct StaticLoads {
-  /// singular: type 2, and nothing holds; or the Pi-joint of `leg` stands at +-90 deg, where its screw cannot
+  /// singular: type 2, and nothing holds; or the Pi-joint of `leg` is at +-90 deg, where its screw cannot
   /// hold the arm. no_assembly: the Pi-joint of `leg` cannot be there.
   Status status = Status::done;
   int leg = -1;            ///< first leg whose drive has the trouble, from 0; -1 = none
@@ -25,7 +26,7 @@ struct StaticLoads {
   Vector6 rod_force{};     ///< along the rod, of both rods of a parallelogram together, > 0 presses it (N)
   Vector6 drive_effort{};  ///< N m or N; NaN where it does not exist
 };
-/// tau = -J^T W by way of the rods: Jx^T lambda = -W, rod force lambda L, tau = Jq lambda. `drives` are those
+/// tau = -J^T W through the rods: Jx^T lambda = -W, rod force lambda L, tau = Jq lambda. `drives` are those
 /// of the same pose. Singular is what is within `limit` of it, in the measures of `Quality`. Allocates
 /// nothing.
 StaticLoads static_loads(const Robot& robot, const Jacobians& at, const DrivesAt& drives, const Wrench& load,
@@ -45,17 +46,17 @@ using LegStiffnesses = std::array<LegStiffness, most_legs>;
 
 /// Stiffness of a pose without load: what loads themselves add by turning with the links is left out.
 struct Stiffness {
-  Status status = Status::done;  ///< singular: a leg does not give way at all (`leg`), as in type 1
+  Status status = Status::done;  ///< singular: a leg does not yield at all (`leg`), as in type 1
   int leg = -1;                  ///< from 0
   /// K, wrench (fx ... or fx fy fz mx my mz) that shifts and turns the platform by 1 (N/m, N, N m/rad).
   Matrix6 matrix{};
   /// Eigenvalues, ascending (N/m), 0 where nothing holds (type 2, or a screw without lever); a HEXA's turning
-  /// is measured by the way it makes at the characteristic length.
+  /// is measured by the displacement it makes at the characteristic length.
   Vector6 eigenvalue{};
   /// Unit displacement of the least eigenvalue, rotation likewise as a displacement (m).
   Vector6 softest{};
 };
-/// K = sum over the legs of Jx_i^T Jx_i / c_i, which is J^-T diag(j^2 k) J^-1 when the drives alone give way,
+/// K = sum over the legs of Jx_i^T Jx_i / c_i, which is J^-T diag(j^2 k) J^-1 when the drives alone yield,
 /// with the compliance of a leg to its lambda
 ///
 ///     c = Jq^2/(j^2 k) + L^2/rod + (s.u)^2/along + (s.u')^2/bending + (s.t)^2/lateral.

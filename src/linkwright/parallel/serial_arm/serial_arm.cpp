@@ -51,7 +51,7 @@ Need need_of_pi(double length, const Drive& drive, const DriveAt& at, const PiMa
   const Vector2 y = drive.mirror * left_of(x);
   const PiMotion theta{at.angle, drive.mirror * q.speed, drive.mirror * q.acceleration};
   const PiMotion d = diagonal_motion(joint, theta), phi = direction_motion(joint, theta);
-  // First moments along arms and diagonal; their second derivatives are what the frame feels.
+  // First moments along arms and diagonal; their second derivatives give the load on the frame.
   const double arms = 2 * m.arm_mass * m.arm_centre + m.coupler_mass * length;
   const Vector2 inertial =
       second({arms, 0, 0}, theta) + second({m.nut_mass * m.nut_centre + m.rod_mass * (d.value - m.rod_centre),

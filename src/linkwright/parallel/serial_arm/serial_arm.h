@@ -9,8 +9,8 @@
 #include "linkwright/parallel/robot/drives.h"
 
 /// Planar serial arm of two Pi-joints (Milutinovic et al. 2014, figure 5, of which this is a reading): the
-/// second stands on the coupler of the first. Couplers do not turn, so both arm angles are absolute, the tool
-/// keeps its orientation, and each drive works against something that does not turn:
+/// second is mounted on the coupler of the first. Couplers do not turn, so both arm angles are absolute, the
+/// tool keeps its orientation, and each drive works against something that does not turn:
 ///
 ///     p = A + c + a1 u(q1) + a2 u(q2),   u(q) = (cos q, sin q).
 ///
@@ -151,7 +151,8 @@ struct SerialArmMasses {
 std::optional<std::string> problem(const SerialPiArm& arm, const SerialArmMasses& masses);
 
 /// Exact inverse dynamics: torques and efforts for a motion of the arms (rad, rad/s, rad/s2) with a force on
-/// the tool (N). Since couplers do not turn, the second joint feels the acceleration of its frame as gravity.
+/// the tool (N). Since couplers do not turn, the acceleration of its frame acts on the second joint as
+/// gravity.
 SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& masses, const Vector2& angles,
                              const Vector2& speeds, const Vector2& accelerations, const Vector2& force = {},
                              double limit = 1e-6);

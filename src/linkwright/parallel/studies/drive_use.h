@@ -65,7 +65,7 @@ struct DriveUse {
 
 /// The severity of a trouble, the worst first.
 enum class Severity {
-  impossible,  ///< no leg gets there, or the platform is not held on the way
+  impossible,  ///< no leg gets there, or the platform is not held on the path
   stopped,     ///< a drive or a joint would have to go beyond its travel
   too_much,    ///< more than a drive can give
   poor,        ///< an index below its limit

@@ -186,7 +186,7 @@ struct WayVerdict {
   Sentence falls;      // "constraint index 0.001 in step 1 ...": before a singularity
 };
 
-/// Judges the way by bounds.
+/// Judges the path by bounds.
 WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityLimits& limits,
                      const ToolMotion& motion, const Pose& home) {
   auto task = trouble_task(d.robot, home, d.mode, platform_size(d.robot));

@@ -70,7 +70,7 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
     row("constraint_index", "constraint index: how firmly they keep the platform from turning",
         known(q.constraint_index));
   }
-  // True in the working mode of the robot: arms that were given may stand in another.
+  // True in the working mode of the robot: given arm angles may be in another.
   const bool own_mode = there && working_mode(d.robot, solved.pose, solved.angles.angle) == d.mode;
   row("clear_radius_m", "no singularity is nearer than this (m)",
       own_mode ? clear_radius(d.robot, regular_at(d.robot, solved.pose, d.mode, length), length) : nan);
@@ -250,7 +250,7 @@ void describe_poses(study::SchemaWriter& document) {
 
 namespace {
 
-/// Marks of a pose whose arms stand anyhow.
+/// Marks of a pose with any arm angles.
 Marks marks_of(const Robot& robot, const Jacobians& at) {
   const auto sign = [](double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
   const bool held = robot.freedom == Freedom::space_translation;

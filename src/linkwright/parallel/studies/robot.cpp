@@ -309,7 +309,7 @@ std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::s
                      *wrong, "lengths must be above 0");
     return std::nullopt;
   }
-  // The four lengths of a DELTA stand for its legs.
+  // The four lengths of a DELTA replace its legs.
   constexpr std::array<std::string_view, 1> leg = {"leg"};
   if (!mechanism->has("leg")) written = without(std::move(written), leg);
   const auto mode = read_mode(*mechanism, out.robot);

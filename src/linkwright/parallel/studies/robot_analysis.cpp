@@ -128,7 +128,7 @@ std::optional<Pose> usual_home(const Robot& robot, const WorkingMode& mode) {
     const ArmAngles angles = inverse(robot, pose, mode);
     if (angles.status != Status::done) continue;
     const Quality q = quality(robot, jacobians(robot, pose, angles.angle), platform_size(robot));
-    // A home that is singular in another way is none.
+    // A home with another singularity is not allowed.
     const bool held = robot.freedom != Freedom::space_translation || q.constraint_index >= constraint_floor;
     if (held && q.transmission > best) {
       best = q.transmission;

@@ -114,7 +114,7 @@ class RobotDrawing {
           {.key = "mechanism.base_radius_m", .measure = Measure::length, .point = pivot, .held = true});
   }
 
-  /// Adds a Pi-joint: the second pivot stands in the direction of theta = 90 deg.
+  /// Adds a Pi-joint: the second pivot lies in the direction of theta = 90 deg.
   void parallelogram(int i, int pivot, int end) {
     const Leg& leg = robot_.leg[i];
     const Drive& drive = drives_[i];

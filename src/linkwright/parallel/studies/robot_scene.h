@@ -35,7 +35,7 @@ struct ToolPlace {
   std::string key;   ///< "motion.step[1].to_m"
   Coordinates at{};  ///< m
 };
-/// Marks them as joints that stand, which can be taken hold of.
+/// Marks them as fixed joints, which can be dragged.
 void add_places(study::Scene& scene, const Robot& robot, std::span<const ToolPlace> places);
 
 }  // namespace linkwright::parallel

@@ -67,7 +67,7 @@ void fields(Visitor&& visit, SerialMassesForm& m) {
   visit(Field{.key = "joint", .summary = "the two joints", .required = true}, m.joints);
 }
 
-/// `[modes]`: a table of both ways to reach each pose.
+/// `[modes]`: a table of both arm configurations for each pose.
 struct SerialModesForm {
   bool working = true;
 };

@@ -67,7 +67,7 @@ void demands_of(const SerialAnalysis& s, const ArmInstant& at, std::vector<Deman
     add_drive_demands(out, i, d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
 }
 
-/// Judges the way by its distance from the first pivot, which no step of the tool changes by more than its
+/// Judges the path by its distance from the first pivot, which no step of the tool changes by more than its
 /// own length; the time up to which the arm gets.
 double judge_way(PathJudge& judge, const SerialAnalysis& s) {
   constexpr double shortest = 1e-9;  // m: closer to the edge of reach nothing is proven

@@ -23,7 +23,7 @@ class ArmDrawing {
     const int first = fixed("pivot 1", arm_.base);
     const int first_up = fixed("second pivot 1", sum(arm_.base, up(0)));
     const auto [elbow, corner] = joint(0, first, first_up);
-    // The frame of the second joint stands on the coupler of the first.
+    // The frame of the second joint is mounted on the coupler of the first.
     const int second_up =
         point("second pivot 2", [this](const SerialSample& s) { return sum(end(0, s), up(1)); });
     scene_.bodies.push_back({"coupler 1", {elbow, corner, second_up}, Scene::BodyStyle::plate});

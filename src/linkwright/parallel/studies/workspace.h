@@ -9,7 +9,7 @@
 #include "linkwright/parallel/studies/robot.h"
 #include "linkwright/parallel/workspace/inscribed.h"
 
-// The workspace in studies of parallel robots: a grid of places, how much of it is of use and how good it is.
+// The workspace in studies of parallel robots: a grid of places, the usable part of it and its quality.
 namespace linkwright::parallel {
 
 /// `[limits]` of a robot: requirements for a usable pose, along a path and in the workspace.

@@ -42,7 +42,7 @@ struct CurvePoint {
 /// The point at a length in [0, curve.length]. Corners by Gauss quadrature of the direction, exact to
 /// rounding.
 CurvePoint point_at(const ToolCurve& curve, double length);
-/// The motion of a point on its way along the curve.
+/// The motion of a point along the curve.
 struct PointMotion {
   math::Vec3 velocity, acceleration, jerk;  ///< m/s, m/s2, m/s3
 };

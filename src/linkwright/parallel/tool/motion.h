@@ -48,7 +48,7 @@ class ToolMotion {
   /// "step 3 (arc) at 0.412 s"
   Sentence where(double t) const;
 
-  /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
+  /// Share of its step's path that has been covered, in [0, 1]; nothing for a rest and for a table.
   std::optional<double> share_at(double t) const;
   /// "step 3 (arc) at 0.412 s, 63.51 % of its path"
   Sentence where_exactly(double t) const;

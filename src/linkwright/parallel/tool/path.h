@@ -44,12 +44,12 @@ struct ToolCircle {
 struct PickAndPlace {
   Coordinates to{};         ///< m
   Coordinates up{0, 0, 1};  ///< upward direction, of any length
-  double height = 0;        ///< m, of the way across above the higher of both ends
+  double height = 0;        ///< m, of the path across above the higher of both ends
   double corner =
-      0.5;  ///< (0, 1], where the rounding begins: share of the lower leg, or of half the way across
-  bool back = false;                    ///< and the same way back
+      0.5;  ///< (0, 1], where the rounding begins: share of the lower leg, or of half the path across
+  bool back = false;                    ///< and the same path back
   double dwell = 0;                     ///< s, rest at `to`
-  double back_dwell = 0;                ///< s, rest after the way back
+  double back_dwell = 0;                ///< s, rest after the path back
   std::optional<Coordinates> rotation;  ///< at `to`
   std::optional<double> speed;
 };

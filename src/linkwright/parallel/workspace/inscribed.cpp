@@ -234,7 +234,7 @@ class Search {
     Inscribed out;
     Candidate best = candidate(start);
     const auto moves = all_moves();
-    // Finer and finer points, with shorter and shorter steps: a body that stands between coarse points comes
+    // Finer and finer points, with shorter and shorter steps: a body that lies between coarse points comes
     // down, and finds another way up.
     const int finer = plane_ ? 4 : 2;
     int fine = 1;
@@ -286,7 +286,7 @@ class Search {
       } while (went(best, move, scale) && (better = true));
     }
     if (!better) return false;
-    // The way of the whole round leads along the ridge.
+    // The displacement of the whole round leads along the ridge.
     const Vec3 way = (1 / (scale * map_.grid.step)) * (best.centre - before.centre);
     const auto turn = [&](int r) { return std::log(best.ratio[r] / before.ratio[r]) / (0.1 * scale); };
     const std::array<double, 5> whole{way.x, way.y, way.z, turn(0), turn(1)};

@@ -7,7 +7,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/math/vector3.h"
 
-/// A region that a robot is to serve, and points that stand for it.
+/// A region that a robot must serve, and points that represent it.
 namespace linkwright::parallel {
 
 enum class RegionShape { cylinder, box, circle, rectangle };

@@ -8,7 +8,7 @@
 /// Proof that nothing is singular all over a body of places, not at points of it alone.
 namespace linkwright::parallel {
 
-/// All stand along the axes.
+/// All are along the axes.
 enum class InscribedShape { cylinder, ball, box };
 constexpr std::array<EnumName<InscribedShape>, 3> names(InscribedShape) {
   return {{{InscribedShape::cylinder, "cylinder", "with its axis along z, only in space"},
@@ -33,7 +33,7 @@ inline constexpr std::int64_t most_proof_looks = 400000;
 /// Everywhere in the body the legs reach (but for 1 um at the edge of what they reach), no arm and rod are
 /// aligned, the marks are those of task.home, the rods hold the platform and the constraint index is at least
 /// the limit or the floor, both less 5e-4. By branch and bound: a box that change_within (regular_ball.h)
-/// does not settle is cut across its longest side.
+/// does not decide is cut across its longest side.
 BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation,
                 std::int64_t most_looks = most_proof_looks);
 

@@ -74,7 +74,7 @@ bool check_study(study::ObjectReader& table, const Value& document, const Parame
   return good;
 }
 
-/// The values of a parameter are said in one way, and make sense.
+/// The values of a parameter are given in one form only, and make sense.
 void check_values(study::ObjectReader& reader, const Parameter& p) {
   if (reader.has("values")) {
     if (reader.has("min") || reader.has("max") || reader.has("steps"))
@@ -309,7 +309,7 @@ void read_parameters(study::ObjectReader& document, ParameterStudy& s) {
                    fmt::format("{} parameters, at most {} are changed", s.parameters.size(), most));
 }
 
-/// The study with everything it needs in it: a list in a file stands here.
+/// The study with everything it needs in it: a list in a file is copied here.
 Value write_study(const ParameterStudy& s) {
   Value out;
   out["study"] = s.study;

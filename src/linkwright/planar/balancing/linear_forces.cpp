@@ -29,7 +29,7 @@ std::array<LinkMass, 4> probes(double length) {
 }
 
 // From the forces of each probe on each link, when nothing else has mass or load: component c at sample i of
-// probe k stands at [k][c n + i].
+// probe k is at [k][c n + i].
 void fill_factors(LinearForces& forces, double length, const std::vector<std::vector<double>>& probed) {
   const std::size_t n = forces.samples;
   for (std::size_t c = 0; c < forces.components.size(); ++c) {

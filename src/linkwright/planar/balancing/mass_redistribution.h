@@ -114,7 +114,7 @@ struct BalancedMasses {
   bool global() const { return status == Status::done && broken.empty() && gap < 1e-8; }
 };
 
-/// The best masses. Inertias that no objective feels stay as they are, moved into their bounds; other numbers
+/// The best masses. Inertias that affect no objective are unchanged, moved into their bounds; other numbers
 /// that the cost does not determine take a value in the middle of what is left to them.
 ///
 /// Throws ContractError for indices that do not exist, a link given twice, bounds that are not ordered or

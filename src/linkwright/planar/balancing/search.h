@@ -120,7 +120,7 @@ struct BalancingQuestion {
   optimise::SmoothGoal goal = optimise::SmoothGoal::mean;
   std::vector<double> weights, caps;  ///< one an objective; caps infinite = none
 };
-/// Answers questions exactly, where a mechanism has such a way: x, active and proof of a design; without x
+/// Answers questions exactly, where a mechanism has such a method: x, active and proof of a design; without x
 /// when it cannot.
 using ExactBalancing = std::function<BalancedDesign(const BalancingQuestion&, RunContext&)>;
 

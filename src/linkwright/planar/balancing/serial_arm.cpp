@@ -379,7 +379,7 @@ ArmSearchReport search_arm(const ArmTask& task, const ArmDesign& design, const A
     }
     if (local.violation == 0 && std::isfinite(local.cost)) {
       double value = cost(x, {}, 0);
-      // The law of a link that no joint force feels any more is noise: back to the one of degree 5.
+      // The law of a link that no longer affects any joint force is noise: back to the one of degree 5.
       const std::size_t per_law = static_cast<std::size_t>(design.degree - 5);
       for (std::size_t j = 0; j < per_law * task.arm.links.size(); j += per_law) {
         std::vector<double> plain = x;

@@ -76,7 +76,8 @@ struct ArmSearchOptions {
 /// The recommended search: SLSQP with exact gradients from random starts. Where counterweights are among the
 /// unknowns the cost has a kink wherever a joint is unloaded completely, which is where the best designs lie:
 /// norms |R| are then smoothed to sqrt(|R|^2 + e^2), e falling in steps to 1e-9 of the norm without
-/// counterweights. The law of a link that no joint force feels at a minimum is the one of degree 5.
+/// counterweights. The law of a link that does not affect any joint force at a minimum is the one of
+/// degree 5.
 ArmSearchReport search_arm(const ArmTask& task, const ArmDesign& design, const ArmSearchOptions& options,
                            const optimise::Seed& seed, RunContext& context);
 

@@ -45,8 +45,8 @@ GuidingDyad with_numbers(GuidingDyad d, const double* x) {
 }
 
 // The pose of the body nearest to a given pose with both gaps closed. With J the slopes of the gaps by the
-// pose in lengths and J J' = L L', the way there is J' lambda; `miss` = L' lambda has its length, and moves
-// with the gaps by L^-1.
+// pose in lengths and J J' = L L', the displacement there is J' lambda; `miss` = L' lambda has its length,
+// and moves with the gaps by L^-1.
 struct Nearest2 {
   BodyPose reached;
   std::array<double, 2> miss{};
@@ -140,7 +140,7 @@ std::optional<NearestPoint> nearest_point(const GuidingDyad& a, const GuidingDya
 }
 
 // Weights of poses that are met exactly, relative to others, one search after the other, before the numbers
-// are moved to meet them: at once the way would be a narrow valley.
+// are moved to meet them: at once the search would follow a narrow valley.
 constexpr std::array<double, 3> exact_weights = {1e2, 1e4, 1e6};
 
 // Moves the numbers as little as can be, each in units of its own size, until the dyads hold the poses:

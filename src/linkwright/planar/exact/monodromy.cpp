@@ -141,7 +141,7 @@ StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContex
   known = follow(system, first, out.base, known, options, context);
   out.followed = 1;
   Identities identities;
-  // Takes what is not known yet among the ends of ways around.
+  // Takes what is not known yet among the ends of closed paths.
   const auto take = [&](Paths<System>& ends) {
     for (auto& end : ends) {
       if (!end.arrived) continue;

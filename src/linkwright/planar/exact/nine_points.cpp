@@ -27,7 +27,7 @@ constexpr double nearly_real = 1e-7;
 // digits they differ by less than the second, or they are not.
 constexpr double perhaps_same = 1e-6, surely_same = 1e-10;
 
-// More classes than these that are missing are those of special points: they are not sought another way.
+// More classes than these that are missing are those of special points: they are not sought by other means.
 constexpr std::size_t most_sought = 24;
 
 // A solution in the units of the target, where conjugates are exact.
@@ -72,8 +72,8 @@ bool is_of_a_family(const NineTarget& target, const FineFourBar& z, double digit
   return !prove_class(target.fine, z, false, false);
 }
 
-// Newton's method to the last digits, with more of them where doubles do not settle; nullopt where solutions
-// meet or there is none.
+// Newton's method to the last digits, with more of them where doubles do not converge; nullopt where
+// solutions meet or there is none.
 std::optional<FoundClass> finish_class(const NineTarget& target, ComplexFourBar<> z) {
   NinePoints::settle(z);
   FoundClass out;
@@ -102,7 +102,7 @@ std::optional<FoundClass> finish_class(const NineTarget& target, FineFourBar fin
 }
 
 // Takes the identity with twice the digits, which it needs where links are long or classes near each other.
-// False where Newton's method does not settle: there classes meet.
+// False where Newton's method does not converge: there classes coincide.
 bool identify(const NineTarget& target, FoundClass& found) {
   if (found.identified) return found.settled;
   found.identified = true;
@@ -255,7 +255,7 @@ class NineSearch {
     return open;
   }
 
-  // All paths by way of other points: ends that were missed, because paths crossed unseen or came to a place
+  // All paths through other points: ends that were missed, because paths crossed unseen or came to a place
   // too near a singular one, are others there.
   void by_another_way() {
     RandomStream stream({.seed = 1443});
@@ -288,7 +288,8 @@ class NineSearch {
                                                                        .at = stopped_[i].at};
       RunContext alone;  // the loop over paths is interrupted, not a path
       alone.set_threads(1);
-      // Doubles also stop at ends that are only far out, where they cannot tell them from infinite ones.
+      // Doubles also stop at ends that are only far out, where they cannot distinguish them from infinite
+      // ones.
       if (!stopped_[i].arrived)
         path = follow(NinePoints(), starts_.base, scaled_, Paths<NinePoints, math::DoubleDouble>{path},
                       careful, alone)[0];

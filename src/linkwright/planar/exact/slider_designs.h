@@ -11,7 +11,7 @@ namespace linkwright::planar {
 struct ExactSliderDesign {
   SliderPathDesign design;      ///< design with the slider ahead of the crank pin at the first point
   std::vector<Defect> defects;  ///< empty = it traces the points in one motion, in their order
-  double pressure_angle = 0;    ///< rad, the greatest on the way from the first point to the last
+  double pressure_angle = 0;    ///< rad, the greatest from the first point to the last
 };
 
 /// The slider-crank of a solution: crank angles from the turn of the rod, not from the side of the slider, so
@@ -19,7 +19,7 @@ struct ExactSliderDesign {
 ExactSliderDesign exact_slider_design(const SliderPathProblem& problem, const TracingSliderCrank& bars);
 
 /// All of them, best first: without defects before order, circuit and branch, then a crank that rotates
-/// fully, then the smaller pressure angle on the way.
+/// fully, then the smaller pressure angle between the points.
 std::vector<ExactSliderDesign> exact_designs(const SliderPathProblem& problem,
                                              const SliderPointSolutions& solutions);
 

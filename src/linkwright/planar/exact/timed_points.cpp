@@ -17,7 +17,7 @@ constexpr DyadSweep timed_sweep{.one = 30, .two = 8};
 // Pivots and pins nearer than this, times the size of the points, are one.
 constexpr double timed_same = 1e-6;
 
-// Timed cognates stand on the same rocker pivot and have the same curve, hence the same third pivot: that of
+// Timed cognates have the same rocker pivot and have the same curve, hence the same third pivot: that of
 // one is the crank pivot of the other.
 TimedComplex third_pivot(const TracingFourBar& bars, TimedComplex first) {
   const TimedComplex share = (first - bars.crank_pin) / (bars.rocker_pin - bars.crank_pin);

@@ -280,7 +280,7 @@ void LinkageAssembly::place(std::span<const InputMotion> inputs, LinkageMotion& 
   }
   if (status != Status::done) return leave_open(inputs, status, gap_, motion);
   solve_position(plan_, inputs, motion);
-  // The curve has a place here: what Newton's method cannot settle is a dead point.
+  // The curve has a place here: where Newton's method does not converge, there is a dead point.
   if (motion.status == Status::not_converged) motion.status = Status::singular;
 }
 

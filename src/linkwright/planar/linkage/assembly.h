@@ -25,8 +25,8 @@ InputReach reach_of(std::span<const std::vector<InputMotion>> rows);
 /// nothing assembles so, the mode is the first that a search within the reach meets (see assembly_modes).
 ///
 /// With one input the mode is followed from there over the whole reach beforehand (ModeCurve). With more,
-/// each place is reached from the drawing straight through the space of inputs, or, where that way leaves the
-/// mode, by one input after the other.
+/// each place is reached from the drawing straight through the space of inputs, or, where that path leaves
+/// the mode, by one input after the other.
 class LinkageAssembly {
  public:
   /// `modes`: signs of the dyads' modes, one a group; those of the plan when empty. `in_sequence`: the places

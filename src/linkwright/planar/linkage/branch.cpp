@@ -13,7 +13,8 @@ namespace {
 
 constexpr int nodes = 240;
 
-// A branch one way from the start. Pieces follow each other along `sense`; joints[i] is where piece i ends.
+// A branch in one direction from the start. Pieces follow each other along `sense`; joints[i] is where piece
+// i ends.
 struct Way {
   double sense = 1;
   std::vector<BranchPiece> pieces;
@@ -22,8 +23,8 @@ struct Way {
   bool cut = false;  // ends before the bound that was given
 };
 
-// Gives the pieces of a way the modes of group k, which starts with `sign`; splits pieces at its change
-// points and cuts the way at its limit. Returns the sign behind the last joint.
+// Gives the pieces of a path the modes of group k, which starts with `sign`; splits pieces at its change
+// points and cuts the path at its limit. Returns the sign behind the last joint.
 double add_group(GroupScan& scan, AtChangePoint policy, Way& way, std::size_t k, double sign) {
   Way out{way.sense, {}, {}, way.origin, way.cut};
   const int group = static_cast<int>(k);
@@ -83,7 +84,7 @@ void shift(Way& way, double by) {
   for (RangeEnd& j : way.joints) j.value += by;
 }
 
-// The same periodic way, gone backwards from the start.
+// The same periodic path, followed backwards from the start.
 Way backwards(Way way, double period) {
   Way out{-1, {}, {}, way.joints.back(), false};
   shift(way, -period);

@@ -27,7 +27,7 @@ struct BranchPiece {
   std::vector<double> modes;  ///< signs, one a group
 };
 
-/// A branch that starts at given modes and follows one input both ways, as far as it goes.
+/// A branch that starts at given modes and follows one input in both directions, as far as it goes.
 struct BranchPath {
   Status status = Status::done;  ///< no_assembly: not at the start; then there are no pieces
   double start = 0;

@@ -40,7 +40,7 @@ std::vector<std::complex<double>> hull(std::vector<std::complex<double>> points)
       while (out.size() >= first + 2 && !turns_left(out[out.size() - 2], out.back(), p)) out.pop_back();
       out.push_back(p);
     }
-    out.pop_back();  // the first of the way back
+    out.pop_back();  // the first of the return path
     if (!back) std::reverse(points.begin(), points.end());
   }
   if (size == 0) out.assign(1, points[0]);

@@ -31,14 +31,14 @@ InputLine line_between(std::span<const double> from, std::span<const double> to)
 /// change point. (Allgower and Georg, Introduction to Numerical Continuation Methods, SIAM 2003, sections 2,
 /// 6 and 8.)
 ///
-/// Only the groups without closed form and those they stand on take part; others are placed by
+/// Only the groups without closed form and those they depend on take part; others are placed by
 /// solve_position.
 class ModeCurve {
  public:
-  /// Follows the curve both ways from `parts`, a place that meets the joints at `start`, to `low` and `high`
-  /// at most, which hold `start`; all values along the line. Where `turn` > 0 (the change of value after
-  /// which the inputs are the same again) it also ends where the linkage comes back to its place. Change
-  /// points count as ends but for `smooth`.
+  /// Follows the curve in both directions from `parts`, a place that meets the joints at `start`, to `low`
+  /// and `high` at most, which hold `start`; all values along the line. Where `turn` > 0 (the change of value
+  /// after which the inputs are the same again) it also ends where the linkage comes back to its place.
+  /// Change points count as ends but for `smooth`.
   ModeCurve(const LinkagePlan& plan, InputLine line, double start, std::span<const PartState<double>> parts,
             double low, double high, double turn = 0, AtChangePoint policy = AtChangePoint::smooth);
   ~ModeCurve();
@@ -61,7 +61,7 @@ class ModeCurve {
   /// turns do not matter where `turn` was given. done; no_assembly or, at a change point, limit_reached
   /// beyond the ends, where the motion gets the place of the nearer end.
   Status place(double value, LinkageMotion& motion);
-  /// m: by how much joints stand open at a value beyond the ends: the largest after bringing their squares to
+  /// m: the gaps of the joints at a value beyond the ends: the largest after bringing their squares to
   /// a minimum from the nearer end.
   double gap(double value);
 

@@ -7,11 +7,11 @@
 
 namespace linkwright::planar {
 
-/// Accelerations of the free inputs by way of the joint forces: with the accelerations a that all parts have
+/// Accelerations of the free inputs through the joint forces: with the accelerations a that all parts have
 /// while the free inputs have none,
 ///   M da - J^T lambda = loads - M a,   J da = 0,
 /// one row of J a joint equation, prescribed drives among them. Parts and joints are put in an order
-/// (Cuthill and McKee) in which a joint stands near its parts, so that the matrix is a band, as narrow for a
+/// (Cuthill and McKee) in which a joint is near its parts, so that the matrix is a band, as narrow for a
 /// long chain as for a short one: an evaluation takes a time that goes with the number of parts, where the
 /// mass matrix of the free inputs takes the cube of it. Both have the same answer but for rounding.
 class LinkageElimination {

@@ -196,7 +196,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
     const PartState<double>&before = motion.parts[at(j.before.part)], &after = motion.parts[at(j.after.part)];
     const JointRows r = joint_rows(j, j.input >= 0, motion.parts);
     // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
-    // right side stand the parts of them that do not depend on unknown accelerations.
+    // right side are the parts of them that do not depend on unknown accelerations.
     Vec<double> slip{0, 0};
     double spin = 0;
     for (const auto& [part, state, side] :

@@ -42,8 +42,8 @@ struct LinkageBody {
   std::vector<LinkagePoint> points;
   std::optional<BodyMass> mass;
   std::vector<AttachedMass> attached;
-  /// About where the body stands at the start: gives the assembly mode of its group, and is where a search
-  /// starts. Not needed for groups whose mode is given.
+  /// The approximate pose of the body at the start: gives the assembly mode of its group, and is where a
+  /// search starts. Not needed for groups whose mode is given.
   std::optional<math::Pose> start;
 };
 
@@ -169,7 +169,7 @@ struct PointForce {
   LoadFactor factor;
 };
 
-/// A torque of the ground, or of another body that feels the opposite, on a body.
+/// A torque on a body by the ground, or by another body, on which the opposite torque acts.
 struct BodyTorque {
   std::string name;
   int body = 0;

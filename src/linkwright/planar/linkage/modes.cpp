@@ -33,7 +33,7 @@ class Enumeration {
   }
 
  private:
-  // The groups up to k at the present modes; general groups before k stand where they were found.
+  // The groups up to k at the present modes; general groups before k keep the positions found.
   bool placed(std::size_t k) {
     solve_position(levels_[k], inputs_, motion_);
     // At a dead point everything is placed but the rates.

@@ -68,10 +68,10 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
 /// Position, velocity and acceleration in one call.
 void solve_motion(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
-/// Follows the linkage from the inputs it stands at to others, so that general groups stay on
-/// their assembly mode (ModeCurve; change points end the way). False (and the status in `motion`,
-/// which stays at the last good place: `reached` of the way, 0 to 1) when there is no way. Plans in closed
-/// form need no way and are placed directly.
+/// Follows the linkage from its present inputs to others, so that general groups stay on
+/// their assembly mode (ModeCurve; change points end the path). False (and the status in `motion`,
+/// which stays at the last good place: `reached` of the path, 0 to 1) when there is no path. Plans in closed
+/// form need no path and are placed directly.
 struct FollowReport {
   bool arrived = true;
   double reached = 1;

@@ -38,7 +38,7 @@ struct PlanJoint {
 /// The properties of a kind of group; each kind has its `traits_of`.
 struct GroupTraits {
   std::string_view name;     ///< name in the words of users
-  bool closes_loop = false;  ///< it can stand at a dead point, and has a sine that says how far that is
+  bool closes_loop = false;  ///< it can be at a dead point, and has a sine that says how far that is
   bool closed_form = true;   ///< it is placed without a search
   bool has_modes = false;    ///< it is assembled in closed form, in two ways
   bool has_limits = false;   ///< in closed form it can cease to assemble, or run away, as the inputs move

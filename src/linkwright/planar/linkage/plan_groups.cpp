@@ -100,7 +100,7 @@ bool find_dyad(PlanDraft& d) {
     PartJoint *outer1 = to_known(d, i), *outer3 = to_known(d, k);
     if (!outer1 || !outer3) continue;
     const int slides = outer1->slide + inner.slide + outer3->slide;
-    if (slides == 3) continue;  // no pin: nothing holds the way of the two together
+    if (slides == 3) continue;  // no pin: nothing determines the joint displacement of the two
     // Order of the chain: the pin first where one end is a slide.
     if (outer1->slide && !outer3->slide) std::swap(i, k), std::swap(outer1, outer3);
     const auto other = [](const PartJoint& joint, int part) {

@@ -111,7 +111,7 @@ bool pair_for_dyad(PlanDraft& d, const LinksAtPin& pin) {
   for (std::size_t a = 0; a < pin.links.size(); ++a)
     for (std::size_t b = a + 1; b < pin.links.size(); ++b) {
       if (!held(pin.links[a]) || !held(pin.links[b])) continue;
-      // Any free joint on the way from one to the other may give way; joined directly they were a dyad
+      // Any free joint between one and the other may be taken; joined directly they were a dyad
       // already.
       for (const std::size_t k : pin.joints) {
         PartJoint& j = d.joints[k];

@@ -29,7 +29,7 @@ void require_body(const LinkagePlan& plan, int body) {
                      plan.bodies.size());
 }
 
-// Inputs that stand but for one.
+// Inputs at rest but for one.
 class OneInput {
  public:
   OneInput(const LinkagePlan& plan, std::span<const double> inputs, int input) : input_(at(input)) {

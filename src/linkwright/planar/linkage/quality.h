@@ -18,7 +18,7 @@ namespace linkwright::planar {
 ///   RPR: the angle between the slide and the normal of the line from the outer pin of the second body to
 ///        that of the first;
 ///   PRP, RPP: the angle between the two slides.
-/// Its complement is the pressure angle at the slide. Of a general group the same name stands for the arc
+/// Its complement is the pressure angle at the slide. Of a general group the same name means the arc
 /// sine of its smallest over its largest pivot. pi/2 for drivers and gears, NaN where not assembled.
 double transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion, std::size_t group);
 /// pi/2 - transmission_angle: between the force on the slide's body, without friction, and the slide.
@@ -67,7 +67,7 @@ Advantage advantage(const Linkage& linkage, const LinkagePlan& plan, int input, 
 /// The point where two bodies have the same velocity, by the velocities in the motion.
 struct InstantCentre {
   enum class Kind { point, at_infinity, undetermined };
-  /// at_infinity: the bodies turn alike, and `direction` points to the centre (both ways);
+  /// at_infinity: the bodies turn alike, and `direction` points to the centre (in both directions);
   /// undetermined: they do not move against each other at these velocities.
   Kind kind = Kind::undetermined;
   int first = 0, second = 0;    ///< bodies

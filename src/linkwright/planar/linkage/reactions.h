@@ -40,7 +40,7 @@ struct LinkageForces {
       0, 0};  ///< force of the mechanism, and of bodies welded to the ground, on the ground, weight included
   /// The moment on the ground about Linkage::moment_centre, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
-  /// ... and without the torques of drives that stand on the ground.
+  /// ... and without the torques of drives that are mounted on the ground.
   double shaking_moment = 0;
   double drive_power = 0;    ///< W, of all drives
   double load_power = 0;     ///< W, of springs, forces, torques and friction on the moving bodies

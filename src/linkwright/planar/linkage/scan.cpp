@@ -56,7 +56,7 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
       }
       case DyadType::rrp: {
         const Vec<double> e = rotate(after.direction, j3.after.direction);
-        // The line of the inner pin runs beside the slide's, by as much wherever the guide stands.
+        // The line of the inner pin runs beside the slide's, by as much in every position of the guide.
         const double beside = rotate_inverse(j3.before.direction, dyad.second.vector).y;
         const double across = cross(e, d) + beside, l = dyad.first.length;
         const double slope = cross(e, slip) + after.speed * cross(perpendicular(e), d);

@@ -35,7 +35,7 @@ class GroupScan {
   /// Throws ContractError when the plan is not in closed form, or inputs do not fit.
   GroupScan(const LinkagePlan& plan, std::span<const double> inputs, int input);
 
-  /// Stretches of [from, to], rising, in which `group` can be assembled while the groups before it stand in
+  /// Stretches of [from, to], rising, in which `group` can be assembled while the groups before it are in
   /// the given modes (signs, one a group; those from `group` on are not used). The groups before must
   /// assemble on all of (from, to). Limits are simple zeros of the group's radicand, change points double
   /// ones; both are located to rounding: double zeros as zeros of the radicand's derivative. A double zero

@@ -25,7 +25,7 @@ struct ChangeZone {
 class SmoothBranch {
  public:
   /// The branch of `modes` at `value`; followed without end when it repeats itself, else over two turns (or
-  /// four sizes) both ways. As branch_path for what cannot be; see path().status.
+  /// four sizes) in both directions. As branch_path for what cannot be; see path().status.
   SmoothBranch(const LinkagePlan& plan, double value, std::span<const double> modes);
 
   const BranchPath& path() const { return path_; }

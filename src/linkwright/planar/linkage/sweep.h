@@ -43,7 +43,7 @@ enum class ShakingRow { force_x, force_y, moment_with_drive };
 /// drivers are solved as many samples at a time as a SIMD register holds, by the formulas of
 /// linkage_kernel.h; plans with general groups or gears, and forces with springs, loads, friction or welds,
 /// go sample by sample, general groups on the assembly mode that their drawing shows (LinkageAssembly). Both
-/// ways agree up to rounding.
+/// routes agree up to rounding.
 ///
 /// Make one a linkage (and thread) and run it again and again: nothing is allocated while the number of
 /// samples does not grow (but for friction, welds and a sweep that follows general groups).

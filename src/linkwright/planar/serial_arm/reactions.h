@@ -12,17 +12,17 @@ namespace linkwright::planar {
 /// The loads in the own joint of one link.
 struct ArmJointLoads {
   std::complex<double> force;  ///< force of the link before (or the ground) on this link (N), global frame
-  /// Torque on this link when all motors stand on the ground: the generalised force of the absolute angle
-  /// (N m).
+  /// Torque on this link when all motors are mounted on the ground: the generalised force of the absolute
+  /// angle (N m).
   double absolute_torque = 0;
-  /// Torque when each motor stands on the link before: sum of the absolute torques from this link outwards
-  /// (N m).
+  /// Torque when each motor is mounted on the link before: sum of the absolute torques from this link
+  /// outwards (N m).
   double joint_torque = 0;
 };
 
 /// Loads of all joints in one pass inwards (Boskovic 2018, Eqs. (2.33)-(2.36) for any number of links, any
 /// mass centres and gravity, which acts along -y in m/s2). `rates` are those of the same arm. The joint
-/// forces do not depend on where the motors stand. Allocates nothing.
+/// forces do not depend on where the motors are mounted. Allocates nothing.
 ///
 /// Throws ContractError unless there are as many rates and loads as elements.
 void reactions(std::span<const ArmElement> arm, std::span<const ArmLinkRates> rates, double gravity,

@@ -119,7 +119,7 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
 
 /// The errors of so many segments, for a beam on two pins that is loaded by its own mass.
 struct SegmentErrors {
-  /// Share of the largest bending moment that no spring feels, as each sits in the middle of its cell: the
+  /// Share of the largest bending moment that no spring takes, as each sits in the middle of its cell: the
   /// larger one of a load that is the same all along and of one that grows from zero at an end. Moments at
   /// the springs are exact.
   double moment = 0;

@@ -48,7 +48,7 @@ struct SpeedFluctuation {
 SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& plan,
                                    const SpeedFluctuationSetup& setup, const RunContext* context = nullptr);
 
-/// The motion that a motor and the loads settle in.
+/// The steady motion of a motor with its loads.
 struct SteadyCycle {
   Status status = Status::done;
   Sentence message;

@@ -39,7 +39,7 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
   }
   const PointObstacle blocked = obstacle(points);
   if (blocked.kind == PointObstacle::repeated) {
-    // The reader has told of neighbours already.
+    // The reader has reported neighbours already.
     if (blocked.points[1] - blocked.points[0] != 1 || x[at(blocked.points[0])] != x[at(blocked.points[1])] ||
         y[at(blocked.points[0])] != y[at(blocked.points[1])])
       target.error(key,

@@ -79,7 +79,7 @@ std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s,
   const FourBar& l = initial->four_bar->linkage;
   const auto gravity = weight_along_y(initial->linkage);
   if (!(angles.from < angles.to) || l.frame_angle != 0 || !gravity) return std::nullopt;
-  // Through a change point the general way follows the branch; the closed form would change it there.
+  // Through a change point the general method follows the branch; the closed form would change it there.
   if (classify(l).type == FourBarType::change_point) return std::nullopt;
   b.branch = l.branch;
   b.crank_from = angles.from;

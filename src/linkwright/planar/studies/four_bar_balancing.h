@@ -16,7 +16,7 @@ std::optional<double> weight_along_y(const Linkage& linkage);
 FourBarMechanism four_bar_of(const BalancingStudy& study, std::span<const double> x);
 
 /// The problem of a study of a four-bar with designed lengths and masses, evaluated many machines at a time
-/// (balancing_values) instead of the general way. Nothing when the study asks for more than that knows:
+/// (balancing_values) instead of the general method. Nothing when the study asks for more than that knows:
 /// other design variables, other quantities than components of forces and torques, or constraints.
 std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& study,
                                                         const BalancingProblem& problem);

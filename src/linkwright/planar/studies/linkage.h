@@ -116,7 +116,7 @@ Value motion_study(const Linkage& linkage, bool rotary, std::span<const double> 
 /// many designs. A branch is not followed through change points.
 Table linkage_table(const LinkageStudy& study, std::span<const std::string> columns);
 
-/// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
+/// Evaluates every row and reports. Rows that do not assemble, or are at a dead point, hold what is known
 /// of them and their status; the status of the result is then the first of these.
 study::Result run_linkage_study(const LinkageStudy& study, RunContext& context);
 

@@ -76,7 +76,7 @@ class Artist {
   using Style = study::Scene::BodyStyle;
   bool moves(int body) const { return plan_.bodies[at(body)].part != 0; }
 
-  // A point that is given per record, or once for a body that stands.
+  // A point that is given per record, or once for a fixed body.
   int add_point(std::string name, int body, const std::function<Vec<double>(const LinkageRecord&)>& where) {
     study::Scene::Point p{std::move(name), {}, {}};
     for (const LinkageRecord& r : records_) {

@@ -157,7 +157,7 @@ bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescrip
   return true;
 }
 
-// Bodies that the inputs alone place stand where these start, whatever their own `start` says.
+// Bodies that the inputs alone place begin where these start, whatever their own `start` says.
 void warn_of_unused_starts(study::ObjectReader& document, const LinkageDescription& d,
                            const std::vector<InputDrive>& drives, double time) {
   constexpr double typed = 1e-3;  // rad, and sizes of the linkage: as exactly as poses are typed

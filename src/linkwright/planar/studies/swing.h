@@ -138,7 +138,7 @@ struct SwingStudy {
   double swing = 0;                  ///< rad; 0 of a slider
   double imbalance = 0;              ///< rad, >= 0
   std::vector<Strokes> senses;       ///< senses that are possible
-  std::array<GivenLength, 2> given;  ///< the scale, and what settles the linkage
+  std::array<GivenLength, 2> given;  ///< the scale, and the length that determines the linkage
   bool settled = false;              ///< true if the second one is given
   double largest_ratio = 10;
   Branch branch = Branch::open;

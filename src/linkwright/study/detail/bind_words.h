@@ -12,7 +12,7 @@ namespace linkwright::study {
 /// A text of the file, short enough and without control characters.
 std::string shown(std::string_view text);
 
-/// "mechanism.crank_mm"; a key that is no bare one stands in quotes.
+/// "mechanism.crank_mm"; a key that is not a bare one is quoted.
 std::string join_path(const std::string& path, std::string_view key);
 
 /// "the text 'long'", "12 mm", "an array"; unit null: none.

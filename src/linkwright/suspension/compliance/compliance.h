@@ -10,7 +10,7 @@
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/guide/wheel.h"
 
-/// Elasto-kinematics: how a wheel moves under load because the joints of its links give way. Linear, about a
+/// Elasto-kinematics: how a wheel moves under load because the joints of its links yield. Linear, about a
 /// position of the rigid suspension: small motions of the carrier and of every link as rigid bodies, joints
 /// with six stiffnesses each, rigid ones exact (Lagrange multipliers).
 namespace linkwright::suspension {
@@ -85,8 +85,8 @@ struct Compliance {
 ///
 /// With a `preload` (such as the static load at the contact) the turning of loaded links and of the load's
 /// own arm is taken in (geometric stiffness), to first order in the forces of all joints, of which the spring
-/// as it stands takes its share; needs a spring. Moments of bushings from travel before are not known and not
-/// in it.
+/// in its present position takes its share; needs a spring. Moments of bushings from travel before are not
+/// known and not in it.
 ///
 /// Throws ContractError for what `check` finds, and for a support that needs a spring when there is none.
 Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, double rack,

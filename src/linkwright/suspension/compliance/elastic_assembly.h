@@ -36,7 +36,7 @@ struct ElasticBar {
 };
 
 /// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
-/// feels; of a US link about the direction across both axes of its U joint, which holds it rigidly. The joint
+/// takes; of a US link about the direction across both axes of its U joint, which holds it rigidly. The joint
 /// keeps its axes across each other.
 struct HeldTurn {
   int body = 0;
@@ -61,8 +61,8 @@ struct ElasticAssembly {
 };
 
 /// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
-/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The suspension has
-/// to outlive the assembly.
+/// first body point in the present position. The stiffnesses have to be free of what `check` finds. The
+/// suspension has to outlive the assembly.
 ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
                          const GuideElasticity& elasticity);
 

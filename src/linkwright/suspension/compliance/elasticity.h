@@ -13,18 +13,19 @@ namespace linkwright::suspension {
 
 using Matrix6 = std::array<std::array<double, 6>, 6>;
 
-/// A component that gives way by nothing; it is kept exactly, not by a large number.
+/// A rigid component; it is kept exactly, not by a large number.
 inline constexpr double rigid = infinity;
 
 /// A joint as an elastic element in axes of its own: 0 leaves a component free, `rigid` holds it.
 struct JointStiffness {
   /// Along and about the first, second and third axis: N/m, N m/rad. For a bushing the first axis is its own:
-  /// axial, radial, radial; torsional, conical, conical. As it stands: a ball joint that gives way by
+  /// axial, radial, radial; torsional, conical, conical. The default: a ball joint that yields by
   /// nothing.
   std::array<double, 3> translation{rigid, rigid, rigid};
   std::array<double, 3> rotation{0, 0, 0};
   /// First axis at the reference (any length), fixed in the body for a joint at the body and in the carrier
-  /// for one at the carrier. Zero: the axis of the hinge, or the line of the rod or strut as it stands.
+  /// for one at the carrier. Zero: the axis of the hinge, or the line of the rod or strut in the present
+  /// position.
   Vec3 axis;
   /// The second axis is this direction (at the reference) as far as it is across the first one. Zero: any.
   Vec3 across;
@@ -51,7 +52,7 @@ struct GuideElasticity {
   double spring = 0;                  ///< along its line, N/m
 };
 
-/// Rods that give way along their line only (rod and both joints in series, N/m); every link has to be a rod.
+/// Rods that yield along their line only (rod and both joints in series, N/m); every link has to be a rod.
 GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>& rods, double spring);
 
 /// An ideal joint: 'R' hinge, 'S' ball joint, 'P' slide along its first axis.

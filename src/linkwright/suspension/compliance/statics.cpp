@@ -61,7 +61,8 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
   // On the carrier by each link: the forces of its equations, and what springs and couplers on it pass on.
   const CarrierPose& carrier = position.place.carrier;
   const int links = static_cast<int>(guide.links.size());
-  std::vector<Wrench> on_carrier(links), on_link(links);  // on_link: by springs and couplers, as it stands
+  std::vector<Wrench> on_carrier(links),
+      on_link(links);  // on_link: by springs and couplers, in the present position
   int row = 0;
   for (int i = 0; i < links; ++i) {
     const int rows = constraints(guide.links[i].type) + (guide.links[i].type == LinkType::RR ? 1 : 0);

@@ -80,7 +80,7 @@ TargetPositions target_positions(std::span<const TargetObjective> objectives, Dr
 /// The results of a design at the positions.
 struct TargetAnswer {
   bool assembled = false;        ///< at every position
-  double reached = 0;            ///< share of the positions that there are, with part of the way to the next
+  double reached = 0;            ///< share of the positions that there are, with part of the step to the next
   std::vector<double> achieved;  ///< [row]: the measure of each target
   std::vector<double> deviations;  ///< [row]: weight times (achieved - value) / tolerance
   std::vector<double> by;          ///< [row][number] row-major: derivatives of the deviations

@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 
 /// The body points of links 3, 4 and 5 are to be found; the rods' lengths are given. Targets are quartic
 /// polynomials of travel and rack (79) at fifteen inputs, objectives in the order of their priority toe,
-/// camber and relative track, with their tolerances (75). The points stand at the optimum that is known.
+/// camber and relative track, with their tolerances (75). The points are at the known optimum.
 DirectTask published_direct_task();
 
 /// Boxes of 150 mm for the nine coordinates, placed at random so that they hold the optimum.

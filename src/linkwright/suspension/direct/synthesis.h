@@ -72,7 +72,7 @@ struct DirectSynthesis {
   std::vector<double> objectives;         ///< largest deviation of each, in tolerances
   double largest = infinity;              ///< largest deviation of all targets
   double half_sum_of_squares = infinity;  ///< half the sum of squared deviations
-  optimise::PriorityKey key;              ///< objectives met, and how the next stands
+  optimise::PriorityKey key;              ///< objectives met, and the deviation of the next
   std::vector<ActiveTarget> active;       ///< within 1e-4 of the largest of what was minimised
   std::vector<LimitAnswer> limits;
   /// Singular values of the derivatives of the deviations by the design variables, each in units of its

@@ -230,7 +230,7 @@ Line read_words(Words split) {
   return out;
 }
 
-/// A line with commas may be read in two ways: they separate, or they are decimal points.
+/// A line with commas has two readings: they separate, or they are decimal points.
 Line read_line(std::string_view line) {
   bool separates = false;
   const bool other = line.find_first_of(" \t;([{=") != std::string_view::npos;

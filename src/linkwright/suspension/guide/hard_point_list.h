@@ -11,9 +11,9 @@
 /// Lists of hard points as drawings, spreadsheets and other programs write them.
 namespace linkwright::suspension {
 
-/// Reads a list of points, in the list's own frame but in metres. The first line tells two forms apart:
+/// Reads a list of points, in the list's own frame but in metres. The first line distinguishes two forms:
 /// - columns with the headings name, x, y and z in any order, separated by commas, semicolons or tabs. Units
-///   stand in the headings (x_mm, X [mm]), in a row of their own below them, or are `unit`; columns with
+///   are in the headings (x_mm, X [mm]), in a row of their own below them, or are `unit`; columns with
 ///   other headings are ignored;
 /// - plain text, one point a line: its name, of one or several words, quoted or not, with or without a number
 ///   before it, then x, y, z, separated by blanks, tabs, commas, semicolons, brackets, = or :. Names may also

@@ -112,7 +112,7 @@ void check_side(const WheelGuide& guide, double typical, Findings& found) {
 /// Links whose ends have changed places: the end at the body lies outboard of the end at the carrier.
 void check_ends(const WheelGuide& guide, double typical, Findings& found) {
   const double side = guide.side == Side::right ? -1 : 1;
-  // On the other side everything is the wrong way round, which is told of the wheel.
+  // On the other side everything is the wrong way round, which is reported for the wheel.
   if (side * guide.wheel.centre.y < no_half_track * typical) return;
   const auto outboard = [&](const std::vector<Vec3>& points) {
     double sum = 0;
@@ -189,7 +189,7 @@ Diagnostics implausible(const WheelGuide& guide) {
                               : std::string()),
               "check tyre_diameter and the points: _mm, _cm, _m or _in");
 
-  // The body stands inboard of its wheel.
+  // The body lies inboard of its wheel.
   if (!strays && std::abs(centre.y) > no_half_track * typical) {
     double outboard = 0;
     int count = 0;

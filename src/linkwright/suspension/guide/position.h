@@ -18,12 +18,12 @@ struct GuideInput {
 /// The position of a suspension, or the last one reached.
 struct GuidePosition {
   /// done; no_assembly: the input lies beyond what the links reach, or the links do not meet at all;
-  /// singular: at the start the links lose rank, so that no way on is determined.
+  /// singular: at the start the links lose rank, so that no continuation is determined.
   Status status = Status::done;
-  GuidePlace place;  ///< no_assembly: the last position on the way, next to the limit
+  GuidePlace place;  ///< no_assembly: the last position on the path, next to the limit
   Driver driver = Driver::wheel_centre_z;
   GuideInput input;     ///< input that was reached
-  double reached = 1;   ///< share of the way from the start that was gone
+  double reached = 1;   ///< share of the path from the start that was covered
   double residual = 0;  ///< largest of the equations (m)
   std::string reason;   ///< empty, or why it ends there, with figures
 };

@@ -50,7 +50,7 @@ std::string count_of(const Structure& structure, int couplers) {
   return out;
 }
 
-/// A line that a joint or a link stands for.
+/// The line that a joint or a link represents.
 struct GeometricLine {
   std::string name;
   Vec3 at, along;  ///< unit

@@ -47,9 +47,9 @@ struct BasicGuideLink {
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
   bool moved_by_rack = false;  ///< its body points move with the rack
-  /// US: direction of the axis of its U joint that stands in the body; the other axis of the joint lies
+  /// US: direction of the axis of its U joint that is fixed in the body; the other axis of the joint lies
   /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
-  /// the rod off that line feels. Not given: level, and across the rod at the reference.
+  /// the rod off that line takes. Not given: level, and across the rod at the reference.
   std::optional<Vec3> cross_axis{};
 };
 using GuideLink = BasicGuideLink<double>;
@@ -138,7 +138,7 @@ bool is_upright(const Vector3<T>& along) {
 int body_points(LinkType type);
 int carrier_points(LinkType type);
 
-/// The axis of a rod's U joint that stands in the body, unit: `given`, or level and across the rod. Of an
+/// The axis of a rod's U joint that is fixed in the body, unit: `given`, or level and across the rod. Of an
 /// upright rod no level axis is more across than another: then x.
 template <class T>
 Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& along) {

@@ -89,7 +89,7 @@ Sphere fit_sphere(const Track& track, double l) {
 }
 
 /// The point of the box (m, vehicle frame) whose sphere is nearest to the track for an offset: least squares
-/// with limits, exact by trying which coordinates stand at one.
+/// with limits, exact by trying which coordinates are at one.
 Vec3 best_in_box(const Track& track, double l, const PointBox& box) {
   const auto n = static_cast<Eigen::Index>(track.size());
   Eigen::MatrixXd a(n, 3);

@@ -10,7 +10,7 @@
 /// depend on how it was found.
 namespace linkwright::suspension {
 
-/// The largest misfit of a suspension's joints when its carrier is put to prescribed positions.
+/// The largest misfit of a suspension's joints when its carrier is moved to prescribed positions.
 struct ConstraintError {
   double gap = 0;     ///< m, absolute
   int link = -1;      ///< links first, then couplers; -1 without positions

@@ -34,7 +34,7 @@ struct ErrorTotals {
 };
 
 /// Structural errors of several links and couplers together, over all their unknowns: coordinates, offsets of
-/// couplers, and what stands for missing carrier pitches. For searches that cannot take the links one by one,
+/// couplers, and values of missing carrier pitches. For searches that cannot take the links one by one,
 /// since they share the carrier pitches or a coupler. One object serves one thread.
 class GuideErrors {
  public:

@@ -14,23 +14,24 @@ struct LinkPose {
   Mat3 rotation;
 };
 
-/// Place of a point of the link that is at `reference` when the suspension stands at the reference.
+/// Place of a point of the link that is at `reference` when the suspension is at the reference.
 constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
   return pose.at + pose.rotation * (reference - pose.from);
 }
 
-/// Body point and carrier point of a link as they stand, the body point moved by the rack (m) if it is on it.
+/// Body point and carrier point of a link in the present position, the body point moved by the rack (m) if it
+/// is on it.
 Vec3 body_point(const WheelGuide& guide, int link, int point, double rack);
 Vec3 carrier_point(const WheelGuide& guide, int link, int point, const CarrierPose& carrier);
 
 /// All links at a position of the carrier, `from` and `at` at the first body point. US links turn about their
 /// line as their U joint makes them, SS links do not, struts turn with the carrier, R and S are joints
-/// without a link and stand as the carrier does. Nothing is solved, so a suspension with any number of links
+/// without a link and follow the carrier. Nothing is solved, so a suspension with any number of links
 /// will do; the links are taken to fit.
 std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& place, double rack);
 
-/// The axes of a US link's U joint as it stands, unit: the one that stands in the body and the one that turns
-/// with the rod.
+/// The axes of a US link's U joint in the present position, unit: the one that is fixed in the body and the
+/// one that turns with the rod.
 std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack);
 
 /// The begin of a coupler on its first link.

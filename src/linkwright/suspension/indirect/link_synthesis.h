@@ -32,7 +32,7 @@ double link_objective(const CarrierTargets& targets, const GuideLink& link,
                       ErrorTotal total = ErrorTotal::mean);
 
 /// The objective of several links and couplers over all their unknowns, see GuideErrors: the mean or the sum
-/// of all their errors. Where the dyad that settles the carrier pitch cannot be assembled the violation is
+/// of all their errors. Where the dyad that determines the carrier pitch cannot be assembled the violation is
 /// what it misses by (m).
 optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
                                 std::span<const CouplerTask> couplers = {},

@@ -10,7 +10,7 @@
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// Positions of the carrier that leave one of their six parameters open, and a rod that settles it.
+/// Positions of the carrier that leave one of their six parameters open, and a rod that determines it.
 namespace linkwright::suspension {
 
 enum class PoseParameter { centre_x, centre_y, centre_z, toe, camber, carrier_pitch };
@@ -65,17 +65,17 @@ struct PoseCompletion {
   CarrierTargets targets;        ///< targets; without a solution the parameter is still missing
 };
 
-/// Settles a parameter at every position where it is NaN by a rod whose points are adopted (section 5.3.5.1):
-/// what is left is a synthesis from complete positions, link by link.
+/// Determines a parameter at every position where it is NaN by a rod whose points are adopted
+/// (section 5.3.5.1): what is left is a synthesis from complete positions, link by link.
 PoseCompletion complete(const CarrierTargets& targets, const GuideLink& rod, PoseParameter parameter);
 
 /// Carrier and one rod as a dyad of a revolute and a spherical joint (section 5.3.5.3, equations 69 to 74).
 struct RsDyad {
   Status status = Status::done;  ///< no_assembly: |g| is larger than the root of e^2 + f^2
   double e = 0, f = 0, g = 0;    ///< m2: e cos + f sin + g = 0
-  /// rad: turn of the carrier about the wheel's axis after that axis was turned the shortest way, the smaller
-  /// one and the other one. This is not the carrier pitch, whose zero is another
-  /// (the source takes them for equal); `rotation` knows both.
+  /// rad: turn of the carrier about the wheel's axis after that axis was turned by the smallest rotation, the
+  /// smaller one and the other one. This is not the carrier pitch, whose zero is another (the source takes
+  /// them for equal); `rotation` knows both.
   double relative = 0, other = 0;
   Mat3 rotation;  ///< rotation of the carrier from the reference, by `relative` (74)
 };

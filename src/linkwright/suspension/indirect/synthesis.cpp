@@ -20,7 +20,7 @@ namespace {
 
 bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
 
-/// A synthesis on its way: what links and couplers came to, and what that means.
+/// A synthesis in progress: the results of links and couplers, and what that means.
 class Assembly {
  public:
   explicit Assembly(const IndirectTask& task) : task_(task) {

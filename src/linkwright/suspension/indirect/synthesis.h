@@ -24,7 +24,7 @@ struct IndirectTask {
 
 struct IndirectSynthesis {
   /// done: all links are exact and the suspension moves as it should; not_converged, infeasible: of the links
-  /// or couplers, or of a rod that cannot settle the carrier pitches; singular: exact links that leave the
+  /// or couplers, or of a rod that cannot determine the carrier pitches; singular: exact links that leave the
   /// carrier a further freedom, see `findings`; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
   std::vector<LinkFit> links;  ///< each with its own status

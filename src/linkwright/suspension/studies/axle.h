@@ -64,7 +64,7 @@ void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGui
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 
 /// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a
-/// diagram. Facts tell those of the row `stated`, whose position their names end with.
+/// diagram. Facts give those of the row `stated`, whose position their names end with.
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels, std::size_t stated,
                        const std::string& position);

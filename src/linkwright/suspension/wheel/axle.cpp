@@ -8,7 +8,7 @@ namespace linkwright::suspension {
 namespace {
 
 /// Forward per upward velocity of the contact point, as the carrier turns about the side centre of the arm
-/// planes. The angle still tells it of parallel arms, whose centre lies at infinity.
+/// planes. The angle still describes parallel arms, whose centre lies at infinity.
 double tangent_by_arms(const WheelParameters& wheel) {
   const double slope = std::tan(wheel.arms.side_swing_angle);
   return wheel.arms.side[0] < wheel.contact.x ? slope : -slope;

@@ -9,9 +9,9 @@
 /// Two wheels of an axle, and the axle in its vehicle.
 namespace linkwright::suspension {
 
-/// Roll centre (y, z) in the vehicle's frame (m) when both wheels stand and travel differently: where the
-/// lines meet that pass through the contact points across their velocities, seen along x. Nothing if they are
-/// parallel.
+/// Roll centre (y, z) in the vehicle's frame (m) when both wheels have different positions and travel: where
+/// the lines meet that pass through the contact points across their velocities, seen along x. Nothing if they
+/// are parallel.
 std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, const WheelParameters& right);
 
 /// The effect of a small roll of the body towards this wheel (rad per rad): both contact points stay on the

@@ -37,7 +37,7 @@ AxlePosition reference_position(const AxlePlan& plan);
 AxlePosition solve_axle(const AxlePlan& plan, const AxleInput& input, const AxlePosition& start);
 
 /// The body leans by `roll` (rad, > 0 towards the left wheel, which rises against the body: a turn about -x)
-/// over a plane road that both contact points stand on, their mean height changed by `heave` (m): the
+/// over a plane road that both contact points touch, their mean height changed by `heave` (m): the
 /// contacts differ in height by their track times tan(roll), with the track as it is then.
 AxlePosition solve_roll(const AxlePlan& plan, double roll, double heave, double rack,
                         const AxlePosition& start);
@@ -77,7 +77,7 @@ struct AxleAckermann {
   double error = 0;             ///< rad, inner less ideal
   double percent = 0;           ///< percentage, as in `ackermann`
 };
-/// Nothing where the wheels do not turn the same way. `track` (m) as in `ackermann`.
+/// Nothing where the wheels do not steer to the same side. `track` (m) as in `ackermann`.
 std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, const AxleParameters& turned,
                                             double wheelbase, double track);
 

@@ -23,7 +23,7 @@ struct ToleranceTask {
   WheelGuide guide;
   std::vector<TolerancedNumber> numbers;
   Driver driver = Driver::wheel_centre_z;
-  std::vector<GuideInput> inputs;  ///< positions of the curves, in the order of a way
+  std::vector<GuideInput> inputs;  ///< positions of the curves, in the order of a path
   std::vector<WheelQuantity> curves;
 };
 

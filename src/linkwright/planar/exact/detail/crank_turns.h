@@ -11,7 +11,7 @@
 // Rotation of a crank from point to point.
 namespace linkwright::planar {
 
-/// The way from one crank angle to another in a sense, in [0, 2 pi).
+/// The rotation from one crank angle to another in a sense, in [0, 2 pi).
 inline double forward_step(double sense, double from, double to) {
   const double step = sense * (to - from);
   return step - 2 * pi * std::floor(step / (2 * pi));

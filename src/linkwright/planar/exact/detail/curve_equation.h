@@ -5,7 +5,7 @@
 namespace linkwright::planar {
 
 /// A four-bar at its first point P0, as complex numbers relative to it with independent conjugates: crank pin
-/// x and crank pivot a, rocker pin y and rocker pivot b; capitals stand for the conjugates, which they are
+/// x and crank pivot a, rocker pin y and rocker pivot b; capitals are the conjugates, which they are
 /// where the linkage is real.
 enum FourBarUnknown { pin_x, pivot_a, pin_y, pivot_b, pin_X, pivot_A, pin_Y, pivot_B, four_bar_unknowns };
 

@@ -87,7 +87,7 @@ inline constexpr math::TrackerOptions small_steps = {.predicted = 1e-4, .correct
 inline constexpr math::TrackerOptions careful = {.predicted = 1e-3, .corrected = 1e-9};
 
 /// A path that stops this near to its end has come to it; one that ends at infinity has then left the size of
-/// the points (1) this far behind, growing with the root of the way that is left.
+/// the points (1) this far behind, growing with the root of the rest of the path.
 inline constexpr double nearly_there = 1e-6, far_out = 100;
 
 /// The factors of places and of their conjugates that bring data to the mean square 1, turned so that the way

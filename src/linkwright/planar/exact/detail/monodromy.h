@@ -39,8 +39,8 @@ class Identities {
   int count_ = 0;
 };
 
-/// Finds solutions by monodromy: from one linkage, made together with its points, around closed ways through
-/// random data, which permute the solutions, until `expected` are known and one more way brings no other.
+/// Finds solutions by monodromy: from one linkage, made together with its points, around closed paths through
+/// random data, which permute the solutions, until `expected` are known and one more path brings no other.
 /// Nothing but the seed goes in.
 template <class System>
 StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContext& context,

@@ -26,7 +26,7 @@ struct PartGear {
   bool used = false;
 };
 
-// A plan under way.
+// A plan in the making.
 struct PlanDraft {
   const Linkage& linkage;
   PlanResult result;
@@ -86,7 +86,7 @@ void find_twists(PlanDraft& d);
 void find_problems(PlanDraft& d);
 
 // plan_drawing.cpp: signs of the assembly modes, which the model names, else the start poses show, else plus;
-// and what the driven joints stand at in the start poses.
+// and the values of the driven joints in the start poses.
 void find_modes(PlanDraft& d);
 void find_drawn_inputs(PlanDraft& d);
 

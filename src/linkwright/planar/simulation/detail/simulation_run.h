@@ -113,7 +113,7 @@ class Simulation {
   std::vector<PartState<double>> unit_motion(double value);
   // Turns onto the other branch through a change point: the impact acts only against motion that the new
   // branch does not have, so the momentum along it stays. Returns the energy it costs; nothing when the
-  // modes that keep their signs do not start where the linkage stands.
+  // modes that keep their signs do not start at the present position.
   std::optional<double> kink(double value, double sense, double& rate);
 
   // ---- friction -----------------------------------------------------------------------------------------
@@ -128,11 +128,12 @@ class Simulation {
   double fastest() const;
   // Rates of the joints with friction; beyond what can be placed they stay what they were.
   void rubbing_rates(double t, std::span<const double> y);
-  // A joint that has come to rest sticks when friction stops it either way. inputs_ are those of the moment.
+  // A joint that has come to rest sticks when friction stops it in both directions. inputs_ are those of the
+  // moment.
   bool sticks(double t, int joint);
 
   // The acceleration from rest in the sense that is easier: acceleration of the free input in that sense,
-  // negative when friction stops motion either way.
+  // negative when friction stops motion in both directions.
   struct Push {
     double acceleration, sense;
   };

@@ -45,7 +45,7 @@ BasicWheelAngles<T> wheel_angles(Side side, const BasicGuideWheel<T>& reference,
       left * Vector3<T>{st * sc, ct * sc, cc};  // the reference's upward direction in the plane of the wheel
   const T across = hypot(axis.x, axis.y);
   const T toe = atan2(axis.x, axis.y), camber = atan2(-axis.z, across);
-  // Forward and upward in the plane of the wheel as it stands now.
+  // Forward and upward in the plane of the wheel in its present position.
   const Vector3<T> forward{axis.y / across, -axis.x / across, 0};
   return {toe, camber, atan2(dot(up, forward), dot(up, cross(forward, axis)))};
 }

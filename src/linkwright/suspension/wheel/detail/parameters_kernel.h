@@ -69,7 +69,7 @@ std::optional<BasicSteeringAxis<T>> steering_axis(Side side, const Vector3<T>& w
   return out;
 }
 
-/// A ball joint of the carrier as it stands.
+/// A ball joint of the carrier in its present position.
 template <class T>
 Vector3<T> ball_joint(const Placed<T>& placed, const CarrierBall& ball) {
   const BasicLinkConstants<T>& link = placed.plan.links[ball.link];
