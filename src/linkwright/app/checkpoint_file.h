@@ -60,22 +60,23 @@ std::string checkpoint_text(const CheckpointOwner& owner, const CheckpointLines&
 std::optional<CheckpointLines> read_checkpoint(std::string_view text, const CheckpointOwner& owner,
                                                const std::string& file, Diagnostics& diagnostics);
 
-/// For a file that could be read, but does not hold what a run of the study keeps.
+/// For a file that could be read, but does not hold what a run of the study saves.
 Diagnostic unusable_checkpoint(const std::filesystem::path& file, const CheckpointError& error);
 
 /// Keeps a run's checkpoint in a file, which a thread of its own rewrites, whole or not at all, half a
-/// second after something was kept, or later where writing would else take more than a twentieth of the time.
+/// second after something was saved, or later where writing would else take more than a twentieth of the
+/// time.
 class CheckpointFile final : public Checkpoint {
  public:
   CheckpointFile(std::filesystem::path file, CheckpointOwner owner, Shard shard = {});
   ~CheckpointFile() override;
 
-  /// Begins without what an earlier run has kept.
+  /// Begins without the checkpoint of an earlier run.
   void discard();
-  /// Takes up what an earlier run has kept; nothing if there is no such file. False, with a diagnostic, if
+  /// Loads the checkpoint of an earlier run; nothing if there is no such file. False, with a diagnostic, if
   /// it cannot be used; then the file is left as it is.
   bool load(Diagnostics& diagnostics);
-  /// Number of things kept.
+  /// Number of saved lines.
   std::size_t size() const;
   /// The names of the lines, in order.
   std::vector<std::string> names() const;
@@ -105,7 +106,7 @@ class CheckpointFile final : public Checkpoint {
   bool stopped_ = false;
   std::chrono::duration<double> interval_;
   std::string problem_;  ///< says why the last write failed
-  std::thread writer_;   ///< begins with the first thing kept
+  std::thread writer_;   ///< begins with the first line saved
 };
 
 }  // namespace linkwright::app

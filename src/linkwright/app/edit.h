@@ -14,8 +14,8 @@ inline constexpr const char* page_text = "study";
 
 /// A change of the text of a study.
 struct Edit {
-  std::string
-      key;  ///< "mechanism.body[1].points_m.A"; the text may have it in another unit of the same dimension
+  /// "mechanism.body[1].points_m.A"; the text may have it in another unit of the same dimension.
+  std::string key;
   Value value;  ///< in the unit of `key`
 };
 

@@ -19,7 +19,7 @@ class ShardCheckpoint final : public Checkpoint {
   /// Takes what another run of the study has handed on; false, with a diagnostic, if it cannot be used.
   bool take(std::string_view text, Diagnostics& diagnostics);
 
-  /// Receives all that is kept, each a text for take(); call before the run starts.
+  /// Receives all saved values, each a text for take(); call before the run starts.
   void set_hand_on(std::function<void(const std::string& text)> hand_on) { hand_on_ = std::move(hand_on); }
   /// Called, once, when the run finds that it leaves pieces to others; call before the run starts.
   void set_leaves(std::function<void()> leaves) { leaves_ = std::move(leaves); }

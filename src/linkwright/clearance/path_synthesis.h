@@ -34,8 +34,8 @@ constexpr std::size_t index(ClearanceLength l) { return static_cast<std::size_t>
 
 struct ClearancePathProblem {
   std::vector<double> x, y;  ///< target points, m
-  std::vector<double>
-      crank_angles;  ///< rad, absolute, one a point: prescribed, or about where to look for them
+  /// rad, absolute, one a point: prescribed, or about where to look for them.
+  std::vector<double> crank_angles;
   /// The angles are variables, too, in the order of the points, each within `angle_range` of its own.
   bool free_timing = false;
   double angle_range = 0.2;  ///< rad

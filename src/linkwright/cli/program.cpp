@@ -97,7 +97,7 @@ void print_outcome(const Arguments& arguments, const study::Study& study, const 
   if (arguments.open) open_report(written);
 }
 
-/// One of several runs that share a study: what it finds is kept for `merge`, there is no result yet.
+/// One of several runs that share a study: its findings are saved for `merge`, there is no result yet.
 int run_shard(const Arguments& arguments, const study::Study& study, const fs::path& file,
               app::CheckpointFile& kept, RunContext& context) {
   bool shares = false;
@@ -319,7 +319,7 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
-/// The result of a study from what its shards have kept.
+/// The result of a study from the checkpoints of its shards.
 int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);

@@ -54,8 +54,8 @@ class Checkpoint {
   virtual void rejoin(std::string_view /*loop*/) {}
 };
 
-/// The run is one of several that share a study, and has done and kept what is its own: there is a result
-/// when what all of them have kept is put together and the study run with it.
+/// The run is one of several that share a study, and has done and saved its own part: there is a result
+/// when the saved parts of all are put together and the study run with it.
 class LeftToOthers : public std::runtime_error {
  public:
   LeftToOthers() : std::runtime_error("the rest of the study is left to other runs") {}

@@ -37,8 +37,8 @@ struct SimulationOptions {
   double tolerance = 0;
 
   double spectral_radius = 0.9;  ///< rho_inf in [0, 1): what is left of the stiffest vibrations after a step
-  double newton_tolerance =
-      1e-10;  ///< tolerance of the residuals, relative to the largest force and couple in the chain
+  /// Tolerance of the residuals, relative to the largest force and couple in the chain.
+  double newton_tolerance = 1e-10;
   int max_iterations = 50;
   std::span<const HingeDrive> hinges = {};  ///< hinges without one turn freely about their springs
   bool keep_states = false;

@@ -20,8 +20,8 @@ using ResidualFunction =
 
 /// The factor D of the damping in (J'J + lambda D) step = -J'r.
 enum class Damping {
-  identity,  ///< D = I (Levenberg 1944): variables of like size, short steps along directions that hardly
-             ///< matter
+  /// D = I (Levenberg 1944): variables of like size, short steps along directions that hardly matter.
+  identity,
   diagonal,  ///< D = diag(J'J) (Marquardt 1963): independent of the units of the variables
 };
 

@@ -108,7 +108,7 @@ class MpiRanks final : public app::Ranks {
 
   void join() {
     int given = 0, rank = 0, count = 1;
-    // An error of MPI ends all ranks, which is its own practice; what is kept on the disk is taken up again.
+    // An error of MPI ends all ranks, which is its own practice; a checkpoint on the disk can be resumed.
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &count);

@@ -146,11 +146,11 @@ struct Snapshot {
   std::int64_t evaluations = 0;
 };
 
-constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
+constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are saved once
 constexpr std::size_t log_numbers = 6;  // numbers logged for one generation
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
 
-/// Keeps a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
+/// Saves a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
 /// `NAME/state`. The log may thus be ahead of the state, never behind it.
 class StateKeeper {
  public:
@@ -159,7 +159,7 @@ class StateKeeper {
     if (checkpoint_) interval_ = checkpoint_->interval();
   }
 
-  /// Takes up what was kept, if anything was.
+  /// Loads the saved state, if there is one.
   void restore(Optimiser& optimiser, std::span<const Variable> variables, int generations, bool log,
                Report& report, int& unimproved, std::optional<ParetoArchive>& front) {
     const Value value = checkpoint_ ? checkpoint_->find(name_ + "/state") : Value();
@@ -183,17 +183,17 @@ class StateKeeper {
     kept_once_ = true;
   }
 
-  /// The entries of the log are no longer those that were kept.
+  /// The entries of the log are no longer the saved ones.
   void log_thinned() { kept_log_ = 0; }
 
-  /// Keeps the state if that is due.
+  /// Saves the state if that is due.
   void generation_done(const Optimiser& optimiser, const Report& report, int unimproved,
                        const std::optional<ParetoArchive>& front) {
     if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser.state(), report, unimproved, front);
   }
 
-  /// At an interruption the state is kept in any case, that before the generation if it was cut short. The
-  /// end of a minimisation that was quicker than it could be kept need not be.
+  /// At an interruption the state is saved in any case, that before the generation if it was cut short. The
+  /// end of a minimisation that was quicker than it could be saved need not be.
   void ended(const Optimiser& optimiser, const Report& report, int unimproved,
              const std::optional<ParetoArchive>& front, bool interrupted) {
     if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser.state(), report, unimproved, front);
@@ -303,7 +303,7 @@ class StateKeeper {
     kept_log_ = entries - entries % log_part;
   }
 
-  /// Parts of a log with another interval have names of their own: the state that was kept with the old ones
+  /// Parts of a log with another interval have names of their own: the state that was saved with the old ones
   /// stays whole until the new ones are there.
   std::string log_name(std::size_t first, int generations) const {
     const int interval = log_interval(generations);

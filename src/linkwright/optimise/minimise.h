@@ -19,8 +19,8 @@ namespace linkwright::optimise {
 
 /// When a run ends, whichever comes first.
 struct StopCriteria {
-  std::int64_t evaluations =
-      0;  ///< a generation that could exceed this is not started, except the first; 0 = no limit
+  /// a generation that could exceed this is not started, except the first; 0 = no limit.
+  std::int64_t evaluations = 0;
   int generations = 0;             ///< 0 = as the options of the method say
   double target_cost = -infinity;  ///< a feasible candidate costs at most this
   int stagnation = 0;              ///< generations in a row without a new best candidate; 0 = no limit
@@ -81,8 +81,8 @@ struct MinimiseOptions {
   /// Keep one GenerationLog a generation; of more than 65 536 those of every second, fourth, ... one.
   bool log = true;
   bool progress = true;  ///< report to the run context
-  /// Name under which the state is kept in the checkpoint of the run context, of its own for every
-  /// minimisation of a run; empty = not kept.
+  /// Name under which the state is saved in the checkpoint of the run context, of its own for every
+  /// minimisation of a run; empty = not saved.
   std::string checkpoint = {};
 };
 template <class Visitor>
@@ -137,10 +137,9 @@ struct Report {
 /// the objectives; a penalty counts for each of them. Methods of one objective minimise them combined, see
 /// combine.h and priorities.h.
 ///
-/// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
-/// an interruption (before the generation that it cut short); a later call continues from there and ends with
-/// the same bits. Throws CheckpointError when
-/// what was kept is not of such a minimisation.
+/// With a checkpoint the state is saved whenever Checkpoint::interval() has passed since the last time, and
+/// at an interruption (before the generation that it cut short); a later call continues from there and ends
+/// with the same bits. Throws CheckpointError when the saved state is not of such a minimisation.
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
                 const Seed& seed, RunContext& context);
 

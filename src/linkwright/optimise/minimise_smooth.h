@@ -36,7 +36,7 @@ struct SmoothOptions {
   std::vector<double> weights;  ///< one an objective, at least 0; empty = as named at SmoothGoal
   std::vector<double> caps;     ///< no objective may exceed its own; infinite = free; empty = all free
   LocalOptions local = {.max_evaluations = 400, .step_tolerance = 1e-8, .decrease_tolerance = 1e-10};
-  /// Name under which the ends are kept in the checkpoint of the run context; empty = not kept.
+  /// Name under which the ends are saved in the checkpoint of the run context; empty = not saved.
   std::string checkpoint = {};
 };
 template <class Visitor>
@@ -114,10 +114,10 @@ struct SmoothReport {
 /// where a neighbour does not exist). It ends when the best found has been found again, or after all starts.
 ///
 /// Starts run in rounds of eight, in parallel on RunContext::threads() threads; the same bits for any number
-/// of threads. With a checkpoint, finished rounds are kept, and a later call continues after them; it throws
-/// CheckpointError when what was kept is not of such a minimisation. Throws ContractError for options out of
-/// range, weights below 0 or all 0, caps that are NaN, lists of wrong length and bounds that are not finite
-/// or not ordered.
+/// of threads. With a checkpoint, finished rounds are saved, and a later call continues after them; it throws
+/// CheckpointError when the saved state is not of such a minimisation. Throws ContractError for options out
+/// of range, weights below 0 or all 0, caps that are NaN, lists of wrong length and bounds that are not
+/// finite or not ordered.
 SmoothReport minimise_smooth(const SmoothProblem& problem, const SmoothOptions& options, const Seed& seed,
                              RunContext& context);
 

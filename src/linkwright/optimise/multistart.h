@@ -20,11 +20,11 @@ using StartGenerator = math::FunctionRef<bool(std::size_t start, RandomStream& r
 
 struct MultistartOptions {
   int starts = 100;
-  std::int64_t evaluations =
-      0;  ///< no start begins after so many; 0 = no limit. They do not cut a local search short
+  /// No start begins after so many; 0 = no limit. They do not cut a local search short.
+  std::int64_t evaluations = 0;
   double target_cost = -infinity;  ///< end when half the sum of squares is at most this
-  double same_cost =
-      1e-6;  ///< relative: ends that cost at most this much more than the best count as having reached it
+  /// Relative: ends that cost at most this much more than the best count as having reached it.
+  double same_cost = 1e-6;
   math::LeastSquaresOptions local = {};
 };
 

@@ -175,7 +175,7 @@ void append(std::vector<double>& to, std::span<const double> numbers) {
   to.insert(to.end(), numbers.begin(), numbers.end());
 }
 
-/// Keeps a minimisation in the checkpoint of the run under one name.
+/// Saves a minimisation in the checkpoint of the run under one name.
 class FrontKeeper {
  public:
   FrontKeeper(Checkpoint* checkpoint, const std::string& name)
@@ -183,7 +183,7 @@ class FrontKeeper {
     if (checkpoint_) interval_ = checkpoint_->interval();
   }
 
-  /// Takes up what was kept, if anything was.
+  /// Loads the saved state, if there is one.
   void restore(std::size_t population, int generations, bool log, pagmo::population& members,
                Evaluator& evaluator, FrontReport& report) {
     const Value value = checkpoint_ ? checkpoint_->find(name_) : Value();
@@ -230,7 +230,7 @@ class FrontKeeper {
                        const FrontReport& report) {
     if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(members, evaluator, report);
   }
-  /// The end of a minimisation that was quicker than it could be kept need not be kept.
+  /// The end of a minimisation that was quicker than it could be saved need not be saved.
   void ended(const pagmo::population& members, const Evaluator& evaluator, const FrontReport& report,
              bool interrupted) {
     if (checkpoint_ && (interrupted || kept_once_)) keep(members, evaluator, report);

@@ -67,8 +67,8 @@ void fields(Visitor&& visit, Nsga2Options& o) {
 struct MoeadOptions {
   int population = 100;
   int generations = 250;
-  int neighbours =
-      20;  ///< members with the most similar weights, with whom one mates; less than `population`
+  /// Members with the most similar weights, with whom one mates; less than `population`.
+  int neighbours = 20;
 };
 template <class Visitor>
 void fields(Visitor&& visit, MoeadOptions& o) {
@@ -102,12 +102,12 @@ void fields(Visitor&& visit, PagmoOptions& o) {
 
 /// The options that all methods of several objectives share.
 struct FrontOptions {
-  std::int64_t evaluations =
-      0;            ///< a generation that would exceed this is not started, except the first; 0 = no limit
-  bool log = true;  ///< keep one FrontLog a generation; of many as MinimiseOptions::log
+  /// A generation that would exceed this is not started, except the first; 0 = no limit.
+  std::int64_t evaluations = 0;
+  bool log = true;       ///< keep one FrontLog a generation; of many as MinimiseOptions::log
   bool progress = true;  ///< report to the run context
-  /// Name under which the state is kept in the checkpoint of the run context, of its own for every
-  /// minimisation of a run; empty = not kept.
+  /// Name under which the state is saved in the checkpoint of the run context, of its own for every
+  /// minimisation of a run; empty = not saved.
   std::string checkpoint = {};
 };
 template <class Visitor>
@@ -147,8 +147,8 @@ struct FrontReport {
 /// Interruption is looked for after every generation; the first one always runs. The first population is
 /// uniform in the box and the same for all methods of one seed. The random numbers after that are those of
 /// pagmo and of the standard library it was built with, reseeded in every generation from the seed: results
-/// are the same bits on one system for any number of threads. With a checkpoint the state is kept as in
-/// `minimise`; throws CheckpointError when what was kept is not of such a minimisation.
+/// are the same bits on one system for any number of threads. With a checkpoint the state is saved as in
+/// `minimise`; throws CheckpointError when the saved state is not of such a minimisation.
 ///
 /// Throws ContractError for a problem of one objective or options out of range.
 FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& method,

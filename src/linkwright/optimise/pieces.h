@@ -31,9 +31,9 @@ PieceLoop for_each_piece(std::size_t count, RunContext& context, std::string_vie
 /// done again; what a body saves meanwhile has names below it. `save(i)` turns what piece i came to into a
 /// value, null if it was interrupted and is to be done again. `restore(i, value)` puts it back to the place
 /// of index i and returns the cost as the body does; it throws CheckpointError for a value that it cannot
-/// use. All pieces that an earlier run has kept are restored before the first one is done, those of runs that
-/// share the loop when this one has done its own (Checkpoint::own_piece). Throws LeftToOthers when another
-/// run puts them together.
+/// use. All pieces that an earlier run has saved are restored before the first one is done, those of runs
+/// that share the loop when this one has done its own (Checkpoint::own_piece). Throws LeftToOthers when
+/// another run puts them together.
 PieceLoop for_each_piece(std::size_t count, RunContext& context, std::string_view stage,
                          math::FunctionRef<std::string(std::size_t index)> name,
                          math::FunctionRef<double(std::size_t index)> body,

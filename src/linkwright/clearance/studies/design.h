@@ -294,7 +294,7 @@ struct ClearanceDesignAnswer {
 };
 using ClearanceDesignRuns = study::SeedRuns<ClearanceDesignAnswer>;
 
-/// A seed that came to its end as a checkpoint keeps it, and the same seed, to the bit. Throws
+/// A finished seed as a checkpoint saves it, and the same seed, to the bit. Throws
 /// CheckpointError, naming `what`, for everything that `kept` cannot have made.
 Value kept(const ClearanceDesignAnswer& answer);
 ClearanceDesignAnswer restored(const Value& value, const ClearanceDesignStudy& study, std::string_view what);

@@ -17,8 +17,8 @@ inline constexpr double constraint_floor = 1e-3;
 
 /// The constraint in a pose of a DELTA.
 struct Constraint {
-  std::array<Vec3, 3>
-      couple{};  ///< c = t x s / L of each leg; its length is the cosine of the rod's side swing
+  /// c = t x s / L of each leg; its length is the cosine of the rod's side swing.
+  std::array<Vec3, 3> couple{};
   /// Determinant of their matrix C, in [-1, 1]; changes sign where the platform is free to turn.
   double determinant = 0;
   /// det of the unit vectors along the couples: the same sign; NaN where a parallelogram is flat.

@@ -36,8 +36,8 @@ using Drives = std::array<Drive, most_legs>;
 
 /// A drive at an arm angle.
 struct DriveAt {
-  Status status =
-      Status::done;  ///< no_assembly: a Pi-joint does not turn so far; limit_reached: beyond travel
+  /// no_assembly: a Pi-joint does not turn so far; limit_reached: beyond travel.
+  Status status = Status::done;
   double angle = 0;  ///< theta, or alpha of a motor (rad)
   double value = 0;  ///< d (m), or alpha (rad)
   double rate = 1;   ///< j = dvalue/dalpha, with its sign: speed of the value = j dalpha/dt, torque of the

@@ -18,8 +18,8 @@ namespace linkwright::parallel {
 struct PlatformMasses {
   double mass = 0;                  ///< kg
   std::array<double, 3> inertia{};  ///< xx, yy, zz about the mass centre (kg m2); of robots that turn only
-  std::array<double, 3>
-      deviation{};     ///< entries xy, yz, zx of the inertia matrix, -integral of x y dm (kg m2)
+  /// Entries xy, yz, zx of the inertia matrix, -integral of x y dm (kg m2).
+  std::array<double, 3> deviation{};
   double payload = 0;  ///< without extension, in the platform point (kg)
 };
 template <class Visitor>

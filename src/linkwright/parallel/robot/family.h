@@ -46,8 +46,8 @@ struct DesignedRobot {
   Vec3 ahead{};       ///< unit direction from the base to the region
   double offset = 0;  ///< m; dimension count - 1
   int assembly = 1;   ///< sign of det Jx where the platform is on the side of the region, elbows out
-  int constraint =
-      1;  ///< sign of det C (constraint.h) of a DELTA where its constraint index counts as positive
+  /// Sign of det C (constraint.h) of a DELTA where its constraint index counts as positive.
+  int constraint = 1;
   /// Arms of equal legs have equal positions at equal outward angles, which are measured from the outward
   /// direction, positive towards the region: outward = alpha where this is 1, pi - alpha where it is -1.
   std::array<int, most_legs> sense{1, 1, 1, 1, 1, 1};

@@ -44,8 +44,8 @@ struct PathTrouble {
   /// Start of the trouble, to the last digit: a leg gives out, arm and rod are aligned, or the index falls to
   /// its limit or floor.
   double begin = 0;
-  std::optional<double>
-      zero;       ///< place where the determinant changes its sign, if it does before the index rises again
+  /// Place where the determinant changes its sign, if it does before the index rises again.
+  std::optional<double> zero;
   int leg = -1;   ///< leg of a trouble of reach or type 1, from 0
   int looks = 0;  ///< poses that it took to find the stretch
 };

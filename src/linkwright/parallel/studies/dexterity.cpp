@@ -68,7 +68,7 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
   return out;
 }
 
-/// A seed that came to its end as a checkpoint keeps it: the design variables, not what they achieve.
+/// A finished seed as a checkpoint saves it: the design variables, not what they achieve.
 Value kept(const Answer& a) {
   Value out;
   out["status"] = study::kept_status(a.status);

@@ -16,8 +16,8 @@ struct ToolCurve {
   Form form = Form::straight;
   math::Vec3 from{};  ///< m
   math::Vec3 to{};    ///< m; of corners and straight lines
-  math::Vec3
-      tangent{};  ///< unit direction at the start; zero for a turn on the spot, whose length is an angle
+  /// Unit direction at the start; zero for a turn on the spot, whose length is an angle.
+  math::Vec3 tangent{};
   math::Vec3 normal{};  ///< unit, across it, to the side that the direction turns to
   double length = 0;    ///< m
   double angle = 0;     ///< rad, from the first direction to the last

@@ -45,8 +45,8 @@ struct PickAndPlace {
   Coordinates to{};         ///< m
   Coordinates up{0, 0, 1};  ///< upward direction, of any length
   double height = 0;        ///< m, of the path across above the higher of both ends
-  double corner =
-      0.5;  ///< (0, 1], where the rounding begins: share of the lower leg, or of half the path across
+  /// (0, 1], where the rounding begins: share of the lower leg, or of half the path across.
+  double corner = 0.5;
   bool back = false;                    ///< and the same path back
   double dwell = 0;                     ///< s, rest at `to`
   double back_dwell = 0;                ///< s, rest after the path back

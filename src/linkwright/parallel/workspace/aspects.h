@@ -26,8 +26,8 @@ struct WorkspaceAspects {
   int home = -1;                     ///< aspect of the node nearest to home; -1: that one is not in the set
   std::size_t home_node = 0;
   std::size_t edges = 0;  ///< between neighbours of the set
-  std::size_t closed =
-      0;  ///< edges that are singular between their ends, or so nearly that nothing else is shown
+  /// Edges that are singular between their ends, or so nearly that nothing else is shown.
+  std::size_t closed = 0;
 
   /// Nodes that can be reached from home, and all of the set.
   std::size_t reachable() const { return home < 0 ? 0 : size[static_cast<std::size_t>(home)]; }

@@ -19,7 +19,7 @@ struct WorkspaceSurvey {
 };
 
 /// The totals of `workspace` (the means to rounding). Layers are pieces that run on all threads, in shards
-/// and on ranks, and are kept in the checkpoint. A layer takes 1 byte a node and 8 for each wanted index.
+/// and on ranks, and are saved in the checkpoint. A layer takes 1 byte a node and 8 for each wanted index.
 /// Throws ContractError as `workspace`.
 WorkspaceSurvey survey_workspace(const WorkspaceTask& task, RunContext& context);
 

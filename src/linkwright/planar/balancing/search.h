@@ -145,8 +145,9 @@ BalancingRun balance(const BalancingProblem& problem, const BalancingOptimiser& 
 /// The front: the feasible designs that no other one dominates, by their first objective.
 std::vector<BalancedDesign> front_of(std::vector<BalancedDesign> designs);
 
-/// A finished seed as a checkpoint keeps it, and the way back with the same bits: what designs are worth is
-/// found again from their numbers. Throws CheckpointError, naming `what`, for what `kept` cannot have made.
+/// A finished seed as a checkpoint saves it, and its restoration with the same bits: what designs are worth
+/// is found again from their numbers. Throws CheckpointError, naming `what`, for what `kept` cannot have
+/// made.
 Value kept(const BalancingRun& run);
 BalancingRun restored(const Value& value, const BalancingProblem& problem,
                       const BalancingOptimiser& optimiser, std::string_view what);

@@ -49,8 +49,8 @@ struct GuidedPair {
 
 struct PoseAnswer {
   Status status = Status::done;  ///< deadline and cancelled: of what was looked at by then
-  std::vector<PoseDesign>
-      designs;  ///< best first: free of defects, then near (not exact), then by pair angle
+  /// Best first: free of defects, then near (not exact), then by pair angle.
+  std::vector<PoseDesign> designs;
   /// The finite number that fits both prescriptions, or else those of a sweep.
   std::vector<GuidingDyad> dyads;
   int solutions = 0;       ///< dyads, complex ones included; 0 where they are swept

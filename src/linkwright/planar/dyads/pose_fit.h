@@ -19,8 +19,9 @@ struct PoseDemand {
 struct PoseFit {
   GuidingDyad first, second;
   std::vector<BodyPose> reached;
-  double cost = 0;  ///< sum of (|d - d_j| / length)^2 + (angle - angle_j)^2 over the poses, each times its
-                    ///< weight; of points without the angles
+  /// Sum of (|d - d_j| / length)^2 + (angle - angle_j)^2 over the poses, each times its weight; of points
+  /// without the angles.
+  double cost = 0;
   bool converged = false;
 };
 

@@ -21,8 +21,8 @@ struct CurveClass {
   /// real.
   std::array<std::complex<double>, 8> four_bar{};
   bool real = false;  ///< then each of the cognates is
-  bool certified =
-      false;  ///< proved to be a simple solution, different from the others; a real one to be real
+  /// Proved to be a simple solution, different from the others; a real one to be real.
+  bool certified = false;
   bool extended = false;  ///< took more digits than a double has
 };
 

@@ -20,8 +20,8 @@ struct PivotMapPlace {
   std::array<std::complex<double>, 2> pivots;
   int real = 0;     ///< four-bars
   int answers = 0;  ///< number of them without defects and within the limits of the problem
-  double transmission =
-      0;  ///< rad, the largest least transmission angle on the path of an answer; NaN without one
+  /// rad, the largest least transmission angle on the path of an answer; NaN without one.
+  double transmission = 0;
 };
 
 struct PivotMap {

@@ -48,10 +48,10 @@ struct FourBarClass {
   bool grashof = false;
   bool crank_rotates_fully = false;
   int circuits = 1;  ///< 2 for Grashof linkages, else 1; 0 when the linkage assembles nowhere
-  double crank_margin =
-      0;  ///< metres; smallest margin of the full-rotation conditions, < 0 = does not rotate
-  std::vector<AngleInterval> inputs;  ///< crank angles that assemble; one interval of length 2 pi when it
-                                      ///< rotates fully; empty = never
+  /// Metres; smallest margin of the full-rotation conditions, < 0 = does not rotate.
+  double crank_margin = 0;
+  /// Crank angles that assemble; one interval of length 2 pi when it rotates fully; empty = never.
+  std::vector<AngleInterval> inputs;
 };
 
 /// Throws ContractError unless all link lengths are positive and finite. `tolerance` is relative to the sum

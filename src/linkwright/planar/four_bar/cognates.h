@@ -9,8 +9,8 @@ namespace linkwright::planar {
 /// A linkage that traces the same curve (Roberts-Chebyshev).
 struct Cognate {
   FourBar linkage;
-  bool same_timing =
-      false;  ///< its crank angle equals the original's; otherwise its input follows the coupler angle
+  /// Its crank angle equals the original's; otherwise its input follows the coupler angle.
+  bool same_timing = false;
 };
 
 /// The two cognates of a four-bar, with lambda = (coupler_u + i coupler_v) / coupler: the one on the pivots O

@@ -78,8 +78,9 @@ void fields(Visitor&& visit, FourBar& l) {
 /// Position of a four-bar at one crank angle. Points in the global frame, angles relative to the ground link;
 /// what is not determined is NaN.
 struct FourBarPosition {
-  Status status = Status::done;  ///< done, no_assembly, or singular (toggle: branches meet); only A is known
-                                 ///< when the links do not meet, and when A lies on B0 (singular, too)
+  /// done, no_assembly, or singular (toggle: branches meet); only A is known when the links do not meet, and
+  /// when A lies on B0 (singular, too).
+  Status status = Status::done;
   std::complex<double> crank_pin;                   ///< A
   std::complex<double> coupler_pin = {nan, nan};    ///< B
   std::complex<double> coupler_point = {nan, nan};  ///< C

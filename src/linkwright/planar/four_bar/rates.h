@@ -11,8 +11,8 @@ namespace linkwright::planar {
 /// Motion of a four-bar at one instant: directions of the links in the global frame, and how fast they turn.
 /// Speeds in rad/s and accelerations in rad/s2, counter-clockwise positive. What is not determined is NaN.
 struct FourBarRates {
-  Status status =
-      Status::done;  ///< done, no_assembly, or singular (dead point: the speeds are not determined)
+  /// done, no_assembly, or singular (dead point: the speeds are not determined).
+  Status status = Status::done;
   std::complex<double> ground_direction;                ///< unit vector along O -> B0
   std::complex<double> crank_direction;                 ///< along O -> A
   std::complex<double> coupler_direction = {nan, nan};  ///< along A -> B

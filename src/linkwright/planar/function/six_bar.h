@@ -20,8 +20,8 @@ template <class Generator>
 struct SixBarAnswer {
   Status status = Status::done;
   std::optional<FunctionDesign> four_bar;  ///< the best four-bar of the same problem
-  std::vector<SixBarDesign<Generator>>
-      designs;  ///< best first, each once; those that pass a pair angle first
+  /// Best first, each once; those that pass a pair angle first.
+  std::vector<SixBarDesign<Generator>> designs;
   int starts = 0;
 };
 

@@ -22,8 +22,8 @@ struct StephensonGenerator {
   double link = 0;             ///< from the coupler point to the output
   std::complex<double> b;
   double branch = 1;  ///< +1 = rocker pin to the left of the line from the crank pin to the rocker pivot
-  double side =
-      1;  ///< +1 = pin of the output to the left of the line from the coupler point to the output's pivot
+  /// +1 = pin of the output to the left of the line from the coupler point to the output's pivot.
+  double side = 1;
 };
 inline constexpr std::size_t stephenson_numbers = 11;
 

@@ -31,8 +31,8 @@ struct FunctionProblem {
   FunctionFit fit = FunctionFit::points;
   std::vector<double> at;  ///< shares at which it is met (points)
   StartAngles given;       ///< points only
-  double least_pair_angle =
-      0;                  ///< rad, kept over the range by designs that come first (minimax); 0 = no limit
+  /// rad, kept over the range by designs that come first (minimax); 0 = no limit.
+  double least_pair_angle = 0;
   double most_link = 20;  ///< greatest |a|, |b| and c, in grounds or m (least_squares, minimax)
 };
 
@@ -56,10 +56,10 @@ FunctionDesign assess(const FunctionProblem& problem, const FunctionGenerator& g
 
 struct FunctionAnswer {
   Status status = Status::done;
-  std::vector<FunctionDesign> designs;  ///< best first: those that assemble and have no other branch, then
-                                        ///< those with the least pair angle that is wanted, then by error; of
-                                        ///< a search those within ten times the error of the best
-  int starts = 0;                       ///< starts of the search
+  /// Best first: those that assemble and have no other branch, then those with the least pair angle that is
+  /// wanted, then by error; of a search those within ten times the error of the best.
+  std::vector<FunctionDesign> designs;
+  int starts = 0;  ///< starts of the search
 };
 FunctionAnswer find_generators(const FunctionProblem& problem, RunContext& context);
 

@@ -36,8 +36,8 @@ struct LinkageForces {
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
   std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
-  Vec<double> shaking_force{
-      0, 0};  ///< force of the mechanism, and of bodies welded to the ground, on the ground, weight included
+  /// Force of the mechanism, and of bodies welded to the ground, on the ground, weight included.
+  Vec<double> shaking_force{0, 0};
   /// The moment on the ground about Linkage::moment_centre, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
   /// ... and without the torques of drives that are mounted on the ground.

@@ -11,8 +11,8 @@ namespace linkwright::planar {
 
 /// The side that the drive makes.
 struct DrivenSide {
-  Vec<double>
-      way;  ///< from the outer pin of the first body to the pin of the arm, in the frame of the first, m
+  /// From the outer pin of the first body to the pin of the arm, in the frame of the first, m.
+  Vec<double> way;
   Vec<double> rate;  ///< its derivative by the input, m/m or m/rad
   Vec<double> turn;  ///< x axis of the second body in the frame of the first
 };

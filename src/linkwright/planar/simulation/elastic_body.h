@@ -50,8 +50,8 @@ struct ElasticBody {
 struct ElasticPieces {
   ElasticBody beam;   ///< beam with `from` and `to` filled in
   double length = 0;  ///< L, m
-  std::vector<int>
-      bodies;  ///< bodies of the new linkage, from `from` to `to`: segments + 1, the first is the old one
+  /// Bodies of the new linkage, from `from` to `to`: segments + 1, the first is the old one.
+  std::vector<int> bodies;
   std::vector<int> joints;                  ///< between them, with a spring each: segments
   std::vector<int> springs;                 ///< torsion springs of the new linkage, one a joint
   std::vector<std::complex<double>> nodes;  ///< ends of the cells, segments + 1: one a piece, in its frame, m

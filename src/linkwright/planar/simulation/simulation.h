@@ -25,8 +25,8 @@ struct InputDrive {
 struct SimulationOptions {
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
   double relative_tolerance = 1e-9;
-  double absolute_tolerance =
-      1e-10;  ///< rad and rad/s; of displacements (m, m/s) times the size of the linkage
+  /// rad and rad/s; of displacements (m, m/s) times the size of the linkage.
+  double absolute_tolerance = 1e-10;
   /// Absolute tolerances of the free inputs (rad, m), in their order, where they are more than the one above:
   /// what their rounding leaves. And of their rates. Empty: none.
   std::span<const double> value_resolution = {}, rate_resolution = {};

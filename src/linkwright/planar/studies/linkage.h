@@ -55,10 +55,10 @@ constexpr std::array<EnumName<CircuitRows>, 2> names(CircuitRows) {
 
 /// `[quality]`: what is asked beyond the table, of linkages with one input.
 struct LinkageQuality {
-  std::string
-      output_joint;  ///< joint whose rate and force ratio to the input, and dead centres, are reported
-  std::vector<std::string>
-      centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
+  /// Joint whose rate and force ratio to the input, and dead centres, are reported.
+  std::string output_joint;
+  /// Bodies whose fixed and moving centrode against the ground are tabled.
+  std::vector<std::string> centrodes;
   bool instant_centres = false;  ///< table of all instant centres at every row
   bool assembly_modes = false;   ///< table of all assembly modes at the first row
 };

@@ -58,8 +58,8 @@ struct ComplianceCoefficients {
   double longitudinal_steer = 0;                               ///< rad/N, longitudinal_at_centre
   double brake_outboard_steer = 0, brake_inboard_steer = 0;    ///< rad/N
   double brake_outboard_camber = 0, brake_inboard_camber = 0;  ///< rad/N
-  double brake_wind_up =
-      0;  ///< rad/N, carrier about the wheel's axis by brake_outboard, > 0: forward at the top
+  /// rad/N, carrier about the wheel's axis by brake_outboard, > 0: forward at the top.
+  double brake_wind_up = 0;
   double drive_steer = 0, drive_camber = 0;        ///< rad/N, drive_inboard
   double aligning_steer = 0, aligning_camber = 0;  ///< rad/(N m), aligning_torque
   double overturning_camber = 0;                   ///< rad/(N m), overturning_torque

@@ -73,8 +73,8 @@ template <class T>
 struct BasicGuideSpring {
   Vector3<T> body;
   Vector3<T> moving;  ///< its other end
-  int link =
-      -1;  ///< US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line
+  /// US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line.
+  int link = -1;
 };
 using GuideSpring = BasicGuideSpring<double>;
 

@@ -41,8 +41,8 @@ struct IndirectSynthesis {
 
 struct IndirectOptions {
   LinkFitOptions link;
-  CarrierPitchFitOptions
-      carrier_pitch;  ///< for positions that do not prescribe the carrier pitch, when no US link is given
+  /// For positions that do not prescribe the carrier pitch, when no US link is given.
+  CarrierPitchFitOptions carrier_pitch;
 };
 
 /// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no

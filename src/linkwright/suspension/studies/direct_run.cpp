@@ -65,7 +65,7 @@ bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOpti
 
 using Runs = study::SeedRuns<DirectSynthesis>;
 
-/// A seed that came to its end as a checkpoint keeps it: the design, not what it achieves.
+/// A finished seed as a checkpoint saves it: the design, not what it achieves.
 Value kept(const DirectSynthesis& answer) {
   Value out;
   out["status"] = study::kept_status(answer.status);

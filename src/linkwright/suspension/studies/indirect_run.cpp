@@ -75,7 +75,7 @@ std::vector<double> numbers_of(const CouplerFit& fit) {
   return {fit.rms, fit.largest, fit.offset, fit.coupler.fraction, p.x, p.y, p.z};
 }
 
-/// A seed that came to its end as a checkpoint keeps it: links, couplers and carrier pitches, not what
+/// A finished seed as a checkpoint saves it: links, couplers and carrier pitches, not what
 /// follows.
 Value kept(const SeedRun& run) {
   const auto fits = [](const auto& all) {

@@ -18,8 +18,8 @@ std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, co
 /// road, so this one rises against the body by half the track times the roll, the other one falls.
 struct RollGains {
   double toe = 0;  ///< roll steer: change of toe
-  double camber =
-      0;  ///< change of the camber against the road; 1 = the wheel leans with the body, 0 = it stays upright
+  /// Change of the camber against the road; 1 = the wheel leans with the body, 0 = it stays upright.
+  double camber = 0;
 };
 RollGains roll_gains(const WheelParameters& wheel);
 

@@ -14,11 +14,11 @@ namespace linkwright::suspension {
 struct SteeringParameters {
   Driver lock = Driver::spring;
   double toe_by_rack = 0;  ///< rad/m
-  double steer_by_rack =
-      0;  ///< rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left
+  /// rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left.
+  double steer_by_rack = 0;
   double camber_by_toe = 0;  ///< rad/rad
-  double carrier_pitch_by_toe =
-      0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
+  /// rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps.
+  double carrier_pitch_by_toe = 0;
   /// m: force forward at the contact, braked by the carrier (outboard brake): > 0 where braking toes out.
   double brake_arm = 0;
   /// m: force forward at the contact, the wheel free to turn on its carrier (drive shaft, inboard brake).
