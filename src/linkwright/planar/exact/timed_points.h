@@ -24,9 +24,8 @@ struct TimedPointSolutions {
   Status status = Status::done;  ///< deadline or cancelled: of what was looked at by then
   bool swept = false;            ///< infinitely many: a sample of them
   bool dependent = false;        ///< points and rotations depend on each other
-  int cranks = 0,
-      /// Cranks that hold the points at their rotations, complex ones included in the first.
-      real_cranks = 0;
+  /// Cranks that hold the points at their rotations, complex ones included in the first.
+  int cranks = 0, real_cranks = 0;
   int slides = 0;  ///< couplers on a slide instead of a rocker, not of a sweep
   std::vector<TracingFourBar> found;
   /// Number of the coupler curve of each, from 0: timed cognates, whose cranks turn alike, share one (not of
