@@ -11,12 +11,12 @@
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
-#include "linkwright/planar/path/objective.h"
-#include "linkwright/planar/path/slider_crank_objective.h"
-#include "linkwright/planar/path/slider_crank_projection.h"
-#include "linkwright/planar/path/slider_crank_samples.h"
-#include "linkwright/planar/path/slider_crank_synthesis.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/objective.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/slider_crank/objective.h"
+#include "linkwright/planar/path/slider_crank/projection.h"
+#include "linkwright/planar/path/slider_crank/samples.h"
+#include "linkwright/planar/path/slider_crank/synthesis.h"
 #include "linkwright/planar/serial_arm/reactions.h"
 
 namespace linkwright::planar {

@@ -10,7 +10,7 @@
 #include "linkwright/app/sha256.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/planar/path/checkpoint.h"
-#include "linkwright/planar/path/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "linkwright/study/read.h"
 
 namespace {

@@ -72,14 +72,14 @@ NO_TEST = {
     "planar/linkage/detail/sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/exact/detail/follow_kernel.h": "part of follow, compiled once per instruction set and compared by its test",
     "planar/exact/detail/monodromy.h": "finds the start sets; tested by nine_point_starts_test.cpp and five_points_test.cpp",
-    "planar/path/detail/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
+    "planar/path/four_bar/detail/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
     "planar/path/curve_overlay.h": "shared part of both kinds of starts, tested in starts_test.cpp and slider_crank_starts_test.cpp",
     "planar/path/search_record.h": "shared part of both kinds of kept seeds, tested in checkpoint_test.cpp and slider_crank_checkpoint_test.cpp",
     "planar/studies/linkage_rows.h": "part of linkage studies, tested in linkage_test.cpp",
     "suspension/studies/seven_pose_tables.h": "part of indirect studies, tested in indirect_test.cpp",
     "planar/studies/path_seeds.h": "shared part of path studies, run by the tests of both mechanisms",
     "planar/simulation/detail/simulation_run.h": "part of simulation, tested in simulation_test.cpp",
-    "planar/path/detail/slider_crank_objective_kernel.h": "part of slider_crank_path_objective, likewise",
+    "planar/path/slider_crank/detail/objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
 
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "support/published.h"
 
 namespace linkwright::planar::test {

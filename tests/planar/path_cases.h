@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/checkpoint.h"
-#include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "support/published.h"
 
 namespace linkwright::test {}

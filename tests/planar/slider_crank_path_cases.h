@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/path/slider_crank_problem.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::test {}

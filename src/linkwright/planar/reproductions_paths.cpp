@@ -16,10 +16,10 @@
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/path/eighteen_points.h"
-#include "linkwright/planar/path/slider_crank_samples.h"
-#include "linkwright/planar/path/slider_crank_synthesis.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/slider_crank/samples.h"
+#include "linkwright/planar/path/slider_crank/synthesis.h"
 
 namespace linkwright::planar {
 namespace {

@@ -12,7 +12,7 @@
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/exact/detail/monodromy.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/path/slider_crank_problem.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
-#include "linkwright/planar/path/slider_crank_problem.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 namespace {

@@ -7,7 +7,7 @@
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/path/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {

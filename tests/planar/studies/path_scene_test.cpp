@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/path/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/eighteen_points.h"
 
 namespace linkwright::planar {
 namespace {

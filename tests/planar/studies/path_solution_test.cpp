@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/path/four_bar/usability.h"
 
 namespace linkwright::planar {
 namespace {

@@ -8,7 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/parallel.h"
-#include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/path/four_bar/usability.h"
 
 namespace linkwright::planar {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/core/value.h"
-#include "linkwright/planar/path/problem.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 
 namespace linkwright::planar {
 

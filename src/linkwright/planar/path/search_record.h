@@ -7,7 +7,7 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/core/value.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 
 // A finished seed of a path synthesis as checkpoints keep it, whatever the mechanism.
 namespace linkwright::planar {

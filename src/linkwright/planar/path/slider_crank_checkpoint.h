@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/value.h"
-#include "linkwright/planar/path/slider_crank_synthesis.h"
+#include "linkwright/planar/path/slider_crank/synthesis.h"
 
 namespace linkwright::planar {
 

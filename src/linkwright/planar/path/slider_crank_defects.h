@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/planar/path/defects.h"
-#include "linkwright/planar/path/slider_crank_problem.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 

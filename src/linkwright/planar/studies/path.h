@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/optimise/population_methods.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/kind.h"
 

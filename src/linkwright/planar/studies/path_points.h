@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/path/targets.h"
 #include "linkwright/study/kind.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/core/table.h"
-#include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/study/scene.h"
 
 namespace linkwright::planar {

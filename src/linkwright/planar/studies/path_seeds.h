@@ -10,7 +10,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/sentence.h"
 #include "linkwright/optimise/minimise.h"
-#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 #include "linkwright/study/result.h"
 #include "linkwright/study/run_seeds.h"
 

@@ -12,7 +12,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/defects.h"
-#include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/path/four_bar/usability.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/path_scene.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/path/problem.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/study/result.h"
 
 // What reports of path synthesis say of a four-bar.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/optimise/pagmo_bridge.h"
-#include "linkwright/planar/path/slider_crank_synthesis.h"
+#include "linkwright/planar/path/slider_crank/synthesis.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/study/kind.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/core/table.h"
-#include "linkwright/planar/path/slider_crank_problem.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 #include "linkwright/study/scene.h"
 
 namespace linkwright::planar {

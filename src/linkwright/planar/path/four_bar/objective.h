@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linkwright/core/kernels.h"
+#include "linkwright/optimise/population.h"
+#include "linkwright/planar/path/four_bar/problem.h"
+
+namespace linkwright::planar {
+
+/// A path problem on one branch and sense, laid out for the kernels.
+struct PathObjective : TargetLayout {
+  std::size_t points = 0;  ///< number of target points; the arrays repeat the last one up to a multiple of 4
+  std::vector<double> ux,
+      uy;  ///< prescribed timing: direction e^(i angle) of each point before the start angle is added
+  double least_offset = 0, greatest_offset = 0;  ///< prescribed timing: extremes of those angles (rad)
+  bool free_timing = false;                      ///< else `ux`, `uy` are used
+  bool start_is_variable = false;                ///< equal steps: variable 9 is the start angle
+  bool closed = true;
+  double branch = 1;  ///< +1 open, -1 crossed
+  double sense = 1;   ///< +1 or -1
+  bool crank_rotates_fully = true;
+  double max_transmission_cosine = 1;  ///< cos of the least transmission angle; 1 = no limit
+  bool packaged = false;
+  PackagingBox box;
+  bool rocker_pivot_limited = false;
+  PackagingBox rocker_pivot;  ///< sides without a limit are at +-1e300
+  double size = 1;            ///< of the path (m)
+};
+
+PathObjective path_objective(const PathProblem& problem, Branch branch, double sense);
+
+/// Costs (m2) and violations of a population; the variables are those of `path_population_problem`. Chooses
+/// the kernel for the machine at the first call; the same bits for any split of the population.
+void evaluate(const PathObjective& objective, const optimise::PopulationView& candidates,
+              std::span<double> cost, std::span<double> violation);
+
+/// Name of the instruction set in use: "avx512", "avx2" or "baseline".
+const char* kernel_name();
+
+/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
+using PathKernel = void (*)(const PathObjective&, const optimise::PopulationView&, double* cost,
+                            double* violation);
+void evaluate_path_baseline(const PathObjective&, const optimise::PopulationView&, double* cost,
+                            double* violation);
+void evaluate_path_avx2(const PathObjective&, const optimise::PopulationView&, double* cost,
+                        double* violation);
+void evaluate_path_avx512(const PathObjective&, const optimise::PopulationView&, double* cost,
+                          double* violation);
+KernelSet<PathKernel> path_kernels();
+
+}  // namespace linkwright::planar
