@@ -11,6 +11,7 @@
 #include "linkwright/optimise/methods.h"
 #include "linkwright/planar/path/checkpoint.h"
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 #include "linkwright/study/read.h"
 
 namespace {
@@ -21,7 +22,7 @@ using namespace linkwright;
 void restore_seed(const Value& value) {
   static const planar::PathProblem problem = planar::eighteen_points();
   try {
-    planar::PathSeedRun run = planar::restored(value, problem, "seed");
+    planar::PathSynthesis run = planar::restored(value, problem, "seed");
     for (const planar::PathDesign& design : run.designs) FUZZ_REQUIRE(!(design.error < 0));
     planar::rank(run.designs);
     FUZZ_REQUIRE(planar::kept(run).is_object());

@@ -33,7 +33,8 @@ inline SliderPathProblem printed_eighteen_slider_points() {
   SliderPathProblem p;
   p.x = points.x;
   p.y = points.y;
-  for (std::size_t k = 0; k < p.x.size(); ++k) p.offsets.push_back(points.step * static_cast<double>(k));
+  p.timing = Timing::increments;
+  for (std::size_t k = 0; k < p.x.size(); ++k) p.angles.push_back(points.step * static_cast<double>(k));
   const Range link{0, 50}, place{-50, 50}, turn{0, 2 * pi};
   p.bounds = {link, link, link, turn, turn, place, place, place, turn};
   return p;
@@ -42,7 +43,7 @@ inline SliderPathProblem printed_eighteen_slider_points() {
 /// Crank angles of a start angle in one sense.
 inline std::vector<double> angles_of(const SliderPathProblem& p, double start, double sense = 1) {
   std::vector<double> out;
-  for (const double offset : p.offsets) out.push_back(start + sense * offset);
+  for (const double offset : p.angles) out.push_back(start + sense * offset);
   return out;
 }
 

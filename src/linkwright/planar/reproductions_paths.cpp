@@ -74,8 +74,8 @@ study::Comparisons slider_cranks(std::span<const PublishedSliderCrank> designs, 
   const SliderPathProblem p = eighteen_slider_points();
   const auto measured = [&](const PublishedSliderCrank& d) {
     std::vector<double> angles;
-    for (const double offset : p.offsets) angles.push_back(d.start_angle + offset);
-    return measure(p, d.mechanism, 1, std::move(angles));
+    for (const double offset : p.angles) angles.push_back(d.start_angle + offset);
+    return measure(p, d.linkage, 1, std::move(angles));
   };
   for (const PublishedSliderCrank& published : designs) {
     const SliderPathDesign d = measured(published);
@@ -85,11 +85,11 @@ study::Comparisons slider_cranks(std::span<const PublishedSliderCrank> designs, 
                                 100 * (d.error / published.published_error - 1))});
     rows.push_back({of + "abscissa of the tracing point at the first crank angle, m", source,
                     published.published_stroke,
-                    slider_crank_pose(published.mechanism, published.start_angle).point.real(), "corrected",
+                    slider_crank_pose(published.linkage, published.start_angle).point.real(), "corrected",
                     "printed as stroke"});
     rows.push_back(
         {of + "stroke over a full turn, m", source, nan, d.stroke, "not printed",
-         fmt::format("least distance from not turning: {:.4g} m", rotation_margin(d.mechanism.parameters))});
+         fmt::format("least distance from not turning: {:.4g} m", rotation_margin(d.linkage.parameters))});
   }
   if (!with_front) {
     const SliderPathSynthesis found = synthesise_slider_path(p, {.seed = 1, .progress = false}, context);

@@ -23,7 +23,7 @@ SliderPathProblem problem_of(const SliderCrankMechanism& mechanism, const std::v
                              SliderSide last = SliderSide::forward) {
   SliderPathProblem p;
   p.closed = false;
-  p.free_timing = true;
+  p.timing = Timing::free;
   p.crank_rotates_fully = false;
   p.search_negative = true;
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -49,7 +49,7 @@ TEST(SliderDesigns, TheNumbersOfTheMechanismComeBack) {
   // Whichever way the guide is given.
   for (const double turned : {0.0, pi}) {
     const ExactSliderDesign d = exact_slider_design(problem, bars_of(turning, 0.2, turned));
-    const SliderCrankForm &f = d.design.mechanism.parameters, &g = turning.parameters;
+    const SliderCrankForm &f = d.design.linkage.parameters, &g = turning.parameters;
     EXPECT_NEAR(f.crank, g.crank, 1e-13);
     EXPECT_NEAR(f.rod, g.rod, 1e-13);
     EXPECT_NEAR(f.offset, g.offset, 1e-13);

@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/synthesis.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {
@@ -15,10 +16,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-PathSeedRun searched(const PathProblem& problem) {
+PathSynthesis searched(const PathProblem& problem) {
   RunContext context;
-  PathSynthesis answer = synthesise_path(problem, {.seed = 3, .starts = 4}, context);
-  return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
+  return synthesise_path(problem, {.seed = 3, .starts = 4}, context);
 }
 
 // Bits, not tolerances: a resumed run is to end like an uninterrupted one.
@@ -26,10 +26,10 @@ TEST(PathCheckpoint, ASeedComesBackBitForBit) {
   PathProblem limited = eighteen_points();
   limited.min_transmission_angle = 0.6;
   for (const PathProblem& problem : {eighteen_points(), limited}) {
-    const PathSeedRun run = searched(problem);
+    const PathSynthesis run = searched(problem);
     ASSERT_FALSE(run.designs.empty());
     ASSERT_FALSE(run.history.empty());
-    const PathSeedRun back = restored(kept(run), problem, "seed 3");
+    const PathSynthesis back = restored(kept(run), problem, "seed 3");
     EXPECT_EQ(back.status, run.status);
     EXPECT_EQ(back.evaluations, run.evaluations);
     EXPECT_EQ(back.history, run.history);
@@ -51,17 +51,19 @@ TEST(PathCheckpoint, ASeedComesBackBitForBit) {
 
 TEST(PathCheckpoint, InfeasibleAndEmptySeeds) {
   const PathProblem problem = eighteen_points();
-  const PathSeedRun nothing = restored(kept({.status = Status::infeasible}), problem, "seed 3");
+  PathSynthesis none;
+  none.status = Status::infeasible;
+  const PathSynthesis nothing = restored(kept(none), problem, "seed 3");
   EXPECT_EQ(nothing.status, Status::infeasible);
   EXPECT_TRUE(nothing.designs.empty());
 
   // Does not assemble: an infinite error, which no number in a file need hold.
   std::vector<double> angles(18);
   for (std::size_t k = 0; k < 18; ++k) angles[k] = point_angle(problem, k);
-  PathSeedRun apart{.status = Status::infeasible};
+  PathSynthesis apart = none;
   apart.designs.push_back(
       measure(problem, {.ground = 9, .crank = 1, .coupler = 1, .rocker = 1}, 1, std::move(angles)));
-  const PathSeedRun back = restored(kept(apart), problem, "seed 3");
+  const PathSynthesis back = restored(kept(apart), problem, "seed 3");
   EXPECT_EQ(back.designs[0].error, infinity);
   EXPECT_EQ(total_violation(back.designs[0]), total_violation(apart.designs[0]));
 }

@@ -43,7 +43,7 @@ TEST(SliderPathScene, ACrankThatRocksIsShownOverWhatItReaches) {
   p.crank_rotates_fully = p.closed = false;
   SliderCrankMechanism m;
   m.parameters = {.crank = 1, .rod = 0.5, .rod_u = 0.2};
-  p.free_timing = true;
+  p.timing = Timing::free;
   std::vector<double> angles;
   for (int k = 0; k < 18; ++k) angles.push_back(-0.3 + 0.03 * k);
   for (const double sense : {1.0, -1.0}) {

@@ -6,6 +6,7 @@
 #include "linkwright/planar/exact/nine_points.h"
 #include "linkwright/planar/exact/timed_points.h"
 #include "linkwright/planar/path/defects.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {
 

@@ -24,10 +24,10 @@ std::complex<double> slider_target(const SliderPathProblem& problem, std::size_t
 
 // The crank angles where the crank goes between the ends of its range, which is less than a turn; none where
 // one of them lies outside.
-std::optional<std::vector<double>> rocking_angles(const SliderCrankForm& f,
+std::optional<std::vector<double>> rocking_angles(const SliderCrankMechanism& mechanism,
                                                   const std::vector<double>& angles) {
   constexpr double slack = 1e-9;
-  const auto reach = crank_interval(f, angles[0]);
+  const auto reach = SliderCrankPath::reach(mechanism, angles[0]);
   if (!reach || reach->to - reach->from >= 2 * pi) return std::nullopt;
   std::vector<double> out;
   for (const double angle : angles) {
@@ -75,7 +75,7 @@ ExactSliderDesign exact_slider_design(const SliderPathProblem& problem, const Tr
   ExactSliderDesign out;
   double sense = 1;
   bool turns_back = false;
-  const auto rocking = problem.closed ? std::nullopt : rocking_angles(f, angles);
+  const auto rocking = problem.closed ? std::nullopt : rocking_angles(mechanism, angles);
   if (rocking) {
     angles = *rocking;
     sense = angles.back() < angles.front() ? -1 : 1;
@@ -121,9 +121,9 @@ std::vector<ExactSliderDesign> exact_designs(const SliderPathProblem& problem,
 
 std::vector<int> passing_order(const SliderPathProblem& problem, const ExactSliderDesign& design) {
   if (problem.closed || severity(design.defects) != 1) return {};
-  const auto rocking = rocking_angles(design.design.mechanism.parameters, design.design.angles);
+  const auto rocking = rocking_angles(design.design.linkage, design.design.angles);
   const std::vector<double>& angles = rocking ? *rocking : design.design.angles;
-  const auto interval = crank_interval(design.design.mechanism.parameters, angles[0]);
+  const auto interval = SliderCrankPath::reach(design.design.linkage, angles[0]);
   return order_of_turning(angles, rocking && interval ? interval->from - 1e-9 : angles[0]);
 }
 

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "linkwright/planar/exact/slider_points.h"
-#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/path/defects.h"
+#include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 

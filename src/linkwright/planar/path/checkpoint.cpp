@@ -2,64 +2,67 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
+#include <utility>
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/path/search_record.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t linkage_numbers = 11;  // before the crank angles
-
-std::vector<double> numbers_of(const PathDesign& d) {
-  const FourBar& l = d.linkage;
-  std::vector<double> numbers = {sign(l.branch), l.ground,  l.crank,   l.coupler,     l.rocker, l.coupler_u,
-                                 l.coupler_v,    l.pivot_x, l.pivot_y, l.frame_angle, d.sense};
-  numbers.insert(numbers.end(), d.angles.begin(), d.angles.end());
-  return numbers;
-}
-
-PathDesign design_of(const std::vector<double>& v, const PathProblem& problem, std::string_view what) {
-  require_numbers(v, linkage_numbers + problem.x.size(), what);
-  if (!is_kept_sign(v[0]) || !std::all_of(v.begin() + 1, v.begin() + 5, is_kept_length) ||
-      !std::all_of(v.begin() + 5, v.begin() + 9, is_kept_place) || !is_kept_angle(v[9]) ||
-      !is_kept_sign(v[10]) || !std::all_of(v.begin() + linkage_numbers, v.end(), is_kept_angle))
-    throw CheckpointError(fmt::format("{}: a design is not a four-bar", what));
-  const FourBar linkage{.ground = v[1],
-                        .crank = v[2],
-                        .coupler = v[3],
-                        .rocker = v[4],
-                        .coupler_u = v[5],
-                        .coupler_v = v[6],
-                        .pivot_x = v[7],
-                        .pivot_y = v[8],
-                        .frame_angle = v[9],
-                        .branch = v[0] > 0 ? Branch::open : Branch::crossed};
-  return measure(problem, linkage, v[10], {v.begin() + linkage_numbers, v.end()});
-}
+// Far more than a search makes, and few enough that the sum over the seeds of a study is an integer.
+constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
+// Crank angles are unwrapped over a turn, from a start angle that the study may have put anywhere sensible.
+constexpr double largest_angle = 1e6;
 
 }  // namespace
 
-Value kept(const PathSeedRun& run) {
-  std::vector<std::vector<double>> designs;
-  for (const PathDesign& design : run.designs) designs.push_back(numbers_of(design));
-  return kept({run.status, run.evaluations, run.history}, designs);
+Value kept_record(const SearchRecord& record, const std::vector<std::vector<double>>& designs) {
+  Value value;
+  value["feasible"] = record.status == Status::done;
+  value["evaluations"] = record.evaluations;
+  value["designs"] = Value::array();
+  for (const std::vector<double>& design : designs) value["designs"].push_back(pack_numbers(design));
+  std::vector<double> best;
+  Value::Array evaluations;
+  for (const SearchPoint& point : record.history) {
+    evaluations.emplace_back(point.evaluations);
+    best.push_back(point.best);
+  }
+  value["history_evaluations"] = Value(std::move(evaluations));
+  value["history_best"] = pack_numbers(best);
+  return value;
 }
 
-PathSeedRun restored(const Value& value, const PathProblem& problem, std::string_view what) {
-  PathSeedRun run;
-  SearchRecord record = restored(value, what, [&](const std::vector<double>& numbers) {
-    run.designs.push_back(design_of(numbers, problem, what));
-  });
-  run.status = record.status;
-  run.evaluations = record.evaluations;
-  run.history = std::move(record.history);
-  return run;
+SearchRecord restored_record(const Value& value, std::string_view what,
+                             const std::function<void(const std::vector<double>&)>& design) {
+  SearchRecord record;
+  const Value& feasible = kept_member(value, "feasible", what);
+  const Value& designs = kept_member(value, "designs", what);
+  const Value& evaluations = kept_member(value, "history_evaluations", what);
+  const std::vector<double> best = unpack_numbers(kept_member(value, "history_best", what), what);
+  if (!feasible.is_bool() || !designs.is_array() || !evaluations.is_array() ||
+      evaluations.as_array().size() != best.size())
+    throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
+  record.status = feasible.as_bool() ? Status::done : Status::infeasible;
+  record.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
+  for (const Value& numbers : designs.as_array()) design(unpack_numbers(numbers, what));
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const Value& at = evaluations.as_array()[i];
+    if (!at.is_integer() || at.as_integer() < 0 || !std::isfinite(best[i]))
+      throw CheckpointError(fmt::format("{}: entry {} of its history is not a number", what, i));
+    record.history.push_back({at.as_integer(), best[i]});
+  }
+  return record;
+}
+
+bool is_kept_sign(double x) { return x == 1 || x == -1; }
+bool is_kept_angle(double x) { return std::abs(x) <= largest_angle; }
+bool is_kept(const Field& field, double x) {
+  if (field.dimension == Dimension::angle) return is_kept_angle(x);
+  return std::abs(x) <= longest_link && (field.minimum < 0 || x >= shortest_link);
 }
 
 }  // namespace linkwright::planar

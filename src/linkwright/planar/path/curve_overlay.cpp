@@ -3,27 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linkwright/core/numbers.h"
-
 namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
 constexpr std::size_t most_compared = 24;  // target points that take part
+constexpr int open_arcs = 24;              // random arcs of a curve that is not laid on the path as a whole
 
 }  // namespace
 
-CurveOverlay::CurveOverlay(const std::vector<double>& x, const std::vector<double>& y, bool closed) {
+std::vector<double> path_fractions(const std::vector<double>& x, const std::vector<double>& y, bool closed) {
   const std::size_t n = x.size();
   double length = 0;
-  fraction_.push_back(0);
+  std::vector<double> out{0};
   for (std::size_t k = 1; k <= n; ++k) {
     if (k == n && !closed) break;
     length += std::hypot(x[k % n] - x[k - 1], y[k % n] - y[k - 1]);
-    fraction_.push_back(length);
+    out.push_back(length);
   }
-  fraction_.resize(n);
-  for (double& f : fraction_) f /= length;
+  out.resize(n);
+  for (double& f : out) f /= length;
+  return out;
+}
+
+CurveOverlay::CurveOverlay(const std::vector<double>& x, const std::vector<double>& y, bool closed)
+    : closed_(closed), fraction_(path_fractions(x, y, closed)) {
+  const std::size_t n = x.size();
   const std::size_t count = std::min(n, most_compared);
   for (std::size_t i = 0; i < count; ++i) compared_.push_back(count == n ? i : i * (n - 1) / (count - 1));
   for (std::size_t k : compared_) mean_ += Complex(x[k], y[k]);
@@ -75,18 +80,37 @@ double CurveOverlay::compare(double first, double length, Complex& a, Complex& p
   return std::max(0.0, spread_ - std::norm(product) / square);
 }
 
-void CurveOverlay::angles(double first, double length, double turn, double sense,
-                          std::vector<double>& out) const {
-  out.resize(fraction_.size());
+std::optional<CurveOverlay::Laid> CurveOverlay::lay(double least, RandomStream& stream) const {
+  std::optional<Laid> best;
+  const bool whole = closed_ && turns_;
+  const int tries = whole ? static_cast<int>(samples) / 2 : open_arcs;
+  for (int t = 0; t < tries; ++t) {
+    Laid laid{.first = 2.0 * t, .length = samples};
+    if (!whole) {
+      laid.length = samples * stream.uniform(0.1, 0.97);
+      laid.first = stream.uniform() * (turns_ ? double{samples} : samples - laid.length);
+    }
+    laid.mismatch = compare(laid.first, laid.length, laid.a, laid.p);
+    if (laid.mismatch < least && std::abs(laid.a) > 0) {
+      least = laid.mismatch;
+      best = laid;
+    }
+  }
+  return best;
+}
+
+std::vector<double> CurveOverlay::angles(const Laid& laid, double turn) const {
+  std::vector<double> out(fraction_.size());
   for (std::size_t k = 0; k < fraction_.size(); ++k) {
-    double at = first + fraction_[k] * length, turned = turn;
+    double at = laid.first + fraction_[k] * laid.length, turned = turn;
     if (at >= samples) {
       at -= samples;
-      turned += sense * 2 * pi;
+      turned += sense_ * 2 * pi;
     }
     const std::size_t s = std::min(static_cast<std::size_t>(at), samples - 1);
     out[k] = turned + angle_[s] + (at - static_cast<double>(s)) * (angle_[s + 1] - angle_[s]);
   }
+  return out;
 }
 
 }  // namespace linkwright::planar

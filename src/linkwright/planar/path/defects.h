@@ -1,10 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/core/field.h"
+#include "linkwright/planar/path/mechanism.h"
 
 namespace linkwright::planar {
 
@@ -27,9 +31,30 @@ struct Defect {
   std::string text;  ///< with point numbers (from 1) and angles in degrees
 };
 
-/// Defects of a design along the path, by closed-form criteria: the sign of L3 L4 sin(theta4 - theta3) at the
-/// points, the input limits between them, and the cyclic sum of the crank angle steps. Empty = the linkage
-/// traces the points in one motion.
-std::vector<Defect> defects(const PathProblem& problem, const PathDesign& design);
+/// What a design does along a path.
+struct PathMotion {
+  const PathTask& task;
+  const std::vector<double>& angles;
+  double sense;
+  std::vector<TracedPoint> points;  ///< at the angles
+  bool turns_fully;
+  std::function<std::optional<CrankInterval>(double angle)> reach;
+  MechanismWords words;
+};
+std::vector<Defect> defects(const PathMotion& motion);
+
+/// Defects of a design along the path, by closed-form criteria: whether it assembles at the points and
+/// between them, whether its branches meet at one, and the cyclic sum of the crank angle steps. Empty = the
+/// mechanism traces the points in one motion.
+template <class Problem>
+requires PathMechanism<MechanismOf<Problem>> std::vector<Defect> defects(
+    const Problem& problem, const typename MechanismOf<Problem>::Design& design) {
+  using M = MechanismOf<Problem>;
+  std::vector<TracedPoint> points;
+  for (const double angle : design.angles) points.push_back(M::trace(design.linkage, angle));
+  return defects(PathMotion{problem, design.angles, design.sense, std::move(points),
+                            M::turn(design.linkage).full(),
+                            [&](double angle) { return M::reach(design.linkage, angle); }, M::words});
+}
 
 }  // namespace linkwright::planar

@@ -47,7 +47,7 @@ Table slider_design_table(const std::vector<ExactSliderDesign>& designs) {
   std::vector<std::vector<double>> columns(keys.size());
   for (const ExactSliderDesign& d : designs) {
     number.push_back(static_cast<double>(number.size() + 1));
-    SliderCrankForm form = d.design.mechanism.parameters;
+    SliderCrankForm form = d.design.linkage.parameters;
     std::size_t j = 0;
     fields([&](const Field&, double& value) { columns[j++].push_back(value); }, form);
     rotates.push_back(std::isnan(d.design.stroke) ? 0 : 1);
@@ -83,7 +83,7 @@ void read_exact_slider_path(study::ObjectReader& document, study::ObjectReader& 
             fmt::format("{} is given, fit = \"exact\" leaves no number of the slider-crank to choose",
                         name(SliderParameter(j))),
             fmt::format("leave it out, or use what searches: {}", search_sliders));
-  if (!p.free_timing)
+  if (!p.free_timing())
     target.error("timing", "fit = \"exact\" of a slider-crank meets its points at any crank angles",
                  fmt::format("write mode = \"free\", or use what searches: {}", search_sliders));
   const std::size_t n = p.x.size();
@@ -135,7 +135,7 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
     ++*by_severity[at(severity(d.defects))];
     found.answers += is_answer(d);
     orders.push_back(passing_order(p, d));
-    if (!p.search_forward) show_from_behind(d.design.mechanism);
+    if (!p.search_forward) show_from_behind(d.design.linkage);
   }
 
   study::Result result;

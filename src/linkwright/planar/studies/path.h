@@ -67,13 +67,13 @@ void fields(Visitor&& visit, PathParameters& p) {
         p.rocker_pivot_y);
 }
 
-struct PathMechanism {
+struct FourBarPathForm {
   BranchChoice branch = BranchChoice::any;
   SenseChoice sense = SenseChoice::automatic;
   PathParameters parameters;
 };
 template <class Visitor>
-void fields(Visitor&& visit, PathMechanism& m) {
+void fields(Visitor&& visit, FourBarPathForm& m) {
   visit(Field{.key = "branch", .summary = "assembly branch to search"}, m.branch);
   visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
   visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
@@ -223,7 +223,7 @@ void fields(Visitor&& visit, PathOptimiser& o) {
 
 /// A path synthesis study as read.
 struct PathStudy {
-  PathMechanism mechanism;
+  FourBarPathForm mechanism;
   PathTarget target;
   std::vector<PathObjectiveEntry> objectives;
   std::vector<PathConstraint> constraints;

@@ -137,7 +137,7 @@ study::Kind path_kind() {
   kind.absent = absent_from_four_bar_paths();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the four-bar"},
-                      study::schema_fields<PathMechanism>());
+                      study::schema_fields<FourBarPathForm>());
     document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<PathTarget>());
     document.property(Field{.key = "objective", .summary = "what is minimised"},
                       study::schema_array(study::schema_fields<PathObjectiveEntry>()));

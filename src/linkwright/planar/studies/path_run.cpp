@@ -32,21 +32,20 @@
 namespace linkwright::planar {
 namespace {
 
-using Runs = PathRuns<PathSeedRun>;
+using Runs = PathRuns<PathSynthesis>;
 
-PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
-                     RunContext& context) {
+PathSynthesis run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
+                       RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
   options.progress = only_seed;  // several at once are reported by the loop over them
-  PathSynthesis answer = synthesise_path(s.problem, options, context);
-  return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
+  return synthesise_path(s.problem, options, context);
 }
 
 template <class Options>
-PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
-                     const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
-  PathSeedRun out;
+PathSynthesis run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
+                       const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
+  PathSynthesis out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
     if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
@@ -76,7 +75,7 @@ PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constra
 // Distinct designs of all seeds, best first.
 std::vector<PathDesign> distinct_designs(const PathStudy& s, const Runs& runs) {
   std::vector<PathDesign> all;
-  for (const PathSeedRun& seed : runs.answers)
+  for (const PathSynthesis& seed : runs.answers)
     all.insert(all.end(), seed.designs.begin(), seed.designs.end());
   if (s.no_defects)
     for (PathDesign& d : all)
@@ -102,7 +101,7 @@ void add_statistics(study::Result& result, const Runs& runs, double best, double
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
   for (std::size_t i = 0; i < runs.answers.size(); ++i) {
-    const PathSeedRun& seed = runs.answers[i];
+    const PathSynthesis& seed = runs.answers[i];
     const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
     const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
     outcomes.push_back({error, violation, seed.evaluations});

@@ -8,8 +8,8 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/exact_slider_crank_path.h"
-#include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/path_families.h"
+#include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
@@ -19,8 +19,8 @@ namespace {
 using P = SliderParameter;
 
 void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, SliderPathStudy& s) {
-  s.problem.free_timing = s.target.timing.mode == Timing::free;
-  s.problem.offsets = timed_angles(target, units, s.target.timing, s.problem.x.size());
+  s.problem.timing = s.target.timing.mode == Timing::free ? Timing::free : Timing::increments;
+  s.problem.angles = timed_angles(target, units, s.target.timing, s.problem.x.size());
 }
 
 void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
@@ -49,7 +49,7 @@ void set_search(SliderPathStudy& s) {
   p.search_backward = s.mechanism.branch == SliderSideChoice::backward ||
                       (s.mechanism.branch == SliderSideChoice::any && !complete);
   SenseChoice sense = s.mechanism.sense;
-  if (sense == SenseChoice::automatic) sense = p.free_timing ? SenseChoice::any : SenseChoice::positive;
+  if (sense == SenseChoice::automatic) sense = p.free_timing() ? SenseChoice::any : SenseChoice::positive;
   p.search_positive = sense != SenseChoice::negative;
   p.search_negative = sense != SenseChoice::positive;
 }

@@ -11,8 +11,8 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/path/slider_crank/samples.h"
-#include "linkwright/planar/path/slider_crank_defects.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
@@ -43,7 +43,7 @@ class Report {
     result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
     for (const SliderPathDesign& d : designs_)
       add_slider_solution(result_, p_, d, common_,
-                          std::isnan(d.stroke) ? std::string(name_of(d.mechanism.branch))
+                          std::isnan(d.stroke) ? std::string(name_of(d.linkage.branch))
                                                : to_string(say("stroke {}, {} rms", length_by_size(d.stroke),
                                                                length_by_size(rms(d)))));
     statistics();
@@ -119,7 +119,7 @@ class Report {
       error.push_back(designs_[i].error);
       way.push_back(designs_[i].stroke);
       distance.push_back(rms(designs_[i]));
-      pressure.push_back(greatest_pressure_angle(designs_[i].mechanism.parameters));
+      pressure.push_back(greatest_pressure_angle(designs_[i].linkage.parameters));
     }
     front.add("solution", "solution", std::move(number));
     front.add("stroke_m", "stroke (m)", std::move(way));
@@ -149,26 +149,26 @@ class Report {
           f.pivot_y, f.rod_u, f.rod_v,  same ? 1.0 : 0.0, std::isnan(stroke(f)) ? 0.0 : 1.0};
       for (std::size_t j = 0; j < std::size(values); ++j) table.columns[j].values.push_back(values[j]);
     };
-    const SliderCrankForm& f = best.mechanism.parameters;
+    const SliderCrankForm& f = best.linkage.parameters;
     row(f, true);
     // A tracing point on the crank pin leaves none, nor does one that lies there but for rounding.
     if (std::hypot(f.rod_u, f.rod_v) > 1e-9 * f.rod)
-      row(slider_crank_cognate(best.mechanism, best.angles[0]).parameters, false);
+      row(slider_crank_cognate(best.linkage, best.angles[0]).parameters, false);
     result_.tables.push_back(std::move(table));
   }
 
   void comparisons() {
     const SliderPathProblem known = eighteen_slider_points();
-    if (p_.free_timing || p_.x != known.x || p_.y != known.y || p_.offsets.size() != known.offsets.size())
+    if (p_.free_timing() || p_.x != known.x || p_.y != known.y || p_.angles.size() != known.angles.size())
       return;
-    for (std::size_t k = 0; k < known.offsets.size(); ++k)
-      if (std::abs(p_.offsets[k] - known.offsets[k]) > 1e-12) return;
+    for (std::size_t k = 0; k < known.angles.size(); ++k)
+      if (std::abs(p_.angles[k] - known.angles[k]) > 1e-12) return;
     const std::string source = "Boskovic 2018, ";
     for (const PublishedSliderCrank& published : published_slider_cranks()) {
       if (!s_.front && published.label != "Table 4.2") continue;
       std::vector<double> angles;
-      for (const double offset : known.offsets) angles.push_back(published.start_angle + offset);
-      const SliderPathDesign d = measure(known, published.mechanism, 1, angles);
+      for (const double offset : known.angles) angles.push_back(published.start_angle + offset);
+      const SliderPathDesign d = measure(known, published.linkage, 1, angles);
       result_.comparisons.push_back({published.label + ", design re-evaluated: path error, m2",
                                      source + published.label, published.published_error, d.error,
                                      "not reproduced",
@@ -191,7 +191,7 @@ class Report {
   void facts() {
     const SliderPathDesign& best = designs_[0];
     const PathErrors errors = path_errors(p_, best);
-    const double pressure = greatest_pressure_angle(best.mechanism.parameters);
+    const double pressure = greatest_pressure_angle(best.linkage.parameters);
     const study::AddFact fact{result_.facts};
     if (!feasible_) {
       std::string reasons;
@@ -248,7 +248,7 @@ class Report {
 void add_slider_solution(study::Result& result, const SliderPathProblem& p, const SliderPathDesign& d,
                          const study::Common& common, std::string label) {
   const std::size_t number = result.solutions.size() + 1;
-  const bool with_start = !p.free_timing && !p.bounds[index(SliderParameter::start_angle)].fixed();
+  const bool with_start = !p.free_timing() && !p.bounds[index(SliderParameter::start_angle)].fixed();
   const double rms = std::sqrt(d.error / static_cast<double>(p.x.size()));
   constexpr std::array<std::string_view, slider_parameter_count> labels = {
       "crank length",
@@ -262,7 +262,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
       "start angle"};
   study::Solution out;
   out.label = std::move(label);
-  const auto values = parameter_values(p, d);
+  const auto values = SliderCrankPath::values(p, d);
   for (std::size_t j = 0; j < slider_parameter_count; ++j) {
     const auto parameter = SliderParameter(j);
     if (parameter == SliderParameter::start_angle && !with_start) continue;
@@ -276,7 +276,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
                               std::string(labels[j]), value, range.lower, range.upper});
   }
   // As the analysis of the same mechanism takes it.
-  const SliderCrankForm& f = d.mechanism.parameters;
+  const SliderCrankForm& f = d.linkage.parameters;
   out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
   out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
   const PathErrors errors = path_errors(p, d);
@@ -285,7 +285,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
   out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
   out.objectives["stroke_m"] = d.stroke;
   const double size = f.crank + f.rod + std::abs(f.offset);
-  out.classification["branch"] = name_of(d.mechanism.branch);
+  out.classification["branch"] = name_of(d.linkage.branch);
   out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
   out.classification["crank_rotates_fully"] = rotation_margin(f) >= -tolerance::feasibility * size;
   out.classification["rotation_margin_m"] = rotation_margin(f);
@@ -301,7 +301,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
     out.scene = fmt::format("solution-{}", number);
     result.scenes.push_back(
         slider_path_scene(p, d, out.scene, fmt::format("{}: {}", number, out.label), common.output.samples));
-    out.study = motion_study("planar.slider_crank", study::write_fields(d.mechanism),
+    out.study = motion_study("planar.slider_crank", study::write_fields(d.linkage),
                              shown_angles(d, common.output.samples), d.angles);
   }
   result.solutions.push_back(std::move(out));

@@ -10,8 +10,8 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/path/slider_crank_checkpoint.h"
-#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/path/checkpoint.h"
+#include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 
 namespace linkwright::planar {
@@ -19,10 +19,6 @@ namespace {
 
 // A front goes down to this share of the stroke of the design with the least error, unless limits say more.
 constexpr double shortest_stroke = 0.4;
-
-bool better_design(const SliderPathDesign& a, const SliderPathDesign& b) {
-  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
-}
 
 SliderPathScales scales_of(const SliderPathStudy& s) {
   const double size = path_size(s.problem);
@@ -32,22 +28,10 @@ SliderPathScales scales_of(const SliderPathStudy& s) {
   return scales;
 }
 
-struct Way {
-  SliderSide side;
-  double sense;
-  std::string_view name;  // in the checkpoint
-};
-std::vector<Way> ways(const SliderPathProblem& p) {
-  std::vector<Way> out;
-  constexpr Way all[] = {{SliderSide::forward, 1, "/positive"},
-                         {SliderSide::backward, 1, "/backward positive"},
-                         {SliderSide::forward, -1, "/negative"},
-                         {SliderSide::backward, -1, "/backward negative"}};
-  for (const Way& way : all)
-    if ((way.sense > 0 ? p.search_positive : p.search_negative) &&
-        (way.side == SliderSide::forward ? p.search_forward : p.search_backward))
-      out.push_back(way);
-  return out;
+// What the population of a branch and sense is called in the checkpoint.
+std::string population_name(std::uint64_t seed, const CrankSearch<SliderSide>& search) {
+  return optimise::seed_name(seed) + (search.branch == SliderSide::forward ? "/" : "/backward ") +
+         (search.sense > 0 ? "positive" : "negative");
 }
 
 // The answer of a seed from what its searches came to: all of them, or the front; one infeasible design when
@@ -86,17 +70,17 @@ SliderPathSynthesis run_seed(
     const SliderPathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
   SliderPathSynthesis out;
   std::uint32_t part = 0;
-  for (const Way& way : ways(s.problem)) {
+  for (const CrankSearch<SliderSide>& search : crank_searches(s.problem)) {
     const optimise::Seed key{.seed = seed, .run = part++};
     optimise::MinimiseOptions minimise = method.minimise;
     minimise.progress = only_seed;
-    minimise.checkpoint = optimise::seed_name(seed) + std::string(way.name);
+    minimise.checkpoint = population_name(seed, search);
     optimise::Problem problem;
     std::unique_ptr<optimise::Optimiser> optimiser;
     if (s.front) {
       minimise.front = std::max<std::size_t>(4, static_cast<std::size_t>(s.optimiser.front));
-      problem = slider_path_front_problem(s.problem, way.side, way.sense, scales_of(s));
-      // The front of a method of one objective is what it met on its way to the least sum.
+      problem = slider_path_front_problem(s.problem, search.branch, search.sense, scales_of(s));
+      // The front of a method of one objective is what it met on its search to the least sum.
       if constexpr (requires {
                       optimise::make_optimiser(problem.variables, method.options, key, std::size_t{2});
                     }) {
@@ -107,19 +91,19 @@ SliderPathSynthesis run_seed(
         optimiser = optimise::make_optimiser(problem.variables, method.options, key);
       }
     } else {
-      problem = slider_path_population_problem(s.problem, way.side, way.sense);
+      problem = slider_path_population_problem(s.problem, search.branch, search.sense);
       optimiser = optimise::make_optimiser(problem.variables, method.options, key);
     }
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, minimise, context);
     if (study::is_interrupted(report.status)) out.status = report.status;
     out.evaluations += report.evaluations;
-    SliderPathDesign design = slider_path_design(s.problem, way.side, way.sense, report.x);
+    SliderPathDesign design = slider_path_design(s.problem, search.branch, search.sense, report.x);
     if (!s.front && (out.designs.empty() || better_design(design, out.designs[0])))
       out.history = improvements(report.log);
     out.designs.push_back(std::move(design));
     for (const optimise::ParetoPoint& point : report.front)
-      out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
+      out.designs.push_back(slider_path_design(s.problem, search.branch, search.sense, point.x));
     if (!s.front) rank(out.designs);
   }
   settle(out, s.front);
@@ -138,17 +122,17 @@ SliderPathSynthesis run_seed(const FrontMethod<Options>& method, const SliderPat
                              bool only_seed, RunContext& context) {
   SliderPathSynthesis out;
   std::uint32_t part = 0;
-  for (const Way& way : ways(s.problem)) {
+  for (const CrankSearch<SliderSide>& search : crank_searches(s.problem)) {
     optimise::FrontOptions options = method.front;
     options.progress = only_seed;
-    options.checkpoint = optimise::seed_name(seed) + std::string(way.name);
-    const optimise::FrontReport report =
-        optimise::minimise_with_pagmo(slider_path_front_problem(s.problem, way.side, way.sense, scales_of(s)),
-                                      pagmo(method.options), options, {.seed = seed, .run = part++}, context);
+    options.checkpoint = population_name(seed, search);
+    const optimise::FrontReport report = optimise::minimise_with_pagmo(
+        slider_path_front_problem(s.problem, search.branch, search.sense, scales_of(s)),
+        pagmo(method.options), options, {.seed = seed, .run = part++}, context);
     if (study::is_interrupted(report.status)) out.status = report.status;
     out.evaluations += report.evaluations;
     for (const optimise::ParetoPoint& point : report.front)
-      out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
+      out.designs.push_back(slider_path_design(s.problem, search.branch, search.sense, point.x));
   }
   settle(out, true);
   return out;
@@ -192,7 +176,7 @@ std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& s, cons
   for (SliderPathDesign& d : all) {
     if (out.size() == static_cast<std::size_t>(options.max_solutions) || !d.violations.empty()) break;
     if (std::none_of(out.begin(), out.end(), [&](const SliderPathDesign& o) {
-          return o.sense == d.sense && same_mechanism(o.mechanism, d.mechanism);
+          return o.sense == d.sense && same_linkage(o.linkage, d.linkage);
         }))
       out.push_back(std::move(d));
   }

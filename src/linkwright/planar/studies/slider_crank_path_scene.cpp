@@ -8,7 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/path_reached.h"
 
@@ -16,10 +16,9 @@ namespace linkwright::planar {
 
 std::vector<double> shown_angles(const SliderPathDesign& design, int samples) {
   LINKWRIGHT_REQUIRE(samples >= 2, "needs at least 2 samples, got {}", samples);
-  const SliderCrankForm& f = design.mechanism.parameters;
   double from = design.angles[0], to = from + design.sense * 2 * pi;
-  if (std::isnan(stroke(f)))
-    if (const auto reach = crank_interval(f, from)) {
+  if (std::isnan(stroke(design.linkage.parameters)))
+    if (const auto reach = SliderCrankPath::reach(design.linkage, from)) {
       from = design.sense > 0 ? reach->from : reach->to;
       to = design.sense > 0 ? reach->to : reach->from;
     }
@@ -32,12 +31,12 @@ study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPat
                                std::string name, std::string title, int samples) {
   // A crank that a search has shrunk to nothing leaves its pins apart by what nobody sees.
   constexpr double visible = 1e-6;
-  auto mechanism = design.mechanism;
+  auto mechanism = design.linkage;
   mechanism.parameters.crank = std::max(mechanism.parameters.crank, visible * mechanism.parameters.rod);
   const Linkage linkage = slider_crank(mechanism);
   const PlanResult planned = plan_linkage(linkage);
   LINKWRIGHT_REQUIRE(planned.problems.empty(), "a slider-crank of crank {} and rod {} has no plan",
-                     design.mechanism.parameters.crank, design.mechanism.parameters.rod);
+                     design.linkage.parameters.crank, design.linkage.parameters.rod);
   LinkageMotion motion(planned.plan);
   std::vector<LinkageRecord> records;
   for (const double angle : shown_angles(design, samples)) {
@@ -62,7 +61,7 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
   const std::vector<double> angles = shown_angles(design, samples);
   std::vector<double> rod, way, pressure, x, y;
   for (const double angle : angles) {
-    const SliderCrankPose pose = slider_crank_pose(design.mechanism, angle);
+    const SliderCrankPose pose = slider_crank_pose(design.linkage, angle);
     rod.push_back(pose.rod_angle);
     way.push_back(pose.displacement);
     pressure.push_back(pose.pressure_angle);

@@ -12,10 +12,10 @@ namespace linkwright::planar {
 namespace {
 
 using namespace linkwright::planar::test;
-constexpr RatioKind kinds[] = {RatioKind::crank_rocker, RatioKind::double_crank, RatioKind::any};
+constexpr RatioKind ratio_kinds[] = {RatioKind::crank_rocker, RatioKind::double_crank, RatioKind::any};
 
 TEST(RandomRatios, CoverTheirRanges) {
-  for (RatioKind kind : kinds) {
+  for (RatioKind kind : ratio_kinds) {
     const double width = kind == RatioKind::any ? 1.5 : 3;
     RandomStream stream({.seed = 1});
     double lowest = 10, highest = -10, last = 0;
@@ -60,7 +60,7 @@ PathProblem free_path(bool closed) {
 
 TEST(PathMatcher, StartsLieOnThePathInItsOrder) {
   for (bool closed : {true, false})
-    for (RatioKind kind : kinds)
+    for (RatioKind kind : ratio_kinds)
       for (Branch branch : {Branch::open, Branch::crossed})
         for (double sense : {1.0, -1.0}) {
           const PathProblem problem = free_path(closed);

@@ -32,13 +32,12 @@ TEST(SliderPathFitter, FindsTheTimedOptimumFromThePublishedDesign) {
       number_at(at(path_case("SC18-timed-global-optimum"), "computed.designs").as_array()[0], "sse_m2"),
       1e-9);
   EXPECT_LE(fit.violation, 1e-9);
-  const SliderPathDesign d = measure(p, fit.mechanism, 1, fit.angles);
+  const SliderPathDesign d = measure(p, fit.linkage, 1, fit.angles);
   EXPECT_NEAR(d.error, fit.error, 1e-13);
   EXPECT_THAT(d.violations, IsEmpty());
   SliderPathProjection projection(p, SliderSide::forward, 1);
-  EXPECT_TRUE(same_mechanism(
-      projection.design(p, projection.unknowns(fit.mechanism.parameters, fit.angles[0])).mechanism,
-      fit.mechanism));
+  EXPECT_TRUE(same_linkage(
+      projection.design(p, projection.unknowns(fit.linkage.parameters, fit.angles[0])).linkage, fit.linkage));
 }
 
 // Acceptance of the clipped projection by the other route: the full problem with the stroke as a constraint.
@@ -49,7 +48,7 @@ TEST(SliderPathFitter, AStrokeLimitGivesAPointOfTheFront) {
     SliderPathFitter fitter(p, 1);
     const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
     EXPECT_NEAR(fit.error, best, 1e-7) << stroke;
-    EXPECT_THAT(measure(p, fit.mechanism, 1, fit.angles).violations, IsEmpty()) << stroke;
+    EXPECT_THAT(measure(p, fit.linkage, 1, fit.angles).violations, IsEmpty()) << stroke;
     fitter.limit_stroke({0, 10});
     EXPECT_LT(fitter.fit(published(), angles_of(p, 0.53607), thorough).error, 0.00987);
   }
@@ -60,12 +59,12 @@ TEST(SliderPathFitter, KeepsThePressureAngle) {
   p.max_pressure_angle = math::radians(45);
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
-  EXPECT_THAT(measure(p, fit.mechanism, 1, fit.angles).violations, IsEmpty());
-  EXPECT_NEAR(math::degrees(greatest_pressure_angle(fit.mechanism.parameters)), 45, 1e-6);
+  EXPECT_THAT(measure(p, fit.linkage, 1, fit.angles).violations, IsEmpty());
+  EXPECT_NEAR(math::degrees(greatest_pressure_angle(fit.linkage.parameters)), 45, 1e-6);
   // The separable form has the limit built in.
   SliderPathProjection projection(p, SliderSide::forward, 1);
   std::vector<double> r(projection.residuals());
-  const auto q = projection.unknowns(fit.mechanism.parameters, fit.angles[0]);
+  const auto q = projection.unknowns(fit.linkage.parameters, fit.angles[0]);
   ASSERT_TRUE(projection.evaluate(q, r, {}));
   double sum = 0;
   for (const double value : r) sum += value * value;
@@ -79,9 +78,9 @@ TEST(SliderPathFitter, KeepsBoundsAndFixedValues) {
   p.bounds[index(SP::guide_angle)] = {4.5, 4.6};
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
-  const SliderPathDesign d = measure(p, fit.mechanism, 1, fit.angles);
+  const SliderPathDesign d = measure(p, fit.linkage, 1, fit.angles);
   EXPECT_THAT(d.violations, IsEmpty());
-  EXPECT_EQ(fit.mechanism.parameters.rod, 0.7);
+  EXPECT_EQ(fit.linkage.parameters.rod, 0.7);
   EXPECT_LT(d.error, 0.5);
   EXPECT_THAT(d.active_bounds, ::testing::Not(IsEmpty()));
 }
@@ -102,7 +101,7 @@ TEST(SliderPathFitter, MeetsPointsOfItsOwnCurve) {
                           .rod_u = 0.5,
                           .rod_v = 0.3};
       SliderPathProblem p;
-      p.free_timing = true;
+      p.timing = Timing::free;
       std::vector<double> angles;
       for (int k = 0; k < 14; ++k) {
         angles.push_back(sense * (0.45 * k + 0.1 * std::sin(2.0 * k)));
@@ -123,7 +122,7 @@ TEST(SliderPathFitter, MeetsPointsOfItsOwnCurve) {
 
 TEST(SliderPathFitter, ReachesTheFreeTimingOptimumFromNearIt) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   const Value& design = at(path_case("SC18-free-timing"), "computed.designs").as_array()[0];
   SliderCrankMechanism start = slider_crank(design);
@@ -132,14 +131,14 @@ TEST(SliderPathFitter, ReachesTheFreeTimingOptimumFromNearIt) {
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit =
       fitter.fit(start, numbers(at(design, "theta2_rad")), {.iterations = 2000, .passes = 60});
-  const SliderPathDesign d = measure(p, fit.mechanism, 1, fit.angles);
+  const SliderPathDesign d = measure(p, fit.linkage, 1, fit.angles);
   EXPECT_THAT(d.violations, IsEmpty());
   EXPECT_LE(d.error, number_at(design, "sse_m2") * (1 + 1e-3));
 }
 
 SliderPathDesign timed_optimum(const SliderPathProblem& p) {
   const SliderPathFit fit = SliderPathFitter(p, 1).fit(published(), angles_of(p, 0.53607), thorough);
-  return measure(p, fit.mechanism, 1, fit.angles);
+  return measure(p, fit.linkage, 1, fit.angles);
 }
 SliderCrankMechanism moved(SliderCrankMechanism m) {
   m.parameters.rod *= 1.005;
@@ -156,15 +155,15 @@ TEST(SliderPathFitter, MeetsTolerancesAtNoCost) {
   const PathErrors misses = path_errors(p, optimum);
   const double largest = *std::max_element(misses.distance.begin(), misses.distance.end());
   for (const bool free : {false, true}) {
-    p.free_timing = free;
+    p.timing = free ? Timing::free : Timing::increments;
     p.tolerance.assign(18, largest);
-    const SliderPathFit wide = SliderPathFitter(p, 1).fit(moved(optimum.mechanism), optimum.angles, thorough);
+    const SliderPathFit wide = SliderPathFitter(p, 1).fit(moved(optimum.linkage), optimum.angles, thorough);
     EXPECT_LT(wide.error, 1e-12) << free;
     p.tolerance.assign(18, 0.2 * largest);
-    const SliderPathFit narrow = SliderPathFitter(p, 1).fit(optimum.mechanism, optimum.angles, thorough);
+    const SliderPathFit narrow = SliderPathFitter(p, 1).fit(optimum.linkage, optimum.angles, thorough);
     EXPECT_GT(narrow.error, 0) << free;
     EXPECT_LT(narrow.error, optimum.error) << free;
-    EXPECT_NEAR(measure(p, narrow.mechanism, 1, narrow.angles).error, narrow.error, 1e-12);
+    EXPECT_NEAR(measure(p, narrow.linkage, 1, narrow.angles).error, narrow.error, 1e-12);
   }
 }
 
@@ -172,7 +171,7 @@ TEST(SliderPathFitter, MeetsTolerancesAtNoCost) {
 TEST(SliderPathFitter, PassesThroughGates) {
   SliderPathProblem p = printed_eighteen_slider_points();
   const SliderPathDesign optimum = timed_optimum(p);
-  const auto point = [&](double angle) { return slider_crank_pose(optimum.mechanism, angle).point; };
+  const auto point = [&](double angle) { return slider_crank_pose(optimum.linkage, angle).point; };
   for (std::size_t k = 0; k < 18; ++k) {
     const double angle = optimum.angles[k];
     const auto along = point(angle + 1e-4) - point(angle - 1e-4);
@@ -185,8 +184,8 @@ TEST(SliderPathFitter, PassesThroughGates) {
     p.y[k] = middle.imag();
   }
   for (const bool free : {false, true}) {
-    p.free_timing = free;
-    const SliderPathFit fit = SliderPathFitter(p, 1).fit(moved(optimum.mechanism), optimum.angles, thorough);
+    p.timing = free ? Timing::free : Timing::increments;
+    const SliderPathFit fit = SliderPathFitter(p, 1).fit(moved(optimum.linkage), optimum.angles, thorough);
     EXPECT_LT(fit.error, 1e-16) << free;
   }
 }

@@ -41,7 +41,7 @@ SliderPathProblem objective_problem(const ObjectiveCase& c) {
     const double t = 2 * pi * static_cast<double>(k) / static_cast<double>(c.points);
     p.x.push_back(std::cos(t) + 0.1 * std::sin(3 * t));
     p.y.push_back(0.6 * std::sin(t));
-    p.offsets.push_back(0.4 + (c.turning ? 1.0 : 0.25) * t);
+    p.angles.push_back(0.4 + (c.turning ? 1.0 : 0.25) * t);
     if (c.limits && c.closed) {  // some gates, some points, some with a tolerance
       p.gate_x.push_back(k % 3 == 0 ? 0 : 0.3);
       p.gate_y.push_back(k % 3 == 0 ? 0 : 0.2 * static_cast<double>(k) - 0.5);
@@ -49,7 +49,7 @@ SliderPathProblem objective_problem(const ObjectiveCase& c) {
     }
   }
   p.closed = c.closed;
-  p.free_timing = c.free;
+  p.timing = c.free ? Timing::free : Timing::increments;
   p.bounds = derive_slider_bounds(p.x, p.y);
   p.crank_rotates_fully = c.turning;
   if (c.limits) {
@@ -72,7 +72,7 @@ std::string describe(const ObjectiveCase& c) {
 // Half of the candidates turn fully, half are anything; with free timing most have their angles in order.
 Population candidates(const SliderPathProblem& p, double sense, std::size_t count, std::uint64_t seed) {
   const std::size_t points = p.x.size();
-  Population out(p.free_timing ? 8 + points : 9, count);
+  Population out(p.free_timing() ? 8 + points : 9, count);
   for (std::size_t i = 0; i < count; ++i) {
     RandomStream r({.seed = seed, .individual = static_cast<std::uint32_t>(i)});
     out(0, i) = r.uniform(0.1, 1);
@@ -81,7 +81,7 @@ Population candidates(const SliderPathProblem& p, double sense, std::size_t coun
     out(2, i) = r.uniform(0, 1.5);
     for (std::size_t j : {3, 4}) out(j, i) = r.uniform(0, 2 * pi);
     for (std::size_t j : {6, 7}) out(j, i) = r.uniform(-2, 2);
-    if (!p.free_timing) {
+    if (!p.free_timing()) {
       out(8, i) = r.uniform(0, 2 * pi);
       continue;
     }
@@ -123,7 +123,7 @@ TEST(SliderPathObjective, MeetsWhatMeasureSays) {
             double steepest = 1;
             for (const double angle : design.angles)
               steepest =
-                  std::min(steepest, std::cos(slider_crank_pose(design.mechanism, angle).pressure_angle));
+                  std::min(steepest, std::cos(slider_crank_pose(design.linkage, angle).pressure_angle));
             const double scale = c.front ? 4 : 1;
             EXPECT_NEAR(cost[each * i], scale * design.error, 1e-12 * (1 + design.error) / steepest) << what;
             if (c.front && !std::isnan(design.stroke)) {

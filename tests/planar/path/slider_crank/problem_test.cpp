@@ -64,7 +64,7 @@ TEST(SliderPathProblem, PublishedDesignsHaveTheComputedErrorsAndStrokes) {
 TEST(SliderPathProblem, StoredBestDesignsEvaluateToTheirStoredErrors) {
   SliderPathProblem p = printed_eighteen_slider_points();
   for (const char* id : {"SC18-timed-global-optimum", "SC18-free-timing"}) {
-    p.free_timing = id == std::string_view("SC18-free-timing");
+    p.timing = id == std::string_view("SC18-free-timing") ? Timing::free : Timing::increments;
     const Value& design = at(path_case(id), "computed.designs").as_array()[0];
     const SliderPathDesign d = measure(p, slider_crank(design), 1, numbers(at(design, "theta2_rad")));
     EXPECT_NEAR(d.error, number_at(design, "sse_m2"), 1e-8 * d.error + 1e-12) << id;
@@ -109,13 +109,13 @@ TEST(SliderPathProblem, TheOtherSideIsTheGuideTurnedByHalfATurn) {
     const SliderCrankMechanism forward = forward_form(m);
     EXPECT_EQ(forward.branch, SliderSide::forward);
     EXPECT_EQ(forward.parameters.offset, -m.parameters.offset);
-    EXPECT_TRUE(same_mechanism(m, forward));
+    EXPECT_TRUE(same_linkage(m, forward));
     const double angle = r.uniform(0, 7);
     EXPECT_NEAR(std::abs(slider_crank_pose(m, angle).point - slider_crank_pose(forward, angle).point), 0,
                 1e-13);
     SliderCrankMechanism other = forward;
     other.parameters.offset += 0.01;
-    EXPECT_FALSE(same_mechanism(m, other));
+    EXPECT_FALSE(same_linkage(m, other));
   }
 }
 
@@ -143,7 +143,7 @@ TEST(SliderPathProblem, TheCognateTracesTheSameCurve) {
     if (pose.status != Status::done) continue;
     const SliderCrankMechanism back =
         slider_crank_cognate(slider_crank_cognate(m, 0.3), pose.rod_angle + arm);
-    EXPECT_TRUE(same_mechanism(back, m));
+    EXPECT_TRUE(same_linkage(back, m));
   }
   EXPECT_GT(compared, 1000);
   SliderCrankMechanism none = random_mechanism(r, true);
@@ -195,7 +195,7 @@ TEST(SliderPathProblem, TellsWhatIsViolated) {
 
 TEST(SliderPathProblem, OrderOfFreeTiming) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   const SliderCrankMechanism m = slider_crank(at(path_case("T4.2"), "inputs.design"));
   auto angles = angles_of(p, 0);
   EXPECT_THAT(measure(p, m, 1, angles).violations, IsEmpty());
@@ -206,7 +206,7 @@ TEST(SliderPathProblem, OrderOfFreeTiming) {
 
 TEST(SliderPathProblem, CandidatesAreUnwrapped) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   std::vector<double> x = {0.3, 0.6, 0.4, 1, 0.5, 0.1, 0, 0};
   for (std::size_t k = 0; k < 18; ++k) x.push_back(std::fmod(5 + 0.3 * static_cast<double>(k), 2 * pi));
   const SliderPathDesign d = slider_path_design(p, SliderSide::forward, 1, x);
@@ -230,13 +230,13 @@ TEST(SliderPathProblem, RefusesWhatIsNoProblem) {
     return std::string("none");
   };
   EXPECT_THAT(refused([](auto& p) { p.x.resize(2), p.y.resize(2); }), HasSubstr("at least 3 points"));
-  EXPECT_THAT(refused([](auto& p) { p.offsets.pop_back(); }), HasSubstr("17 angles for 18 points"));
+  EXPECT_THAT(refused([](auto& p) { p.angles.pop_back(); }), HasSubstr("17 angles for 18 points"));
   EXPECT_THAT(refused([](auto& p) { p.bounds[1] = {0, 0}; }), HasSubstr("bounds of rod are 0 to 0"));
   EXPECT_THAT(refused([](auto& p) { p.max_pressure_angle = 2; }), HasSubstr("greatest pressure angle"));
   EXPECT_THAT(refused([](auto& p) { p.stroke = {2, 1}; }), HasSubstr("stroke is limited to 2 to 1"));
   EXPECT_THAT(refused([](auto& p) { p.crank_rotates_fully = false, p.stroke.upper = 1; }),
               HasSubstr("the crank need not rotate fully"));
-  EXPECT_EQ(refused([](auto& p) { p.free_timing = true, p.offsets.clear(); }), "none");
+  EXPECT_EQ(refused([](auto& p) { p.timing = Timing::free, p.angles.clear(); }), "none");
 }
 
 }  // namespace

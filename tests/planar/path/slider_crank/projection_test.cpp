@@ -40,7 +40,7 @@ SliderPathProblem projection_problem(const ProjectionCase& c) {
   p.bounds = derive_slider_bounds(p.x, p.y);
   p.crank_rotates_fully = p.closed = c.turning;
   if (!c.turning)
-    for (double& offset : p.offsets) offset *= 0.2;
+    for (double& offset : p.angles) offset *= 0.2;
   if (c.limited_angle) p.max_pressure_angle = 0.7;
   if (c.pivot_fixed) p.bounds[index(SP::pivot_x)] = {0.3, 0.3}, p.bounds[index(SP::pivot_y)] = {-0.2, -0.2};
   if (c.guide_fixed) p.bounds[index(SP::guide_angle)] = {0.6, 0.6};
@@ -80,15 +80,15 @@ TEST(SliderPathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
       with_random_unknowns(20, [](const ProjectionCase& c, const SliderPathProblem& p,
                                   SliderPathProjection& projection, const auto& q, const auto& r) {
         const SliderPathDesign design = projection.design(p, q);
-        const SliderCrankForm& f = design.mechanism.parameters;
+        const SliderCrankForm& f = design.linkage.parameters;
         const double projected = test::sum_of_squares(r);
         double steepest = 1;
         for (const double angle : design.angles)
-          steepest = std::min(steepest, std::cos(slider_crank_pose(design.mechanism, angle).pressure_angle));
+          steepest = std::min(steepest, std::cos(slider_crank_pose(design.linkage, angle).pressure_angle));
         if (steepest < 0.02) return;
         const double size = f.crank + std::hypot(f.rod_u, f.rod_v);
         EXPECT_NEAR(design.error, projected, 1e-12 * projected * (1 + size * size) / steepest);
-        EXPECT_EQ(design.mechanism.branch, c.side);
+        EXPECT_EQ(design.linkage.branch, c.side);
         if (c.turning) {
           EXPECT_GE(rotation_margin(f), -1e-14 * (f.crank + f.rod));
           EXPECT_LE((f.crank + std::abs(f.offset)) / f.rod, std::sin(p.max_pressure_angle) * (1 + 1e-12));
@@ -99,7 +99,7 @@ TEST(SliderPathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
           EXPECT_EQ(f.guide_angle, 0.6);
         }
         if (c.start_fixed) {
-          EXPECT_EQ(design.angles[0], 0.9 + c.sense * p.offsets[0]);
+          EXPECT_EQ(design.angles[0], 0.9 + c.sense * p.angles[0]);
         }
         if (c.pivot_fixed) {
           EXPECT_EQ(f.pivot_x, 0.3);
@@ -114,7 +114,7 @@ TEST(SliderPathProjection, LinearUnknownsAreOptimal) {
   with_random_unknowns(3, [&](const ProjectionCase& c, const SliderPathProblem& p,
                               SliderPathProjection& projection, const auto& q, const auto&) {
     const SliderPathDesign best = projection.design(p, q);
-    const SliderCrankForm f = best.mechanism.parameters;
+    const SliderCrankForm f = best.linkage.parameters;
     for (const double delta : {-1e-3, 1e-3}) {
       std::vector<SliderCrankForm> others(6, f);
       others[0].rod_u += delta;
@@ -126,7 +126,7 @@ TEST(SliderPathProjection, LinearUnknownsAreOptimal) {
         others[4].*length *= 1 + delta;
       for (std::size_t i = 0; i < 5; ++i) {
         if ((i == 2 || i == 3) && c.pivot_fixed) continue;
-        SliderCrankMechanism m = best.mechanism;
+        SliderCrankMechanism m = best.linkage;
         m.parameters = others[i];
         const SliderPathDesign other = measure(p, m, c.sense, best.angles);
         if (i == 4 && !other.violations.empty()) {
@@ -147,7 +147,7 @@ TEST(SliderPathProjection, GradientAgreesWithDifferences) {
     const std::size_t n = projection.variables(), m = projection.residuals();
     const SliderPathDesign design = projection.design(p, q);
     for (const double angle : design.angles)
-      if (slider_crank_pose(design.mechanism, angle).pressure_angle > 1.4) return;
+      if (slider_crank_pose(design.linkage, angle).pressure_angle > 1.4) return;
     std::vector<double> jacobian(n * m), gradient(n), difference(n);
     ASSERT_TRUE(projection.evaluate(q, r, jacobian));
     const double f = test::sum_of_squares(r);
@@ -208,7 +208,7 @@ TEST(SliderPathProjection, BoundsOfTheLengthsAreKept) {
       ++none;
       continue;
     }
-    const SliderCrankForm f = projection.recover(q).mechanism.parameters;
+    const SliderCrankForm f = projection.recover(q).linkage.parameters;
     const double slack = 1e-14;
     EXPECT_TRUE(f.crank >= 0.1 - slack && f.crank <= 0.3 + slack);
     EXPECT_TRUE(f.rod >= 0.4 - slack && f.rod <= 0.9 + slack);
@@ -224,10 +224,10 @@ TEST(SliderPathProjection, UnknownsOfADesignGiveTheDesign) {
                              SliderPathProjection& projection, const auto& q, const auto&) {
     const SliderPathDesign design = projection.design(p, q);
     const auto again =
-        projection.unknowns(design.mechanism.parameters, design.angles[0] - design.sense * p.offsets[0]);
+        projection.unknowns(design.linkage.parameters, design.angles[0] - design.sense * p.angles[0]);
     const SliderPathDesign back = projection.design(p, again);
     if (!(design.error < 1e3)) return;
-    EXPECT_TRUE(same_mechanism(back.mechanism, design.mechanism));
+    EXPECT_TRUE(same_linkage(back.linkage, design.linkage));
   });
 }
 
@@ -245,11 +245,11 @@ TEST(SliderPathProjection, AppliesWhenTheUnknownsAreFree) {
   for (SP j : {SP::crank, SP::guide_angle, SP::start_angle}) EXPECT_TRUE(with({j}, fixed)) << name(j);
   EXPECT_TRUE(with({SP::pivot_x, SP::pivot_y}, fixed));
   EXPECT_FALSE(with({SP::guide_angle}, {0, 1}));
-  p.free_timing = true;
+  p.timing = Timing::free;
   EXPECT_FALSE(SliderPathProjection::applies(p));
   EXPECT_THAT([&] { SliderPathProjection(p, SliderSide::forward, 1); },
               ThrowsMessage<ContractError>(HasSubstr("the unknowns of this problem are not free")));
-  p.free_timing = false;
+  p.timing = Timing::increments;
   SliderPathProjection projection(p, SliderSide::forward, 1);
   EXPECT_THAT(
       [&] {

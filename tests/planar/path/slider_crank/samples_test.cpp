@@ -15,14 +15,14 @@ TEST(SliderCrankSamples, AreThoseOfTheReference) {
   ASSERT_EQ(designs.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     const Value& entry = test::path_case(ids[i]);
-    const SliderCrankForm& f = designs[i].mechanism.parameters;
+    const SliderCrankForm& f = designs[i].linkage.parameters;
     EXPECT_EQ(f.crank, test::number_at(entry, "inputs.design.L2_m"));
     EXPECT_EQ(f.offset, -test::number_at(entry, "inputs.design.H_m"));
     EXPECT_EQ(designs[i].published_error, test::number_at(entry, "published.sse_m2"));
     EXPECT_EQ(designs[i].published_stroke, test::number_at(entry, "published.stroke_m"));
     std::vector<double> angles;
-    for (const double offset : p.offsets) angles.push_back(designs[i].start_angle + offset);
-    EXPECT_NEAR(measure(p, designs[i].mechanism, 1, angles).error, test::number_at(entry, "computed.sse_m2"),
+    for (const double offset : p.angles) angles.push_back(designs[i].start_angle + offset);
+    EXPECT_NEAR(measure(p, designs[i].linkage, 1, angles).error, test::number_at(entry, "computed.sse_m2"),
                 1e-10);
   }
 }

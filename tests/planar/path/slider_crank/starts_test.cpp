@@ -13,7 +13,7 @@ using namespace linkwright::planar::test;
 
 SliderPathProblem free_points(bool closed, bool turning) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   p.closed = closed;
   p.crank_rotates_fully = turning;
   return p;
@@ -31,7 +31,7 @@ TEST(SliderPathMatcher, StartsAreInOrderAndLieNearThePath) {
             RandomStream stream({.seed = seed});
             const auto start = matcher.best_of(48, stream);
             ASSERT_TRUE(start);
-            const SliderPathDesign d = measure(p, start->mechanism, sense, start->angles);
+            const SliderPathDesign d = measure(p, start->linkage, sense, start->angles);
             ASSERT_TRUE(std::isfinite(d.error));
             for (const auto& violation : d.violations) {
               EXPECT_NE(violation.reason, "order");
@@ -53,7 +53,7 @@ TEST(SliderPathMatcher, TheSameStreamGivesTheSameStart) {
   const auto first = matcher.best_of(20, b), second = again.best_of(20, c);
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->angles, second->angles);
-  EXPECT_EQ(first->mechanism.parameters.rod, second->mechanism.parameters.rod);
+  EXPECT_EQ(first->linkage.parameters.rod, second->linkage.parameters.rod);
 }
 
 }  // namespace

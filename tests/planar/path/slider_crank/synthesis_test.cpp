@@ -16,7 +16,7 @@ using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-using P = SliderParameter;
+using S = SliderParameter;
 
 SliderPathSynthesis solve(const SliderPathProblem& p, std::uint64_t seed = 1, int starts = 0) {
   RunContext context;
@@ -39,7 +39,7 @@ TEST(SliderPathSynthesis, FindsTheTimedOptimumFromEverySeed) {
 
 TEST(SliderPathSynthesis, FindsTheFreeTimingOptimum) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const SliderPathSynthesis answer = solve(p, seed);
@@ -57,7 +57,7 @@ TEST(SliderPathSynthesis, AShortStrokeOfFreeTimingIsKeptTo) {
     SliderPathProblem p = printed_eighteen_slider_points();
     p.stroke = {0, stroke};
     const double timed = solve(p).designs[0].error;
-    p.free_timing = true;
+    p.timing = Timing::free;
     for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
     double worst = 0;
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -106,7 +106,7 @@ TEST(SliderPathSynthesis, TheFrontIsThatOfTheReference) {
 
 TEST(SliderPathSynthesis, AFrontOfFreeTiming) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.free_timing = true;
+  p.timing = Timing::free;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   RunContext context;
   const std::vector<double> strokes = {1.0, 0.7, 0.5, 0.3, 0.2};
@@ -135,32 +135,33 @@ TEST(SliderPathSynthesis, GivenAnglesAndFixedPivotAndGuide) {
                       .rod_u = 0.5,
                       .rod_v = 0.3};
   SliderPathProblem p;
+  p.timing = Timing::increments;
   for (int k = 0; k < 9; ++k) {
-    p.offsets.push_back(0.3 + 0.55 * k + 0.05 * std::sin(3.0 * k));
-    const auto point = slider_crank_pose(known, p.offsets.back()).point;
+    p.angles.push_back(0.3 + 0.55 * k + 0.05 * std::sin(3.0 * k));
+    const auto point = slider_crank_pose(known, p.angles.back()).point;
     p.x.push_back(point.real());
     p.y.push_back(point.imag());
   }
   p.bounds = derive_slider_bounds(p.x, p.y);
-  p.bounds[index(P::start_angle)] = {0, 0};
+  p.bounds[index(S::start_angle)] = {0, 0};
   for (const bool guide : {false, true})
     for (const bool pivot : {false, true})
       for (const bool crank : {false, true}) {
         SliderPathProblem q = p;
-        if (guide) q.bounds[index(P::guide_angle)] = {0.7, 0.7};
-        if (pivot) q.bounds[index(P::pivot_x)] = {0.3, 0.3}, q.bounds[index(P::pivot_y)] = {-0.1, -0.1};
-        if (crank) q.bounds[index(P::crank)] = {0.4, 0.4};
+        if (guide) q.bounds[index(S::guide_angle)] = {0.7, 0.7};
+        if (pivot) q.bounds[index(S::pivot_x)] = {0.3, 0.3}, q.bounds[index(S::pivot_y)] = {-0.1, -0.1};
+        if (crank) q.bounds[index(S::crank)] = {0.4, 0.4};
         const SliderPathSynthesis answer = solve(q);
         ASSERT_EQ(answer.status, Status::done);
         EXPECT_LE(answer.designs[0].error, 1e-10);
-        EXPECT_TRUE(same_mechanism(answer.designs[0].mechanism, known)) << guide << pivot << crank;
+        EXPECT_TRUE(same_linkage(answer.designs[0].linkage, known)) << guide << pivot << crank;
       }
   // What the separable form does not see is put back by the full one.
-  p.bounds[index(P::rod)] = {1.1, 1.1};
-  p.bounds[index(P::guide_angle)] = {0, 1};
+  p.bounds[index(S::rod)] = {1.1, 1.1};
+  p.bounds[index(S::guide_angle)] = {0, 1};
   const SliderPathSynthesis answer = solve(p);
   ASSERT_EQ(answer.status, Status::done);
-  EXPECT_NEAR(answer.designs[0].mechanism.parameters.rod, 1.1, 1e-8);
+  EXPECT_NEAR(answer.designs[0].linkage.parameters.rod, 1.1, 1e-8);
   EXPECT_LE(answer.designs[0].error, 1e-9);
 }
 
@@ -176,10 +177,11 @@ TEST(SliderPathSynthesis, BothSensesAreSearchedWhenAsked) {
 
 TEST(SliderPathSynthesis, AnArcNeedsNoFullTurn) {
   SliderPathProblem p;
+  p.timing = Timing::increments;
   for (int k = 0; k < 8; ++k) {
     p.x.push_back(0.1 * k);
     p.y.push_back(0.3);
-    p.offsets.push_back(0.1 * k);
+    p.angles.push_back(0.1 * k);
   }
   p.closed = p.crank_rotates_fully = false;
   p.max_pressure_angle = math::radians(40);
@@ -193,7 +195,7 @@ TEST(SliderPathSynthesis, AnArcNeedsNoFullTurn) {
 TEST(SliderPathSynthesis, EqualSeedsGiveEqualBits) {
   for (const bool free : {false, true}) {
     SliderPathProblem p = printed_eighteen_slider_points();
-    p.free_timing = free;
+    p.timing = free ? Timing::free : Timing::increments;
     const SliderPathSynthesis a = solve(p, 3, 6), b = solve(p, 3, 6), c = solve(p, 4, 6);
     ASSERT_EQ(a.designs.size(), b.designs.size());
     for (std::size_t i = 0; i < a.designs.size(); ++i) EXPECT_EQ(a.designs[i].angles, b.designs[i].angles);
@@ -209,7 +211,7 @@ TEST(SliderPathSynthesis, StopsWhenToldTo) {
   never.cancel();
   EXPECT_EQ(synthesise_slider_path(p, {}, never).status, Status::cancelled);
   EXPECT_EQ(synthesise_slider_front(p, std::vector<double>{0.5}, {}, never).status, Status::cancelled);
-  p.free_timing = true;
+  p.timing = Timing::free;
   RunContext context;
   context.set_progress([&](const Progress&) { context.cancel(); });
   const SliderPathSynthesis answer = synthesise_slider_path(p, {.starts = 100000}, context);
@@ -219,11 +221,11 @@ TEST(SliderPathSynthesis, StopsWhenToldTo) {
 
 TEST(SliderPathSynthesis, TellsWhenNothingMeetsTheLimits) {
   SliderPathProblem p = printed_eighteen_slider_points();
-  p.bounds[index(P::pivot_x)] = p.bounds[index(P::pivot_y)] = {40, 50};
-  p.bounds[index(P::point_distance)] = {0, 1};
-  p.bounds[index(P::crank)] = {1e-3, 1};
-  p.bounds[index(P::rod)] = {1e-3, 0.5};
-  p.bounds[index(P::offset)] = {0.6, 1};
+  p.bounds[index(S::pivot_x)] = p.bounds[index(S::pivot_y)] = {40, 50};
+  p.bounds[index(S::point_distance)] = {0, 1};
+  p.bounds[index(S::crank)] = {1e-3, 1};
+  p.bounds[index(S::rod)] = {1e-3, 0.5};
+  p.bounds[index(S::offset)] = {0.6, 1};
   const SliderPathSynthesis answer = solve(p);
   EXPECT_EQ(answer.status, Status::infeasible);
 }

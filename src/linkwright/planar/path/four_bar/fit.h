@@ -5,23 +5,11 @@
 #include <vector>
 
 #include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/local_fit.h"
 
 namespace linkwright::planar {
 
-struct PathFitOptions {
-  int iterations = 60;      ///< Levenberg-Marquardt steps tried in one pass
-  int passes = 1;           ///< updates of the multipliers; 1 = constraints as soft penalties only
-  double decrease = 1e-12;  ///< a pass ends when a step lowers the merit by less than this share
-  double penalty = 10;      ///< weight of squared constraint violations (dimensionless) in the first pass
-};
-
-struct PathFit {
-  FourBar linkage;
-  std::vector<double> angles;  ///< crank angle at each point
-  double error = 0;            ///< sum of squared distances (m2)
-  double violation = 0;        ///< largest constraint violation, dimensionless
-  std::int64_t evaluations = 0;
-};
+using PathFit = PathFitOf<FourBar>;
 
 /// Local search in all unknowns of a path problem, on the branch of the start: link lengths, tracing point,
 /// pivot, frame angle, and the start angle (equal steps) or every crank angle (free timing).

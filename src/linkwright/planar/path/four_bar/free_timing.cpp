@@ -16,6 +16,7 @@
 #include "linkwright/planar/path/four_bar/assignment.h"
 #include "linkwright/planar/path/four_bar/fit.h"
 #include "linkwright/planar/path/four_bar/starts.h"
+#include "linkwright/planar/path/search.h"
 
 namespace linkwright::planar {
 namespace {
@@ -60,12 +61,8 @@ PathProblem thinned(const PathProblem& p, std::size_t count) {
   return out;
 }
 
-struct TimedCandidate {
-  FourBar linkage;
-  double sense = 1;
-  std::vector<double> angles;
-  double merit = infinity;  // mean squared miss as a share of the squared size, with soft violations
-};
+// Merit: mean squared miss as a share of the squared size, with soft violations.
+using TimedCandidate = PathCandidate<FourBar>;
 
 bool alike(const TimedCandidate& a, const TimedCandidate& b) {
   if (a.sense != b.sense || a.linkage.branch != b.linkage.branch) return false;
@@ -75,31 +72,19 @@ bool alike(const TimedCandidate& a, const TimedCandidate& b) {
          near(a.linkage.coupler, b.linkage.coupler) && near(a.linkage.rocker, b.linkage.rocker);
 }
 
-class TimingSearch {
+class TimingSearch : PathSearch<FourBarPath> {
  public:
   TimingSearch(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
-      : problem_(problem), options_(options), context_(context), coarse_(thinned(problem, coarse_points)) {}
+      : PathSearch(problem, options, context), coarse_(thinned(problem, coarse_points)) {}
 
   PathSynthesis run() {
-    starts();
+    start();
     finish();
     return std::move(out_);
   }
 
  private:
-  bool stopped() {
-    if (out_.status == Status::done) out_.status = context_.interruption();
-    return out_.status != Status::done;
-  }
-  int count() const { return options_.starts > 0 ? options_.starts : usual_starts; }
-  double best_so_far() const { return out_.history.empty() ? infinity : out_.history.back().best; }
-  void note(double feasible_error) {
-    if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
-  }
-  void tell(double fraction) {
-    if (options_.progress)
-      context_.report({.stage = "recommended", .fraction = std::min(1.0, fraction), .best = best_so_far()});
-  }
+  int count() const { return starts(usual_starts); }
 
   TimedCandidate fitted(PathFitter& fitter, const PathProblem& problem, const FourBar& start,
                         const std::vector<double>& angles, double sense, const PathFitOptions& how) {
@@ -115,39 +100,33 @@ class TimingSearch {
     return c;
   }
 
-  void starts() {
+  void start() {
     std::vector<RatioKind> kinds = {RatioKind::crank_rocker, RatioKind::double_crank};
     if (!problem_.crank_rotates_fully) kinds = {RatioKind::any};
-    const int senses = problem_.search_positive + problem_.search_negative;
-    const int branches = problem_.search_open + problem_.search_crossed;
-    const int all = count() * senses * branches * static_cast<int>(kinds.size());
+    const auto all_searches = crank_searches(problem_);
+    const int all = count() * static_cast<int>(all_searches.size() * kinds.size());
     std::uint32_t combination = 0;
     int told = 0;
-    for (double sense : {1.0, -1.0}) {
-      if (!(sense > 0 ? problem_.search_positive : problem_.search_negative)) continue;
+    for (const auto& [branch, sense] : all_searches) {
       PathFitter fitter(coarse_, sense);
-      for (Branch branch : {Branch::open, Branch::crossed}) {
-        if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
-        PathMatcher matcher(coarse_, branch, sense);
-        for (RatioKind kind : kinds) {
-          std::vector<TimedCandidate> found;
-          for (int start = 0; start < count() && !stopped(); ++start) {
-            RandomStream stream(
-                {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
-            const auto match = matcher.best_of(linkages_per_start, kind, stream);
-            if (match) {
-              TimedCandidate c = fitted(fitter, coarse_, match->linkage, match->angles, sense, start_search);
-              if (std::isfinite(c.merit)) found.push_back(std::move(c));
-            }
-            tell(0.7 * ++told / all);
+      PathMatcher matcher(coarse_, branch, sense);
+      for (RatioKind kind : kinds) {
+        std::vector<TimedCandidate> found;
+        for (int start = 0; start < count() && !stopped(); ++start) {
+          RandomStream random = stream(combination, start);
+          const auto match = matcher.best_of(linkages_per_start, kind, random);
+          if (match) {
+            TimedCandidate c = fitted(fitter, coarse_, match->linkage, match->angles, sense, start_search);
+            if (std::isfinite(c.merit)) found.push_back(std::move(c));
           }
-          for (TimedCandidate& start : distinct(std::move(found), continued)) {
-            if (stopped() && !found_.empty()) break;
-            TimedCandidate c = fitted(fitter, coarse_, start.linkage, start.angles, sense, continued_search);
-            found_.push_back(std::isfinite(c.merit) ? std::move(c) : std::move(start));
-          }
-          ++combination;
+          tell(0.7 * ++told / all);
         }
+        for (TimedCandidate& start : distinct(std::move(found), continued)) {
+          if (stopped() && !found_.empty()) break;
+          TimedCandidate c = fitted(fitter, coarse_, start.linkage, start.angles, sense, continued_search);
+          found_.push_back(std::isfinite(c.merit) ? std::move(c) : std::move(start));
+        }
+        ++combination;
       }
     }
   }
@@ -228,11 +207,9 @@ class TimingSearch {
       if (++(c.sense > 0 ? forth : back) > chains) continue;
       ++chain;
       for (int hop = 0; hop < hops && !stopped(); ++hop) {
-        RandomStream stream({.seed = options_.seed,
-                             .run = first_chain + chain,
-                             .individual = static_cast<std::uint32_t>(hop)});
-        const double share = 0.02 * std::exp(stream.uniform(0, 3.5));
-        const auto start = hop_from(c, share, stream);
+        RandomStream random = stream(first_chain + chain, hop);
+        const double share = 0.02 * std::exp(random.uniform(0, 3.5));
+        const auto start = hop_from(c, share, random);
         if (!start) continue;
         TimedCandidate other =
             fitted(coarse(c.sense), coarse_, start->linkage, start->angles, c.sense, hop_search);
@@ -264,12 +241,8 @@ class TimingSearch {
     }
   }
 
-  const PathProblem& problem_;
-  const PathSynthesisOptions& options_;
-  RunContext& context_;
   const PathProblem coarse_;
   std::vector<TimedCandidate> found_;
-  PathSynthesis out_;
 };
 
 // A problem and those with more limits, each searched by itself in the same way, and each going on from the
@@ -330,12 +303,12 @@ class LadderOfLimits {
 PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesisOptions& options,
                                  RunContext& context) {
   require_valid(problem);
-  LINKWRIGHT_REQUIRE(problem.timing == Timing::free, "the timing is {}", name_of(problem.timing));
+  LINKWRIGHT_REQUIRE(problem.free_timing(), "the timing is {}", name_of(problem.timing));
   return LadderOfLimits(problem, options, context).run();
 }
 
 PathDesign polish_free_timing(const PathProblem& problem, PathDesign design, std::int64_t& evaluations) {
-  LINKWRIGHT_REQUIRE(problem.timing == Timing::free, "the timing is {}", name_of(problem.timing));
+  LINKWRIGHT_REQUIRE(problem.free_timing(), "the timing is {}", name_of(problem.timing));
   PathFitter fitter(problem, design.sense);
   const auto better = [](const PathDesign& a, const PathDesign& b) {
     const double va = total_violation(a), vb = total_violation(b);

@@ -41,6 +41,20 @@ std::array<double, 3> link_ratios(RatioKind kind, std::span<const double> q) {
   return {a1, a2, a3};
 }
 
+std::vector<double> random_ratios(RatioKind kind, std::size_t variables, RandomStream& stream) {
+  std::vector<double> q(variables);
+  do {
+    const double width = kind == RatioKind::any ? 1.5 : 3;
+    for (std::size_t i = 0; i < 3; ++i) q[i] = stream.uniform(-width, width);
+  } while (kind == RatioKind::double_crank && std::exp(q[1]) + std::exp(q[2]) >= 2);
+  if (variables > 3) q[3] = stream.uniform(0, 2 * pi);
+  return q;
+}
+
+std::vector<double> PathProjection::random(RandomStream& stream) const {
+  return random_ratios(kind_, variables(), stream);
+}
+
 bool PathProjection::applies(const PathProblem& p) {
   const auto fixed = [&](FourBarParameter j) { return p.bounds[index(j)].fixed(); };
   using P = FourBarParameter;

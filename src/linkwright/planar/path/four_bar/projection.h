@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/core/random.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {
@@ -15,6 +16,10 @@ enum class RatioKind { crank_rocker, double_crank, any };
 /// Link ratios r1, r3, r4 = L1/L2, L3/L2, L4/L2 of a kind at q (three logarithms), see PathProjection; not
 /// all positive when q is no linkage.
 std::array<double, 3> link_ratios(RatioKind kind, std::span<const double> q);
+
+/// Random q = logarithms (and start angle) of PathProjection for a kind: slacks uniform in the logarithm over
+/// [-3, 3], ratios (kind any) over [-1.5, 1.5]; a double-crank has a ground link of positive length.
+std::vector<double> random_ratios(RatioKind kind, std::size_t variables, RandomStream& stream);
 
 /// A path problem with prescribed or relative timing in separable form. For given link ratios r_j = L_j / L2
 /// and crank angles, the coupler point C_k = p + a u_k + b v_k is linear in the complex numbers p (pivot), a
@@ -35,6 +40,9 @@ class PathProjection {
 
   std::size_t variables() const { return start_is_variable_ ? 4 : 3; }
   std::size_t residuals() const { return 2 * x_.size(); }
+
+  /// Random unknowns, see random_ratios.
+  std::vector<double> random(RandomStream& stream) const;
 
   /// Residuals of the best linear unknowns (m) and, unless empty, their Jacobian after Kaufman 1975
   /// (column-major), whose product with the residuals is the exact gradient. False when the ratios are no

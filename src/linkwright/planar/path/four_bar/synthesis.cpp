@@ -2,61 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/core/random.h"
-#include "linkwright/core/tolerance.h"
-#include "linkwright/math/least_squares.h"
 #include "linkwright/planar/four_bar/cognates.h"
 #include "linkwright/planar/path/four_bar/fit.h"
 #include "linkwright/planar/path/four_bar/free_timing.h"
 #include "linkwright/planar/path/four_bar/projection.h"
-#include "linkwright/planar/path/four_bar/starts.h"
 #include "linkwright/planar/path/four_bar/usability.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/search.h"
 
 namespace linkwright::planar {
 namespace {
 
 // Local searches per kind, branch and sense when the options leave it open; free timing has its own.
 constexpr int separable_starts = 20;
-constexpr int tries_per_separable_start = 6;  // random ratios of which the best starts a search
 constexpr std::size_t finished_starts =
     24;  // of the searched ones, how many get their constraints met exactly
 
-struct Candidate {
-  FourBar linkage;
-  double sense = 1;
-  std::vector<double> angles;
-  double merit = 0;  // error (m2), with soft constraint violations
-};
-
-bool better_design(const PathDesign& a, const PathDesign& b) {
-  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
-}
-
-// Adds a design, or takes it in the place of the same linkage where it is better.
-void keep_distinct(std::vector<PathDesign>& designs, PathDesign design) {
-  for (PathDesign& other : designs) {
-    if (other.sense != design.sense || !same_linkage(other.linkage, design.linkage)) continue;
-    if (better_design(design, other)) other = std::move(design);
-    return;
-  }
-  designs.push_back(std::move(design));
-}
-
-class Search {
+class Search : PathSearch<FourBarPath> {
  public:
   Search(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
-      : problem_(problem),
-        options_(options),
-        context_(context),
-        relaxed_(problem.timing == Timing::free ? problem : relax(problem)) {}
+      : PathSearch(problem, options, context), relaxed_(problem.free_timing() ? problem : relax(problem)) {}
 
   PathSynthesis run() {
-    if (problem_.timing == Timing::free) {
+    if (problem_.free_timing()) {
       PathSynthesis found = search_free_timing(problem_, options_, context_);
       std::vector<PathDesign> designs;
       std::swap(designs, found.designs);
@@ -67,18 +41,18 @@ class Search {
     std::vector<RatioKind> kinds = {RatioKind::crank_rocker, RatioKind::double_crank};
     if (!problem_.crank_rotates_fully) kinds = {RatioKind::any};
     std::uint32_t combination = 0;
-    for (double sense : {1.0, -1.0}) {
-      if (!(sense > 0 ? problem_.search_positive : problem_.search_negative)) continue;
-      for (Branch branch : {Branch::open, Branch::crossed}) {
-        if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
-        // With prescribed timing the cognate on the other branch has the same error, so one branch is enough,
-        // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
-        if (branch == Branch::crossed && problem_.search_open && lowest_feasible() <= lowest_failed_)
-          continue;
-        for (RatioKind kind : kinds) {
-          if (stopped()) return finish();
-          search_separable(kind, branch, sense, combination++);
-        }
+    for (const auto& [branch, sense] : crank_searches(problem_)) {
+      // With prescribed timing the cognate on the other branch has the same error, so one branch is enough,
+      // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
+      if (branch == Branch::crossed && problem_.search_open && lowest_feasible() <= lowest_failed_) continue;
+      for (RatioKind kind : kinds) {
+        if (stopped()) return finish();
+        SeparableSearch search(PathProjection(relaxed_, kind, branch, sense), path_size(problem_));
+        finish_candidates<PathFitter>(
+            separable(std::move(search), sense, combination++, starts(separable_starts)), finished_starts,
+            sense, [&](const PathFit& fit, double turning) {
+              return measure(problem_, fit.linkage, turning, fit.angles);
+            });
       }
     }
     return finish();
@@ -98,107 +72,11 @@ class Search {
     return p;
   }
 
-  bool stopped() {
-    if (out_.status == Status::done) out_.status = context_.interruption();
-    return out_.status != Status::done;
-  }
-
-  bool any_feasible() const {
-    return std::any_of(out_.designs.begin(), out_.designs.end(),
-                       [](const PathDesign& d) { return d.violations.empty(); });
-  }
-
   double lowest_feasible() const {
     double lowest = infinity;
     for (const PathDesign& d : out_.designs)
       if (d.violations.empty()) lowest = std::min(lowest, d.error);
     return lowest;
-  }
-
-  int starts(int usual) const { return options_.starts > 0 ? options_.starts : usual; }
-
-  double best_so_far() const { return out_.history.empty() ? infinity : out_.history.back().best; }
-
-  void tell(double fraction) {
-    if (options_.progress)
-      context_.report({.stage = "recommended", .fraction = fraction, .best = best_so_far()});
-  }
-
-  void note(double feasible_error) {
-    if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
-  }
-
-  void keep(PathDesign design) { keep_distinct(out_.designs, std::move(design)); }
-
-  void search_separable(RatioKind kind, Branch branch, double sense, std::uint32_t combination) {
-    PathProjection projection(relaxed_, kind, branch, sense);
-    const std::size_t n = projection.variables(), m = projection.residuals();
-    math::LeastSquaresWorkspace workspace;
-    math::LeastSquaresOptions local;
-    local.step_clip = 2;
-    local.damping = math::Damping::identity;
-    const double size = path_size(problem_);
-    local.decrease_tolerance = 1e-13;
-    std::vector<double> residual(m);
-    // In units of the path, or the damping would act differently on small and on large ones.
-    const auto function = [&](std::span<const double> q, std::span<double> r, std::span<double> jacobian) {
-      if (!projection.evaluate(q, r, jacobian)) return false;
-      for (double& value : r) value /= size;
-      for (double& value : jacobian) value /= size;
-      return true;
-    };
-    std::vector<Candidate> found;
-    const int count = starts(separable_starts);
-    for (int start = 0; start < count && !stopped(); ++start) {
-      RandomStream stream(
-          {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
-      std::vector<double> best;
-      double lowest = infinity;
-      for (int attempt = 0; attempt < tries_per_separable_start; ++attempt) {
-        std::vector<double> q = random_ratios(kind, n, stream);
-        ++out_.evaluations;
-        if (!projection.evaluate(q, residual, {})) continue;
-        double sum = 0;
-        for (double r : residual) sum += r * r;
-        if (sum < lowest) lowest = sum, best = std::move(q);
-      }
-      if (best.empty()) continue;
-      out_.evaluations += math::minimise_least_squares(function, m, best, local, workspace).evaluations;
-      const PathDesign design = projection.design(problem_, best);
-      if (design.violations.empty()) note(design.error);
-      found.push_back({design.linkage, sense, design.angles, design.error});
-      tell(static_cast<double>(start + 1) / count);
-    }
-    finish_candidates(std::move(found), sense);
-  }
-
-  // Distinct candidates, best first: those that meet everything are taken as they are, the others go through
-  // the constrained search.
-  void finish_candidates(std::vector<Candidate> found, double sense) {
-    std::sort(found.begin(), found.end(),
-              [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
-    PathFitter fitter(problem_, sense);
-    std::vector<FourBar> taken;
-    for (const Candidate& candidate : found) {
-      if (taken.size() >= finished_starts) break;
-      if (std::any_of(taken.begin(), taken.end(),
-                      [&](const FourBar& l) { return same_linkage(l, candidate.linkage); }))
-        continue;
-      taken.push_back(candidate.linkage);
-      PathDesign design = measure(problem_, candidate.linkage, sense, candidate.angles);
-      if (design.violations.empty() && !has_bands(problem_)) {
-        keep(std::move(design));
-        continue;
-      }
-      if (!design.violations.empty()) lowest_failed_ = std::min(lowest_failed_, candidate.merit);
-      if (stopped() && !out_.designs.empty()) break;
-      const PathFit fit = fitter.fit(candidate.linkage, candidate.angles, {.iterations = 200, .passes = 30});
-      out_.evaluations += fit.evaluations;
-      if (!std::isfinite(fit.error)) continue;
-      design = measure(problem_, fit.linkage, sense, fit.angles);
-      if (design.violations.empty()) note(design.error);
-      keep(std::move(design));
-    }
   }
 
   // The cognates with the same timing are answers as good; they may meet limits that the original does not.
@@ -216,19 +94,10 @@ class Search {
 
   PathSynthesis finish() {
     add_cognates();
-    rank(out_.designs);
-    if (any_feasible())
-      std::erase_if(out_.designs, [](const PathDesign& d) { return !d.violations.empty(); });
-    if (out_.status == Status::done && !any_feasible()) out_.status = Status::infeasible;
-    return std::move(out_);
+    return PathSearch::finish();
   }
 
-  const PathProblem& problem_;
-  const PathSynthesisOptions& options_;
-  RunContext& context_;
   const PathProblem relaxed_;
-  double lowest_failed_ = infinity;  // error of a candidate beyond some limit
-  PathSynthesis out_;
 };
 
 // Whether the best design, or the best one whose crank turns fully, has no drawbacks: then no search under
@@ -250,7 +119,7 @@ bool improve_usable(const PathProblem& problem, PathSynthesis& answer) {
   const auto found = std::find_if(answer.designs.begin(), answer.designs.end(), [&](const PathDesign& d) {
     return d.violations.empty() && drawbacks(problem, d).empty();
   });
-  if (problem.timing != Timing::free || found == answer.designs.end()) return false;
+  if (!problem.free_timing() || found == answer.designs.end()) return false;
   const PathProblem usable = usable_problem(problem);
   const PathDesign on = polish_free_timing(
       usable, measure(usable, found->linkage, found->sense, found->angles), answer.evaluations);
@@ -273,7 +142,7 @@ void add_usable(const PathProblem& problem, const PathSynthesisOptions& options,
   for (const PathDesign& found : more.designs) {
     if (!found.violations.empty()) break;
     PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
-    if (problem.timing == Timing::free && carried_on++ < carried_beyond_limits) {
+    if (problem.free_timing() && carried_on++ < carried_beyond_limits) {
       // One limit after the other: so the search with the full turn alone is part of the one without it.
       PathProblem turning = problem;
       turning.crank_rotates_fully = true;

@@ -37,10 +37,10 @@ SliderPathFitter::SliderPathFitter(const SliderPathProblem& problem, double sens
       sense_(sense),
       size_(path_size(problem)),
       stroke_(problem.stroke),
-      equations_(regular_terms(size_), problem.x.size(), problem.free_timing) {
+      equations_(regular_terms(size_), problem.x.size(), problem.free_timing()) {
   require_valid(problem);
   for (std::size_t j = 0; j < count; ++j) {
-    variable_[j] = !problem.bounds[j].fixed() && !(P(j) == P::start_angle && problem.free_timing);
+    variable_[j] = !problem.bounds[j].fixed() && !(P(j) == P::start_angle && problem.free_timing());
     lower_[j] = problem.bounds[j].lower;
     upper_[j] = problem.bounds[j].upper;
     // An angle that may take any direction has no bounds.
@@ -59,7 +59,7 @@ SliderPathFitter::SliderPathFitter(const SliderPathProblem& problem, double sens
 
 double SliderPathFitter::crank_angle(const Shared& q, const std::vector<double>& angles,
                                      std::size_t k) const {
-  return problem_.free_timing ? angles[k] : q[index(P::start_angle)] + sense_ * problem_.offsets[k];
+  return problem_.free_timing() ? angles[k] : q[index(P::start_angle)] + sense_ * problem_.angles[k];
 }
 
 void SliderPathFitter::add_constraint(std::size_t row, double value, const Shared& gradient, bool derivatives,
@@ -112,9 +112,9 @@ void SliderPathFitter::limit_rod(const Shared& q, const std::vector<double>& ang
       by[index(P::rod)] = -side * value / rod;
       by[index(P::offset)] = side / rod;
       by[index(P::guide_angle)] = -side * by_phase;
-      by[index(P::start_angle)] = problem_.free_timing ? 0 : side * by_phase;
+      by[index(P::start_angle)] = problem_.free_timing() ? 0 : side * by_phase;
       add_constraint(row++, side * value - sine, by, derivatives, merit, e.point,
-                     problem_.free_timing ? side * by_phase : 0);
+                     problem_.free_timing() ? side * by_phase : 0);
     }
   }
 }
@@ -191,7 +191,7 @@ bool SliderPathFitter::evaluate(const Shared& q, const std::vector<double>& angl
     by[index(P::offset)] = turned / rod;
     by[index(P::pivot_x)] = 1;
     by[index(P::pivot_y)] = i;
-    by[index(P::start_angle)] = problem_.free_timing ? 0 : by_phase;
+    by[index(P::start_angle)] = problem_.free_timing() ? 0 : by_phase;
     Shared x_by{}, y_by{};
     const auto missed_by = [&](const Complex& moved) {
       return Complex(w * (miss.xx * moved.real() + miss.xy * moved.imag()),
@@ -201,14 +201,14 @@ bool SliderPathFitter::evaluate(const Shared& q, const std::vector<double>& angl
       const Complex column = missed_by(by[j]);
       x_by[j] = column.real(), y_by[j] = column.imag();
     }
-    const Complex own = problem_.free_timing ? missed_by(by_phase) : 0;
+    const Complex own = problem_.free_timing() ? missed_by(by_phase) : 0;
     equations_.add_point(k, off.real(), off.imag(), x_by, y_by, own.real(), own.imag());
   }
   error_ = sum * size_ * size_;
   merit = 0.5 * sum;
   limit_rod(q, angles, derivatives, merit);
   limit_way(q, derivatives, merit);
-  if (problem_.free_timing) keep_order(angles, derivatives, merit);
+  if (problem_.free_timing()) keep_order(angles, derivatives, merit);
   return std::isfinite(merit);
 }
 
@@ -232,11 +232,11 @@ double SliderPathFitter::descend(const PathFitOptions& options) {
     };
     for (const P j : {P::crank, P::rod}) limit(step[index(j)], longest_change * q_[index(j)]);
     for (const P j : {P::point_angle, P::guide_angle, P::start_angle}) limit(step[index(j)], longest_turn);
-    if (problem_.free_timing)
+    if (problem_.free_timing())
       for (const double turn : equations_.angle_step()) limit(turn, longest_turn);
     for (std::size_t j = 0; j < count; ++j)
       trial_q_[j] = variable_[j] ? std::clamp(q_[j] + shrink * step[j], lower_[j], upper_[j]) : q_[j];
-    if (problem_.free_timing)
+    if (problem_.free_timing())
       for (std::size_t k = 0; k < angles_.size(); ++k)
         trial_angles_[k] = angles_[k] + shrink * equations_.angle_step()[k];
     double trial = infinity;
@@ -271,13 +271,13 @@ SliderPathFit SliderPathFitter::fit(const SliderCrankMechanism& start, const std
         f.offset,
         f.pivot_x,
         f.pivot_y,
-        problem_.free_timing ? 0 : angles[0] - sense_ * problem_.offsets[0]};
+        problem_.free_timing() ? 0 : angles[0] - sense_ * problem_.angles[0]};
   for (std::size_t j = 0; j < count; ++j) {
     if (is_angle(P(j)) && std::isfinite(lower_[j]) && variable_[j])
       q_[j] -= 2 * pi * std::floor((q_[j] - lower_[j]) / (2 * pi));
     if (variable_[j])
       q_[j] = std::clamp(q_[j], lower_[j], upper_[j]);
-    else if (!(P(j) == P::start_angle && problem_.free_timing))
+    else if (!(P(j) == P::start_angle && problem_.free_timing()))
       q_[j] = problem_.bounds[j].lower;
   }
   angles_ = angles;
@@ -292,17 +292,17 @@ SliderPathFit SliderPathFitter::fit(const SliderCrankMechanism& start, const std
       });
   out.error = std::isfinite(out.violation) ? error_ : infinity;
   const Complex point = std::polar(1.0, q_[index(P::point_angle)]) * q_[index(P::point_distance)];
-  out.mechanism.branch = start.branch;
-  out.mechanism.parameters = {.crank = q_[index(P::crank)],
-                              .rod = q_[index(P::rod)],
-                              .offset = q_[index(P::offset)],
-                              .guide_angle = q_[index(P::guide_angle)],
-                              .pivot_x = q_[index(P::pivot_x)],
-                              .pivot_y = q_[index(P::pivot_y)],
-                              .rod_u = point.real(),
-                              .rod_v = point.imag()};
+  out.linkage.branch = start.branch;
+  out.linkage.parameters = {.crank = q_[index(P::crank)],
+                            .rod = q_[index(P::rod)],
+                            .offset = q_[index(P::offset)],
+                            .guide_angle = q_[index(P::guide_angle)],
+                            .pivot_x = q_[index(P::pivot_x)],
+                            .pivot_y = q_[index(P::pivot_y)],
+                            .rod_u = point.real(),
+                            .rod_v = point.imag()};
   out.angles = angles_;
-  if (!problem_.free_timing)
+  if (!problem_.free_timing())
     for (std::size_t k = 0; k < angles_.size(); ++k) out.angles[k] = crank_angle(q_, angles_, k);
   out.evaluations = evaluations_;
   return out;

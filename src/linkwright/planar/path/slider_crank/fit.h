@@ -5,18 +5,12 @@
 #include <vector>
 
 #include "linkwright/planar/path/arrow.h"
-#include "linkwright/planar/path/four_bar/fit.h"
+#include "linkwright/planar/path/local_fit.h"
 #include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 
-struct SliderPathFit {
-  SliderCrankMechanism mechanism;
-  std::vector<double> angles;  ///< crank angle at each point
-  double error = 0;            ///< sum of squared distances (m2); infinite when the start does not assemble
-  double violation = 0;        ///< largest constraint violation, dimensionless
-  std::int64_t evaluations = 0;
-};
+using SliderPathFit = PathFitOf<SliderCrankMechanism>;
 
 /// Local search in all unknowns of a path problem of the slider-crank, on the side of the start: the nine
 /// parameters, with free timing eight and every crank angle. Levenberg-Marquardt with the exact Jacobian;

@@ -13,7 +13,7 @@ SliderPathObjective slider_path_objective(const SliderPathProblem& problem, Slid
   LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
   SliderPathObjective o{lay_out(problem)};
   o.points = problem.x.size();
-  o.free_timing = problem.free_timing;
+  o.free_timing = problem.free_timing();
   o.closed = problem.closed;
   o.side = sign(side);
   o.sense = sense;
@@ -25,7 +25,7 @@ SliderPathObjective slider_path_objective(const SliderPathProblem& problem, Slid
   if (!o.free_timing) {
     o.least_offset = infinity;
     o.greatest_offset = -o.least_offset;
-    for (const double forward : problem.offsets) {
+    for (const double forward : problem.angles) {
       const double offset = sense * forward;
       o.least_offset = std::min(o.least_offset, offset);
       o.greatest_offset = std::max(o.greatest_offset, offset);

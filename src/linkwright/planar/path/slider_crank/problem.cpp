@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -18,12 +17,6 @@ namespace {
 using Complex = std::complex<double>;
 using P = SliderParameter;
 
-bool is_link(std::size_t j) { return j == index(P::crank) || j == index(P::rod); }
-
-void add_violation(SliderPathDesign& design, const char* reason, double amount) {
-  if (amount > tolerance::feasibility || std::isnan(amount)) design.violations.push_back({reason, amount});
-}
-
 }  // namespace
 
 std::string_view name(SliderParameter parameter) {
@@ -33,18 +26,11 @@ std::string_view name(SliderParameter parameter) {
 }
 
 void require_valid(const SliderPathProblem& p) {
-  require_valid_targets(p);
-  if (!p.free_timing) {
-    LINKWRIGHT_REQUIRE(p.offsets.size() == p.x.size(), "{} angles for {} points", p.offsets.size(),
-                       p.x.size());
-    for (std::size_t k = 0; k < p.offsets.size(); ++k)
-      LINKWRIGHT_REQUIRE(std::isfinite(p.offsets[k]), "angle {} is {}", k + 1, p.offsets[k]);
-  }
-  for (std::size_t j = 0; j < slider_parameter_count; ++j)
-    LINKWRIGHT_REQUIRE(std::isfinite(p.bounds[j].lower) && std::isfinite(p.bounds[j].upper) &&
-                           p.bounds[j].lower <= p.bounds[j].upper && (!is_link(j) || p.bounds[j].upper > 0) &&
-                           (j != index(P::point_distance) || p.bounds[j].upper >= 0),
-                       "bounds of {} are {} to {}", name(P(j)), p.bounds[j].lower, p.bounds[j].upper);
+  require_valid_bounds(p);
+  LINKWRIGHT_REQUIRE(p.timing != Timing::given, "given crank angles are increments from a start angle of 0");
+  const Range& distance = p.bounds[index(P::point_distance)];
+  LINKWRIGHT_REQUIRE(distance.upper >= 0, "bounds of point_distance are {} to {}", distance.lower,
+                     distance.upper);
   LINKWRIGHT_REQUIRE(p.max_pressure_angle > 0 && p.max_pressure_angle <= pi / 2,
                      "the greatest pressure angle must be more than 0 and at most pi/2, got {}",
                      p.max_pressure_angle);
@@ -56,20 +42,8 @@ void require_valid(const SliderPathProblem& p) {
 
 std::array<Range, slider_parameter_count> derive_slider_bounds(const std::vector<double>& x,
                                                                const std::vector<double>& y) {
-  const auto [x0, x1] = std::minmax_element(x.begin(), x.end());
-  const auto [y0, y1] = std::minmax_element(y.begin(), y.end());
-  const double size = std::hypot(*x1 - *x0, *y1 - *y0), far = 50 * size;
-  const double mx = 0.5 * (*x0 + *x1), my = 0.5 * (*y0 + *y1);
-  const Range link{1e-3 * size, far}, turn{0, 2 * pi};
-  return {link,
-          link,
-          Range{0, far},
-          turn,
-          turn,
-          Range{-far, far},
-          Range{mx - far, mx + far},
-          Range{my - far, my + far},
-          turn};
+  const auto [link, place, pivot_x, pivot_y, turn] = derive_ranges(x, y);
+  return {link, link, Range{0, place.upper}, turn, turn, place, pivot_x, pivot_y, turn};
 }
 
 SliderCrankPose slider_crank_pose(const SliderCrankMechanism& m, double crank_angle) {
@@ -126,11 +100,27 @@ double greatest_pressure_sine(const SliderCrankForm& f, double low, double high)
   return greatest;
 }
 
-std::array<double, slider_parameter_count> parameter_values(const SliderPathProblem& problem,
-                                                            const SliderPathDesign& d) {
-  const SliderCrankForm& f = d.mechanism.parameters;
-  // The start angle of the design, whole turns and offsets of the problem taken away.
-  const double start = problem.free_timing ? 0 : d.angles[0] - d.sense * problem.offsets[0];
+SliderCrankMechanism SliderCrankPath::linkage(SliderSide side, std::span<const double> x) {
+  // A link of length zero is allowed by the published bounds; it is no linkage, so it becomes the smallest.
+  const auto value = [&](P j) { return x[index(j)]; };
+  const Complex point = std::polar(1.0, value(P::point_angle)) * value(P::point_distance);
+  return {.branch = side,
+          .parameters = {.crank = std::max(value(P::crank), shortest_link),
+                         .rod = std::max(value(P::rod), shortest_link),
+                         .offset = value(P::offset),
+                         .guide_angle = value(P::guide_angle),
+                         .pivot_x = value(P::pivot_x),
+                         .pivot_y = value(P::pivot_y),
+                         .rod_u = point.real(),
+                         .rod_v = point.imag()},
+          .masses = {}};
+}
+
+std::array<double, slider_parameter_count> SliderCrankPath::values(const SliderPathProblem& problem,
+                                                                   const SliderPathDesign& d) {
+  const SliderCrankForm& f = d.linkage.parameters;
+  // The start angle of the design, whole turns and increments of the problem taken away.
+  const double start = problem.free_timing() ? 0 : d.angles[0] - d.sense * point_angle(problem, 0);
   return {f.crank,
           f.rod,
           std::hypot(f.rod_u, f.rod_v),
@@ -142,30 +132,42 @@ std::array<double, slider_parameter_count> parameter_values(const SliderPathProb
           start};
 }
 
-SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMechanism& mechanism,
-                         double sense, std::vector<double> angles) {
-  require_valid(problem);
-  LINKWRIGHT_REQUIRE(angles.size() == problem.x.size(), "{} angles for {} points", angles.size(),
-                     problem.x.size());
-  const SliderCrankForm& f = mechanism.parameters;
-  SliderPathDesign d;
-  d.mechanism = mechanism;
-  d.sense = sense;
-  d.angles = std::move(angles);
-  d.stroke = stroke(f);
-  const double total = f.crank + f.rod + std::abs(f.offset);
+TracedPoint SliderCrankPath::trace(const SliderCrankMechanism& mechanism, double crank_angle) {
+  const SliderCrankPose pose = slider_crank_pose(mechanism, crank_angle);
+  return {pose.status, pose.gap, pose.point};
+}
 
-  double gap = 0;
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
-    const SliderCrankPose pose = slider_crank_pose(mechanism, d.angles[k]);
-    gap = std::max(gap, pose.gap);
-    const TargetMiss miss = target_miss(problem, k, pose.point.real(), pose.point.imag());
-    const double square = miss.x * miss.x + miss.y * miss.y;
-    d.error += std::isnan(square) ? infinity : square;
-  }
-  // Whatever the tolerance of the other constraints: an error that does not exist is never feasible.
-  if (!std::isfinite(d.error)) d.violations.push_back({"no_assembly", gap > 0 ? gap / total : 1});
-  if (problem.crank_rotates_fully) add_violation(d, "crank_rotates_fully", -rotation_margin(f) / total);
+CrankTurn SliderCrankPath::turn(const SliderCrankMechanism& mechanism) {
+  const SliderCrankForm& f = mechanism.parameters;
+  return {rotation_margin(f), f.crank + f.rod + std::abs(f.offset)};
+}
+
+std::optional<CrankInterval> SliderCrankPath::reach(const SliderCrankMechanism& mechanism,
+                                                    double crank_angle) {
+  if (turn(mechanism).full()) return CrankInterval{crank_angle, crank_angle + 2 * pi};
+  const SliderCrankForm& f = mechanism.parameters;
+  // offset - rod <= crank sin(phase) <= offset + rod, and so the phase lies around pi/2 or 3 pi/2 or between.
+  const double low = (f.offset - f.rod) / f.crank, high = (f.offset + f.rod) / f.crank;
+  const double phase = math::wrap_angle(crank_angle - f.guide_angle), s = std::sin(phase);
+  if (s < low - tolerance::feasibility || s > high + tolerance::feasibility) return std::nullopt;
+  const double right = std::asin(std::clamp(low, -1.0, 1.0)), left = std::asin(std::clamp(high, -1.0, 1.0));
+  double from, to;
+  if (low <= -1)
+    from = pi - left, to = 2 * pi + left;
+  else if (high >= 1)
+    from = right, to = pi - right;
+  else if (std::cos(phase) >= 0)
+    from = right, to = left;
+  else
+    from = pi - left, to = pi - right;
+  const double middle = 0.5 * (from + to);
+  const double turns = 2 * pi * std::round((phase - middle) / (2 * pi)) + crank_angle - phase;
+  return CrankInterval{from + turns, to + turns};
+}
+
+void SliderCrankPath::add_limits(const SliderPathProblem& problem, SliderPathDesign& d) {
+  const SliderCrankForm& f = d.linkage.parameters;
+  d.stroke = stroke(f);
   if (problem.max_pressure_angle < pi / 2) {
     double sine = (f.crank + std::abs(f.offset)) / f.rod;
     if (!problem.crank_rotates_fully) {
@@ -178,32 +180,12 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
     const double outside = std::max(d.stroke - problem.stroke.upper, problem.stroke.lower - d.stroke);
     add_violation(d, "stroke", std::isnan(d.stroke) ? 1 : outside / path_size(problem));
   }
-  if (problem.free_timing) add_violation(d, "order", out_of_order(d.angles, sense));
-
-  const auto values = parameter_values(problem, d);
-  double out_of_bounds = 0;
-  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
-    if (problem.free_timing && P(j) == P::start_angle) continue;
-    if (P(j) == P::point_angle && values[index(P::point_distance)] == 0) continue;
-    const Range& range = problem.bounds[j];
-    double value = is_angle(P(j)) ? math::into_range(values[j], range.lower, range.upper) : values[j];
-    // A fixed angle is met from both sides.
-    if (is_angle(P(j)) && range.fixed()) value = range.lower + math::wrap_angle(values[j] - range.lower);
-    const double width = range.fixed() ? std::max(1.0, std::abs(range.lower)) : range.upper - range.lower;
-    out_of_bounds = std::max({out_of_bounds, (range.lower - value) / width, (value - range.upper) / width});
-    const double near = tolerance::active_bound * width;
-    if (!range.fixed() && !(is_angle(P(j)) && width >= 2 * pi * (1 - 1e-9)) &&
-        (value <= range.lower + near || value >= range.upper - near))
-      d.active_bounds.emplace_back(name(P(j)));
-  }
-  add_violation(d, "bounds", out_of_bounds);
-  return d;
+  if (problem.free_timing()) add_violation(d, "order", out_of_order(d.angles, d.sense));
 }
 
-double total_violation(const SliderPathDesign& design) {
-  double sum = 0;
-  for (const auto& violation : design.violations) sum += violation.amount;
-  return sum;
+SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMechanism& mechanism,
+                         double sense, std::vector<double> angles) {
+  return measure_path(problem, mechanism, sense, std::move(angles));
 }
 
 SliderCrankMechanism forward_form(SliderCrankMechanism m) {
@@ -214,7 +196,7 @@ SliderCrankMechanism forward_form(SliderCrankMechanism m) {
   return m;
 }
 
-bool same_mechanism(const SliderCrankMechanism& first, const SliderCrankMechanism& second) {
+bool same_linkage(const SliderCrankMechanism& first, const SliderCrankMechanism& second) {
   const SliderCrankForm a = forward_form(first).parameters, b = forward_form(second).parameters;
   const double size = std::max(a.crank + a.rod, b.crank + b.rod);
   const double turn = math::wrap_angle(a.guide_angle - b.guide_angle);
@@ -225,11 +207,7 @@ bool same_mechanism(const SliderCrankMechanism& first, const SliderCrankMechanis
                      [&](double d) { return std::abs(d) <= tolerance::same_design * size; });
 }
 
-void rank(std::vector<SliderPathDesign>& designs) {
-  std::stable_sort(designs.begin(), designs.end(), [](const SliderPathDesign& a, const SliderPathDesign& b) {
-    return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
-  });
-}
+void rank(std::vector<SliderPathDesign>& designs) { rank_by_error(designs); }
 
 SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& m, double crank_angle) {
   const SliderCrankForm& f = m.parameters;
@@ -254,87 +232,29 @@ SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& m, double 
   return out;
 }
 
-PathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design) {
-  std::vector<Complex> reached;
-  for (const double angle : design.angles)
-    reached.push_back(slider_crank_pose(design.mechanism, angle).point);
-  return path_errors(problem, reached);
-}
-
-namespace {
-
-optimise::Problem population_problem(const SliderPathProblem& problem, SliderSide side, double sense,
-                                     const SliderPathScales* scales) {
-  require_valid(problem);
-  optimise::Problem out;
-  const std::size_t count = slider_parameter_count - (problem.free_timing ? 1 : 0);
-  for (std::size_t j = 0; j < count; ++j)
-    out.variables.push_back({std::string(name(P(j))) + (is_angle(P(j)) ? "_rad" : "_m"),
-                             problem.bounds[j].lower, problem.bounds[j].upper});
-  if (problem.free_timing)
-    for (std::size_t k = 0; k < problem.x.size(); ++k)
-      out.variables.push_back({"crank_angle_" + std::to_string(k + 1) + "_rad", 0, 2 * pi});
-  SliderPathObjective laid_out = slider_path_objective(problem, side, sense);
-  if (scales) {
-    out.objectives = 2;
-    laid_out.with_stroke = true;
-    laid_out.scales = *scales;
-  }
-  const auto objective = std::make_shared<const SliderPathObjective>(std::move(laid_out));
-  out.evaluate = [objective](const optimise::PopulationView& candidates, std::span<double> cost,
-                             std::span<double> violation) {
-    evaluate(*objective, candidates, cost, violation);
-  };
-  out.explain = [problem, side, sense](std::span<const double> x) {
-    return slider_path_design(problem, side, sense, x).violations;
-  };
-  return out;
-}
-
-}  // namespace
-
 optimise::Problem slider_path_population_problem(const SliderPathProblem& problem, SliderSide side,
                                                  double sense) {
-  return population_problem(problem, side, sense, nullptr);
+  require_valid(problem);
+  return population_problem(problem, side, sense, slider_path_objective(problem, side, sense));
 }
 
 optimise::Problem slider_path_front_problem(const SliderPathProblem& problem, SliderSide side, double sense,
                                             const SliderPathScales& scales) {
+  require_valid(problem);
   LINKWRIGHT_REQUIRE(problem.crank_rotates_fully, "the stroke is that of a full turn");
   LINKWRIGHT_REQUIRE(scales.error > 0 && scales.stroke > 0, "scales are {} and {}", scales.error,
                      scales.stroke);
-  return population_problem(problem, side, sense, &scales);
+  SliderPathObjective objective = slider_path_objective(problem, side, sense);
+  objective.with_stroke = true;
+  objective.scales = scales;
+  optimise::Problem out = population_problem(problem, side, sense, std::move(objective));
+  out.objectives = 2;
+  return out;
 }
 
 SliderPathDesign slider_path_design(const SliderPathProblem& problem, SliderSide side, double sense,
                                     std::span<const double> x) {
-  const std::size_t points = problem.x.size(), first = index(P::start_angle);
-  const std::size_t expected = problem.free_timing ? first + points : slider_parameter_count;
-  LINKWRIGHT_REQUIRE(x.size() == expected, "{} values for {} variables", x.size(), expected);
-  // A link of length zero is allowed by the published bounds; it is no linkage, so it becomes the smallest.
-  const auto value = [&](P j) { return x[index(j)]; };
-  const Complex point = std::polar(1.0, value(P::point_angle)) * value(P::point_distance);
-  const SliderCrankMechanism mechanism{.branch = side,
-                                       .parameters = {.crank = std::max(value(P::crank), shortest_link),
-                                                      .rod = std::max(value(P::rod), shortest_link),
-                                                      .offset = value(P::offset),
-                                                      .guide_angle = value(P::guide_angle),
-                                                      .pivot_x = value(P::pivot_x),
-                                                      .pivot_y = value(P::pivot_y),
-                                                      .rod_u = point.real(),
-                                                      .rod_v = point.imag()},
-                                       .masses = {}};
-  std::vector<double> angles(points);
-  for (std::size_t k = 0; k < points; ++k) {
-    if (!problem.free_timing) {
-      angles[k] = x[first] + sense * problem.offsets[k];
-    } else {
-      // Unwrapped: each angle is the next one in the sense of rotation.
-      const double step = k == 0 ? 0 : sense * (x[first + k] - x[first + k - 1]);
-      angles[k] = k == 0 ? x[first] : angles[k - 1] + sense * (step - 2 * pi * std::floor(step / (2 * pi)));
-    }
-  }
-  return measure(problem, mechanism, sense, std::move(angles));
+  return design_of(problem, side, sense, x);
 }
 
 }  // namespace linkwright::planar

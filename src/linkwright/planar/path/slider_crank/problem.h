@@ -2,17 +2,15 @@
 
 #include <array>
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/core/status.h"
-#include "linkwright/optimise/problem.h"
 #include "linkwright/planar/linkage/slider_crank.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/mechanism.h"
 
 // Path synthesis of the slider-crank with an inclined, offset guide: Boskovic 2018, section 4.3.
 namespace linkwright::planar {
@@ -34,27 +32,25 @@ inline constexpr std::size_t slider_parameter_count = 9;
 constexpr std::size_t index(SliderParameter parameter) { return static_cast<std::size_t>(parameter); }
 /// Key without unit: "crank", ..., "start_angle".
 std::string_view name(SliderParameter parameter);
+constexpr bool is_link(SliderParameter p) { return p <= SliderParameter::rod; }
 constexpr bool is_angle(SliderParameter p) {
   return p == SliderParameter::point_angle || p == SliderParameter::guide_angle ||
          p == SliderParameter::start_angle;
 }
 
-/// A slider-crank is to trace points with a point of its rod.
-struct SliderPathProblem : PathTargets {
-  /// Each point is met at any crank angle, in the order of the points; else at start angle + sense offset.
-  bool free_timing = false;
-  std::vector<double> offsets;  ///< rad, one a point, not used by free timing
+struct SliderCrankPath;
 
-  /// Bounds (or fixed values) of the parameters. The crank angle is measured from the x axis; with given
-  /// crank angles the start angle is fixed at 0. Free timing does not use it.
+/// A slider-crank is to trace points with a point of its rod. Crank angles are measured from the x axis;
+/// given ones are increments from a start angle that is fixed at 0.
+struct SliderPathProblem : PathTask {
+  using Mechanism = SliderCrankPath;
+  /// Bounds (or fixed values) of the parameters. Free timing does not use the start angle.
   std::array<Range, slider_parameter_count> bounds{};
 
   bool search_forward = true,
        search_backward = false;  ///< sides of the slider; backward of guide direction delta and offset h is
                                  ///< forward of delta + pi and -h
-  bool search_positive = true, search_negative = false;  ///< senses of crank rotation along the points
 
-  bool crank_rotates_fully = true;
   /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank rotates
   /// fully, else over the arc from the first to the last crank angle.
   double max_pressure_angle = pi / 2;
@@ -62,13 +58,12 @@ struct SliderPathProblem : PathTargets {
   Range stroke{0, infinity};
 };
 
-/// Throws ContractError unless the targets are valid, with as many finite offsets when timing is prescribed,
-/// bounds that are ordered, finite and leave lengths positive, a pressure
-/// limit in (0, pi/2], and a stroke range that is ordered, not negative, and asked of a full turn only.
+/// Throws ContractError unless the task is valid and its timing not `given`, the bounds are ordered, finite
+/// and leave lengths positive, the pressure limit lies in (0, pi/2], and the stroke range is ordered, not
+/// negative, and asked of a full turn only.
 void require_valid(const SliderPathProblem& problem);
 
-/// Bounds that follow from the path, as for the four-bar: links from 1/1000 to 50 times the size of the path,
-/// point, offset and pivot up to 50 times the size away, angles over a full turn.
+/// Bounds that follow from the path when the study gives none: see derive_ranges.
 std::array<Range, slider_parameter_count> derive_slider_bounds(const std::vector<double>& x,
                                                                const std::vector<double>& y);
 
@@ -97,16 +92,36 @@ double greatest_pressure_angle(const SliderCrankForm& form);
 double greatest_pressure_sine(const SliderCrankForm& form, double low, double high);
 
 /// A design with what it achieves.
-struct SliderPathDesign {
-  SliderCrankMechanism mechanism;
-  double sense = 1;            ///< +1 or -1: sense of crank rotation along the order of the points
-  std::vector<double> angles;  ///< crank angle at each target point (rad, from the x axis), unwrapped
-  double error = 0;   ///< sum of squared distances (m2), Boskovic 2018, Eqs. (4.13), (4.18), from gates where
-                      ///< targets are gates, and beyond the tolerances; infinite when the tracing point does
-                      ///< not exist at a target
+struct SliderPathDesign : TracedPath<SliderCrankMechanism> {
   double stroke = 0;  ///< m, see stroke()
-  std::vector<optimise::Violation> violations;  ///< of the constraints of the problem; empty = feasible
-  std::vector<std::string> active_bounds;       ///< names of parameters at a bound
+};
+
+/// The slider-crank as a path mechanism.
+struct SliderCrankPath {
+  using Problem = SliderPathProblem;
+  using Design = SliderPathDesign;
+  using Linkage = SliderCrankMechanism;
+  using Branch = SliderSide;
+  using Parameter = SliderParameter;
+  static constexpr MechanismWords words{"slider-crank",
+                                        {"the rod is ", " too short to reach the guide"},
+                                        "the rod is square to the guide",
+                                        "at which the rod does not reach the guide"};
+  static constexpr std::size_t kept_sense = 1;
+  static SliderCrankForm& form(SliderCrankMechanism& mechanism) { return mechanism.parameters; }
+  static SliderCrankMechanism linkage(SliderSide side, std::span<const double> x);
+  static std::array<double, slider_parameter_count> values(const SliderPathProblem& problem,
+                                                           const SliderPathDesign& design);
+  static bool matters(SliderParameter parameter, std::span<const double> values) {
+    return parameter != SliderParameter::point_angle || values[index(SliderParameter::point_distance)] != 0;
+  }
+  static TracedPoint trace(const SliderCrankMechanism& mechanism, double crank_angle);
+  static CrankTurn turn(const SliderCrankMechanism& mechanism);
+  static std::optional<CrankInterval> reach(const SliderCrankMechanism& mechanism, double crank_angle);
+  static bool searches(const SliderPathProblem& problem, SliderSide side) {
+    return side == SliderSide::forward ? problem.search_forward : problem.search_backward;
+  }
+  static void add_limits(const SliderPathProblem& problem, SliderPathDesign& design);
 };
 
 /// Measures a mechanism against the problem: error, stroke, constraints by name (crank_rotates_fully,
@@ -114,15 +129,13 @@ struct SliderPathDesign {
 SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMechanism& mechanism,
                          double sense, std::vector<double> angles);
 
-double total_violation(const SliderPathDesign& design);
-
 /// The same mechanism with the slider ahead of the crank pin: a guide that is turned by half a turn has the
 /// opposite offset and the other mode.
 SliderCrankMechanism forward_form(SliderCrankMechanism mechanism);
 
 /// Whether two mechanisms are the same within tolerance::same_design of their size, whichever way their
 /// guides are given.
-bool same_mechanism(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
+bool same_linkage(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
 
 /// Best first, by the feasibility rules.
 void rank(std::vector<SliderPathDesign>& designs);
@@ -133,8 +146,6 @@ void rank(std::vector<SliderPathDesign>& designs);
 /// original's rod angle plus that of the point on the rod. The mode is the one at `crank_angle`. Throws
 /// ContractError when the tracing point is the crank pin, which leaves no cognate.
 SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& mechanism, double crank_angle);
-
-PathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design);
 
 /// What the two objectives are divided by when they stand side by side: squared size and size of the path.
 struct SliderPathScales {
@@ -152,10 +163,6 @@ optimise::Problem slider_path_front_problem(const SliderPathProblem& problem, Sl
 /// Turns a candidate of those problems into a design.
 SliderPathDesign slider_path_design(const SliderPathProblem& problem, SliderSide side, double sense,
                                     std::span<const double> x);
-
-/// Values of the parameters of a design, the start angle 0 when timing is free.
-std::array<double, slider_parameter_count> parameter_values(const SliderPathProblem& problem,
-                                                            const SliderPathDesign& design);
 
 constexpr double sign(SliderSide side) { return side == SliderSide::forward ? 1 : -1; }
 

@@ -64,7 +64,7 @@ bool SliderPathProjection::applies(const SliderPathProblem& p) {
     const Range& r = p.bounds[index(j)];
     return r.fixed() || r.upper - r.lower >= 2 * pi * (1 - 1e-9);
   };
-  return !p.free_timing && !fixed(P::rod) && !fixed(P::offset) && !fixed(P::point_distance) &&
+  return !p.free_timing() && !fixed(P::rod) && !fixed(P::offset) && !fixed(P::point_distance) &&
          !fixed(P::point_angle) && fixed(P::pivot_x) == fixed(P::pivot_y) && whole(P::start_angle) &&
          whole(P::guide_angle);
 }
@@ -94,7 +94,7 @@ SliderPathProjection::SliderPathProjection(const SliderPathProblem& p, SliderSid
     pivot_ = {range(P::pivot_x).lower, range(P::pivot_y).lower};
     shift(x_.data(), y_.data(), n, pivot_);
   }
-  for (const double offset : p.offsets) {
+  for (const double offset : p.angles) {
     offset_x_.push_back(std::cos(sense * offset));
     offset_y_.push_back(std::sin(sense * offset));
   }
@@ -277,15 +277,15 @@ SliderPathProjection::Recovered SliderPathProjection::recover(std::span<const do
   double guide = guide_fixed_ ? guide_ : start_fixed_ ? start_ - phase_ : std::arg(a_);
   if (!guide_fixed_) guide -= 2 * pi * std::floor(guide / (2 * pi));
   const Complex point = b_ * std::polar(1.0, -guide);
-  out.mechanism.branch = side_ > 0 ? SliderSide::forward : SliderSide::backward;
-  out.mechanism.parameters = {.crank = crank,
-                              .rod = rho_ * crank,
-                              .offset = eta_ * crank,
-                              .guide_angle = guide,
-                              .pivot_x = p_.real(),
-                              .pivot_y = p_.imag(),
-                              .rod_u = point.real(),
-                              .rod_v = point.imag()};
+  out.linkage.branch = side_ > 0 ? SliderSide::forward : SliderSide::backward;
+  out.linkage.parameters = {.crank = crank,
+                            .rod = rho_ * crank,
+                            .offset = eta_ * crank,
+                            .guide_angle = guide,
+                            .pivot_x = p_.real(),
+                            .pivot_y = p_.imag(),
+                            .rod_u = point.real(),
+                            .rod_v = point.imag()};
   out.start = start_fixed_ ? start_ : phase_ + guide;
   if (!start_fixed_) out.start -= 2 * pi * std::floor(out.start / (2 * pi));
   return out;
@@ -294,8 +294,8 @@ SliderPathProjection::Recovered SliderPathProjection::recover(std::span<const do
 SliderPathDesign SliderPathProjection::design(const SliderPathProblem& problem, std::span<const double> q) {
   const Recovered found = recover(q);
   std::vector<double> angles;
-  for (const double offset : problem.offsets) angles.push_back(found.start + sense_ * offset);
-  return measure(problem, found.mechanism, sense_, std::move(angles));
+  for (const double offset : problem.angles) angles.push_back(found.start + sense_ * offset);
+  return measure(problem, found.linkage, sense_, std::move(angles));
 }
 
 std::vector<double> SliderPathProjection::unknowns(const SliderCrankForm& f, double start) const {

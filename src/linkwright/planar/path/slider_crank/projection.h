@@ -50,7 +50,7 @@ class SliderPathProjection {
 
   /// Mechanism at q, and its crank angle at the first point less the offset of that point.
   struct Recovered {
-    SliderCrankMechanism mechanism;
+    SliderCrankMechanism linkage;
     double start = 0;
   };
   /// Throws ContractError when q does not evaluate.

@@ -12,7 +12,8 @@ SliderPathProblem eighteen_slider_points() {
   SliderPathProblem p;
   p.x = points.x;
   p.y = points.y;
-  for (std::size_t k = 0; k < p.x.size(); ++k) p.offsets.push_back(points.step * static_cast<double>(k));
+  p.timing = Timing::increments;
+  for (std::size_t k = 0; k < p.x.size(); ++k) p.angles.push_back(points.step * static_cast<double>(k));
   const Range link{0, 50}, place{-50, 50}, turn{0, 2 * pi};
   p.bounds = {link, link, link, turn, turn, place, place, place, turn};
   return p;
@@ -25,14 +26,14 @@ std::vector<PublishedSliderCrank> published_slider_cranks() {
                          double stroke) {
     const std::complex<double> point = std::polar(distance, angle);
     PublishedSliderCrank out{label, {}, start, error, stroke};
-    out.mechanism.parameters = {.crank = crank,
-                                .rod = rod,
-                                .offset = -h,
-                                .guide_angle = guide,
-                                .pivot_x = x,
-                                .pivot_y = y,
-                                .rod_u = point.real(),
-                                .rod_v = point.imag()};
+    out.linkage.parameters = {.crank = crank,
+                              .rod = rod,
+                              .offset = -h,
+                              .guide_angle = guide,
+                              .pivot_x = x,
+                              .pivot_y = y,
+                              .rod_u = point.real(),
+                              .rod_v = point.imag()};
     return out;
   };
   return {design("Table 4.2", 0.32563, 0.50213, 0.36236, -1.14240, -1.42252, 0.15411, 0.55131, 0.73173,

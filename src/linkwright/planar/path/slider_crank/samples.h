@@ -10,7 +10,7 @@ namespace linkwright::planar {
 /// A slider-crank as Boskovic 2018 prints it, for the path it was made for.
 struct PublishedSliderCrank {
   std::string label;  ///< "Table 4.3, example 1"
-  SliderCrankMechanism mechanism;
+  SliderCrankMechanism linkage;
   double start_angle = 0;      ///< rad, crank angle at the first point
   double published_error = 0;  ///< m2, as printed
   double published_stroke =

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <complex>
 #include <optional>
 #include <vector>
 
@@ -10,12 +9,7 @@
 
 namespace linkwright::planar {
 
-/// A slider-crank to start a local search from.
-struct SliderPathStart {
-  SliderCrankMechanism mechanism;
-  std::vector<double> angles;  ///< crank angle at each point, in order
-  double mismatch = 0;         ///< sum of squared distances at the points that were compared (m2)
-};
+using SliderPathStart = PathStartOf<SliderCrankMechanism>;
 
 /// Starts for free timing: random slider-cranks whose curve is laid on the path by arc length and similarity.
 /// Holds the path in the form that the comparison needs, and its memory: one per thread.
@@ -28,8 +22,6 @@ class SliderPathMatcher {
   std::optional<SliderPathStart> best_of(int mechanisms, RandomStream& stream);
 
  private:
-  void sample_curve(double from, double to, double rho, double eta, std::complex<double> point);
-
   const SliderPathProblem& problem_;
   SliderSide side_;
   double sense_;

@@ -1,24 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/core/status.h"
-#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/answer.h"
 #include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {
 
-/// What one seed came to.
-struct SliderPathSynthesis {
-  Status status = Status::done;  ///< done, infeasible, deadline or cancelled
-  /// Distinct, best first, feasible ones before infeasible ones; of a front by falling stroke.
-  std::vector<SliderPathDesign> designs;
-  std::int64_t evaluations = 0;
-  std::vector<SearchPoint> history;  ///< one entry for each better feasible design; none of a front
-};
+using SliderPathSynthesis = PathAnswer<SliderCrankPath>;
 
 /// The recommended method for the path alone. Prescribed timing: the linear unknowns are eliminated, full
 /// rotation and pressure angle hold by construction, stroke and lengths by the exact clip of the projection,

@@ -1,4 +1,4 @@
-#include "linkwright/planar/path/slider_crank_checkpoint.h"
+#include "linkwright/planar/path/checkpoint.h"
 
 #include <gmock/gmock.h>
 
@@ -6,6 +6,7 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/planar/path/slider_crank/synthesis.h"
 #include "planar/slider_crank_path_cases.h"
 
 namespace linkwright::planar {

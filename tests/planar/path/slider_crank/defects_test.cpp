@@ -1,4 +1,4 @@
-#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/path/defects.h"
 
 #include <gmock/gmock.h>
 
@@ -26,7 +26,7 @@ TEST(SliderPathDefects, TheCrankReachesWhatAWalkReaches) {
                     .offset = r.uniform(-1, 1),
                     .guide_angle = r.uniform(-4, 4)};
     const double angle = r.uniform(-9, 9);
-    const auto interval = crank_interval(m.parameters, angle);
+    const auto interval = SliderCrankPath::reach(m, angle);
     if (slider_crank_pose(m, angle).status == Status::no_assembly) {
       EXPECT_FALSE(interval);
       ++none;
@@ -61,7 +61,7 @@ TEST(SliderPathDefects, TellsAssemblyCircuitAndOrder) {
   EXPECT_EQ(apart[0].kind, DefectKind::assembly);
   EXPECT_THAT(apart[0].text, HasSubstr("too short to reach the guide"));
 
-  p.free_timing = true;
+  p.timing = Timing::free;
   p.crank_rotates_fully = p.closed = false;
   auto angles = angles_of(p, 0.53607);
   std::swap(angles[3], angles[4]);
@@ -73,7 +73,7 @@ TEST(SliderPathDefects, TellsAssemblyCircuitAndOrder) {
   SliderPathProblem three;
   three.x = {0, 1, 2}, three.y = {0, 1, 0};
   three.bounds = derive_slider_bounds(three.x, three.y);
-  three.free_timing = true;
+  three.timing = Timing::free;
   three.closed = three.crank_rotates_fully = false;
   SliderCrankMechanism rocking;
   rocking.parameters = {.crank = 1, .rod = 0.5};
