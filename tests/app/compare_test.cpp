@@ -62,7 +62,7 @@ TEST(Compare, FiguresStandSideBySideWithTheirDifference) {
   const study::Result result = compare(all);
   EXPECT_EQ(to_string(result.headline), "2 studies compared: 2 of 3 results differ.");
   std::vector<std::string> facts;
-  for (const study::Fact& fact : result.facts) facts.push_back(fact.label + "=" + to_string(fact.text));
+  for (const study::Fact& fact : result.facts) facts.push_back(to_string(fact.label + "=" + fact.text));
   EXPECT_THAT(facts,
               ElementsAre("1=short: done", "2=long: done", "length=400 mm | 500 mm (+25 %)", "type=lever"));
   const Table* figures = result.table("figures");

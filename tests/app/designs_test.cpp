@@ -306,11 +306,11 @@ TEST_P(DesignsOf, RunAsTheyAreAndAgree) {
   ASSERT_FALSE(found.solutions.empty());
   for (std::size_t i = 0; i < std::min(found.solutions.size(), study::most_designs); ++i) {
     const Solution& solution = found.solutions[i];
-    ASSERT_FALSE(solution.study.is_null()) << solution.label;
+    ASSERT_FALSE(solution.study.is_null()) << to_string(solution.label);
     const std::string text = study::design_toml(solution, i + 1, title_of(source), "linkwright");
     SCOPED_TRACE(text);
     const study::Study design = study_in(text);
-    EXPECT_EQ(design.common.title, source.common.title + ": " + solution.label);
+    EXPECT_EQ(design.common.title, source.common.title + ": " + to_string(solution.label));
     for (const Dimension dimension : {Dimension::length, Dimension::angle})
       if (source.common.units.chosen(dimension) && design.common.units.chosen(dimension)) {
         EXPECT_EQ(design.common.units.of(dimension).suffix, source.common.units.of(dimension).suffix);

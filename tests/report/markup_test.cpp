@@ -28,6 +28,22 @@ TEST(Markup, NumbersForPeople) {
   EXPECT_EQ(number(-infinity), "−∞");
 }
 
+TEST(Markup, LongFactsBeginWithTheirValue) {
+  const FactText brief =
+      fact_text(say("{} at {}", newton_metres(5.567), at_place("crank_angle", degrees_of(1))));
+  EXPECT_EQ(brief.value, "5.567\u202fN\u202fm at 57.3°");
+  EXPECT_EQ(brief.rest, "");
+  EXPECT_FALSE(brief.is_long);
+  const FactText area = fact_text(
+      say("{} x {}, proven free of singularities", millimetres(0.5).sharing_unit(), millimetres(0.2)));
+  EXPECT_EQ(area.value, "500 x 200\u202fmm");
+  EXPECT_EQ(area.rest, ", proven free of singularities");
+  EXPECT_TRUE(area.is_long);
+  const FactText order = fact_text("crank (driver) → coupler + rocker (RRR, plus)");
+  EXPECT_EQ(order.value, "crank (driver) → coupler + rocker (RRR, plus)");
+  EXPECT_TRUE(order.is_long);
+}
+
 TEST(Markup, ValuesForPeople) {
   Value value;
   value["type"] = "crank-rocker";

@@ -119,22 +119,22 @@ study::Result sample_result() {
     const char* label;
     Linkage linkage;
     const char* type;
-    Value defects;
+    std::vector<Sentence> defects;
   };
   // Boskovic 2018, Table 4.1, columns 6 and 5; the third does not rotate fully.
   const Named list[] = {
       {"crank-rocker, open",
        {1.10427, 0.4197, 0.98857, 0.5824, 0.40047, 0.44529, 0.28691, 0.09855, 0.33948, 0.84827},
        "crank-rocker",
-       Value::array()},
+       {}},
       {"crank-rocker, open (2)",
        {1.00429, 0.4218, 0.87821, 0.58013, 0.35907, 0.38081, 0.26886, 0.17715, 0.29294, 0.88595},
        "crank-rocker",
-       Value::array()},
+       {}},
       {"double rocker, open",
        {0.9, 0.62, 0.7, 0.6, 0.35, 0.38, 0.3, 0.2, 0.3, 1.5},
        "triple rocker",
-       Value(Value::Array{Value("circuit"), Value("crank does not rotate fully")})},
+       {"circuit", "crank does not rotate fully"}},
   };
   study::Result result;
   int number = 0;
@@ -190,7 +190,9 @@ study::Result sample_result() {
   result.headline =
       fmt::format("A crank-rocker follows the 18 points with a sum of squared distances of {:.6g} m²", best);
   result.facts = {{"path error (sum of squares)", fmt::format("{:.6g} m²", best), study::Fact::Verdict::good},
-                  {"largest distance", "40.1 mm at point 7; root mean square of all points 22.4 mm",
+                  {"largest distance",
+                   say("{} at point {}; root mean square of all points {}", millimetres(0.0401),
+                       at_place("point", plain_number(7)), millimetres(0.0224)),
                    study::Fact::Verdict::plain},
                   {"type", "crank-rocker, open", study::Fact::Verdict::plain},
                   {"smallest transmission angle", "22.9°", study::Fact::Verdict::bad},
@@ -506,11 +508,12 @@ std::string sample_json(const study::Result& result) {
   doc["solutions"] = Value::array();
   for (const auto& s : result.solutions) {
     Value v;
-    v["label"] = s.label;
+    v["label"] = to_string(s.label);
     for (const auto& p : s.parameters) v["parameters"][p.key] = p.value;
     v["objectives"] = s.objectives;
     v["classification"] = s.classification;
-    v["defects"] = s.defects;
+    v["defects"] = Value::array();
+    for (const Sentence& defect : s.defects) v["defects"].push_back(to_string(defect));
     doc["solutions"].push_back(v);
   }
   doc["statistics"] = result.statistics;

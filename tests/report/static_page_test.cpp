@@ -48,8 +48,8 @@ TEST(StaticPage, BannerCountsChecks) {
 TEST(StaticPage, FactsBeginWithTheirFigure) {
   EXPECT_THAT(
       page(test::sample_result()),
-      HasSubstr("<dt>largest distance</dt><dd>40.1 mm at point 7<small>; root mean square of all points "
-                "22.4 mm</small></dd>"));
+      HasSubstr("<dt>largest distance</dt><dd>40.1\u202fmm<small> at point 7; root mean square of all points "
+                "22.4\u202fmm</small></dd>"));
 }
 
 TEST(StaticPage, LongTablesAreThinnedAndSaySo) {

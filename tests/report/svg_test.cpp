@@ -249,8 +249,8 @@ TEST(Svg, AGapIsDashedAndSaysHowLongItIs) {
 TEST(Svg, HostileNamesStayText) {
   auto result = test::sample_result();
   auto& scene = result.scenes[0];
-  scene.title = scene.bodies[1].name = scene.joints[0].name = scene.traces[0].name = scene.targets[0].name =
-      test::hostile;
+  scene.title = test::hostile;
+  scene.bodies[1].name = scene.joints[0].name = scene.traces[0].name = scene.targets[0].name = test::hostile;
   const std::string picture = svg(scene);
   EXPECT_EQ(test::fault_of_xml(picture), "");
   EXPECT_THAT(picture, Not(HasSubstr("<script")));

@@ -210,7 +210,8 @@ TEST(ViewData, TheViewerHasTheSameKeys) {
   plot.bands.resize(1);
   plot.upright = true;
   result.plots = {plot};
-  result.facts = {{"contact", "kept: minimum tension 2.008 N, at a crank angle of 55.0 deg"}};
+  result.facts = {
+      {"contact", say("kept: minimum tension {}, at a crank angle of {}", newtons(2.008), degrees_of(0.96))}};
   result.solutions.resize(1);
   result.solutions[0].parameters.resize(1);
   result.solutions[0].study["mechanism"]["type"] = "planar.four_bar";

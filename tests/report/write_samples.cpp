@@ -129,11 +129,10 @@ int main(int count, char** arguments) {
   write(folder / "spatial.dxf", dxf(spatial.scenes.front()));
 
   study::Result broken = report::test::sample_result();
-  broken.facts[0].label = report::test::hostile;
-  broken.headline = broken.facts[0].text = report::test::hostile;
-  broken.solutions[0].label = broken.solutions[0].parameters[0].label = report::test::hostile;
-  broken.scenes[0].title = broken.scenes[0].joints[0].name = broken.scenes[0].bodies[1].name =
-      report::test::hostile;
+  broken.headline = broken.facts[0].label = broken.facts[0].text = report::test::hostile;
+  broken.solutions[0].label = broken.scenes[0].title = report::test::hostile;
+  broken.solutions[0].parameters[0].label = broken.scenes[0].joints[0].name =
+      broken.scenes[0].bodies[1].name = report::test::hostile;
   broken.scenes[0].vectors = {{report::test::hostile,
                                study::Scene::Quantity::force,
                                report::test::hostile,

@@ -89,7 +89,7 @@ TEST(Design, HasAFileWithAReadableName) {
   EXPECT_EQ(design_name(solution, 12), "12") << "no way out of the folder";
   solution.label = std::string(1000, 'a');
   EXPECT_EQ(design_name(solution, 1).size(), 60u) << "file systems take no names of any length";
-  solution.label.clear();
+  solution.label = "";
   EXPECT_EQ(design_name(solution, 3), "3");
 }
 

@@ -58,7 +58,6 @@ inline Result run(const Lever& lever, const Angle& angle, const Common& common, 
   solution.parameters = {{"length_m", "length", lever.length.upper, lever.length.lower, lever.length.upper}};
   solution.objectives["height_m"] = lever.length.upper * std::sin(angle.to);
   solution.classification["type"] = "lever";
-  solution.defects = Value::array();
   result.solutions.push_back(solution);
   result.statistics["seeds"] = common.seeds.count;
   Table& table = result.tables.emplace_back();

@@ -19,9 +19,10 @@ namespace linkwright::test {
 inline std::string all_of(const study::Result& r) {
   std::string out = std::string(to_string(r.status)) + "\n" + to_string(r.headline) + "\n";
   const auto number = [&](double v) { out += pack_numbers({&v, 1}).as_string() + " "; };
-  for (const study::Fact& f : r.facts) out += f.label + ": " + to_string(f.text) + "\n";
+  for (const study::Fact& f : r.facts) out += to_string(f.label + ": " + f.text) + "\n";
   for (const study::Solution& s : r.solutions) {
-    out += s.label + "\n";
+    out += to_string(s.label) + "\n";
+    for (const Sentence& defect : s.defects) out += to_string(defect) + "\n";
     for (const study::Parameter& p : s.parameters) out += p.key + " ", number(p.value);
   }
   for (const Table& t : r.tables) {

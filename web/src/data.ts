@@ -1,6 +1,5 @@
 // The data that the report file carries; null = missing (NaN or no bound).
 import type { Num } from "./packed";
-import { prose } from "./prose";
 import { useUnits } from "./units";
 export type { Num };
 
@@ -137,8 +136,9 @@ export interface Design {
 
 export interface Fact {
   label: string;
-  text: string; // short, and stands alone
+  text: string; // its value, or all of it
   rest?: string; // goes on from there
+  long?: boolean; // does not stand beside its name
   verdict: "plain" | "good" | "bad";
 }
 
@@ -157,6 +157,8 @@ export interface View {
   remarks: { message: string; hint?: string }[];
   parameters: Parameter[][]; // one list a solution
   solution_scenes: string[];
+  /** What the solutions of the result say, in their order. */
+  solutions: { label: string; defects: string[] }[];
   designs: Design[];
   scenes: Scene[];
   plots: Plot[];
@@ -180,7 +182,7 @@ export interface Solution {
   parameters: JsonObject;
   objectives: JsonObject | null;
   classification: JsonObject | null;
-  defects: Json[] | null;
+  defects: string[];
 }
 
 export interface Result {
@@ -210,12 +212,10 @@ let carries: Carried;
 /** The text of result.json as the program writes it. */
 export const resultText = () => carries.resultText();
 export const hasResult = () => carries.result !== null;
-const said = <T,>(text: T) => (typeof text === "string" ? prose(text) : text);
 export function readView(carried: Carried): View {
   carries = carried;
-  const { view } = carried;
-  useUnits(view.units);
-  return { ...view, facts: view.facts.map((f) => ({ ...f, label: prose(f.label) })) };
+  useUnits(carried.view.units);
+  return carried.view;
 }
 
 /** A property whose value is made when it is first asked for. */
@@ -241,12 +241,12 @@ export function readTable(raw: RawTable): Table {
 export const readResult = (carried: Carried): Result => {
   const result = carried.result ?? {};
   return {
-    checks: (result.checks ?? []).map((c) => ({ ...c, message: said(c.message) })),
-    solutions: (result.solutions ?? []).map((s) => ({ ...s, label: prose(s.label), defects: s.defects?.map(said) ?? null })),
+    checks: result.checks ?? [],
+    // What they say, as the program has typeset it.
+    solutions: (result.solutions ?? []).map((s, i) => ({ ...s, ...carried.view.solutions[i] })),
     statistics: result.statistics ?? null,
     log: result.log ?? null,
     tables: (result.tables ?? []).map(readTable),
-    // The diagnostics are taken as the program has typeset them.
     diagnostics: (result.diagnostics ?? []).map((d, i) => ({ ...d, ...carried.view.remarks[i] })),
   };
 };

@@ -1,7 +1,7 @@
 // Everything on the page that is text and tables.
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { hasResult, isObject, resultText, type Change, type Design, type Fact, type Json, type JsonObject, type Num } from "./data";
+import { hasResult, isObject, resultText, type Change, type Design, type Json, type JsonObject, type Num } from "./data";
 import { Copy, moveFocus } from "./controls";
 import { save, targetTable } from "./exports";
 import { Masonry } from "./masonry";
@@ -56,24 +56,12 @@ const longest = 24;
 const whole = (text: string) =>
   text.split(" ").flatMap((word, i) => [i ? " " : "", /[\d°%]/.test(word) && word.length <= longest ? <span class="whole">{word}</span> : word]);
 
-/** A figure, and its explanation for those who ask. */
-function FactText({ fact }: { fact: Fact }) {
-  const [open, setOpen] = useState(false);
-  if (!fact.rest) return <>{whole(fact.text)}</>;
-  return (
-    <>
-      {whole(fact.text)}<small class={open ? "" : "print-only"}>{fact.rest}</small>{" "}
-      <button type="button" class="link screen-only" aria-expanded={open} aria-label={`${open ? "less" : "more"} about ${fact.label}`} onClick={() => setOpen(!open)}>{open ? "less" : "more"}</button>
-    </>
-  );
-}
-
 /** The key figures, beside the mechanism. */
 export function Facts() {
   if (!view.facts.length) return null;
   return (
     <dl class="facts">
-      {view.facts.map((f) => <div class={`${f.verdict}${f.text.length + (f.rest ? 5 : 0) > 34 ? " long" : ""}`}><dt>{f.label}</dt><dd><FactText fact={f} /></dd></div>)}
+      {view.facts.map((f) => <div class={`${f.verdict}${f.long ? " long" : ""}`}><dt>{f.label}</dt><dd>{whole(f.text)}{f.rest && <small>{whole(f.rest)}</small>}</dd></div>)}
     </dl>
   );
 }
@@ -127,8 +115,6 @@ export function Errors() {
   );
 }
 
-const texts = (defects: Json[] | null) => (defects ?? []).map((d) => (typeof d === "string" ? d : display("", d)));
-
 export function display(key: string, value: Json | undefined): string {
   if (value === null || value === undefined) return "–";
   if (typeof value === "number") return key.includes("rate") && value >= 0 && value <= 1 ? `${format(value * 100, 4)}\u202f%` : quantity(key, value);
@@ -147,7 +133,7 @@ export function SolutionPicker() {
   const others = otherScenes();
   const choices = result.solutions.length
     ? [
-        ...result.solutions.map((s, i) => ({ label: s.label, scene: sceneOf(i), note: display("", firstOf(s.objectives)), defects: texts(s.defects), i })),
+        ...result.solutions.map((s, i) => ({ label: s.label, scene: sceneOf(i), note: display("", firstOf(s.objectives)), defects: s.defects, i })),
         ...others.map((scene, k) => ({ label: view.scenes[scene].title, scene, note: "", defects: [] as string[], i: result.solutions.length + k })),
       ]
     : view.scenes.map((s, i) => ({ label: s.title, scene: i, note: "", defects: [] as string[], i }));
@@ -201,7 +187,6 @@ export function Solutions() {
           <tbody>
             {result.solutions.map((s, i) => {
               const at = sceneOf(i);
-              const defects = texts(s.defects);
               const design = designOf(i);
               return (
                 <tr class={at >= 0 && at === sceneIndex.value ? "current" : ""} onClick={() => showScene(at)}>
@@ -210,7 +195,7 @@ export function Solutions() {
                   {view.designs.length > 0 && <td class="screen-only" onClick={(e) => e.stopPropagation()}>{design && <TakeDesign design={design} />}</td>}
                   {objectives.map((k) => <td class="num">{bare(k, s.objectives?.[k])}</td>)}
                   {classes.map((k) => <td>{bare(k, s.classification?.[k])}</td>)}
-                  <td>{defects.length ? <span class="defect">{defects.join(", ")}</span> : "none"}</td>
+                  <td>{s.defects.length ? <span class="defect">{s.defects.join(", ")}</span> : "none"}</td>
                 </tr>
               );
             })}

@@ -5,18 +5,9 @@ let suffixes: ShownSuffix[] = [];
 /** The units of the report; before this, numbers have none. */
 export function useUnits(shown: ShownSuffix[]): void {
   suffixes = shown.map((s) => ({ ...s, symbol: spaced(s.symbol) }));
-  words = suffixes.map((s) => wordOf(s.suffix));
 }
 /** Words that belong together: "N m". */
 export const spaced = (words: string) => words.replace(/ /g, "\u202f");
-// "_m_per_s2" is "m/s2" in sentences.
-const wordOf = (suffix: string) => suffix.slice(1).replace("_per_", "/").replace(/_/g, " ");
-let words: string[] = [];
-/** Units as the program writes them in sentences. */
-export const unitWords = () => words;
-const plainOf = (word: string) => word.replace(/°/g, "deg").replace("µ", "u").replace(/[²³⁴]/g, (c) => ({ "²": "2", "³": "3", "⁴": "4" })[c]!);
-/** The unit that is called so in a sentence: "m/s2", "m/s²". */
-export const suffixCalled = (word: string) => suffixes[words.indexOf(plainOf(word))];
 const suffixOf = (key: string) => suffixes.find((s) => key.endsWith(s.suffix));
 
 const missing = "–";

@@ -26,13 +26,13 @@ using study::Scene;
 
 /// The value of a fact in the unit of another; NaN if it has none or another dimension.
 double value_in(const Fact& fact, const std::optional<Measured>& other) {
-  const std::optional<Measured> own = fact.text.value();
+  const std::optional<Measured> own = fact.value();
   if (!own || !other || own->dimension != other->dimension) return nan;
   if (own->dimension == Dimension::none && own->unit != other->unit) return nan;
   return own->unit ? other->unit->from_si(own->si) : own->si;
 }
 
-const Fact* find_fact(const study::Result& result, std::string_view label) {
+const Fact* find_fact(const study::Result& result, const Sentence& label) {
   for (const Fact& fact : result.facts)
     if (fact.label == label) return &fact;
   return nullptr;
@@ -96,11 +96,11 @@ class Merger {
 
   /// Equal texts once, different ones side by side, with the difference to the first.
   void facts() {
-    std::vector<std::string> labels;
+    std::vector<Sentence> labels;
     for (const Compared& one : all_)
       for (const Fact& fact : one.result.facts)
         if (std::find(labels.begin(), labels.end(), fact.label) == labels.end()) labels.push_back(fact.label);
-    for (const std::string& label : labels) {
+    for (const Sentence& label : labels) {
       Fact fact{label, {}, Fact::Verdict::plain};
       std::set<std::string> texts;
       std::optional<Measured> first;
@@ -109,7 +109,7 @@ class Merger {
         const Fact* own = find_fact(one.result, label);
         texts.insert(own ? to_string(own->text) : "");
         if (own && own->verdict == Fact::Verdict::bad) fact.verdict = Fact::Verdict::bad;
-        if (own && values.empty()) first = own->text.value();
+        if (own && values.empty()) first = own->value();
         values.push_back(own ? value_in(*own, first) : nan);
         fact.text += values.size() == 1 ? "" : " | ";
         fact.text += own ? own->text : Sentence("-");
@@ -120,7 +120,7 @@ class Merger {
       ++compared_;
       different_ += texts.size() > 1 && !std::all_of(values.begin(), values.end(), is_rounding);
       if (!std::isnan(values.front()))
-        figure(first->unit ? fmt::format("{} ({})", label, first->unit_words()) : label, values);
+        figure(to_string(label) + (first->unit ? fmt::format(" ({})", first->unit_words()) : ""), values);
     }
   }
 
@@ -218,7 +218,7 @@ class Merger {
     for (const Compared& one : all_) {
       if (one.result.solutions.empty()) continue;
       study::Solution best = one.result.solutions.front();
-      best.label = best.label.empty() ? one.name : fmt::format("{}: {}", one.name, best.label);
+      best.label = best.label.empty() ? Sentence(one.name) : say("{}: {}", one.name, best.label);
       best.scene = out_.scenes.empty() ? "" : out_.scenes.front().name;
       out_.solutions.push_back(std::move(best));
     }

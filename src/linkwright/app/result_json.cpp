@@ -24,12 +24,13 @@ Value or_empty(const Value& value, Value empty) { return value.is_null() ? empty
 
 Value to_value(const study::Solution& solution) {
   Value v;
-  v["label"] = solution.label;
+  v["label"] = to_string(solution.label);
   v["parameters"] = Value::object();
   for (const study::Parameter& p : solution.parameters) v["parameters"][p.key] = p.value;
   v["objectives"] = or_empty(solution.objectives, Value::object());
   v["classification"] = or_empty(solution.classification, Value::object());
-  v["defects"] = or_empty(solution.defects, Value::array());
+  v["defects"] = Value::array();
+  for (const Sentence& defect : solution.defects) v["defects"].push_back(to_string(defect));
   if (!solution.study.is_null()) v["study"] = solution.study;
   return v;
 }
@@ -108,10 +109,11 @@ Value to_value(const Table& table, const NumberLists& lists, std::size_t most_ro
 
 Value to_value(const study::Fact& fact) {
   Value v;
-  v["key"] = identifier(fact.label);
-  v["label"] = fact.label;
+  const std::string label = to_string(fact.label);
+  v["key"] = fact.key.empty() ? identifier(label) : fact.key;
+  v["label"] = label;
   v["text"] = to_string(fact.text);
-  if (const auto number = fact.text.value()) {
+  if (const auto number = fact.value()) {
     v["value"] = number->value();
     v["unit"] = number->unit_words();
   }
@@ -129,7 +131,7 @@ Value to_value(const std::optional<study::Trouble>& trouble) {
   v["where"] = Value::object();
   for (const study::Trouble::Place& place : trouble->where) v["where"][place.key] = place.value;
   if (std::isfinite(trouble->share)) v["share_of_limit"] = trouble->share;
-  v["why"] = trouble->why;
+  v["why"] = to_string(trouble->why);
   return v;
 }
 

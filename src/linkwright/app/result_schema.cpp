@@ -156,7 +156,7 @@ constexpr std::string_view text = R"json({
       "key": {"type": "string", "description": "the label as an identifier"},
       "label": {"type": "string"},
       "text": {"type": "string"},
-      "value": {"type": ["number", "null"], "description": "the first number of the text, unrounded, in its unit; null where it is not finite"},
+      "value": {"type": ["number", "null"], "description": "unrounded, in its unit: the first number of the text that says no place, or the one that the text says in words; null where it is not finite"},
       "unit": {"type": "string", "description": "of the value; empty of a plain number"},
       "at": {"type": "object", "additionalProperties": {"type": ["number", "null"]}, "description": "where: keys with units"},
       "verdict": {"enum": ["plain", "good", "bad"]}

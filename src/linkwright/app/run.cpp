@@ -198,6 +198,7 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
   const study::Result& result = outcome.result;
   const auto is_long = [&](const Table& table) { return table.rows() > outcome.most_rows; };
   const study::Result shown = presented(study, result);
+  const study::DisplayUnits units = study::chosen_units(study.common.output.units, study.common.units);
   // The report carries it along; for tables alone it is not made, which takes longer than many a study.
   const bool needs_json = wants(study, study::Format::json) || wants(study, study::Format::html);
   const std::string json =
@@ -213,7 +214,8 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       write(table.name + ".csv", to_csv(table));
     }
   if (wants(study, study::Format::svg))
-    for (const study::Scene& scene : result.scenes) write(scene.name + ".svg", report::svg(scene));
+    for (const study::Scene& scene : shown.scenes)
+      write(scene.name + ".svg", report::svg(scene, {.length = report::chosen_length(units)}));
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
   if (wants(study, study::Format::html)) write("report.html", report_text(study, shown, outcome, json));

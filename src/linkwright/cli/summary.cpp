@@ -34,13 +34,13 @@ std::string summary(std::string_view title, const study::Result& result,
   if (!title.empty()) line(paint(title, Colour::bold, colours));
   if (!result.headline.empty()) line("  " + to_string(result.headline));
   std::size_t width = 6;
-  for (const study::Fact& fact : result.facts) width = std::max(width, fact.label.size());
+  for (const study::Fact& fact : result.facts) width = std::max(width, to_string(fact.label).size());
   line(fmt::format("  {:<{}}  {}", "status", width,
                    paint(to_string(result.status), colour_of(study::answer_of(result).verdict), colours)));
   for (const study::Fact& fact : result.facts) {
     const bool bad = fact.verdict == study::Fact::Verdict::bad;
     line(fmt::format(
-        "  {:<{}}  {}", fact.label, width,
+        "  {:<{}}  {}", to_string(fact.label), width,
         bad ? paint(to_string(fact.text) + "  (!)", Colour::red, colours) : to_string(fact.text)));
   }
   if (!result.checks.empty()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/optimise/population.h"
 
 namespace linkwright::optimise {
@@ -23,6 +24,10 @@ struct Violation {
   std::string reason;  ///< name of the constraint: "crank_rotates_fully"
   double amount = 0;
 };
+/// "violates crank_rotates_fully by 0.02"
+inline Sentence violation_text(const Violation& violation) {
+  return say("violates {} by {}", violation.reason, plain_number(violation.amount, 3));
+}
 
 struct Combination;
 

@@ -263,6 +263,12 @@ py::dict numbers_of(const std::vector<study::Parameter>& parameters) {
   return out;
 }
 
+std::vector<std::string> texts_of(const std::vector<Sentence>& sentences) {
+  std::vector<std::string> out;
+  for (const Sentence& sentence : sentences) out.push_back(to_string(sentence));
+  return out;
+}
+
 /// (label, parameters, objectives, classification, defects, source or None) of each solution.
 py::list solutions_of(const FinishedRun& run) {
   py::list out;
@@ -273,11 +279,11 @@ py::list solutions_of(const FinishedRun& run) {
     const study::Solution& s = run.shown.solutions[i];
     const Value& document = run.outcome.result.solutions[i].study;
     const std::string name = study::design_name(s, i + 1) + ".toml";
-    out.append(py::make_tuple(s.label, numbers_of(s.parameters), or_empty(s.objectives, py::dict()),
-                              or_empty(s.classification, py::dict()), or_empty(s.defects, py::list()),
-                              document.is_null()
-                                  ? py::object(py::none())
-                                  : py::cast(StudySource{document, name, run.study.common.folder})));
+    out.append(
+        py::make_tuple(to_string(s.label), numbers_of(s.parameters), or_empty(s.objectives, py::dict()),
+                       or_empty(s.classification, py::dict()), texts_of(s.defects),
+                       document.is_null() ? py::object(py::none())
+                                          : py::cast(StudySource{document, name, run.study.common.folder})));
   }
   return out;
 }
@@ -285,8 +291,8 @@ py::list solutions_of(const FinishedRun& run) {
 py::list facts_of(const FinishedRun& run) {
   py::list out;
   for (const study::Fact& fact : run.shown.facts) {
-    const auto number = fact.text.value();
-    out.append(py::make_tuple(fact.label, to_string(fact.text),
+    const auto number = fact.value();
+    out.append(py::make_tuple(to_string(fact.label), to_string(fact.text),
                               number ? py::cast(number->value()) : py::none(),
                               number ? number->unit_words() : std::string(), name_of(fact.verdict)));
   }

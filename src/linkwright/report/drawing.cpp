@@ -284,6 +284,12 @@ LengthUnit length_unit(double size) {
   return {1, "m"};
 }
 
+std::optional<LengthUnit> chosen_length(const study::DisplayUnits& units) {
+  if (!units.chosen(Dimension::length)) return {};
+  const Unit& unit = units.of(Dimension::length);
+  return LengthUnit{unit.from_si(1), std::string(unit.suffix)};
+}
+
 study::Extreme worst(const study::Scene::Target& target) {
   study::Extreme result;
   const std::size_t n =

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/study/display_units.h"
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/scene.h"
 
@@ -92,6 +94,8 @@ struct LengthUnit {
 };
 /// Millimetres below one metre, else metres.
 LengthUnit length_unit(double size);
+/// The unit of lengths that was chosen, if any.
+std::optional<LengthUnit> chosen_length(const study::DisplayUnits& units);
 
 /// The target point that is missed most, and by how much (m).
 study::Extreme worst(const study::Scene::Target& target);

@@ -27,7 +27,7 @@ std::string html(const ReportInput& input) {
   // and not shown first.
   if (!script.empty())
     out +=
-        "<style>.starting #static > :not(.verdict, .first), .starting .facts small { display: none } "
+        "<style>.starting #static > :not(.verdict, .first) { display: none } "
         ".starting .first figure { visibility: hidden }</style>\n"
         "<script>document.documentElement.className = \"starting\"</script>\n";
   out += "<title>" + escape(input.title) + "</title>\n<style>\n";

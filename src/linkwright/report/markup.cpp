@@ -127,6 +127,24 @@ std::string typeset(const Sentence& sentence) {
   return out;
 }
 
+FactText fact_text(const Sentence& fact) {
+  constexpr std::size_t longest_beside = 34;  // letters
+  FactText out{typeset(fact), {}};
+  out.is_long = static_cast<std::size_t>(std::count_if(out.value.begin(), out.value.end(), [](char c) {
+                  return (c & 0xc0) != 0x80;
+                })) > longest_beside;
+  if (!out.is_long || !fact.value()) return out;
+  Sentence value, rest;
+  bool past = false;
+  for (const Sentence::Part& part : fact.parts()) {
+    const auto* number = std::get_if<Measured>(&part);
+    (past ? rest : value) += number ? Sentence(*number) : Sentence(std::get<std::string>(part));
+    past = past || (number && number->place.empty() && !number->shares_unit);
+  }
+  out.value = typeset(value), out.rest = typeset(rest);
+  return out;
+}
+
 std::string display(const Value& value) {
   if (value.is_null()) return "–";
   if (value.is_bool()) return value.as_bool() ? "yes" : "no";

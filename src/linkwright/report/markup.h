@@ -23,6 +23,14 @@ std::string number(double value, int digits = 6);
 /// and its unit; numbers that come from rounding alone say so.
 std::string typeset(const Sentence& sentence);
 
+/// A fact as pages show it: its value, then in smaller letters what is said of it.
+struct FactText {
+  std::string value;     ///< all of a short fact, and of one without value
+  std::string rest;      ///< goes on from there
+  bool is_long = false;  ///< too long to stand beside its name
+};
+FactText fact_text(const Sentence& fact);
+
 /// A scalar for people: text as it is, numbers by number(), "yes"/"no"; arrays and objects joined by commas.
 std::string display(const Value& value);
 

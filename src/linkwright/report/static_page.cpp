@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/report/brief.h"
 #include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
@@ -66,22 +65,15 @@ void write_banner(std::string& out, const ReportInput& input) {
   out += "</span></header>\n";
 }
 
-constexpr std::size_t longest_beside = 34;  // letters of a fact that fit beside its name
-
-std::string fact_text(const Brief& fact) {
-  std::string out = escape(fact.head);
-  if (!fact.rest.empty()) put(out, "<small>{}</small>", escape(fact.rest));
-  return out;
-}
-
 void write_facts(std::string& out, const study::Result& result, const study::DisplayUnits& units) {
   if (result.facts.empty()) return;
   out += "<dl class=\"facts\">";
   for (const auto& fact : result.facts) {
-    const std::string whole = typeset(study::in_units(fact.text, page_units(units)));
-    const Brief text = brief(whole);
-    put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>", whole.size() > longest_beside ? " class=\"long\"" : "",
-        escape(fact.label), fact_text(text));
+    const FactText text = fact_text(study::in_units(fact.text, page_units(units)));
+    put(out, "<div{}><dt>{}</dt><dd>{}", text.is_long ? " class=\"long\"" : "",
+        escape(typeset(study::in_units(fact.label, page_units(units)))), escape(text.value));
+    if (!text.rest.empty()) put(out, "<small>{}</small>", escape(text.rest));
+    out += "</dd></div>";
   }
   out += "</dl>\n";
 }
@@ -124,15 +116,13 @@ void write_drawing(std::string& out, const study::Scene& scene, std::size_t inde
   SvgOptions options;
   // Poses and arrows, or poses in three views, are too much.
   options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
-  if (units.chosen(Dimension::length)) {
-    const Unit& unit = units.of(Dimension::length);
-    options.length = LengthUnit{unit.from_si(1), std::string(unit.suffix)};
-  }
+  options.length = chosen_length(units);
   options.labels = scene.joints.size() <= most_named_joints;
   // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
   put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
       spatial ? fmt::format(" data-scene=\"{}\"", index) : "", svg(scene, options),
-      escape(scene.title + (options.ghosts == 0 ? shown_at(scene, units) : "")));
+      escape(typeset(study::in_units(scene.title, page_units(units))) +
+             (options.ghosts == 0 ? shown_at(scene, units) : "")));
 }
 
 // The first drawing with the key figures beside it.
@@ -166,9 +156,10 @@ void write_solutions(std::string& out, const study::Result& result) {
   {
     Sheet sheet(out, {"solution", "objectives", "classification", "defects"});
     for (const auto& s : result.solutions) {
-      const std::string defects = s.defects.is_null() ? "" : display(s.defects);
-      sheet.row(
-          {s.label, display(s.objectives), display(s.classification), defects.empty() ? "none" : defects});
+      Sentence defects;
+      for (const Sentence& defect : s.defects) defects += (defects.empty() ? "" : ", ") + defect;
+      sheet.row({typeset(s.label), display(s.objectives), display(s.classification),
+                 defects.empty() ? "none" : typeset(defects)});
     }
   }
   heading(out, "Parameters of the best solution");

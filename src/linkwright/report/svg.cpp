@@ -368,7 +368,7 @@ std::string nothing(const Scene& scene, const SvgOptions& options) {
       "font-family=\"sans-serif\"><title>{1}</title><text x=\"24\" y=\"64\" font-size=\"15\">Nothing to "
       "draw: the mechanism "
       "assembles at no input.</text></svg>\n",
-      options.width, escape(scene.title));
+      options.width, escape(to_string(scene.title)));
 }
 
 void draw_ghosts(std::string& out, const Canvas& canvas, const Scene& scene, int count) {
@@ -409,7 +409,7 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
   const double widths[] = {left * scale + 2 * edge + spare, right * scale + 2 * edge + spare};
   const double heights[] = {std::ceil(upper * scale + 2 * edge), std::ceil(lower * scale + 2 * edge)};
   std::string out;
-  open_document(out, options.width, heights[0] + gap + heights[1], scene.title);
+  open_document(out, options.width, heights[0] + gap + heights[1], to_string(scene.title));
   for (std::size_t k = 0; k < 3; ++k) {
     const double width = widths[k == 1], height = heights[k == 2];
     Canvas canvas(boxes[k], scale, width, height);
@@ -462,7 +462,7 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   Canvas canvas(box, options);
   canvas.fit_bars(usual_length(scene, sample));
   std::string out;
-  open_document(out, canvas.width(), canvas.height(), scene.title);
+  open_document(out, canvas.width(), canvas.height(), to_string(scene.title));
   if (options.grid) draw_grid(out, canvas, options);
   draw_ghosts(out, canvas, scene, options.ghosts);
   draw_circles(out, canvas, scene, sample);

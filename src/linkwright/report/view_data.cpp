@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/report/brief.h"
+#include "linkwright/report/markup.h"
 #include "linkwright/report/units.h"
 #include "linkwright/study/answer.h"
 #include "linkwright/study/design.h"
@@ -89,10 +89,11 @@ void put_handles(Value& out, const Scene& scene, const NumberLists& lists) {
   });
 }
 
-Value scene_data(const Scene& scene, const std::vector<ShownSuffix>& units, const NumberLists& lists) {
+Value scene_data(const Scene& scene, const std::string& title, const std::vector<ShownSuffix>& units,
+                 const NumberLists& lists) {
   Value out = Value::object();
   out["name"] = scene.name;
-  out["title"] = scene.title;
+  out["title"] = title;
   out["input_key"] = scene.input_key;
   out["input_label"] = scene.input_label;
   out["input"] = lists(scene.input);
@@ -186,6 +187,9 @@ Value parameters_data(const std::vector<study::Parameter>& parameters) {
 Value view_data(const ReportInput& input) {
   const study::Result& result = input.result;
   const study::DisplayUnits in_sentences = page_units(input.units);
+  const auto shown = [&](const Sentence& sentence) {
+    return typeset(study::in_units(sentence, in_sentences));
+  };
   Value out = Value::object();
   out["title"] = input.title;
   out["source"] = input.source;
@@ -193,7 +197,7 @@ Value view_data(const ReportInput& input) {
   out["command"] = input.command;
   out["study_toml"] = input.study_toml;
   out["status"] = to_string(result.status);
-  out["headline"] = typeset(study::in_units(result.headline, in_sentences));
+  out["headline"] = shown(result.headline);
   out["verdict"] = linkwright::name_of(study::answer_of(result).verdict);
   const std::vector<ShownSuffix> units = shown_suffixes(input.units);
   out["units"] = list(units, [](Value& o, const ShownSuffix& s) {
@@ -205,19 +209,24 @@ Value view_data(const ReportInput& input) {
     o["by_size"] = s.by_size;
   });
   out["facts"] = list(result.facts, [&](Value& o, const study::Fact& f) {
-    o["label"] = f.label;
-    const std::string whole = typeset(study::in_units(f.text, in_sentences));
-    const Brief parts = brief(whole);
-    o["text"] = std::string(parts.head);
-    if (!parts.rest.empty()) o["rest"] = std::string(parts.rest);
+    o["label"] = shown(f.label);
+    const FactText text = fact_text(study::in_units(f.text, in_sentences));
+    o["text"] = text.value;
+    if (!text.rest.empty()) o["rest"] = text.rest;
+    if (text.is_long) o["long"] = true;
     o["verdict"] = linkwright::name_of(f.verdict);
   });
   out["remarks"] = list(result.diagnostics, [&](Value& o, const Diagnostic& d) {
-    o["message"] = typeset(study::in_units(d.message, in_sentences));
-    if (!d.hint.empty()) o["hint"] = typeset(study::in_units(d.hint, in_sentences));
+    o["message"] = shown(d.message);
+    if (!d.hint.empty()) o["hint"] = shown(d.hint);
   });
   out["parameters"] = Value::array();
   out["solution_scenes"] = Value::array();
+  out["solutions"] = list(result.solutions, [&](Value& o, const study::Solution& s) {
+    o["label"] = shown(s.label);
+    o["defects"] = Value::array();
+    for (const Sentence& defect : s.defects) o["defects"].push_back(shown(defect));
+  });
   for (const auto& s : result.solutions) {
     out["parameters"].push_back(parameters_data(s.parameters));
     out["solution_scenes"].push_back(s.scene);
@@ -234,7 +243,7 @@ Value view_data(const ReportInput& input) {
   }
   out["scenes"] = Value::array();
   for (const auto& scene : result.scenes) {
-    Value drawn = scene_data(scene, units, input.lists);
+    Value drawn = scene_data(scene, shown(scene.title), units, input.lists);
     if (input.lists.apart()) put_handles(drawn, scene, input.lists);
     out["scenes"].push_back(std::move(drawn));
   }

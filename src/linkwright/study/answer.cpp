@@ -52,10 +52,10 @@ Answer answer_of(const Result& result) {
                                 : fmt::format("check failed: {}: {}", check.quantity, check.message));
   const bool failed_check = !out.reasons.empty();
   for (const Fact& fact : result.facts)
-    if (fact.verdict == Fact::Verdict::bad) out.reasons.push_back(fact.label + ": " + to_string(fact.text));
-  if (!result.solutions.empty() && result.solutions.front().defects.is_array())
-    for (const Value& defect : result.solutions.front().defects.as_array())
-      if (defect.is_string()) out.reasons.push_back("defect of the best solution: " + defect.as_string());
+    if (fact.verdict == Fact::Verdict::bad) out.reasons.push_back(to_string(fact.label + ": " + fact.text));
+  if (!result.solutions.empty())
+    for (const Sentence& defect : result.solutions.front().defects)
+      out.reasons.push_back("defect of the best solution: " + to_string(defect));
   switch (result.status) {
     case Status::done:
     case Status::at_rest:

@@ -103,7 +103,7 @@ void complete_designs(Result& result, std::string_view title, const DisplayUnits
     Value tables = as_people_write(std::exchange(solution.study, Value::object()), units);
     solution.study["schema"] = schema_version;
     solution.study["kind"] = "analysis";
-    solution.study["title"] = fmt::format("{}: {}", title, solution.label);
+    solution.study["title"] = fmt::format("{}: {}", title, to_string(solution.label));
     for (Value::Member& member : tables.as_object()) solution.study[member.key] = std::move(member.value);
   }
 }
@@ -112,7 +112,7 @@ std::string design_name(const Solution& solution, std::size_t number) {
   constexpr std::size_t longest = 60;
   std::string out = std::to_string(number);
   bool gap = true;
-  for (const char c : solution.label) {
+  for (const char c : to_string(solution.label)) {
     if (out.size() >= longest) break;
     const char low = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     const bool word = (low >= 'a' && low <= 'z') || (low >= '0' && low <= '9') || (low == '.' && !gap);
@@ -128,7 +128,7 @@ std::string design_toml(const Solution& solution, std::size_t number, std::strin
   LINKWRIGHT_REQUIRE(solution.study.is_object(), "solution {} has no study", number);
   return fmt::format("#:schema ./{}\n# Solution {} of \"{}\", found by {}: {}\n{}",
                      schema_file(kind_of(solution.study)), number, one_line(source), tool,
-                     one_line(solution.label), to_toml(solution.study));
+                     one_line(to_string(solution.label)), to_toml(solution.study));
 }
 
 }  // namespace linkwright::study

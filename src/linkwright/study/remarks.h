@@ -15,8 +15,8 @@ namespace linkwright::study {
 /// Adds facts to those of a result.
 struct AddFact {
   std::vector<Fact>& facts;
-  void operator()(std::string label, Sentence text, Fact::Verdict verdict = Fact::Verdict::plain) const {
-    facts.push_back({std::move(label), std::move(text), verdict});
+  Fact& operator()(Sentence label, Sentence text, Fact::Verdict verdict = Fact::Verdict::plain) const {
+    return facts.emplace_back(Fact{std::move(label), std::move(text), verdict});
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,14 +24,19 @@ struct Check {
   std::string limit;     ///< "at_most 0.009029"
   bool passed = false;
   std::string at;       ///< row of the table: "travel_mm = 50, rack_mm = 0"; empty = no row
-  std::string message;  ///< says why there is no value; empty = there is one
+  std::string message;  ///< says why there is no value, with keys and numbers as the study writes them
 };
 
 /// One line of the headline panel of a report and of the summary on the terminal.
 struct Fact {
-  std::string label;  ///< "path error (sum of squares)"
-  Sentence text;      ///< "5.567 N m at 343°": its first number that says no place is the value
+  Sentence label;  ///< "path error (sum of squares)"
+  Sentence text;   ///< "5.567 N m at 343°": its first number that says no place is the value
   enum class Verdict { plain, good, bad } verdict = Verdict::plain;
+  /// The label as an identifier, in whichever units people are shown it; empty = that of the label as it is.
+  std::string key = {};
+  /// Of a fact whose text says its number in words: 360° of "assembles over the full turn".
+  std::optional<Measured> told = {};
+  std::optional<Measured> value() const { return told ? told : text.value(); }
 };
 constexpr std::array<EnumName<Fact::Verdict>, 3> names(Fact::Verdict) {
   using Verdict = Fact::Verdict;
@@ -113,12 +119,12 @@ struct Change {
 
 /// One of the distinct answers of a synthesis.
 struct Solution {
-  std::string label;  ///< "crank-rocker, open"
+  Sentence label;  ///< "crank-rocker, open"
   std::vector<Parameter> parameters;
   Value objectives;      ///< object of numbers by key
   Value classification;  ///< object: type, branch, sense, transmission angle, ...
-  Value defects;         ///< array of texts; empty = none
-  std::string scene;     ///< name of its scene; empty = none
+  std::vector<Sentence> defects;
+  std::string scene;  ///< name of its scene; empty = none
   /// A study of this design to continue with, as study/design.h completes it. The domain gives the tables, in
   /// any units: the mechanism with the found numbers and what an analysis of it needs. null = there is none.
   Value study;
@@ -135,7 +141,7 @@ struct Trouble {
   /// The used part of the limit: 1.96 for 96 % more than allowed. +infinity = it cannot be passed at all, as
   /// where a drive would need a force without bound. NaN = cannot be compared.
   double share = nan;
-  std::string why;  ///< one sentence
+  Sentence why;  ///< one sentence
 };
 
 /// The result of a study. Tables, scenes and plots are all that a report draws.

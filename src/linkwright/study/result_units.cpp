@@ -24,13 +24,22 @@ Result in_units(Result result, const DisplayUnits& units) {
     for (Parameter& p : solution.parameters) convert(p.key, p.value, p.lower, p.upper);
     for (Value* numbers : {&solution.objectives, &solution.classification})
       *numbers = in_units(*numbers, units);
+    solution.label = in_units(solution.label, units);
+    for (Sentence& defect : solution.defects) defect = in_units(defect, units);
   }
   for (Change& change : result.changes) convert(change.quantity, change.before, change.after);
-  for (Trouble& trouble : result.troubles)
+  for (Trouble& trouble : result.troubles) {
     for (Trouble::Place& place : trouble.where) convert(place.key, place.value);
+    trouble.why = in_units(trouble.why, units);
+  }
+  for (Scene& scene : result.scenes) scene.title = in_units(scene.title, units);
   result.statistics = in_units(result.statistics, units);
   result.headline = in_units(result.headline, units);
-  for (Fact& fact : result.facts) fact.text = in_units(fact.text, units);
+  for (Fact& fact : result.facts) {
+    if (fact.key.empty()) fact.key = identifier(to_string(fact.label));
+    fact.label = in_units(fact.label, units), fact.text = in_units(fact.text, units);
+    if (fact.told) fact.told = in_units(Sentence(*fact.told), units).value();
+  }
   for (Diagnostic& d : result.diagnostics)
     d.message = in_units(d.message, units), d.hint = in_units(d.hint, units);
   return result;

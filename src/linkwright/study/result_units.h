@@ -7,7 +7,7 @@
 namespace linkwright::study {
 
 /// The result with its numbers in these units: headline, facts and remarks, tables with their diagrams,
-/// solutions, changes, troubles and statistics. Scenes stay.
+/// solutions, changes, troubles, statistics and titles of scenes. The drawings of scenes stay.
 Result in_units(Result result, const DisplayUnits& units);
 
 /// In which units people are shown a study: those that it lists for its files, else those of its own keys.

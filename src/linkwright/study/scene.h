@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/sentence.h"
 
 namespace linkwright::study {
 
@@ -119,7 +120,7 @@ struct Scene {
   };
 
   std::string name;           ///< identifies it: "solution-1"
-  std::string title;          ///< title: "2: double rocker"; empty = the name of the study
+  Sentence title;             ///< title: "2: double rocker"; empty = the name of the study
   std::string input_key;      ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
   std::string input_label;    ///< "crank angle"
   std::vector<double> input;  ///< one value a sample, monotonous, in radians, metres or seconds

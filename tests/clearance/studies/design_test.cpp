@@ -179,7 +179,7 @@ TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   ASSERT_EQ(r.scenes.size(), 1u);
   const study::Scene& scene = r.scenes[0];
   EXPECT_EQ(scene.input_key, "crank_angle_rad");
-  EXPECT_THAT(scene.title, HasSubstr("clearance drawn"));
+  EXPECT_THAT(to_string(scene.title), HasSubstr("clearance drawn"));
   ASSERT_EQ(scene.targets.size(), 1u);
   EXPECT_TRUE(scene.targets[0].closed);
   ASSERT_EQ(scene.circles.size(), 1u);

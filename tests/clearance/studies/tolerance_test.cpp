@@ -104,7 +104,7 @@ TEST(ToleranceStudy, BandOfAPath) {
         &across = column(r, "errors", "coupler_P_across_m"),
         &worst = column(r, "errors", "coupler_P_worst_m");
   ASSERT_EQ(r.scenes.size(), 1u);
-  EXPECT_THAT(r.scenes[0].title, "clearances and bands drawn 50 x");
+  EXPECT_THAT(to_string(r.scenes[0].title), "clearances and bands drawn 50 x");
   EXPECT_EQ(r.scenes[0].traces.size(), 3u);
   EXPECT_EQ(r.scenes[0].circles.size(), 2u);
   bool narrower = false;

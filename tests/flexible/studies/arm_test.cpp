@@ -105,7 +105,7 @@ TEST(ArmStudy, StiffLinksNeedTheTorquesOfRigidOnes) {
     EXPECT_NEAR(column(result, "link2_force_x_N")[i], fx + joint_mass, 5e-4) << i;
   }
   EXPECT_THAT(fact(result, "largest torque in the hinge of link2"), ::testing::MatchesRegex("[0-9.e-]+ N m"));
-  EXPECT_NE(result.scenes.at(0).title.find("bending drawn"), std::string::npos);
+  EXPECT_NE(to_string(result.scenes.at(0).title).find("bending drawn"), std::string::npos);
 }
 
 TEST(ArmStudy, KeepsItsEnergyWithoutDrives) {

@@ -28,7 +28,7 @@ TEST(ChainScene, DrawsBendingToScaleWhereItIsSeen) {
   const ArmChain arm = arm_chain(links);
   const std::string names[] = {"upper", "fore"};
   const study::Scene plain = chain_scene(arm, names, bent_run(arm, 0.05), {});
-  EXPECT_NE(plain.title.find("bending to scale"), std::string::npos) << plain.title;
+  EXPECT_NE(to_string(plain.title).find("bending to scale"), std::string::npos) << to_string(plain.title);
   const ChainShape at = shape(arm.chain, bent_run(arm, 0.05).states[0].q);
   const Vec2 tip = turned({std::cos(0.5), std::sin(0.5)}, at.node.back());
   const study::Scene::Point& drawn = plain.points[arm.chain.cells.size() + 1];
@@ -38,8 +38,9 @@ TEST(ChainScene, DrawsBendingToScaleWhereItIsSeen) {
 
   // Eight kinks of 1e-4 rad over 3.65 m move the tip by some 1.5 mm: 0.05 x 3.65 m is 100 times as much.
   const study::Scene enlarged = chain_scene(arm, names, bent_run(arm, 1e-4), {});
-  EXPECT_NE(enlarged.title.find("bending drawn 100 x"), std::string::npos) << enlarged.title;
-  EXPECT_NE(chain_scene(arm, names, bent_run(arm, 1e-4), 7).title.find("bending drawn 7 x"),
+  EXPECT_NE(to_string(enlarged.title).find("bending drawn 100 x"), std::string::npos)
+      << to_string(enlarged.title);
+  EXPECT_NE(to_string(chain_scene(arm, names, bent_run(arm, 1e-4), 7).title).find("bending drawn 7 x"),
             std::string::npos);
   ASSERT_EQ(enlarged.traces.size(), 2u);
   // Ground pivot, hinge, tip.

@@ -72,8 +72,8 @@ TEST(ChainStudy, KeepsWhatWasReached) {
 }
 
 TEST(ChainStudy, DrawsTheBendingAsAsked) {
-  EXPECT_THAT(run(level).scenes[0].title, HasSubstr("bending drawn 2"));
-  EXPECT_THAT(run(replaced(level, "end_s", "deflection_scale = 3.5\nend_s")).scenes[0].title,
+  EXPECT_THAT(to_string(run(level).scenes[0].title), HasSubstr("bending drawn 2"));
+  EXPECT_THAT(to_string(run(replaced(level, "end_s", "deflection_scale = 3.5\nend_s")).scenes[0].title),
               HasSubstr("bending drawn 3.5 x"));
 }
 

@@ -95,7 +95,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
       HasSubstr("vibration.divisions: mode 1 is 1.1 % off the continuum, 0.4686 Hz against 0.4633 Hz"));
   // Shapes and their scenes: the weld stays, the largest deflection is 1 m in the table.
   EXPECT_EQ(result.scenes.size(), 2u);
-  EXPECT_THAT(result.scenes[0].title, ::testing::MatchesRegex("mode 1, 0.463[0-9]? Hz"));
+  EXPECT_THAT(to_string(result.scenes[0].title), ::testing::MatchesRegex("mode 1, 0.463[0-9]? Hz"));
   const auto& eta = column(result, "shapes", "mode_2_eta_m");
   EXPECT_EQ(eta.front(), 0);
   double largest = 0;

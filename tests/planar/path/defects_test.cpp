@@ -93,7 +93,7 @@ TEST(Defects, CircuitsOfANonGrashofLinkage) {
   const auto closed = defects(points(3, true), design(l, {middle - 0.05, middle, middle + 0.05}));
   ASSERT_EQ(closed.size(), 1u);
   EXPECT_EQ(closed[0].kind, DefectKind::circuit);
-  EXPECT_THAT(closed[0].text, ::testing::HasSubstr("from point 3 to point 1"));
+  EXPECT_THAT(to_string(closed[0].text), ::testing::HasSubstr("from point 3 to point 1"));
 }
 
 // A gap that sampling would miss: 2e-3 rad wide where crank and ground are in line.
@@ -119,7 +119,7 @@ TEST(Defects, PointsInAnotherOrder) {
   // Two points exchanged.
   const auto exchanged = defects(points(4, false), design(crank_rocker, {0.5, 1.5, 1.0, 2.0}));
   ASSERT_EQ(exchanged.size(), 1u);
-  EXPECT_THAT(exchanged[0].text, ::testing::EndsWith("1 of 3 steps run backwards"));
+  EXPECT_THAT(to_string(exchanged[0].text), ::testing::EndsWith("1 of 3 steps run backwards"));
   // Across the seam of the angles nothing is wrong.
   EXPECT_THAT(defects(points(4, true), design(crank_rocker, {5.5, 6.1, 0.4, 2.0})), IsEmpty());
 }

@@ -70,7 +70,7 @@ TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
   ASSERT_GE(r.changes.size(), 2u);
   EXPECT_EQ(r.changes[0].quantity, "O1_N");
   EXPECT_EQ(r.changes[0].measure, "rss_over_n");
-  EXPECT_DOUBLE_EQ(test::value_of_fact(r, r.facts[0].label), r.changes[0].after);
+  EXPECT_DOUBLE_EQ(test::value_of_fact(r, to_string(r.facts[0].label)), r.changes[0].after);
   EXPECT_TRUE(r.changes[0].wanted);
   EXPECT_NEAR(r.changes[0].percent(), -100, 1e-6);
   const auto torque = std::find_if(r.changes.begin(), r.changes.end(), [](const study::Change& c) {

@@ -62,7 +62,8 @@ TEST(LinkageElasticScene, TakesARoundScaleThatKeepsDeflectionsInThePicture) {
   const LinkagePlan rigid = plan_linkage(b.rigid).plan;
   const BentBody bent = bent_body(b.elastic, b.elastic.pieces[0], b.motion);
   const study::Scene scene = elastic_scene(b.rigid, rigid, b.elastic.pieces, {record, record}, {}, {});
-  const double scale = std::stod(scene.title.substr(scene.title.find("drawn ") + 6));
+  const std::string title = to_string(scene.title);
+  const double scale = std::stod(title.substr(title.find("drawn ") + 6));
   EXPECT_LE(scale * std::abs(bent.largest), 0.05 * rigid.size * (1 + 1e-9));
   EXPECT_GT(2.5 * scale * std::abs(bent.largest), 0.05 * rigid.size);  // the next one of 1, 2, 5, 10 does not
   // One line through the nodes in the place of the bar, beside the unbent one.

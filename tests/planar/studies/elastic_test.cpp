@@ -163,7 +163,7 @@ TEST(LinkageElasticStudy, DrawsDeflectionsAsLargeAsTheyAreSeen) {
   const study::Result chosen = run_text(with_rod());
   ASSERT_THAT(chosen.scenes, SizeIs(1));
   const study::Scene& s = chosen.scenes[0];
-  EXPECT_THAT(s.title, HasSubstr("deflections drawn "));
+  EXPECT_THAT(to_string(s.title), HasSubstr("deflections drawn "));
   const study::Result ten =
       run_text(replaced(with_rod(), "samples = 101", "samples = 101\ndeflection_scale = 10"));
   EXPECT_EQ(ten.scenes.at(0).title, "deflections drawn 10 x");

@@ -78,11 +78,11 @@ TEST(ExactSliderPathRun, AllSliderCranksThroughEightPoints) {
   EXPECT_EQ(counts->find("lost")->values[0], 0);
   EXPECT_EQ(result.table("designs")->rows(), 114U);
   EXPECT_TRUE(std::any_of(result.solutions.begin(), result.solutions.end(), [](const study::Solution& s) {
-    return s.defects.as_array().size() == 0 && has(s, "crank_m", 0.03) && has(s, "rod_m", 0.09) &&
+    return s.defects.size() == 0 && has(s, "crank_m", 0.03) && has(s, "rod_m", 0.09) &&
            has(s, "offset_m", 0.015);
   }));
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(result.solutions.at(i).defects.as_array().size(), 0U);
+    EXPECT_EQ(result.solutions.at(i).defects.size(), 0U);
     EXPECT_LT(result.solutions[i].objectives.find("path_error_max_m")->as_number(), 1e-8);
   }
 }

@@ -100,7 +100,7 @@ TEST(FunctionStudy, TheRowsOfATableAreItsPrecisionPoints) {
   const auto points_of = [](const std::string& text) {
     const study::Result result = run_text(function_study(text));
     std::string all;
-    for (const study::Fact& fact : result.facts) all += fact.label + ": " + to_string(fact.text) + "\n";
+    for (const study::Fact& fact : result.facts) all += to_string(fact.label + ": " + fact.text) + "\n";
     return all;
   };
   EXPECT_EQ(points_of(table), points_of(table + "at = [0, 0.5, 1, 2, 3]\n"));

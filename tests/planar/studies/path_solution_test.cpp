@@ -42,7 +42,7 @@ TEST(PathSolution, SaysWhatTheDesignIs) {
   EXPECT_EQ(solution.parameters[1].upper, e.problem.bounds[1].upper);
   EXPECT_LT(solution.objectives.find("path_error_sum_sq_m2")->as_number(), 1e-30);
   EXPECT_TRUE(solution.classification.find("crank_rotates_fully")->as_bool());
-  EXPECT_TRUE(solution.defects.as_array().empty());
+  EXPECT_TRUE(solution.defects.empty());
   EXPECT_EQ(called(e.design), "crank-rocker (open branch)");
 }
 

@@ -191,7 +191,7 @@ TEST(PoseStudy, KeepsDefectiveLinkagesAndSaysWhatToRelax) {
   if (!result.solutions.empty()) {
     EXPECT_EQ(result.statistics.find("outcome")->as_string(), "all_defective");
     EXPECT_THAT(to_string(result.headline), HasSubstr("passes them in one motion"));
-    EXPECT_FALSE(result.solutions[0].defects.as_array().empty());
+    EXPECT_FALSE(result.solutions[0].defects.empty());
     EXPECT_FALSE(result.solutions[0].scene.empty());
   }
 }

@@ -143,7 +143,7 @@ TEST(SliderPathStudyRun, AnswersWithEvidence) {
   ASSERT_FALSE(r.solutions.empty());
   EXPECT_NEAR(r.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), 0.009869199827, 1e-9);
   EXPECT_NEAR(r.solutions[0].objectives.find("stroke_m")->as_number(), 0.721316, 1e-5);
-  EXPECT_EQ(r.solutions[0].defects.as_array().size(), 0u);
+  EXPECT_EQ(r.solutions[0].defects.size(), 0u);
   EXPECT_EQ(r.scenes.size(), r.solutions.size());
   EXPECT_EQ(r.statistics.find("success_rate")->as_number(), 1);
   EXPECT_EQ(r.log.as_array().size(), 3u);

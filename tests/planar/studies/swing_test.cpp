@@ -83,7 +83,7 @@ TEST(SwingStudy, FindsBothSensesBestFirst) {
   }
   EXPECT_NEAR(objective(result, 0, "least_transmission_angle_rad") / degree_of_swing, 41.813, 1e-3);
   EXPECT_NEAR(objective(result, 1, "least_transmission_angle_rad") / degree_of_swing, 30.184, 1e-3);
-  EXPECT_THAT(result.solutions[0].label, HasSubstr("slow stroke with the crank"));
+  EXPECT_THAT(to_string(result.solutions[0].label), HasSubstr("slow stroke with the crank"));
   EXPECT_THAT(to_string(result.headline), HasSubstr("swings by 45° with a time ratio of 1.25"));
 }
 

@@ -51,7 +51,7 @@ TEST(AxleStudy, TellsTheAntiDiveByTheArmPlanesBesideThatOfTheMotion) {
   // The tie rod of this suspension agrees with the arms within a few percent of the load transfer.
   EXPECT_NEAR(by_arms, at(sweep, "anti_dive_outboard_percent", 0), 3);
   std::string facts;
-  for (const auto& fact : result.facts) facts += fact.label + " = " + to_string(fact.text) + "\n";
+  for (const auto& fact : result.facts) facts += to_string(fact.label + " = " + fact.text) + "\n";
   EXPECT_THAT(facts, HasSubstr("anti-dive, outboard brake = 22.45 %\n"));
   EXPECT_THAT(facts, HasSubstr("caster, kingpin inclination by ball joints = 4.970°, "));
   EXPECT_THAT(facts,

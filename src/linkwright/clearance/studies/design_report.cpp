@@ -202,9 +202,7 @@ class DesignReporter {
       if (n.upper > n.lower && (n.value <= n.lower + close || n.value >= n.upper - close))
         out.classification["active_bounds"].push_back(n.name.key);
     }
-    out.defects = Value::array();
-    for (const auto& v : d_.presumed.violations)
-      out.defects.push_back(fmt::format("violates {} by {:.3g}", v.reason, v.amount));
+    for (const auto& v : d_.presumed.violations) out.defects.push_back(violation_text(v));
     if (s_.has_masses() && lost(d_)) out.defects.push_back("contact is lost");
     out.scene = "motion";
     if (!d_.rows.empty()) out.study = design_study(s_, d_);
@@ -373,8 +371,7 @@ class DesignReporter {
   }
 
   void warnings() {
-    for (const auto& v : d_.presumed.violations)
-      warn(say("the design violates {} by {}", v.reason, plain_number(v.amount, 3)));
+    for (const auto& v : d_.presumed.violations) warn("the design " + violation_text(v));
     if (!turns_fully(d_.model))
       warn("the crank does not rotate fully with the pin anywhere in its bush",
            "lengthen coupler and rocker, or take a shorter crank");

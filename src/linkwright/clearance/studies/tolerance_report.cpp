@@ -197,7 +197,7 @@ class ToleranceReporter {
       else if (quantity.any)
         text += say("; with all tolerances {} times as large the worst case would, too",
                     plain_number(std::floor(100 * y.limit / largest) / 100, 2));
-      fact(fmt::format("{} within {}", quantity.name, to_string(shown(quantity.kind, y.limit))), text,
+      fact(say("{} within {}", quantity.name, shown(quantity.kind, y.limit)), text,
            always ? Verdict::good : Verdict::plain);
     }
     if (std::isfinite(r_.transmission))

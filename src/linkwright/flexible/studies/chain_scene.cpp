@@ -34,7 +34,7 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
   Scene scene;
   scene.name = "motion";
   scene.title = drawn == 1 ? "bending to scale; dash-dotted: the rigid arm"
-                           : fmt::format("bending drawn {:g} x; dash-dotted: the rigid arm", drawn);
+                           : say("bending drawn {} x; dash-dotted: the rigid arm", plain_number(drawn, 6));
   scene.input_key = "time_s";
   scene.input_label = "time";
 

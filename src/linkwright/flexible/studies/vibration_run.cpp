@@ -148,8 +148,7 @@ class Analyst {
     study::Scene scene;
     scene.name = fmt::format("mode-{}", k);
     const double w = found_[static_cast<std::size_t>(k) - 1].frequency;
-    scene.title =
-        w > 0 ? fmt::format("mode {}, {}", k, to_string(hertz(w))) : fmt::format("mode {}: turns freely", k);
+    scene.title = w > 0 ? say("mode {}, {}", k, hertz(w)) : say("mode {}: turns freely", k);
     scene.input_key = "phase_rad";
     scene.input_label = "phase";
     double reach = std::abs(mode.hub_angle) * (beam().hub_radius + beam().length);
@@ -316,7 +315,7 @@ class Analyst {
       const Chain twice = discretise(beam(), 2 * s_.vibration.divisions, s_.vibration.kinematics);
       const Equilibrium finer = equilibrium(twice, load, options);
       if (finer.status == Status::done)
-        fact(fmt::format("change of the tip with {} divisions", 2 * s_.vibration.divisions),
+        fact(say("change of the tip with {} divisions", 2 * s_.vibration.divisions),
              millimetres(shape(twice, finer.state.q).node.back().y - across.back()));
     } else {
       result_.status = found.status;

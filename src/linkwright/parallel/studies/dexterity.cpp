@@ -263,8 +263,7 @@ study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
   out.objectives["size_m"] = a.best.size;
   out.objectives["violation"] = a.best.violation;
   out.classification = Value::object();
-  out.defects = Value::array();
-  if (!a.best.reason.empty()) out.defects.push_back(Value(to_string(a.best.reason)));
+  if (!a.best.reason.empty()) out.defects.push_back(a.best.reason);
   out.scene = "region";
   out.study = study_of(s, a.best);
   return out;

@@ -309,7 +309,7 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
     result.troubles.push_back({.what = std::string(to_string(failure.status)),
                                .where = {{"time_s", failure.time}},
                                .share = blocked ? HUGE_VAL : 1 + failure.worst,
-                               .why = to_string(failure.text)});
+                               .why = failure.text});
   }
   std::stable_sort(result.troubles.begin(), result.troubles.end(), [](const auto& a, const auto& b) {
     return a.where.front().value < b.where.front().value;

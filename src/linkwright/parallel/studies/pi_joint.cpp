@@ -314,11 +314,9 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   parameter("base_m", "base and coupler (m)", base_length(best.joint));
   solution.objectives["size_m"] = best.size;
   solution.objectives["violation"] = best.violation;
-  solution.defects = Value::Array{};
   solution.classification = Value::object();
   solution.scene = "travel";
-  if (report.status != Status::done)
-    solution.defects = Value::Array{Value(std::string(to_string(report.status)))};
+  if (report.status != Status::done) solution.defects = {to_string(report.status)};
   Value& found = solution.study["mechanism"];
   found["type"] = "parallel.pi_joint";
   found["arm_m"] = best.joint.arm;

@@ -108,9 +108,8 @@ ExactDesign exact_design(const PathProblem& problem, const TracingFourBar& bars,
   out.curve = curve;
   out.design = measure(problem, linkage, sense, std::move(angles));
   if (changed > 0)
-    out.defects.push_back(
-        {DefectKind::branch,
-         fmt::format("meets point {} on one branch and point {} on the other", changed, changed + 1)});
+    out.defects.push_back({DefectKind::branch, say("meets point {} on one branch and point {} on the other",
+                                                   changed, changed + 1)});
   else if (one_rocking_interval(out.design))
     out.defects.push_back(
         {DefectKind::order, "the crank, which rocks, would have to turn back between the points"});

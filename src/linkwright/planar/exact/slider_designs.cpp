@@ -89,9 +89,8 @@ ExactSliderDesign exact_slider_design(const SliderPathProblem& problem, const Tr
   out.design = measure(problem, mechanism, sense, std::move(angles));
   if (changed > 0)
     out.defects.push_back(
-        {DefectKind::branch,
-         fmt::format("the slider is ahead of the crank pin at point {} and behind it at point {}", changed,
-                     changed + 1)});
+        {DefectKind::branch, say("the slider is ahead of the crank pin at point {} and behind it at point {}",
+                                 changed, changed + 1)});
   else if (turns_back)
     out.defects.push_back(
         {DefectKind::order, "the crank, which rocks, would have to turn back between the points"});

@@ -149,6 +149,14 @@ const InputRange* range_at(const InputLimits& limits, std::span<const double> mo
   return nullptr;
 }
 
+double assembly_range(const InputLimits& limits, std::span<const double> modes) {
+  double sum = 0;
+  for (const InputRange& r : limits.ranges)
+    if (std::equal(modes.begin(), modes.end(), r.modes.begin(), r.modes.end()))
+      sum += r.full_turn ? full_turn : r.to.value - r.from.value;
+  return sum;
+}
+
 Sentence assembly_range_text(const InputLimits& limits, std::span<const double> modes) {
   const bool rotary = limits.rotary;
   std::vector<std::pair<double, double>> parts;

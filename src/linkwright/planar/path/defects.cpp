@@ -1,7 +1,5 @@
 #include "linkwright/planar/path/defects.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <cstddef>
 
@@ -10,20 +8,23 @@
 
 namespace linkwright::planar {
 
+Sentence point_text(const std::vector<double>& angles, std::size_t k) {
+  return say("point {} (crank angle {})", at_place("point", count_of(static_cast<double>(k + 1))),
+             at_place("crank_angle", degrees_of(math::wrap_angle(angles[k])).spelled()));
+}
+
 std::vector<Defect> defects(const PathMotion& motion) {
   std::vector<Defect> out;
   const auto& [task, angles, sense, points, turns_fully, reach, words] = motion;
   const std::size_t n = angles.size();
   bool everywhere = true;
   for (std::size_t k = 0; k < n; ++k) {
-    const std::string place = fmt::format("at point {} (crank angle {:.4g} deg)", k + 1,
-                                          math::degrees(math::wrap_angle(angles[k])));
     if (points[k].status == Status::no_assembly) {
       everywhere = false;
-      out.push_back({DefectKind::assembly, fmt::format("does not assemble {}: {}{:.4g} m{}", place,
-                                                       words.missing[0], points[k].gap, words.missing[1])});
+      out.push_back({DefectKind::assembly, say("does not assemble at {}: {}{}{}", point_text(angles, k),
+                                               words.missing[0], metres(points[k].gap), words.missing[1])});
     } else if (points[k].status == Status::singular) {
-      out.push_back({DefectKind::branch, fmt::format("{} {}", words.singular, place)});
+      out.push_back({DefectKind::branch, say("{} at {}", words.singular, point_text(angles, k))});
     }
   }
   const std::size_t steps = task.closed ? n : n - 1;
@@ -41,16 +42,16 @@ std::vector<Defect> defects(const PathMotion& motion) {
     const auto interval = reach(angles[k]);
     const double end = angles[k] + direction * forward, slack = 1e-9;
     if (!interval || end < interval->from - slack || end > interval->to + slack)
-      out.push_back({DefectKind::circuit,
-                     fmt::format("cannot move from point {} to point {} without passing crank angles {}",
-                                 k + 1, next + 1, words.without_assembly)});
+      out.push_back(
+          {DefectKind::circuit, say("cannot move from point {} to point {} without passing crank angles {}",
+                                    k + 1, next + 1, words.without_assembly)});
   }
   const double rounding = 1e-9 * static_cast<double>(n);
   if (task.closed ? std::abs(turned - 2 * pi) > rounding : turned > 2 * pi + rounding)
-    out.push_back({DefectKind::order,
-                   fmt::format("meets the points in another order: the crank turns {:.4g} deg in all, {} of "
-                               "{} steps run backwards",
-                               math::degrees(turned), backwards, steps)});
+    out.push_back(
+        {DefectKind::order,
+         say("meets the points in another order: the crank turns {} in all, {} of {} steps run backwards",
+             degrees_of(turned).spelled(), backwards, steps)});
   return out;
 }
 

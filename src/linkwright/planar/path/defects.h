@@ -3,11 +3,11 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/path/mechanism.h"
 
 namespace linkwright::planar {
@@ -28,7 +28,7 @@ constexpr std::array<EnumName<DefectKind>, 4> names(DefectKind) {
 
 struct Defect {
   DefectKind kind;
-  std::string text;  ///< with point numbers (from 1) and angles in degrees
+  Sentence text;  ///< with point numbers (from 1)
 };
 
 /// What a design does along a path.
@@ -42,6 +42,9 @@ struct PathMotion {
   MechanismWords words;
 };
 std::vector<Defect> defects(const PathMotion& motion);
+
+/// "point 3 (crank angle 40 deg)"
+Sentence point_text(const std::vector<double>& angles, std::size_t k);
 
 /// Defects of a design along the path, by closed-form criteria: whether it assembles at the points and
 /// between them, whether its branches meet at one, and the cyclic sum of the crank angle steps. Empty = the

@@ -196,14 +196,11 @@ class Report {
 
   study::Solution solution_of(const BalancedDesign& d, std::size_t number) const {
     study::Solution out;
-    std::string label;
-    if (designs_.size() > 1) {
+    if (designs_.size() > 1)
       for (std::size_t k = 0; k < d.ratios.size() && k < 4; ++k)
-        label += fmt::format("{}{:.3f}", k ? " / " : "", d.ratios[k]);
-    } else {
-      label = "balanced";
-    }
-    out.label = label;
+        out.label += say("{}{}", k ? " / " : "", plain_number(d.ratios[k]).fixed(3));
+    else
+      out.label = "balanced";
     for (std::size_t j = 0; j < d.x.size(); ++j) {
       const optimise::Variable& v = p_.task.variables[j];
       out.parameters.push_back({v.name,
@@ -214,8 +211,8 @@ class Report {
     for (std::size_t k = 0; k < d.ratios.size(); ++k) out.objectives[ratio_key(k)] = d.ratios[k];
     out.classification["active_bounds"] = Value::array();
     for (const std::string& limit : d.active) out.classification["active_bounds"].push_back(limit);
-    out.defects = Value::array();
-    if (d.violation > 0) out.defects.push_back(fmt::format("violates constraints by {:.3g}", d.violation));
+    if (d.violation > 0)
+      out.defects.push_back(say("violates constraints by {}", plain_number(d.violation, 3)));
     if (number <= most_drawn) {
       out.scene = fmt::format("solution-{}", number);
       out.study = design_tables(s_, d.x);
@@ -234,7 +231,7 @@ class Report {
   }
 
   void scenes() {
-    const auto add = [&](const study::Result& analysis, std::string name, std::string title) {
+    const auto add = [&](const study::Result& analysis, std::string name, Sentence title) {
       if (analysis.scenes.empty()) return;
       study::Scene scene = analysis.scenes.front();
       scene.name = std::move(name);
@@ -244,7 +241,7 @@ class Report {
     add(after_, "solution-1", designs_.size() > 1 ? "1: " + result_.solutions[0].label : "balanced");
     for (std::size_t i = 0; i < others_.size(); ++i)
       add(others_[i], fmt::format("solution-{}", i + 2),
-          fmt::format("{}: {}", i + 2, result_.solutions[i + 1].label));
+          say("{}: {}", i + 2, result_.solutions[i + 1].label));
     add(before_, "initial", "initial design");
   }
 
@@ -429,7 +426,8 @@ class Report {
     for (std::size_t i = 0; i < std::min(limits.size(), told_limits); ++i)
       text += (i ? ", " : "") + limits[i].substr(0, limits[i].find(" ("));
     if (limits.size() > told_limits) text += say(" and {} more", limits.size() - told_limits);
-    fact("active bounds", text.empty() ? Sentence("none") : text);
+    fact("active bounds", text.empty() ? Sentence("none") : text).told =
+        count_of(static_cast<double>(limits.size()));
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
     study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size(), false);

@@ -86,8 +86,8 @@ class DwellReport {
     study::Solution out;
     const DwellLinkage& l = d.linkage;
     const double ground = s_.mechanism.ground;
-    out.label = to_string(say("rests within {}, least transmission angle {}", degrees_of(d.deviation, 3),
-                              degrees_of(std::min(d.four_bar_angle, d.dyad_angle)).fixed(1)));
+    out.label = say("rests within {}, least transmission angle {}", degrees_of(d.deviation, 3),
+                    degrees_of(std::min(d.four_bar_angle, d.dyad_angle)).fixed(1));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -108,9 +108,8 @@ class DwellReport {
     out.classification["dyad_transmission_angle_rad"] = d.dyad_angle;
     out.classification["dwell_from_rad"] = l.middle - s_.target.dwell / 2;
     out.classification["dwell_to_rad"] = l.middle + s_.target.dwell / 2;
-    out.defects = Value::array();
     if (d.deviation > s_.target.tolerance)
-      out.defects.push_back(to_string(say("departs by {} while it is to rest", degrees_of(d.deviation, 3))));
+      out.defects.push_back(say("departs by {} while it is to rest", degrees_of(d.deviation, 3)));
     motion(d, out, number);
     result_.solutions.push_back(std::move(out));
   }
@@ -145,7 +144,7 @@ class DwellReport {
     study::Scene scene = linkage_scene(linkage, moving.plan(), records, {point_named(linkage, "coupler.C")},
                                        "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
-    scene.title = fmt::format("{}: {}", number, out.label);
+    scene.title = say("{}: {}", number, out.label);
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     const study::AddPlot plot{result_,

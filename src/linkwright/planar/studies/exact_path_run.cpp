@@ -350,15 +350,13 @@ class ExactReport {
       for (study::Parameter& parameter : solution.parameters)
         parameter.lower = -infinity, parameter.upper = infinity;
       solution.classification["class"] = d.curve + 1;
-      solution.defects = Value::array();
+      solution.defects.clear();
       for (const Defect& defect : d.defects)
-        solution.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+        solution.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
       if (d.defects.empty())
         for (const auto& violation : d.design.violations)
-          solution.defects.push_back(
-              fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
-      result_.scenes.push_back(path_scene(p_, d.design, solution.scene,
-                                          fmt::format("{}: {}", i + 1, solution.label),
+          solution.defects.push_back(violation_text(violation));
+      result_.scenes.push_back(path_scene(p_, d.design, solution.scene, say("{}: {}", i + 1, solution.label),
                                           common_.output.samples));
       result_.solutions.push_back(std::move(solution));
     }

@@ -167,17 +167,16 @@ study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study:
       break;
     drawn.push_back(d.design);
     add_slider_solution(result, p, d.design, common,
-                        std::isnan(d.design.stroke) ? std::string("the crank rocks")
-                                                    : "stroke " + to_string(length_by_size(d.design.stroke)));
+                        std::isnan(d.design.stroke) ? Sentence("the crank rocks")
+                                                    : say("stroke {}", length_by_size(d.design.stroke)));
     study::Solution& solution = result.solutions.back();
     for (study::Parameter& parameter : solution.parameters)
       parameter.lower = -infinity, parameter.upper = infinity;
-    solution.defects = Value::array();
+    solution.defects.clear();
     for (const Defect& defect : d.defects)
-      solution.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+      solution.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
     if (d.defects.empty())
-      for (const auto& violation : d.design.violations)
-        solution.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+      for (const auto& violation : d.design.violations) solution.defects.push_back(violation_text(violation));
   }
   add_slider_design_tables(result, p, drawn, common.output.samples);
 

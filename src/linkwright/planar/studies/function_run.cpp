@@ -63,8 +63,8 @@ class FunctionReport {
   void solution(const FunctionDesign& d, std::size_t number) {
     study::Solution out;
     const FunctionGenerator& g = d.generator;
-    out.label = to_string(
-        say("{}, greatest error {}", p_.slider ? "slider-crank" : "four-bar", amount(d.greatest_error)));
+    out.label =
+        say("{}, greatest error {}", p_.slider ? "slider-crank" : "four-bar", amount(d.greatest_error));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -83,11 +83,10 @@ class FunctionReport {
     out.objectives["structural_error_rms_" + unit()] = d.rms_error;
     out.objectives["least_pair_angle_rad"] = d.pair_angle;
     out.classification["assembles"] = d.assembles;
-    out.defects = Value::array();
     if (!d.assembles) out.defects.push_back("circuit: does not assemble over the whole range");
     if (d.other_branch > 0)
       out.defects.push_back(
-          fmt::format("branch: {} of the precision points are on the other branch", d.other_branch));
+          say("branch: {} of the precision points are on the other branch", d.other_branch));
     tables(d, out, number);
     result_.solutions.push_back(std::move(out));
   }
@@ -153,7 +152,7 @@ class FunctionReport {
     }
     study::Scene scene = linkage_scene(linkage, planned.plan, records, {}, "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
-    scene.title = fmt::format("{}: {}", number, out.label);
+    scene.title = say("{}: {}", number, out.label);
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
   }

@@ -123,8 +123,9 @@ void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
   table.add(input_key(s.linkage, s.plan, 0), input_label(s.linkage, s.plan, 0), std::move(input));
   table.add(identifier(s.quality.output_joint) + (slide ? "_displacement_m" : "_angle_rad"),
             s.quality.output_joint + (slide ? " displacement (m)" : " angle (rad)"), std::move(coordinate));
-  result.facts.push_back(
-      {"dead centres of " + s.quality.output_joint, text.empty() ? Sentence("none") : text});
+  const study::AddFact fact{result.facts};
+  fact("dead centres of " + s.quality.output_joint, text.empty() ? Sentence("none") : text).told =
+      count_of(static_cast<double>(centres.size()));
   result.tables.push_back(std::move(table));
 }
 

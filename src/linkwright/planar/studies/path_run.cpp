@@ -230,7 +230,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   for (std::size_t i = 0; i < designs.size(); ++i) {
     result.solutions.push_back(path_solution(s.problem, designs[i], i + 1, common.output.samples));
     result.scenes.push_back(path_scene(s.problem, designs[i], result.solutions[i].scene,
-                                       fmt::format("{}: {}", i + 1, result.solutions[i].label),
+                                       say("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));
   }
   add_statistics(result, runs, feasible ? best.error : infinity, path_size(s.problem));

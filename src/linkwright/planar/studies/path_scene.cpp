@@ -75,7 +75,7 @@ std::vector<double> shown_angles(const PathDesign& design, int samples) {
 }
 
 study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,
-                        std::string title, int samples) {
+                        Sentence title, int samples) {
   study::Scene scene = linkage_over(design.linkage, shown_angles(design, samples));
   scene.name = std::move(name);
   scene.title = std::move(title);

@@ -16,7 +16,7 @@ std::vector<double> shown_angles(const PathDesign& design, int samples);
 
 /// Drawing of a design in motion with the target path.
 study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,
-                        std::string title, int samples);
+                        Sentence title, int samples);
 
 /// Motion over the shown angles: crank, coupler, rocker and transmission angles, coupler point.
 Table motion_table(const PathDesign& design, std::string name, int samples);

@@ -80,12 +80,10 @@ study::Solution path_solution(const PathProblem& p, const PathDesign& d, std::si
   const std::vector<Drawback> bad = drawbacks(p, d);
   out.classification["usable"] = d.violations.empty() && bad.empty();
   out.classification["drawbacks"] = Value::array();
-  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(drawback.text);
-  out.defects = Value::array();
-  for (const auto& violation : d.violations)
-    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(to_string(drawback.text));
+  for (const auto& violation : d.violations) out.defects.push_back(violation_text(violation));
   for (const Defect& defect : defects(p, d))
-    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+    out.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
   out.scene = fmt::format("solution-{}", number);
   out.study = motion_study("planar.four_bar", study::write_fields(FourBarMechanism{d.linkage, {}}),
                            shown_angles(d, samples), d.angles);

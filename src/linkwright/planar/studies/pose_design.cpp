@@ -29,18 +29,17 @@ std::string_view drive_of(const PoseDesign& d) {
   return d.driver.type == GuidingDyadType::pr ? "a slide" : "a cylinder";
 }
 
-std::string defect_text(const PoseDesign& d) {
+Sentence defect_text(const PoseDesign& d) {
   switch (d.passage.defect) {
     case PoseDefect::none:
       return {};
     case PoseDefect::branch:
-      if (d.passage.from == d.passage.to)
-        return fmt::format("branch: at a dead point at pose {}", d.passage.to + 1);
-      return fmt::format("branch: poses {} and {} are on both sides of a dead point", d.passage.from + 1,
-                         d.passage.to + 1);
+      if (d.passage.from == d.passage.to) return say("branch: at a dead point at pose {}", d.passage.to + 1);
+      return say("branch: poses {} and {} are on both sides of a dead point", d.passage.from + 1,
+                 d.passage.to + 1);
     case PoseDefect::circuit:
-      return fmt::format("circuit: cannot move from pose {} to pose {} without leaving where it assembles",
-                         d.passage.from + 1, d.passage.to + 1);
+      return say("circuit: cannot move from pose {} to pose {} without leaving where it assembles",
+                 d.passage.from + 1, d.passage.to + 1);
     case PoseDefect::order:
       break;
   }

@@ -21,7 +21,7 @@ std::string_view name_of_linkage(const PoseDesign& design);
 /// "a crank".
 std::string_view drive_of(const PoseDesign& design);
 /// "order: meets the poses in another order"; empty without a defect.
-std::string defect_text(const PoseDesign& design);
+Sentence defect_text(const PoseDesign& design);
 
 /// The four-bar of two links, its coupler point the body's origin.
 FourBar four_bar_of(const PoseDesign& design);

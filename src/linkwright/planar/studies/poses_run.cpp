@@ -88,7 +88,6 @@ class PoseReport {
     out.classification["drive_turns_fully"] = d.passage.drive_turns;
     out.classification["defect"] = name_of(d.passage.defect);
     if (std::isfinite(d.link_ratio)) out.classification["link_ratio"] = d.link_ratio;
-    out.defects = Value::array();
     if (defective(d)) out.defects.push_back(defect_text(d));
     motion(d, out, number);
     result_.solutions.push_back(std::move(out));
@@ -170,7 +169,7 @@ class PoseReport {
     }
     study::Scene scene = linkage_scene(linkage, plan, records, {{body, 2}}, key, label);
     scene.name = std::move(name);
-    scene.title = fmt::format("{}: {}", number, out.label);
+    scene.title = say("{}: {}", number, out.label);
     // The body at every pose, pale behind, and its origin as what is to be reached.
     scene.runs = {"linkage", "poses"};
     study::Scene::Target target{"poses", {}, {}, {}, {}, {}, false};

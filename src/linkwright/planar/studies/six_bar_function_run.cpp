@@ -82,8 +82,8 @@ class SixBarFunctionReport {
   void solution(const SixBarDesign<Generator>& d, std::size_t number) {
     study::Solution out;
     const double scale = s_.mechanism.ground;
-    out.label = to_string(say("six-bar, greatest error {}, least pair angle {}",
-                              degrees_of(d.greatest_error, 3), degrees_of(d.pair_angle).fixed(1)));
+    out.label = say("six-bar, greatest error {}, least pair angle {}", degrees_of(d.greatest_error, 3),
+                    degrees_of(d.pair_angle).fixed(1));
     const auto add = [&](std::string key, std::string label, double value) {
       out.parameters.push_back({std::move(key), std::move(label), value, -infinity, infinity});
     };
@@ -94,9 +94,8 @@ class SixBarFunctionReport {
     out.objectives["structural_error_rad"] = d.greatest_error;
     out.objectives["structural_error_rms_rad"] = d.rms_error;
     out.objectives["least_pair_angle_rad"] = d.pair_angle;
-    out.defects = Value::array();
     if (d.pair_angle < s_.transmission)
-      out.defects.push_back(fmt::format("transmits force badly: {:.1f}°", math::degrees(d.pair_angle)));
+      out.defects.push_back(say("transmits force badly: {}", degrees_of(d.pair_angle).fixed(1)));
     tables(d, out, number);
     result_.solutions.push_back(std::move(out));
   }
@@ -147,7 +146,7 @@ class SixBarFunctionReport {
         linkage_scene(linkage, planned.plan, records, {point_named(linkage, output_point(d.generator))},
                       "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
-    scene.title = fmt::format("{}: {}", number, out.label);
+    scene.title = say("{}: {}", number, out.label);
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     out.study = motion_study(linkage, true, crank, std::string(output_point(d.generator)));

@@ -232,7 +232,7 @@ inline constexpr double steep_pressure = 75 * pi / 180;
 
 /// A design as the next solution of a result, called `label`; the first ones have a drawing.
 void add_slider_solution(study::Result& result, const SliderPathProblem& problem,
-                         const SliderPathDesign& design, const study::Common& common, std::string label);
+                         const SliderPathDesign& design, const study::Common& common, Sentence label);
 /// Tables and diagrams of those with a drawing; plain names for the best design, the number of the solution
 /// in those of the others.
 void add_slider_design_tables(study::Result& result, const SliderPathProblem& problem,

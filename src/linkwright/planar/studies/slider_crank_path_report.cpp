@@ -43,9 +43,9 @@ class Report {
     result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
     for (const SliderPathDesign& d : designs_)
       add_slider_solution(result_, p_, d, common_,
-                          std::isnan(d.stroke) ? std::string(name_of(d.linkage.branch))
-                                               : to_string(say("stroke {}, {} rms", length_by_size(d.stroke),
-                                                               length_by_size(rms(d)))));
+                          std::isnan(d.stroke)
+                              ? Sentence(name_of(d.linkage.branch))
+                              : say("stroke {}, {} rms", length_by_size(d.stroke), length_by_size(rms(d))));
     statistics();
     tables();
     if (feasible_) comparisons();
@@ -246,7 +246,7 @@ class Report {
 }  // namespace
 
 void add_slider_solution(study::Result& result, const SliderPathProblem& p, const SliderPathDesign& d,
-                         const study::Common& common, std::string label) {
+                         const study::Common& common, Sentence label) {
   const std::size_t number = result.solutions.size() + 1;
   const bool with_start = !p.free_timing() && !p.bounds[index(SliderParameter::start_angle)].fixed();
   const double rms = std::sqrt(d.error / static_cast<double>(p.x.size()));
@@ -292,15 +292,13 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
   out.classification["max_pressure_angle_rad"] = greatest_pressure_angle(f);
   out.classification["active_bounds"] = Value::array();
   for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
-  out.defects = Value::array();
-  for (const auto& violation : d.violations)
-    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+  for (const auto& violation : d.violations) out.defects.push_back(violation_text(violation));
   for (const Defect& defect : defects(p, d))
-    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+    out.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
   if (number <= most_drawn_sliders) {
     out.scene = fmt::format("solution-{}", number);
     result.scenes.push_back(
-        slider_path_scene(p, d, out.scene, fmt::format("{}: {}", number, out.label), common.output.samples));
+        slider_path_scene(p, d, out.scene, say("{}: {}", number, out.label), common.output.samples));
     out.study = motion_study("planar.slider_crank", study::write_fields(d.linkage),
                              shown_angles(d, common.output.samples), d.angles);
   }

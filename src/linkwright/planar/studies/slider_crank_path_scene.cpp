@@ -28,7 +28,7 @@ std::vector<double> shown_angles(const SliderPathDesign& design, int samples) {
 }
 
 study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPathDesign& design,
-                               std::string name, std::string title, int samples) {
+                               std::string name, Sentence title, int samples) {
   // A crank that a search has shrunk to nothing leaves its pins apart by what nobody sees.
   constexpr double visible = 1e-6;
   auto mechanism = design.linkage;

@@ -15,7 +15,7 @@ std::vector<double> shown_angles(const SliderPathDesign& design, int samples);
 
 /// Drawing of a design in motion, as the analysis of the same linkage draws it, with the target path.
 study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPathDesign& design,
-                               std::string name, std::string title, int samples);
+                               std::string name, Sentence title, int samples);
 
 /// Motion over the shown angles: crank and rod angle, displacement of the slider, pressure angle, tracing
 /// point.

@@ -132,7 +132,6 @@ class SwingReport {
     }
     out.classification["slow_stroke"] = sense_text(d.strokes);
     out.classification[s_.slider ? "rod_ratio" : "coupler_ratio"] = 1 / d.lengths.crank;
-    out.defects = Value::array();
     if (d.swept)
       motion(d, out, number);
     else
@@ -184,7 +183,7 @@ class SwingReport {
              const std::vector<LinkageRecord>& records, std::size_t number) {
     study::Scene scene = linkage_scene(d.linkage, plan, records, {}, "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
-    scene.title = fmt::format("{}: {}", number, out.label);
+    scene.title = say("{}: {}", number, out.label);
     // The linkage at its dead centres, pale behind.
     scene.runs = {"linkage", "dead centres"};
     LinkageMotion moving(plan);

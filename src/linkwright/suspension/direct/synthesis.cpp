@@ -353,6 +353,21 @@ std::int64_t refine(const DirectModel& model, const DirectOptions& options, std:
   return evaluations;
 }
 
+Sentence why_infeasible(const DirectTask& task, const DirectOptions& options, const DirectSynthesis& found,
+                        std::size_t starts) {
+  if (!found.answer.assembled)
+    return say("none of {} starts assembles at all positions; the best reaches {} of them", starts,
+               percent(found.answer.reached).fixed(0));
+  if (missed(options, found) == 0) return {};
+  for (const LimitAnswer& limit : found.limits)
+    if (limit.excess > limit_gap) return say("{} is missed by {}", limit.name, millimetres(limit.excess, 3));
+  for (std::size_t k = 0; k < found.objectives.size(); ++k)
+    if (static_cast<int>(k) != options.one && found.objectives[k] > 1 + tolerance_gap)
+      return say("objective '{}' is {} tolerances off", task.objectives[k].name,
+                 plain_number(found.objectives[k]));
+  return {};
+}
+
 }  // namespace
 
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide) {
@@ -364,7 +379,8 @@ DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std
   LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} design variables", u.size(), model.size());
   DirectSynthesis out = assessed(model, u);
   complete(model, options, u, out);
-  out.status = out.answer.assembled && missed(options, out) == 0 ? Status::done : Status::infeasible;
+  out.reason = why_infeasible(task, options, out, static_cast<std::size_t>(options.starts));
+  out.status = out.reason.empty() ? Status::done : Status::infeasible;
   return out;
 }
 
@@ -454,19 +470,7 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
   out.starts = std::move(starts);
   if (stop == Status::done) stop = context.interruption();
   out.status = stop;
-  if (!out.answer.assembled) {
-    out.reason =
-        fmt::format("none of {} starts assembles at all positions; the best reaches {:.0f} % of them",
-                    out.starts.size(), 100 * out.answer.reached);
-  } else if (missed(options, out) > 0) {
-    for (const LimitAnswer& limit : out.limits)
-      if (limit.excess > limit_gap && out.reason.empty())
-        out.reason = fmt::format("{} is missed by {:.3g} mm", limit.name, limit.excess * 1e3);
-    for (std::size_t k = 0; k < out.objectives.size() && out.reason.empty(); ++k)
-      if (static_cast<int>(k) != options.one && out.objectives[k] > 1 + tolerance_gap)
-        out.reason = fmt::format("objective '{}' is {:.4g} tolerances off", task.objectives[k].name,
-                                 out.objectives[k]);
-  }
+  out.reason = why_infeasible(task, options, out, out.starts.size());
   if (out.status == Status::done && !out.reason.empty()) out.status = Status::infeasible;
   context.report({.stage = "goal", .fraction = 1, .best = out.largest});
   return out;

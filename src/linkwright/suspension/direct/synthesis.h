@@ -8,6 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/sentence.h"
 #include "linkwright/optimise/priorities.h"
 #include "linkwright/suspension/direct/guide_targets.h"
 #include "linkwright/suspension/guide/limits.h"
@@ -62,7 +63,7 @@ struct DirectSynthesis {
   /// done; infeasible: no start assembled, or limits (for the goal `one` also tolerances) are missed;
   /// deadline, cancelled.
   Status status = Status::infeasible;
-  std::string reason;  ///< empty, or why it is infeasible
+  Sentence reason;  ///< empty, or why it is infeasible
   WheelGuide guide;
   std::vector<double> x;  ///< values of the design variables
   /// The same in shares of their ranges: what the design is made from, to the bit.

@@ -164,7 +164,7 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
 
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels, std::size_t stated,
-                       const std::string& position) {
+                       const Sentence& position) {
   const bool front = vehicle.axle == AxlePlace::front;
   std::array<std::vector<double>, 4> columns;
   for (const WheelParameters& w : wheels) {

@@ -66,8 +66,7 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 /// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a
 /// diagram. Facts give those of the row `stated`, whose position their names end with.
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
-                       std::span<const WheelParameters> wheels, std::size_t stated,
-                       const std::string& position);
+                       std::span<const WheelParameters> wheels, std::size_t stated, const Sentence& position);
 /// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
 /// stop.
 void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& axle,

@@ -69,7 +69,6 @@ using Runs = study::SeedRuns<DirectSynthesis>;
 Value kept(const DirectSynthesis& answer) {
   Value out;
   out["status"] = study::kept_status(answer.status);
-  out["reason"] = answer.reason;
   out["shares"] = pack_numbers(answer.shares);
   out["assembled"] = answer.assembled;
   out["reached_best"] = answer.reached_best;
@@ -85,9 +84,6 @@ DirectSynthesis restored(const Value& value, const DirectStudy& s, std::string_v
     throw CheckpointError(fmt::format("{}: its design lies outside of the ranges", what));
   DirectSynthesis out = assess(s.task, options_of(s), shares);
   out.status = study::restored_status(value, what);
-  const Value& reason = kept_member(value, "reason", what);
-  if (!reason.is_string()) throw CheckpointError(fmt::format("{}: its reason is not text", what));
-  out.reason = reason.as_string();
   out.assembled = static_cast<int>(kept_integer(value, "assembled", 0, 1000000, what));
   out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.assembled, what));
   out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
@@ -252,15 +248,13 @@ study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
     out.objectives[plain_name(s.task.objectives[i].name) + "_largest_deviation"] = best.objectives[i];
   out.objectives["largest_deviation"] = best.largest;
   out.objectives["half_sum_of_squares"] = best.half_sum_of_squares;
-  out.classification["structure"] = out.label;
+  out.classification["structure"] = to_string(out.label);
   out.classification["objectives_met"] = static_cast<std::int64_t>(
       std::count_if(best.objectives.begin(), best.objectives.end(), [](double v) { return v <= 1; }));
   out.classification["active_targets"] = static_cast<std::int64_t>(best.active.size());
-  out.defects = Value::array();
   if (!best.reason.empty()) out.defects.push_back(best.reason);
   for (const LimitAnswer& l : best.limits)
-    if (l.excess > 1e-9)
-      out.defects.push_back(fmt::format("{}: missed by {:.4g} mm", l.name, l.excess * 1e3));
+    if (l.excess > 1e-9) out.defects.push_back(say("{}: missed by {}", l.name, millimetres(l.excess)));
   out.scene = best.answer.assembled ? "solution-1" : "";
   const Range1 range = range_of(s);
   out.study = sweep_of_found(s.description, best.guide, s.task.driver, range.travels,
@@ -338,7 +332,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   if (result.status == Status::done) result.status = best.status;
   if (!best.answer.assembled) {
     result.headline =
-        "No design found: " + (best.reason.empty() ? std::string("no start assembles") : best.reason) + ".";
+        "No design found: " + (best.reason.empty() ? Sentence("no start assembles") : best.reason) + ".";
     add_statistics(result, s, runs, infinity);
     return result;
   }

@@ -219,11 +219,10 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
   });
   out.objectives["max_constraint_error_m"] = run.error;
   out.objectives["max_structural_error_m"] = run.answer.largest;
-  out.classification["structure"] = out.label;
+  out.classification["structure"] = to_string(out.label);
   out.classification["status"] = to_string(run.answer.status);
-  out.defects = Value::array();
   for (const Diagnostic& d : run.answer.findings)
-    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(to_string(d.message));
+    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
   if (!scene.empty()) out.study = study_of(s, run.answer.guide);
   out.scene = std::move(scene);
   return out;

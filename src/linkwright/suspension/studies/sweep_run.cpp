@@ -260,7 +260,7 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   fact("structure", structure_name(structure_of(guide)));
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
-  const std::string centred = s.racks[rack] == 0 ? "" : " (rack " + to_string(length(s.racks[rack])) + ")";
+  const Sentence centred = s.racks[rack] == 0 ? Sentence() : say(" (rack {})", length(s.racks[rack]));
   const auto span = [&](const char* label, auto&& value, auto&& text) {
     study::Extreme least, greatest;
     for (std::size_t i = first; i < first + s.travels.size(); ++i) {
@@ -281,9 +281,8 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
   if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
-    const std::string here = s.travels[next_to_zero(s.travels)] == 0
-                                 ? centred
-                                 : " (travel " + to_string(length(grid.travel(middle))) + ")";
+    const Sentence here =
+        s.travels[next_to_zero(s.travels)] == 0 ? centred : say(" (travel {})", length(grid.travel(middle)));
     fact("bump steer" + here, angle_by_travel(w.toe_by_travel));
     fact("camber by travel" + here, angle_by_travel(w.camber_by_travel));
     fact("roll-centre height" + here, length(w.roll_centre_height));
@@ -440,8 +439,8 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     const std::size_t middle = next_to_zero(s.racks) * s.travels.size() + next_to_zero(s.travels);
     add_anti_features(result, *s.vehicle, grid.solved.wheels, middle,
                       s.travels[next_to_zero(s.travels)] == 0 || middle >= grid.solved.wheels.size()
-                          ? std::string()
-                          : " (travel " + to_string(length(grid.travel(middle))) + ")");
+                          ? Sentence()
+                          : say(" (travel {})", length(grid.travel(middle))));
   }
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};

@@ -73,7 +73,7 @@ TEST(PathUsability, TellsWhereTheCrankLocks) {
   const auto found = drawbacks(p, own_design(p, pipi, first, step));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].kind, DrawbackKind::locks);
-  EXPECT_THAT(found[0].text, HasSubstr("locks 11.5° before the first point"));
+  EXPECT_THAT(to_string(found[0].text), HasSubstr("locks 11.5° before the first point"));
 }
 
 TEST(PathUsability, TellsCrowdedPoints) {
@@ -163,7 +163,8 @@ TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
     }
     ++allowed;
     EXPECT_THAT(design.violations, IsEmpty()) << seed;
-    for (const Drawback& drawback : drawbacks(p, design)) ADD_FAILURE() << seed << ": " << drawback.text;
+    for (const Drawback& drawback : drawbacks(p, design))
+      ADD_FAILURE() << seed << ": " << to_string(drawback.text);
   }
   EXPECT_GT(allowed, 300);
   EXPECT_GT(refused, 300);

@@ -59,7 +59,7 @@ TEST(SliderPathDefects, TellsAssemblyCircuitAndOrder) {
   const auto apart = defects(p, measure(p, shorter, 1, angles_of(p, 0.53607)));
   ASSERT_FALSE(apart.empty());
   EXPECT_EQ(apart[0].kind, DefectKind::assembly);
-  EXPECT_THAT(apart[0].text, HasSubstr("too short to reach the guide"));
+  EXPECT_THAT(to_string(apart[0].text), HasSubstr("too short to reach the guide"));
 
   p.timing = Timing::free;
   p.crank_rotates_fully = p.closed = false;
@@ -80,7 +80,7 @@ TEST(SliderPathDefects, TellsAssemblyCircuitAndOrder) {
   const auto parted = defects(three, measure(three, rocking, 1, {-0.2, 0.2, pi}));
   ASSERT_EQ(parted.size(), 1u);
   EXPECT_EQ(parted[0].kind, DefectKind::circuit);
-  EXPECT_THAT(parted[0].text, HasSubstr("from point 2 to point 3"));
+  EXPECT_THAT(to_string(parted[0].text), HasSubstr("from point 2 to point 3"));
   // The rod square to the guide: its modes meet.
   const auto square = defects(three, measure(three, rocking, 1, {-0.2, 0.2, pi / 6}));
   ASSERT_EQ(square.size(), 1u);

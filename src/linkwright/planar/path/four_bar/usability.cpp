@@ -33,10 +33,10 @@ void add_locks(const PathDesign& design, const FourBarClass& type, std::vector<D
     if (middle + shift < interval.from || middle + shift > interval.to) continue;
     double before = *low + shift - interval.from, beyond = interval.to - (*high + shift);
     if (design.angles.front() > design.angles.back()) std::swap(before, beyond);
-    out.push_back({DrawbackKind::locks,
-                   fmt::format("its crank cannot rotate fully and locks {:.1f}° before the first point and "
-                               "{:.1f}° beyond the last",
-                               math::degrees(std::max(0.0, before)), math::degrees(std::max(0.0, beyond)))});
+    out.push_back(
+        {DrawbackKind::locks,
+         say("its crank cannot rotate fully and locks {} before the first point and {} beyond the last",
+             degrees_of(std::max(0.0, before)).fixed(1), degrees_of(std::max(0.0, beyond)).fixed(1))});
     return;
   }
 }
@@ -59,7 +59,7 @@ std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& de
   const double mu = path_transmission(problem, design).used;
   if (mu < least_usable_transmission - slack)
     out.push_back({DrawbackKind::transmission,
-                   fmt::format("its transmission angle falls to {:.1f}° on the path", math::degrees(mu))});
+                   say("its transmission angle falls to {} on the path", degrees_of(mu).fixed(1))});
   if (problem.timing == Timing::free && design.angles.size() > 1) {
     const std::size_t n = design.angles.size(), steps = problem.closed ? n : n - 1;
     double least = 2 * pi;
@@ -70,17 +70,17 @@ std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& de
       if (step < least) least = step, at = k;
     }
     if (least < least_usable_step(problem) - slack)
-      out.push_back({DrawbackKind::crowded,
-                     fmt::format("{:.2g}° of crank rotation lie between points {} and {}",
-                                 math::degrees(std::max(0.0, least)), at + 1, (at + 1) % n + 1)});
+      out.push_back(
+          {DrawbackKind::crowded, say("{} of crank rotation lie between points {} and {}",
+                                      degrees_of(std::max(0.0, least), 2), at + 1, (at + 1) % n + 1)});
   }
   for (std::size_t j = 0; j < links; ++j) {
     const std::string_view link = name(FourBarParameter(j));
     const double length = design.linkage.*lengths[j];
     if (derived(problem, j) && std::find(design.active_bounds.begin(), design.active_bounds.end(), link) !=
                                    design.active_bounds.end())
-      out.push_back({DrawbackKind::bound, fmt::format("its {} link is as {} as the search allows", link,
-                                                      length > path_size(problem) ? "long" : "short")});
+      out.push_back({DrawbackKind::bound, say("its {} link is as {} as the search allows", link,
+                                              length > path_size(problem) ? "long" : "short")});
   }
   const FourBarClass type = classify(design.linkage);
   const FourBar& l = design.linkage;

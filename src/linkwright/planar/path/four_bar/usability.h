@@ -24,7 +24,7 @@ enum class DrawbackKind {
 };
 struct Drawback {
   DrawbackKind kind;
-  std::string text;  ///< as part of a sentence, with angles in degrees
+  Sentence text;  ///< part of a sentence
 };
 
 inline constexpr double least_usable_transmission = 0.08726646259971647;  ///< rad, 5 degrees

@@ -1,8 +1,7 @@
-// Sentences and tables in the units of the study.
+// Tables in the units of the study.
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { ShownSuffix } from "../src/data";
 import { csv, tableInFile } from "../src/exports";
-import { prose, unitSign } from "../src/prose";
 import { cellsOf, inFile, labelWith, unitOf, useUnits } from "../src/units";
 
 const shown = (suffix: string, symbol = suffix.slice(1), key = suffix, steps = [1, 1, 1, 1]): ShownSuffix =>
@@ -16,34 +15,6 @@ const chosen = [
 const before = [...(await import("./units")).units];
 beforeAll(() => useUnits(chosen));
 afterAll(() => useUnits(before));
-
-describe("sentences", () => {
-  const cases: [string, string][] = [
-    ["The drive torque reaches -14.714 N m at 169.2 deg and 18044 N at joint R.", "The drive torque reaches −14.714\u202fN\u202fm at 169.2° and 18044\u202fN at joint R."],
-    ["stroke 0.7213 m, 23.42 mm rms", "stroke 721.3\u202fmm, 23.42\u202fmm rms"],
-    ["passes within 0.5 m", "passes within 500\u202fmm"],
-    ["First resonance at 2.916 rad/s (mode 1 by 2 x)", "First resonance at 27.85\u202frpm (mode 1 by 2 x)"],
-    ["assembles from -81.2 to 81.2 deg", "assembles from −81.2 to 81.2°"],
-    ["19 um deep, volume 0.3919 m3, 14515 of 35301 nodes", "19\u202fµm deep, volume 0.3919\u202fm³, 14515 of 35301 nodes"],
-    ["largest closure residual 7e-17 m", "largest closure residual 0\u202fmm (rounding)"],
-    ["points within 6.83e-11 um", "points within 0\u202fµm (rounding)"],
-    ["energies balance within 3.1e-09 J", "energies balance within 3.1×10⁻⁹\u202fJ"],
-    ["97.7 % of the time", "97.7\u202f% of the time"],
-    // One unit for several numbers: none of them is converted alone.
-    ["contact at 0.00032363, -0.74308, -0.38372 m", "contact at 0.00032363, −0.74308, −0.38372\u202fm"],
-    ["from 0.1 to 0.2 m", "from 0.1 to 0.2\u202fm"],
-    ["215.31 N at B0, 0.026 m", "215.31\u202fN at B0, 26\u202fmm"],
-    // Code, names and words.
-    ["limit it: min_deg = -30", "limit it: min_deg = -30"],
-    ["write `crank_m = 0.1 m` for -5 deg", "write `crank_m = 0.1 m` for −5°"],
-    ["4 in 5 positions of P15-2, solution-3, 2010-2026, A-1", "4 in 5 positions of P15-2, solution-3, 2010-2026, A-1"],
-    ["'-5 deg' stands in line 3", "'-5 deg' stands in line 3"],
-  ];
-  for (const [text, wanted] of cases) it(text, () => expect(prose(text)).toBe(wanted));
-  it("have signs of units", () => {
-    expect(["m/s2", "deg/s2", "N m/deg", "um", "kg m2", "m4"].map(unitSign)).toEqual(["m/s²", "°/s²", "N\u202fm/°", "µm", "kg\u202fm²", "m⁴"]);
-  });
-});
 
 describe("tables in the units of the study", () => {
   const table = {
