@@ -17,6 +17,7 @@
 #include "linkwright/core/npy.h"
 #include "linkwright/core/number_lists.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/quantity.h"
 #include "linkwright/core/quantity_columns.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"

@@ -148,5 +148,22 @@ TEST(SentencesOfExamples, AreInTheUnitsOfTheOutputEverywhere) {
   EXPECT_GE(found, 100u);
 }
 
+// What a study says of its tables before it runs is what they are.
+TEST(SentencesOfExamples, ColumnsAreKnownBeforeTheRun) {
+  std::size_t known = 0;
+  for (const Told& t : told())
+    for (const Table& said : t.study.tables) {
+      const Table* made = t.result.table(said.name);
+      ASSERT_NE(made, nullptr) << t.example << ": " << said.name;
+      ASSERT_GE(made->columns.size(), said.columns.size()) << t.example << ": " << said.name;
+      for (std::size_t c = 0; c < said.columns.size(); ++c) {
+        EXPECT_EQ(said.columns[c].key, made->columns[c].key) << t.example;
+        EXPECT_EQ(said.columns[c].label, made->columns[c].label) << t.example;
+      }
+      known += said.columns.size();
+    }
+  EXPECT_GE(known, 1000u);
+}
+
 }  // namespace
 }  // namespace linkwright::app

@@ -58,6 +58,7 @@ TEST(Arguments, TheOtherCommands) {
   EXPECT_EQ(serve.study, "s.toml");
   EXPECT_EQ(serve.port, 8080);
   EXPECT_TRUE(serve.open);
+  EXPECT_EQ(parse({"columns", "analysis", "--json"}).kind, "analysis");
   EXPECT_EQ(parse({"catalogue"}).command, Command::catalogue);
   EXPECT_EQ(parse({"catalogue", "four", "path"}).words, (std::vector<std::string>{"four", "path"}));
   EXPECT_EQ(parse({"samples", "leg"}).command, Command::samples);
@@ -135,6 +136,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
             "  new         write a study of a kind, to start from\n"
             "  catalogue   list the kinds of studies\n"
             "  samples     list the built-in linkages and wheel suspensions\n"
+            "  columns     list the columns of tables that a study will give, without running it\n"
             "  schema      print the JSON Schema of studies, or of result.json (`schema result`)\n"
             "  reproduce   recompute published tables: published value, ours, verdict\n"
             "  completion  print a script that completes commands in a shell\n"
@@ -144,7 +146,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
 
 TEST(Arguments, CommandsDescribeThemselves) {
   const std::vector<CommandHelp> commands = command_help();
-  ASSERT_EQ(commands.size(), 13u);
+  ASSERT_EQ(commands.size(), 14u);
   const CommandHelp& run = commands.front();
   EXPECT_EQ(run.name, "run");
   ASSERT_EQ(run.positionals.size(), 1u);

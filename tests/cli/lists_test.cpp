@@ -56,6 +56,18 @@ TEST_F(RealLists, TheCatalogueIsInUsersWords) {
     EXPECT_THAT(out_, HasSubstr(group));
 }
 
+TEST_F(RealLists, ColumnsAreListedWithoutARun) {
+  EXPECT_EQ(run({"columns", "analysis/planar.four_bar"}), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("sweep\n"));
+  EXPECT_THAT(out_, ::testing::ContainsRegex("  crank_speed_rad_per_s +crank speed \\(rad/s\\)\n"));
+  EXPECT_THAT(out_, HasSubstr("linkwright new analysis/planar.four_bar"));
+  EXPECT_EQ(run({"columns", "analysis/suspension.corner", "--json"}), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("\"key\": \"toe_by_travel_rad_per_m\""));
+  EXPECT_EQ(run({"columns", "synthesis/planar.four_bar/path_points"}), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("known from a run alone"));
+  EXPECT_EQ(run({"columns", "six-bar-car"}), 2);
+}
+
 TEST_F(Lists, NewWritesAStudyOnce) {
   EXPECT_EQ(run({"new", "lever/angle"}), 0) << err_;
   EXPECT_EQ(out_,

@@ -169,6 +169,10 @@ class Grammar {
     }
     catalogue.add_flag("--renamed", arguments_.renamed,
                        "list instead the names that have changed since the last version");
+    CLI::App& columns = add(
+        "columns", "list the columns of tables that a study will give, without running it", Command::columns);
+    value(columns, "KIND", arguments_.kind, "a kind of `linkwright catalogue`, or a study file")->required();
+    columns.add_flag("--json", arguments_.json, "print for machines");
     CLI::App& schema = add("schema", "print the JSON Schema of studies, or of result.json (`schema result`)",
                            Command::schema);
     value(schema, "KIND", arguments_.kind, "one kind only, see `linkwright catalogue`; or: result");

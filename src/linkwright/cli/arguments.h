@@ -20,6 +20,7 @@ struct Arguments {
     examples,
     samples,
     catalogue,
+    columns,
     schema,
     reproduce,
     serve,
@@ -29,7 +30,7 @@ struct Arguments {
   Command command = Command::nothing;
 
   std::string study;  ///< run, check: the file, "-" = standard input; serve: empty = none
-  std::string kind;   ///< make, schema
+  std::string kind;   ///< make, schema, columns (or a study file)
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
 
   std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders

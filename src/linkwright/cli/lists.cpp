@@ -18,11 +18,14 @@
 #include "linkwright/app/examples.h"
 #include "linkwright/app/result_json.h"
 #include "linkwright/app/result_schema.h"
+#include "linkwright/app/run.h"
 #include "linkwright/app/samples.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/cli/terminal.h"
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/units.h"
 #include "linkwright/optimise/pieces.h"
+#include "linkwright/study/read.h"
 #include "linkwright/study/renamed.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
@@ -348,6 +351,52 @@ int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
   if (!fs::exists(beside))
     fmt::print("for keys completed by your editor: linkwright schema {} -o {}\n", name_of(*kind),
                beside.string());
+  return 0;
+}
+
+int list_columns(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Diagnostics diagnostics;
+  std::optional<study::Study> study;
+  const bool of_kind = !fs::path(arguments.kind).has_extension() || !fs::exists(arguments.kind);
+  if (!of_kind) {
+    study = app::load_study(arguments.kind, {}, kinds, diagnostics);
+  } else if (const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics)) {
+    const Value document = study::read_text(kind->example, study::Syntax::toml, "template", diagnostics);
+    study = study::prepare(document, "template", {}, kinds, diagnostics);
+  }
+  if (!study) {
+    print_diagnostics(diagnostics);
+    return bad_input;
+  }
+  std::vector<Entry> entries;
+  Value::Array json;
+  for (const Table& table : study->tables)
+    for (const Column& column : table.columns) {
+      entries.push_back({table.name, column.key, column.label});
+      const auto unit = split_unit(column.key);
+      Value one;
+      one["table"] = table.name;
+      one["key"] = column.key;
+      one["unit"] = unit ? readable_unit(unit->unit->suffix) : std::string();
+      one["label"] = column.label;
+      json.push_back(std::move(one));
+    }
+  if (arguments.json) {
+    fmt::print("{}", study::to_json_readable(Value(std::move(json))));
+    return 0;
+  }
+  const std::string name = name_of(*study->kind);
+  if (entries.empty()) {
+    fmt::print("The columns of {} are known from a run alone: result.json and the CSV files name them.\n",
+               name);
+    return 0;
+  }
+  fmt::print(
+      "{}\n{}A check names them as {}.{}.max.\n", grouped(entries, true),
+      of_kind ? fmt::format(
+                    "Names of parts are those of `linkwright new {} -`; in a study they are its own. ", name)
+              : std::string(),
+      entries.back().group, entries.back().name);
   return 0;
 }
 

@@ -15,6 +15,8 @@ int list_samples(const Arguments& arguments);
 int list_examples(const Arguments& arguments);
 /// Writes the template of a kind, with the line by which editors find its schema.
 int make_study(const Arguments& arguments, std::span<const study::Kind> kinds);
+/// Lists the columns that a study, or the template of a kind, will have.
+int list_columns(const Arguments& arguments, std::span<const study::Kind> kinds);
 int print_schema(const Arguments& arguments, std::span<const study::Kind> kinds);
 int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all);
 

@@ -407,6 +407,8 @@ int answer(int argc, const char* const* argv, std::span<const study::Kind> kinds
       return list_samples(arguments);
     case Command::catalogue:
       return list_catalogue(arguments, kinds);
+    case Command::columns:
+      return list_columns(arguments, kinds);
     case Command::schema:
       return print_schema(arguments, kinds);
     case Command::reproduce:

@@ -2,7 +2,10 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "linkwright/core/quantity.h"
 
 namespace linkwright {
 
@@ -27,6 +30,9 @@ struct Table {
   /// Adds a column and returns it; its length must match the columns that are there already when it is
   /// written.
   Column& add(std::string key, std::string label, std::vector<double> values = {});
+  Column& add(const Quantity& what, std::vector<double> values = {}) {
+    return add(what.column_key(), what.label(), std::move(values));
+  }
 };
 
 /// Throws ContractError when columns, names or status differ in length.

@@ -87,6 +87,8 @@ struct Prepared {
   Value canonical;
   /// Runs the study. Called only when the document has no errors, possibly more than once.
   std::function<Result(RunContext&)> run;
+  /// The tables of its result without rows, as far as they are known before it runs.
+  std::vector<Table> tables = {};
 };
 
 /// One kind of study, registered by a domain and chosen by `kind`, `mechanism.type` and `target.type` of the

@@ -240,6 +240,7 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
                      name_of(*study.kind), file);
   study.canonical = canonical(*study.kind, common, std::move(prepared.canonical));
   study.run = std::move(prepared.run);
+  study.tables = std::move(prepared.tables);
   return study;
 }
 

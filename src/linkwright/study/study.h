@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/value.h"
@@ -22,6 +23,7 @@ struct Study {
   Value canonical;  ///< the whole study with defaults filled in and in SI units: what result.json stores and
                     ///< what is hashed
   std::function<Result(RunContext&)> run;  ///< the domain's run; see run_study
+  std::vector<Table> tables = {};          ///< of its result, without rows, as far as they are known before
 };
 
 /// Finds the kind of a document among `kinds` (which must outlive the study), reads its common parts and lets

@@ -231,36 +231,36 @@ Table uses_table(const std::vector<DriveUse>& uses) {
 
 void add_drive_columns(Table& table, std::span<const Drive> drives, std::span<const PiDrive> motors,
                        const std::vector<std::vector<DriveMotion>>& rows, bool motors_known, bool forces) {
-  const auto add = [&](std::string_view key, std::string_view unit, std::string_view label,
-                       std::string_view unit_text, auto&& has, auto&& get) {
+  using enum Dimension;
+  using M = DriveMotion;
+  const auto add = [&](const Quantity& what, auto&& has, auto&& get) {
     for (std::size_t k = 0; k < drives.size(); ++k) {
       if (!has(k)) continue;
       std::vector<double> values;
       values.reserve(rows.size());
       for (const auto& row : rows) values.push_back(row.empty() ? nan : get(row[k], k));
-      table.add(fmt::format("{}_{}_{}", key, k + 1, unit), fmt::format("{} {} ({})", label, k + 1, unit_text),
-                std::move(values));
+      table.add(
+          {fmt::format("{}_{}", what.key, k + 1), fmt::format("{} {}", what.words, k + 1), what.dimension},
+          std::move(values));
     }
   };
   const auto all = [](std::size_t) { return true; };
   const auto by_pi_joint = [&](std::size_t k) { return is_pi(drives[k]); };
-  using M = DriveMotion;
-  add("arm_angle", "rad", "arm angle", "rad", all, [](const M& m, std::size_t) { return m.arm_angle; });
-  add("pi_angle", "rad", "angle of Pi-joint", "rad", by_pi_joint,
+  add({"arm_angle", "arm angle", angle}, all, [](const M& m, std::size_t) { return m.arm_angle; });
+  add({"pi_angle", "angle of Pi-joint", angle}, by_pi_joint,
       [](const M& m, std::size_t) { return m.at.angle; });
-  add("diagonal", "m", "diagonal", "m", by_pi_joint, [](const M& m, std::size_t) { return m.at.value; });
-  add("arm_speed", "rad_per_s", "speed of arm", "rad/s", all,
-      [](const M& m, std::size_t) { return m.arm_speed; });
-  add("diagonal_rate", "m_per_s", "rate of diagonal", "m/s", by_pi_joint,
+  add({"diagonal", "diagonal", length}, by_pi_joint, [](const M& m, std::size_t) { return m.at.value; });
+  add({"arm_speed", "speed of arm", speed_angular}, all, [](const M& m, std::size_t) { return m.arm_speed; });
+  add({"diagonal_rate", "rate of diagonal", speed}, by_pi_joint,
       [](const M& m, std::size_t) { return m.speed; });
   if (!forces) return;
-  add("arm_torque", "N_m", "torque at arm", "N m", all, [](const M& m, std::size_t) { return m.arm_torque; });
-  add("screw_force", "N", "screw force", "N", by_pi_joint, [](const M& m, std::size_t) { return m.effort; });
-  add("power", "W", "power of drive", "W", all, [](const M& m, std::size_t) { return m.power; });
+  add({"arm_torque", "torque at arm", torque}, all, [](const M& m, std::size_t) { return m.arm_torque; });
+  add({"screw_force", "screw force", force}, by_pi_joint, [](const M& m, std::size_t) { return m.effort; });
+  add({"power", "power of drive", power}, all, [](const M& m, std::size_t) { return m.power; });
   const auto motor = [&](std::size_t k) { return motors_known && motors[k].screw.lead > 0; };
-  add("motor_speed", "rad_per_s", "speed of motor", "rad/s", motor,
+  add({"motor_speed", "speed of motor", speed_angular}, motor,
       [&](const M& m, std::size_t k) { return motor_speed_of(motors[k].screw, m.speed); });
-  add("motor_torque", "N_m", "torque of motor", "N m", motor,
+  add({"motor_torque", "torque of motor", torque}, motor,
       [&](const M& m, std::size_t k) { return motor_torque(motors[k].screw, m.effort, m.speed); });
 }
 

@@ -94,37 +94,41 @@ Instant instant(const RobotDescription& d, const std::optional<RobotMasses>& mas
   return out;
 }
 
+bool has_forces(const std::optional<RobotMasses>& masses, const MotionStudy& study) {
+  return masses || norm(vec(study.form.force)) > 0 || norm(vec(study.form.moment)) > 0;
+}
+
 /// All instants as a table, out of reach NaN.
 Table motion_table(const RobotDescription& d, const std::vector<Instant>& instants, bool forces) {
+  using enum Dimension;
   Table table{.name = "motion"};
-  const auto add = [&](std::string key, std::string label, auto&& value, bool always = false) {
+  const auto add = [&](const Quantity& what, auto&& value, bool always = false) {
     std::vector<double> values;
     for (const Instant& i : instants) values.push_back(always || i.status == Status::done ? value(i) : nan);
-    table.add(std::move(key), std::move(label), std::move(values));
+    table.add(what, std::move(values));
   };
   const bool planar = d.robot.freedom == Freedom::plane_translation;
-  add(
-      "time_s", "time (s)", [](const Instant& i) { return i.time; }, true);
-  const auto add_vector = [&](const char* key, const char* label, const char* unit, const char* unit_text,
-                              auto&& get) {
+  const auto add_vector = [&](const Quantity& what, auto&& get) {
     for (int k = 0; k < (planar ? 2 : 3); ++k)
       add(
-          fmt::format("{}{}_{}", key, "xyz"[k], unit), fmt::format("{}{} ({})", label, "xyz"[k], unit_text),
+          {what.key + "xyz"[k], what.words + "xyz"[k], what.dimension},
           [&](const Instant& i) {
             const Vec3 v = get(i);
             return k == 0 ? v.x : k == 1 ? v.y : v.z;
           },
           true);
   };
-  add_vector("", "", "m", "m", [](const Instant& i) { return i.tool.position; });
+  add(
+      {"time", "time", time}, [](const Instant& i) { return i.time; }, true);
+  add_vector({"", "", length}, [](const Instant& i) { return i.tool.position; });
   if (d.tool_turns())
-    add_vector("rotation_", "rotation vector ", "rad", "rad",
+    add_vector({"rotation_", "rotation vector ", angle},
                [](const Instant& i) { return math::turn_of(i.tool.rotation); });
   add(
-      "tool_speed_m_per_s", "speed of the tool (m/s)", [](const Instant& i) { return norm(i.tool.velocity); },
+      {"tool_speed", "speed of the tool", speed}, [](const Instant& i) { return norm(i.tool.velocity); },
       true);
   add(
-      "tool_acceleration_m_per_s2", "acceleration of the tool (m/s2)",
+      {"tool_acceleration", "acceleration of the tool", acceleration},
       [](const Instant& i) { return norm(i.tool.acceleration); }, true);
   std::vector<std::vector<DriveMotion>> drives;
   for (const Instant& i : instants) {
@@ -138,21 +142,22 @@ Table motion_table(const RobotDescription& d, const std::vector<Instant>& instan
   add_drive_columns(table, std::span(d.drives).first(legs), std::span(d.motors).first(legs), drives,
                     d.motors_known, forces);
   for (int k = 0; forces && k < d.robot.legs(); ++k)
-    add(fmt::format("rod_force_{}_N", k + 1), fmt::format("force in rod {} (N)", k + 1),
+    add({fmt::format("rod_force_{}", k + 1), fmt::format("force in rod {}", k + 1), force},
         [k](const Instant& i) { return i.loads.rod_force[k]; });
-  add("transmission", "transmission index", [](const Instant& i) { return i.quality.transmission; });
-  add("local_conditioning", "local conditioning index",
+  add({"transmission", "transmission index"}, [](const Instant& i) { return i.quality.transmission; });
+  add({"local_conditioning", "local conditioning index"},
       [](const Instant& i) { return 1 / i.quality.condition; });
   if (d.robot.freedom == Freedom::space_translation) {
-    add("constraint_determinant", "determinant of the parallelograms' couples",
+    add({"constraint_determinant", "determinant of the parallelograms' couples"},
         [](const Instant& i) { return i.quality.constraint; });
-    add("constraint_index", "constraint index", [](const Instant& i) { return i.quality.constraint_index; });
+    add({"constraint_index", "constraint index"},
+        [](const Instant& i) { return i.quality.constraint_index; });
   }
-  add("rod_swing_rad", "largest angle between a rod and the plane of its arm (rad)",
+  add({"rod_swing", "largest angle between a rod and the plane of its arm", angle},
       [](const Instant& i) { return i.swing; });
-  add("least_elbow_rad", "least angle between arm and rod (rad)",
+  add({"least_elbow", "least angle between arm and rod", angle},
       [](const Instant& i) { return i.least_elbow; });
-  add("largest_elbow_rad", "largest angle between arm and rod (rad)",
+  add({"largest_elbow", "largest angle between arm and rod", angle},
       [](const Instant& i) { return i.largest_elbow; });
   if (std::any_of(instants.begin(), instants.end(),
                   [](const Instant& i) { return i.status != Status::done; }))
@@ -314,6 +319,11 @@ void describe_motion(study::SchemaWriter& document) {
                     study::schema_fields<MotionForm>());
 }
 
+Table empty_motion_table(const RobotDescription& d, const std::optional<RobotMasses>& masses,
+                         const MotionStudy& study) {
+  return motion_table(d, {}, has_forces(masses, study));
+}
+
 void add_motion(study::Result& result, const RobotDescription& d, const std::optional<RobotMasses>& masses,
                 const QualityLimits& limits, const MotionStudy& study, const Pose& home,
                 RunContext& context) {
@@ -338,8 +348,7 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
     result.headline = "Interrupted before the first instant.";
     return;
   }
-  const auto& f = study.form;
-  const bool forces = masses.has_value() || norm(vec(f.force)) > 0 || norm(vec(f.moment)) > 0;
+  const bool forces = has_forces(masses, study);
   result.tables.push_back(motion_table(d, instants, forces));
   const auto uses = judge.uses();
   if (!uses.empty()) result.tables.push_back(uses_table(uses));

@@ -59,5 +59,8 @@ void describe_motion(study::SchemaWriter& document);
 void add_motion(study::Result& result, const RobotDescription& description,
                 const std::optional<RobotMasses>& masses, const QualityLimits& limits,
                 const MotionStudy& study, const Pose& home, RunContext& context);
+/// The table "motion" without rows.
+Table empty_motion_table(const RobotDescription& description, const std::optional<RobotMasses>& masses,
+                         const MotionStudy& study);
 
 }  // namespace linkwright::parallel

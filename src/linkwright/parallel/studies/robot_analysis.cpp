@@ -43,8 +43,10 @@ study::Kind kind_of(const char* type) {
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_robot_analysis(document, common, type, prepared.canonical))
+    if (auto s = read_robot_analysis(document, common, type, prepared.canonical)) {
+      if (s->motion) prepared.tables = {empty_motion_table(s->description, s->masses, *s->motion)};
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_robot_analysis(s, context); };
+    }
     return prepared;
   };
   return kind;

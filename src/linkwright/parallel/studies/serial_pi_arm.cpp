@@ -342,8 +342,10 @@ study::Kind serial_pi_arm_kind() {
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_serial_analysis(document, common, prepared.canonical))
+    if (auto s = read_serial_analysis(document, common, prepared.canonical)) {
+      if (s->motion) prepared.tables = {empty_motion_table(*s)};
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_serial_analysis(s, context); };
+    }
     return prepared;
   };
   return kind;

@@ -125,20 +125,25 @@ double judge_way(PathJudge& judge, const SerialAnalysis& s) {
   return motion.duration();
 }
 
+bool has_forces(const SerialAnalysis& s) {
+  return s.masses || s.motion->form.force[0] != 0 || s.motion->form.force[1] != 0;
+}
+
 /// All instants as a table, out of reach NaN.
 Table motion_table(const SerialDescription& d, const std::vector<ArmInstant>& instants, bool forces) {
+  using enum Dimension;
   Table table{.name = "motion"};
-  const auto add = [&](const char* key, const char* label, bool always, auto&& value) {
+  const auto add = [&](const Quantity& what, bool always, auto&& value) {
     std::vector<double> values;
     for (const ArmInstant& i : instants) values.push_back(always || i.reached() ? value(i) : nan);
-    table.add(key, label, std::move(values));
+    table.add(what, std::move(values));
   };
-  add("time_s", "time (s)", true, [](const ArmInstant& i) { return i.time; });
-  add("x_m", "x (m)", true, [](const ArmInstant& i) { return i.tool.position.x; });
-  add("y_m", "y (m)", true, [](const ArmInstant& i) { return i.tool.position.y; });
-  add("tool_speed_m_per_s", "speed of the tool (m/s)", true,
+  add({"time", "time", time}, true, [](const ArmInstant& i) { return i.time; });
+  add({"x", "x", length}, true, [](const ArmInstant& i) { return i.tool.position.x; });
+  add({"y", "y", length}, true, [](const ArmInstant& i) { return i.tool.position.y; });
+  add({"tool_speed", "speed of the tool", speed}, true,
       [](const ArmInstant& i) { return norm(i.tool.velocity); });
-  add("tool_acceleration_m_per_s2", "acceleration of the tool (m/s2)", true,
+  add({"tool_acceleration", "acceleration of the tool", acceleration}, true,
       [](const ArmInstant& i) { return norm(i.tool.acceleration); });
   std::vector<std::vector<DriveMotion>> drives;
   for (const ArmInstant& i : instants) {
@@ -148,9 +153,9 @@ Table motion_table(const SerialDescription& d, const std::vector<ArmInstant>& in
                                i.loads.arm_torque[k], i.loads.drive_effort[k], i.loads.drive_power[k]});
   }
   add_drive_columns(table, d.arm.drive, d.motors, drives, d.motors_known, forces);
-  add("local_conditioning", "local conditioning index", false,
+  add({"local_conditioning", "local conditioning index"}, false,
       [](const ArmInstant& i) { return 1 / i.quality.condition; });
-  add("elbow_rad", "angle between the arms (rad)", false,
+  add({"elbow", "angle between the arms", angle}, false,
       [](const ArmInstant& i) { return elbow_angle(i.angles.angle); });
   if (std::any_of(instants.begin(), instants.end(), [](const ArmInstant& i) { return !i.reached(); }))
     for (const ArmInstant& i : instants) table.status.emplace_back(to_string(i.angles.status));
@@ -158,6 +163,8 @@ Table motion_table(const SerialDescription& d, const std::vector<ArmInstant>& in
 }
 
 }  // namespace
+
+Table empty_motion_table(const SerialAnalysis& s) { return motion_table(s.description, {}, has_forces(s)); }
 
 void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContext& context) {
   const MotionStudy& study = *s.motion;
@@ -179,7 +186,7 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
     result.headline = "Interrupted before the first instant.";
     return;
   }
-  const bool forces = s.masses.has_value() || study.form.force[0] != 0 || study.form.force[1] != 0;
+  const bool forces = has_forces(s);
   result.tables.push_back(motion_table(d, instants, forces));
   const auto uses = judge.uses();
   if (!uses.empty()) result.tables.push_back(uses_table(uses));

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/quantity.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 
@@ -100,168 +101,185 @@ double angle_with_turns(const LinkagePlan& plan, const LinkageInstant& instant, 
   return angle + full_turn * std::round((counted - angle) / full_turn);
 }
 
+/// A slide's displacement and its rates, second point from first along the slide.
+struct SlideMotion {
+  double displacement = 0, speed = 0, acceleration = 0;
+};
+SlideMotion slide_motion(const Linkage& l, const LinkagePlan& plan, const LinkageInstant& i, std::size_t j) {
+  const LinkageJoint& joint = l.joints[j];
+  const auto place = [&](const BodyPoint& p) {
+    return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
+  };
+  const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
+  const Vec<double> along = rotate(first.direction, unit(joint.slide_first));
+  const PointMotion a = place(joint.first), b = place(joint.second);
+  return {dot(along, b.position - a.position), dot(along, b.velocity - velocity_at(first, b.position)),
+          dot(along, b.acceleration - acceleration_at(first, b.position))};
+}
+
+// The rows of the tables: what stands behind the name of a body, slide, point or joint, and the number.
+namespace column_rows {
+using enum Dimension;
+template <class From>
+struct Row {
+  std::string_view key;
+  Dimension dimension;
+  double (*of)(const From&);
+  std::string_view words = key;  ///< "_" of the key are spaces
+  bool of_pair = false;          ///< the label names both bodies of the joint
+};
+using Body = PartState<double>;
+constexpr Row<Body> body_places[] = {{"x", length, [](const Body& b) { return b.origin.x; }, "origin x"},
+                                     {"y", length, [](const Body& b) { return b.origin.y; }, "origin y"}};
+constexpr Row<Body> body_rates[] = {
+    {"speed", speed_angular, [](const Body& b) { return b.speed; }},
+    {"acceleration", acceleration_angular, [](const Body& b) { return b.angular_acceleration; }}};
+using Slide = SlideMotion;
+constexpr Row<Slide> slide_places[] = {
+    {"displacement", length, [](const Slide& s) { return s.displacement; }}};
+constexpr Row<Slide> slide_rates[] = {
+    {"speed", speed, [](const Slide& s) { return s.speed; }},
+    {"acceleration", acceleration, [](const Slide& s) { return s.acceleration; }}};
+using Point = PointMotion;
+constexpr Row<Point> point_places[] = {{"x", length, [](const Point& p) { return p.position.x; }},
+                                       {"y", length, [](const Point& p) { return p.position.y; }}};
+constexpr Row<Point> point_rates[] = {
+    {"speed_x", speed, [](const Point& p) { return p.velocity.x; }},
+    {"speed_y", speed, [](const Point& p) { return p.velocity.y; }},
+    {"acceleration_x", acceleration, [](const Point& p) { return p.acceleration.x; }},
+    {"acceleration_y", acceleration, [](const Point& p) { return p.acceleration.y; }}};
+using Joint = JointReaction;
+constexpr Row<Joint> joint_forces[] = {{"x", force, [](const Joint& j) { return j.force.x; }, "x", true},
+                                       {"y", force, [](const Joint& j) { return j.force.y; }, "y", true}};
+constexpr Row<Joint> tooth_forces[] = {
+    {"tangential", force, [](const Joint& j) { return j.tangential; }, "along the teeth", true},
+    {"separating", force, [](const Joint& j) { return j.separating; }, "that presses the wheels apart"},
+    {"tooth", force, [](const Joint& j) { return norm(j.force); }, "of the teeth"}};
+constexpr Row<Joint> joint_moments[] = {
+    {"moment", torque, [](const Joint& j) { return j.moment; }, "moment", true}};
+using Forces = LinkageForces;
+constexpr Row<Forces> shaking_forces[] = {
+    {"shaking_force_x", force, [](const Forces& f) { return f.shaking_force.x; }},
+    {"shaking_force_y", force, [](const Forces& f) { return f.shaking_force.y; }},
+    {"shaking_force", force, [](const Forces& f) { return norm(f.shaking_force); }}};
+constexpr Row<Forces> shaking_moments[] = {
+    {"shaking_moment", torque, [](const Forces& f) { return f.shaking_moment; }, "without drive torques"},
+    {"shaking_moment_with_drive", torque, [](const Forces& f) { return f.shaking_moment_with_drive; },
+     "with the drives"}};
+constexpr Row<Forces> powers[] = {
+    {"drive_power", power, [](const Forces& f) { return f.drive_power; }, "power of the drives"},
+    {"weight_power", power, [](const Forces& f) { return f.weight_power; }, "power of the weight"},
+    {"load_power", power, [](const Forces& f) { return f.load_power; }, "power of springs and loads"},
+    {"kinetic_power", power, [](const Forces& f) { return f.kinetic_power; }, "rate of the kinetic energy"}};
+}  // namespace column_rows
+
 }  // namespace
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
                                            const LinkageQuantities& q, const std::vector<BodyPoint>& traces) {
   std::vector<LinkageColumn> out;
-  const auto add = [&](std::string key, std::string label,
-                       std::function<double(const LinkageInstant&)> value) {
-    out.push_back({std::move(key), std::move(label), std::move(value)});
+  const auto add = [&](const Quantity& what, std::function<double(const LinkageInstant&)> value) {
+    out.push_back({what.column_key(), what.label(), std::move(value)});
   };
-  const auto moving = [&](auto&& each) {
-    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b)
-      if (plan.bodies[at(b)].part != 0) each(b, identifier(l.bodies[at(b)].name), l.bodies[at(b)].name);
+  // The numbers of what `from` gives at an instant; `pair` says who pushes whom.
+  const auto add_all = [&](const auto& rows, const std::string& key, const std::string& name,
+                           const auto& from, const std::string& pair = {}) {
+    for (const auto& row : rows) {
+      std::string words(row.words);
+      std::replace(words.begin(), words.end(), '_', ' ');
+      add({key + std::string(row.key), name + words + (row.of_pair ? ", " + pair : ""), row.dimension},
+          [from, of = row.of](const LinkageInstant& i) { return of(from(i)); });
+    }
   };
-  const auto traced = [&](auto&& each) {
+  const auto bodies = [&](const auto& rows, const auto& before) {
+    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b) {
+      if (plan.bodies[at(b)].part == 0) continue;
+      const std::string &name = l.bodies[at(b)].name, key = identifier(name) + "_";
+      before(b, key, name + " ");
+      add_all(rows, key, name + " ",
+              [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b); });
+    }
+  };
+  const auto traced = [&](const auto& rows) {
     for (const BodyPoint& t : traces) {
       const LinkageBody& body = l.bodies[at(t.body)];
       const LinkagePoint& point = body.points[at(t.point)];
-      each(t.body, point.at, identifier(body.name) + "_" + identifier(point.name),
-           body.name + "." + point.name);
+      add_all(rows, identifier(body.name) + "_" + identifier(point.name) + "_",
+              body.name + "." + point.name + " ", [&plan, b = t.body, p = point.at](const LinkageInstant& i) {
+                return point_motion(plan, *i.motion, b, p);
+              });
     }
   };
-  // A slide's displacement and its rates, second point from first along the slide.
-  const auto slides = [&](auto&& each) {
-    for (std::size_t j = 0; j < l.joints.size(); ++j)
-      if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);
-  };
-  const auto way = [&plan, &l](const LinkageInstant& i, std::size_t j, int order) {
-    const LinkageJoint& joint = l.joints[j];
-    const auto place = [&](const BodyPoint& p) {
-      return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
-    };
-    const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
-    const Vec<double> along = rotate(first.direction, unit(joint.slide_first));
-    const PointMotion a = place(joint.first), b = place(joint.second);
-    if (order == 0) return dot(along, b.position - a.position);
-    const Vec<double> slip = b.velocity - velocity_at(first, b.position);
-    if (order == 1) return dot(along, slip);
-    return dot(along, b.acceleration - acceleration_at(first, b.position));
+  const auto slides = [&](const auto& rows, bool with_inputs) {
+    for (std::size_t j = 0; j < l.joints.size(); ++j) {
+      const bool driven = std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end();
+      if (l.joints[j].type == JointType::prismatic && (with_inputs || !driven))
+        add_all(rows, identifier(l.joints[j].name) + "_", l.joints[j].name + " ",
+                [&l, &plan, j](const LinkageInstant& i) { return slide_motion(l, plan, i, j); });
+    }
   };
   if (q.position) {
-    moving([&](int b, const std::string& key, const std::string& name) {
-      add(key + "_angle_rad", name + " angle (rad)",
+    bodies(column_rows::body_places, [&](int b, const std::string& key, const std::string& name) {
+      add({key + "angle", name + "angle", Dimension::angle},
           [&plan, b](const LinkageInstant& i) { return angle_with_turns(plan, i, b); });
       out.back().angle = true;
       out.back().counted = plan.turned[at(plan.bodies[at(b)].part)].has_value();
-      add(key + "_x_m", name + " origin x (m)",
-          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).origin.x; });
-      add(key + "_y_m", name + " origin y (m)",
-          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).origin.y; });
     });
-    slides([&](std::size_t j, const std::string& key, const std::string& name) {
-      if (std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end()) return;
-      add(key + "_displacement_m", name + " displacement (m)",
-          [way, j](const LinkageInstant& i) { return way(i, j, 0); });
-    });
-    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
-      add(key + "_x_m", name + " x (m)",
-          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).position.x; });
-      add(key + "_y_m", name + " y (m)",
-          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).position.y; });
-    });
+    slides(column_rows::slide_places, false);
+    traced(column_rows::point_places);
   }
   for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::pose;
   if (q.rates) {
-    moving([&](int b, const std::string& key, const std::string& name) {
-      add(key + "_speed_rad_per_s", name + " speed (rad/s)",
-          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).speed; });
-      add(key + "_acceleration_rad_per_s2", name + " acceleration (rad/s2)",
-          [&plan, b](const LinkageInstant& i) {
-            return body_state(plan, *i.motion, b).angular_acceleration;
-          });
-    });
-    slides([&](std::size_t j, const std::string& key, const std::string& name) {
-      add(key + "_speed_m_per_s", name + " speed (m/s)",
-          [way, j](const LinkageInstant& i) { return way(i, j, 1); });
-      add(key + "_acceleration_m_per_s2", name + " acceleration (m/s2)",
-          [way, j](const LinkageInstant& i) { return way(i, j, 2); });
-    });
-    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
-      add(key + "_speed_x_m_per_s", name + " speed x (m/s)",
-          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).velocity.x; });
-      add(key + "_speed_y_m_per_s", name + " speed y (m/s)",
-          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).velocity.y; });
-      add(key + "_acceleration_x_m_per_s2", name + " acceleration x (m/s2)",
-          [&plan, b, p](const LinkageInstant& i) {
-            return point_motion(plan, *i.motion, b, p).acceleration.x;
-          });
-      add(key + "_acceleration_y_m_per_s2", name + " acceleration y (m/s2)",
-          [&plan, b, p](const LinkageInstant& i) {
-            return point_motion(plan, *i.motion, b, p).acceleration.y;
-          });
-    });
+    bodies(column_rows::body_rates, [](auto&&...) {});
+    slides(column_rows::slide_rates, true);
+    traced(column_rows::point_rates);
   }
   if (q.reactions)
     for (std::size_t j = 0; j < l.joints.size(); ++j) {
       const LinkageJoint& joint = l.joints[j];
-      const std::string key = identifier(joint.name);
       const std::string pair =
           fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
+      const auto of_joint = [&](const auto& rows) {
+        add_all(
+            rows, identifier(joint.name) + "_", joint.name + " ",
+            [j](const LinkageInstant& i) -> const JointReaction& { return i.forces->joints[j]; }, pair);
+      };
       if (joint.type != JointType::gear) {
-        add(key + "_x_N", fmt::format("{} x, {} (N)", joint.name, pair),
-            [j](const LinkageInstant& i) { return i.forces->joints[j].force.x; });
-        add(key + "_y_N", fmt::format("{} y, {} (N)", joint.name, pair),
-            [j](const LinkageInstant& i) { return i.forces->joints[j].force.y; });
-        add(key + "_N", fmt::format("{} (N)", joint.name),
+        of_joint(column_rows::joint_forces);
+        add({identifier(joint.name), joint.name, Dimension::force},
             [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
       }
       const auto meshes = [j](const Group& g) {
         const Gear* gear = g.as<Gear>();
         return gear && gear->joint == static_cast<int>(j) && gear->mesh;
       };
-      if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) {
-        add(key + "_tangential_N", fmt::format("{} along the teeth, {} (N)", joint.name, pair),
-            [j](const LinkageInstant& i) { return i.forces->joints[j].tangential; });
-        add(key + "_separating_N", fmt::format("{} that presses the wheels apart (N)", joint.name),
-            [j](const LinkageInstant& i) { return i.forces->joints[j].separating; });
-        add(key + "_tooth_N", fmt::format("{} of the teeth (N)", joint.name),
-            [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
-      }
+      if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) of_joint(column_rows::tooth_forces);
       if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
           joint.type == JointType::gear)
-        add(key + "_moment_N_m", fmt::format("{} moment, {} (N m)", joint.name, pair),
-            [j](const LinkageInstant& i) { return i.forces->joints[j].moment; });
+        of_joint(column_rows::joint_moments);
     }
   if (q.drive)
     for (std::size_t k = 0; k < plan.inputs(); ++k) {
       const std::string& name = input_joint(l, k).name;
-      add(identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
-          fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
-          [k](const LinkageInstant& i) { return i.forces->drives[k]; });
+      out.push_back({identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
+                     fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
+                     [k](const LinkageInstant& i) { return i.forces->drives[k]; }});
     }
+  const auto forces = [](const LinkageInstant& i) -> const LinkageForces& { return *i.forces; };
   if (q.shaking) {
-    add("shaking_force_x_N", "shaking force x (N)",
-        [](const LinkageInstant& i) { return i.forces->shaking_force.x; });
-    add("shaking_force_y_N", "shaking force y (N)",
-        [](const LinkageInstant& i) { return i.forces->shaking_force.y; });
-    add("shaking_force_N", "shaking force (N)",
-        [](const LinkageInstant& i) { return norm(i.forces->shaking_force); });
-    const std::string about = "shaking moment about " + moment_centre_name(l);
-    add("shaking_moment_N_m", about + ", without drive torques (N m)",
-        [](const LinkageInstant& i) { return i.forces->shaking_moment; });
-    add("shaking_moment_with_drive_N_m", about + ", with the drives (N m)",
-        [](const LinkageInstant& i) { return i.forces->shaking_moment_with_drive; });
+    add_all(column_rows::shaking_forces, "", "", forces);
+    add_all(column_rows::shaking_moments, "", "shaking moment about " + moment_centre_name(l) + ", ", forces);
   }
   if (q.transmission_angle)
     for (std::size_t g = 0; g < plan.groups.size(); ++g)
       if (plan.groups[g].as<Dyad>())
-        add(group_key(plan.groups[g].name) + "_transmission_angle_rad",
-            plan.groups[g].name + " transmission angle (rad)", [g](const LinkageInstant& i) {
+        add({group_key(plan.groups[g].name) + "_transmission_angle",
+             plan.groups[g].name + " transmission angle", Dimension::angle},
+            [g](const LinkageInstant& i) {
               return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));
             });
-  if (q.power) {
-    add("drive_power_W", "power of the drives (W)",
-        [](const LinkageInstant& i) { return i.forces->drive_power; });
-    add("weight_power_W", "power of the weight (W)",
-        [](const LinkageInstant& i) { return i.forces->weight_power; });
-    add("load_power_W", "power of springs and loads (W)",
-        [](const LinkageInstant& i) { return i.forces->load_power; });
-    add("kinetic_power_W", "rate of the kinetic energy (W)",
-        [](const LinkageInstant& i) { return i.forces->kinetic_power; });
-  }
-  add("closure_residual_m", "closure residual (m)",
+  if (q.power) add_all(column_rows::powers, "", "", forces);
+  add({"closure_residual", "closure residual", Dimension::length},
       [](const LinkageInstant& i) { return i.motion->closure_residual; });
   return out;
 }

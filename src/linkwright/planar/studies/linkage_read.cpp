@@ -12,6 +12,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -345,8 +346,11 @@ namespace {
 
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
   study::Prepared prepared;
-  if (auto s = read_linkage_study(document, common, type, &prepared.canonical, WithoutMasses::motion_alone))
+  if (auto s = read_linkage_study(document, common, type, &prepared.canonical, WithoutMasses::motion_alone)) {
+    Table& sweep = prepared.tables.emplace_back(Table{.name = "sweep"});
+    for (const LinkageColumn& c : columns_of(*s)) sweep.add(c.key, c.label);
     prepared.run = [s = std::move(*s)](RunContext& context) { return run_linkage_study(s, context); };
+  }
   return prepared;
 }
 

@@ -134,6 +134,8 @@ std::vector<math::Motion> arm_motion(const SerialArmStudy& study);
 
 /// The table of the study alone.
 Table serial_arm_table(const SerialArmStudy& study);
+/// ... without rows.
+Table empty_serial_arm_table(const SerialArmStudy& study);
 
 /// Motion, joint forces, torques, power and energy at each time. Cancelled or out of time: the rows so far.
 study::Result run_serial_arm_study(const SerialArmStudy& study, RunContext& context);

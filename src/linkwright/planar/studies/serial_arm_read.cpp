@@ -144,6 +144,7 @@ study::Kind serial_arm_kind() {
     prepared.canonical["drive"] = study::ObjectWriter::to_value(s.drives);
     prepared.canonical["environment"] = study::write_fields(s.environment);
     prepared.canonical["sweep"] = study::write_fields(s.sweep);
+    if (!document.document().has_errors()) prepared.tables = {empty_serial_arm_table(s)};
     prepared.run = [s](RunContext& context) { return run_serial_arm_study(s, context); };
     return prepared;
   };

@@ -98,66 +98,64 @@ std::string words(std::string name) {
 }
 
 Table sweep_table(const SerialArmStudy& s, const std::vector<Row>& rows) {
+  using enum Dimension;
   const ArmQuantities& q = s.quantities;
   const std::vector<ArmLinkEntry>& links = s.mechanism.links;
   Table table{.name = "sweep"};
-  const auto add = [&](std::string key, std::string label, auto&& value) {
-    table.add(std::move(key), std::move(label), column(rows, value));
-  };
-  const auto each = [&](std::string_view key, std::string_view label, auto&& value) {
+  const auto add = [&](const Quantity& what, auto&& value) { table.add(what, column(rows, value)); };
+  const auto each = [&](const Quantity& what, auto&& value) {
     for (std::size_t k = 0; k < links.size(); ++k)
-      add(fmt::format("{}_{}", links[k].name, key), fmt::format("{} {}", words(links[k].name), label),
+      add({links[k].name + "_" + what.key, words(links[k].name) + " " + what.words, what.dimension},
           [&](const Row& r) { return value(r, k); });
   };
-  add("time_s", "time (s)", [](const Row& r) { return r.time; });
-  if (q.position) each("angle_rad", "angle (rad)", [](const Row& r, std::size_t k) { return r.angles[k]; });
+  add({"time", "time", time}, [](const Row& r) { return r.time; });
+  if (q.position) each({"angle", "angle", angle}, [](const Row& r, std::size_t k) { return r.angles[k]; });
   if (q.rates) {
-    each("speed_rad_per_s", "speed (rad/s)", [](const Row& r, std::size_t k) { return r.rates[k].speed; });
-    each("acceleration_rad_per_s2", "acceleration (rad/s2)",
+    each({"speed", "speed", speed_angular}, [](const Row& r, std::size_t k) { return r.rates[k].speed; });
+    each({"acceleration", "acceleration", acceleration_angular},
          [](const Row& r, std::size_t k) { return r.rates[k].acceleration; });
   }
   if (q.reactions)
     for (std::size_t k = 0; k < links.size(); ++k) {
+      const std::string joint = joint_name(k);
       const std::string on =
           fmt::format("{} on {}", k == 0 ? "ground" : words(links[k - 1].name), words(links[k].name));
-      add(joint_name(k) + "_x_N", fmt::format("{} x, {} (N)", joint_name(k), on),
-          [k](const Row& r) { return r.loads[k].force.real(); });
-      add(joint_name(k) + "_y_N", fmt::format("{} y, {} (N)", joint_name(k), on),
-          [k](const Row& r) { return r.loads[k].force.imag(); });
+      add({joint + "_x", joint + " x, " + on, force}, [k](const Row& r) { return r.loads[k].force.real(); });
+      add({joint + "_y", joint + " y, " + on, force}, [k](const Row& r) { return r.loads[k].force.imag(); });
     }
   if (q.torques) {
-    each("torque_absolute_N_m", "torque, motor on the ground (N m)",
+    each({"torque_absolute", "torque, motor on the ground", torque},
          [](const Row& r, std::size_t k) { return r.loads[k].absolute_torque; });
-    each("torque_joint_N_m", "torque, motor in the joint (N m)",
+    each({"torque_joint", "torque, motor in the joint", torque},
          [](const Row& r, std::size_t k) { return r.loads[k].joint_torque; });
   }
   if (q.power) {
-    each("power_absolute_W", "power, motor on the ground (W)",
+    each({"power_absolute", "power, motor on the ground", power},
          [](const Row& r, std::size_t k) { return r.loads[k].absolute_torque * r.rates[k].speed; });
-    each("power_joint_W", "power, motor in the joint (W)",
+    each({"power_joint", "power, motor in the joint", power},
          [](const Row& r, std::size_t k) { return r.loads[k].joint_torque * r.joint_speed(k); });
-    add("power_W", "power of all motors (W)", [](const Row& r) { return r.power(); });
+    add({"power", "power of all motors", power}, [](const Row& r) { return r.power(); });
   }
   if (q.energy) {
-    add("kinetic_energy_J", "kinetic energy (J)", [](const Row& r) { return r.energy.kinetic; });
-    add("potential_energy_J", "potential energy (J)", [](const Row& r) { return r.energy.potential; });
+    add({"kinetic_energy", "kinetic energy", energy}, [](const Row& r) { return r.energy.kinetic; });
+    add({"potential_energy", "potential energy", energy}, [](const Row& r) { return r.energy.potential; });
   }
   if (q.position) {
     for (std::size_t k = 1; k < links.size(); ++k) {
-      add(joint_name(k) + "_x_m", joint_name(k) + " x (m)",
+      const std::string joint = joint_name(k);
+      add({joint + "_x", joint + " x", length},
           [k](const Row& r) { return r.rates[k].joint.position.real(); });
-      add(joint_name(k) + "_y_m", joint_name(k) + " y (m)",
+      add({joint + "_y", joint + " y", length},
           [k](const Row& r) { return r.rates[k].joint.position.imag(); });
     }
-    add("tip_x_m", "tip x (m)", [](const Row& r) { return r.tip.position.real(); });
-    add("tip_y_m", "tip y (m)", [](const Row& r) { return r.tip.position.imag(); });
+    add({"tip_x", "tip x", length}, [](const Row& r) { return r.tip.position.real(); });
+    add({"tip_y", "tip y", length}, [](const Row& r) { return r.tip.position.imag(); });
   }
   if (q.rates)
-    add("tip_speed_m_per_s", "speed of the tip (m/s)", [](const Row& r) { return std::abs(r.tip.velocity); });
+    add({"tip_speed", "speed of the tip", speed}, [](const Row& r) { return std::abs(r.tip.velocity); });
   if (q.reactions)
     for (std::size_t k = 0; k < links.size(); ++k)
-      add(joint_name(k) + "_N", joint_name(k) + " (N)",
-          [k](const Row& r) { return std::abs(r.loads[k].force); });
+      add({joint_name(k), joint_name(k), force}, [k](const Row& r) { return std::abs(r.loads[k].force); });
   return table;
 }
 
@@ -323,6 +321,8 @@ Table serial_arm_table(const SerialArmStudy& s) {
   for (int i = 0; i < s.sweep.time.samples; ++i) rows.push_back(evaluate(time_of(s.sweep.time, i)));
   return sweep_table(s, rows);
 }
+
+Table empty_serial_arm_table(const SerialArmStudy& s) { return sweep_table(s, {}); }
 
 study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context) {
   study::Result result;

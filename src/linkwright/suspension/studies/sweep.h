@@ -100,5 +100,7 @@ Value sweep_of_found(const GuideDescription& description, const WheelGuide& foun
 /// Evaluates the grid and reports. Rows without a position hold NaN and their status; the status of the
 /// result is then the first of these. Cancelled or out of time: the positions so far (solve_grid).
 study::Result run_sweep_study(const SweepStudy& study, RunContext& context);
+/// The table of its grid without rows.
+Table empty_sweep_table(const SweepStudy& study);
 
 }  // namespace linkwright::suspension

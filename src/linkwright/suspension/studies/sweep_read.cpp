@@ -214,8 +214,10 @@ study::Kind sweep_kind() {
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_sweep_study(document, common, prepared.canonical))
+    if (auto s = read_sweep_study(document, common, prepared.canonical)) {
+      prepared.tables = {empty_sweep_table(*s)};
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_sweep_study(s, context); };
+    }
     return prepared;
   };
   return kind;

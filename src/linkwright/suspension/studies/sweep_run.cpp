@@ -404,6 +404,8 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
   return out;
 }
 
+Table empty_sweep_table(const SweepStudy& study) { return sweep_table(Grid{study, {}}, "sweep"); }
+
 study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   study::Result result;
   const GuidePlan plan = prepare_guide(asked.description.guide);
