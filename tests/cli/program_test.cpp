@@ -49,6 +49,11 @@ TEST_F(Program, RunWritesAndSummarises) {
   EXPECT_EQ(result("out/s/result.json").find("status")->as_string(), "done");
 }
 
+TEST_F(Program, TheSummaryIsInTheUnitsOfTheOutput) {
+  EXPECT_EQ(run({"run", "s.toml", "--set", "output.units=[\"mm\"]"}), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("  length  400 mm\n"));
+}
+
 TEST_F(Program, EveryWriteIsCheckedToItsEnd) {
   ::setenv("L", program_.c_str(), 1);
   const auto shell = [&](const std::string& command) {

@@ -91,7 +91,8 @@ void print_outcome(const Arguments& arguments, const study::Study& study, const 
     fmt::print("{}", study::to_json_readable(
                          app::result_json(study, app::presented(study, outcome.result), outcome.record)));
   else if (!arguments.quiet)
-    fmt::print("{}", summary(study.common.title, outcome.result, written, wants_colours(Stream::out)));
+    fmt::print("{}", summary(study.common.title, app::presented(study, outcome.result), written,
+                             wants_colours(Stream::out)));
   flush_output();  // the answer comes before remarks on it
   print_diagnostics(problems);
   if (arguments.open) open_report(written);
