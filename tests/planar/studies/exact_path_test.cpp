@@ -221,8 +221,7 @@ TEST(ExactPathRun, LimitsOfTheStudyChooseAmongTheAnswers) {
               HasSubstr("None of the 2 four-bars that pass the points in one motion and in their order "
                         "keeps the limits of the study."));
   ASSERT_FALSE(result.solutions.empty());
-  EXPECT_THAT(to_string(result.solutions[0].defects[0]),
-              HasSubstr("violates transmission_angle"));
+  EXPECT_THAT(to_string(result.solutions[0].defects[0]), HasSubstr("violates transmission_angle"));
 }
 
 // Morgan and Wampler 1990, problem 7: collinear points.

@@ -137,7 +137,8 @@ TEST(DirectSynthesis, KeepsLimits) {
   task.limits.links[0].least = 1;
   const DirectSynthesis none = synthesise(task, {.starts = 4}, 1, context);
   EXPECT_EQ(none.status, Status::infeasible);
-  EXPECT_THAT(to_string(none.reason), ::testing::MatchesRegex("clearance of link 4 and link 5 is missed by [0-9.]+ mm"));
+  EXPECT_THAT(to_string(none.reason),
+              ::testing::MatchesRegex("clearance of link 4 and link 5 is missed by [0-9.]+ mm"));
 }
 
 TEST(DirectSynthesis, SaysWhenNothingAssembles) {

@@ -81,7 +81,8 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
 TEST(SweepStudy, RowsThatAreNotReachedHaveNoExtremes) {
   const study::Result result = run_text(sample("SP-3US", "[sweep.travel]\nvalues_mm = [500, 600]\n"));
   EXPECT_EQ(result.status, Status::no_assembly);
-  for (const study::Fact& f : result.facts) EXPECT_THAT(to_string(f.label), Not(HasSubstr("over the travel")));
+  for (const study::Fact& f : result.facts)
+    EXPECT_THAT(to_string(f.label), Not(HasSubstr("over the travel")));
 }
 
 TEST(SweepStudy, TellsToeAtTheRimAsALength) {
