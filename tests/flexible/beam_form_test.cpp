@@ -19,7 +19,7 @@ TEST(BeamForm, HoldsEveryNumberOfABeamOnce) {
     // Nothing can be negative; what a link cannot be without must be given.
     if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>) {
       EXPECT_GE(field.minimum, 0) << field.key;
-      EXPECT_EQ(field.required, field.minimum > 0) << field.key;
+      EXPECT_EQ(field.is_required, field.minimum > 0) << field.key;
     }
   };
   beam_fields::link(visit, beam);
@@ -27,7 +27,7 @@ TEST(BeamForm, HoldsEveryNumberOfABeamOnce) {
   beam_fields::hub(visit, beam);
   EXPECT_EQ(keys.size(), 18u);
   EXPECT_TRUE(beam_fields::fibre_distance.exclusive_minimum);
-  EXPECT_FALSE(beam_fields::fibre_distance.required);
+  EXPECT_FALSE(beam_fields::fibre_distance.is_required);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Wolves {
 };
 template <class V>
 void fields(V&& visit, Wolves& o) {
-  visit(Field{.key = "population", .summary = "wolves in the pack", .minimum = 4}, o.population);
+  visit(field::entry("population", "wolves in the pack").at_least(4), o.population);
 }
 constexpr Word choice_word(const Wolves&) { return {"grey_wolf", "a pack"}; }
 
@@ -31,7 +31,7 @@ struct Descent {
 };
 template <class V>
 void fields(V&& visit, Descent& o) {
-  visit(Field{.key = "step", .summary = "first step", .minimum = 0, .exclusive_minimum = true}, o.step);
+  visit(field::entry("step", "first step").positive(), o.step);
 }
 constexpr Word choice_word(const Descent&) { return {"descent"}; }
 
@@ -41,13 +41,8 @@ struct Box {
 };
 template <class V>
 void fields(V&& visit, Box& o) {
-  visit(Field{.key = "near",
-              .summary = "centre",
-              .dimension = Dimension::length,
-              .required = true,
-              .inherits_unit = true},
-        o.near);
-  visit(Field{.key = "box", .summary = "edge", .dimension = Dimension::length}, o.edge);
+  visit(field::length("near", "centre").required().with_inherited_unit(), o.near);
+  visit(field::length("box", "edge"), o.edge);
 }
 
 struct Link {
@@ -56,8 +51,8 @@ struct Link {
 };
 template <class V>
 void fields(V&& visit, Link& o) {
-  visit(Field{.key = "name", .summary = "of the link", .required = true}, o.name);
-  visit(Field{.key = "body", .summary = "point on the body", .dimension = Dimension::length}, o.body);
+  visit(field::entry("name", "of the link").required(), o.name);
+  visit(field::length("body", "point on the body"), o.body);
 }
 
 struct Sample {
@@ -75,24 +70,17 @@ struct Sample {
 };
 template <class V>
 void fields(V&& visit, Sample& o) {
-  visit(Field{.key = "crank",
-              .summary = "crank length",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 50,
-              .required = true},
-        o.crank);
-  visit(Field{.key = "angle", .summary = "start", .dimension = Dimension::angle}, o.angle);
-  visit(Field{.key = "limit", .summary = "largest mass", .dimension = Dimension::mass, .minimum = 0},
-        o.limit);
-  visit(Field{.key = "closed", .summary = "is the path closed"}, o.closed);
-  visit(Field{.key = "branch", .summary = "assembly"}, o.branch);
-  visit(Field{.key = "branches", .summary = "assemblies"}, o.branches);
-  visit(Field{.key = "points", .summary = "targets", .dimension = Dimension::length}, o.points);
-  visit(Field{.key = "weights", .summary = "of points", .minimum = 0}, o.weights);
-  visit(Field{.key = "tags", .summary = "words"}, o.tags);
-  visit(Field{.key = "link", .summary = "links"}, o.links);
-  visit(Field{.key = "method", .summary = "optimiser"}, o.method);
+  visit(field::length("crank", "crank length").between(0, 50).required(), o.crank);
+  visit(field::angle("angle", "start"), o.angle);
+  visit(field::mass("limit", "largest mass").not_negative(), o.limit);
+  visit(field::entry("closed", "is the path closed"), o.closed);
+  visit(field::entry("branch", "assembly"), o.branch);
+  visit(field::entry("branches", "assemblies"), o.branches);
+  visit(field::length("points", "targets"), o.points);
+  visit(field::entry("weights", "of points").not_negative(), o.weights);
+  visit(field::entry("tags", "words"), o.tags);
+  visit(field::entry("link", "links"), o.links);
+  visit(field::entry("method", "optimiser"), o.method);
 }
 
 }  // namespace bind_sample
@@ -300,7 +288,7 @@ TEST(Bind, TablesErrorsOfMeaningAndFreeNames) {
   EXPECT_FALSE(root.table("nothing").has_value());
   ObjectReader timing = *root.table("timing");
   double step = 0;
-  EXPECT_TRUE(timing(Field{.key = "step", .summary = {}, .dimension = Dimension::angle}, step));
+  EXPECT_TRUE(timing(field::angle("step"), step));
   timing.error("step", "does not divide the turn");
   ObjectReader mass = *root.table("mass");
   EXPECT_EQ(mass.members().front().key, "crank");
@@ -318,30 +306,30 @@ std::string read_and_refer(std::string_view text, bool with_schema = true) {
   ObjectReader root = reader.root();
   std::vector<bind_sample::Link> links;
   std::optional<ObjectReader> mechanism = root.table("mechanism");
-  (*mechanism)(Field{.key = "link", .summary = {}}, links);
+  (*mechanism)(field::entry("link"), links);
   for (std::size_t i = 1; i < links.size(); ++i)
     if (links[i].name == links[0].name)
       mechanism->unreadable("link", "'" + links[i].name + "' is used twice");
   for (ObjectReader trace : root.tables("trace")) {
     if (reader.has_errors()) break;  // the mechanism is not known: `of` is not asked for
     std::string of;
-    trace(Field{.key = "of", .summary = {}}, of);
+    trace(field::entry("of"), of);
   }
   if (std::optional<ObjectReader> limit = root.table("limit")) {
     std::string of;
-    (*limit)(Field{.key = "of", .summary = {}}, of);
+    (*limit)(field::entry("of"), of);
     if (std::none_of(links.begin(), links.end(), [&](const auto& l) { return l.name == of; }))
       limit->error("of", "there is no link '" + of + "'");
   }
   reader.finish([&] {
     if (!with_schema) return Value();
     SchemaWriter all, mechanisms, traces, limits;
-    mechanisms(Field{.key = "link", .summary = {}}, links);
-    traces(Field{.key = "of", .summary = {}}, std::string());
-    limits(Field{.key = "of", .summary = {}}, std::string());
-    all.property(Field{.key = "mechanism", .summary = {}}, std::move(mechanisms).finish());
-    all.property(Field{.key = "trace", .summary = {}}, schema_array(std::move(traces).finish()));
-    all.property(Field{.key = "limit", .summary = {}}, std::move(limits).finish());
+    mechanisms(field::entry("link"), links);
+    traces(field::entry("of"), std::string());
+    limits(field::entry("of"), std::string());
+    all.property(field::entry("mechanism"), std::move(mechanisms).finish());
+    all.property(field::entry("trace"), schema_array(std::move(traces).finish()));
+    all.property(field::entry("limit"), std::move(limits).finish());
     return std::move(all).finish();
   });
   return test::lines_of(diagnostics);
@@ -393,16 +381,15 @@ std::string read_choice(std::string_view text) {
   ObjectReader root = reader.root();
   if (std::optional<ObjectReader> table = root.table("table")) {
     std::variant<bind_sample::Wolves, bind_sample::Descent> method;
-    (*table)(Field{.key = "method", .summary = {}}, method);
+    (*table)(field::entry("method"), method);
     std::string sample;
-    if (!(*table)(Field{.key = "sample", .summary = {}}, sample)) {
-      if (auto wheel = table->table(Field{.key = "wheel", .summary = {}, .required = true})) {
+    if (!(*table)(field::entry("sample"), sample)) {
+      if (auto wheel = table->table(field::entry("wheel").required())) {
         double radius = 0;
-        (*wheel)(Field{.key = "radius", .summary = {}, .required = true}, radius);
+        (*wheel)(field::entry("radius").required(), radius);
       }
       int links = 0;
-      if (!(*table)(Field{.key = "links", .summary = {}}, links))
-        table->unreadable("links", "there are no links");
+      if (!(*table)(field::entry("links"), links)) table->unreadable("links", "there are no links");
     }
   } else {
     root.error("motion", "needs the table");
@@ -472,8 +459,7 @@ TEST(Bind, SchemaOfAChoiceAsksForItsKeyButOnce) {
   EXPECT_EQ(required(options[0]), 0u) << "grey_wolf is the default";
   EXPECT_EQ(required(options[1]), 1u);
   SchemaWriter writer;
-  writer(Field{.key = "method", .summary = {}},
-         std::optional<std::variant<bind_sample::Wolves, bind_sample::Descent>>());
+  writer(field::entry("method"), std::optional<std::variant<bind_sample::Wolves, bind_sample::Descent>>());
   const Value optional = std::move(writer).finish();
   const auto& three = optional.find("oneOf")->as_array();
   ASSERT_EQ(three.size(), 3u);

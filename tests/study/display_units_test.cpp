@@ -77,7 +77,7 @@ std::string read(std::string_view text, OutputUnits& units) {
   Diagnostics diagnostics;
   const Value value = read_text(text, Syntax::toml, "s.toml", diagnostics);
   DocumentReader reader(value, "s.toml", diagnostics);
-  reader.root()(Field{.key = "units", .summary = {}}, units);
+  reader.root()(field::entry("units"), units);
   reader.finish();
   return test::lines_of(diagnostics);
 }

@@ -22,14 +22,14 @@ struct RotaryEntry {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RotaryEntry& e) {
-  visit(Field{.key = "law", .summary = "motion", .required = true}, e.law);
+  visit(field::entry("law", "motion").required(), e.law);
 }
 struct LinearEntry {
   LinearLaw law;
 };
 template <class Visitor>
 void fields(Visitor&& visit, LinearEntry& e) {
-  visit(Field{.key = "law", .summary = "motion", .required = true}, e.law);
+  visit(field::entry("law", "motion").required(), e.law);
 }
 
 template <class Entry>

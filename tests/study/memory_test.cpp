@@ -16,7 +16,7 @@ TEST(StudyMemory, SaysAtTheKeyWhatIsTooMuch) {
   DocumentReader document(value, "s.toml", problems);
   ObjectReader table = *document.root().table("sweep");
   int samples = 0;
-  table(Field{.key = "samples", .summary = {}}, samples);
+  table(field::entry("samples"), samples);
   EXPECT_TRUE(require_memory(table, "samples", 2e9, "5000 rows", "take fewer samples"));
   EXPECT_FALSE(require_memory(table, "samples", 3e12, "5000 rows", "take fewer samples"));
   ASSERT_EQ(problems.size(), 1u);

@@ -27,13 +27,8 @@ struct Lever {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Lever& lever) {
-  visit(Field{.key = "length",
-              .summary = "of the lever",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .required = true},
-        lever.length);
-  visit(Field{.key = "mode", .summary = "how the run ends"}, lever.mode);
+  visit(field::length("length", "of the lever").not_negative().required(), lever.length);
+  visit(field::entry("mode", "how the run ends"), lever.mode);
 }
 
 struct Angle {
@@ -41,7 +36,7 @@ struct Angle {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Angle& angle) {
-  visit(Field{.key = "to", .summary = "last angle", .dimension = Dimension::angle, .minimum = 0}, angle.to);
+  visit(field::angle("to", "last angle").not_negative(), angle.to);
 }
 
 inline Result run(const Lever& lever, const Angle& angle, const Common& common, RunContext& context) {
@@ -71,8 +66,7 @@ inline Result run(const Lever& lever, const Angle& angle, const Common& common, 
 inline Prepared prepare(ObjectReader& document, const Common& common) {
   Lever lever;
   Angle angle;
-  if (auto table = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
-    table->read(lever);
+  if (auto table = document.table(field::entry("mechanism").required())) table->read(lever);
   if (auto table = document.table("target")) table->read(angle);
   Prepared prepared;
   prepared.canonical["mechanism"] = write_fields(lever);
@@ -113,10 +107,8 @@ inline std::vector<Kind> kinds() {
   lever.quantities = {{"angle", "of the lever"}, {"height", "of its end"}};
   lever.seeded = true;
   lever.schema = [](SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the lever", .required = true},
-                      schema_fields<Lever>());
-    document.property(Field{.key = "target", .summary = "where to turn it", .required = true},
-                      schema_fields<Angle>());
+    document.property(field::entry("mechanism", "the lever").required(), schema_fields<Lever>());
+    document.property(field::entry("target", "where to turn it").required(), schema_fields<Angle>());
   };
   lever.prepare = prepare;
   Kind wheel = lever;

@@ -23,19 +23,13 @@ struct CmaEsOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, CmaEsOptions& o) {
-  visit(Field{.key = "population",
-              .summary = "candidates of a generation, at least 5; 0 = 4 + 3 ln n for n variables",
-              .minimum = 0,
-              .maximum = 1e6},
+  visit(field::entry("population", "candidates of a generation, at least 5; 0 = 4 + 3 ln n for n variables")
+            .between(0, 1e6),
         o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "initial_step",
-              .summary = "standard deviation of the first steps, as a share of the box",
-              .minimum = 0,
-              .maximum = 10,
-              .exclusive_minimum = true},
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("initial_step", "standard deviation of the first steps, as a share of the box")
+            .positive()
+            .at_most(10),
         o.initial_step);
 }
 

@@ -25,14 +25,9 @@ struct CuckooSearchOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, CuckooSearchOptions& o) {
-  visit(Field{.key = "population", .summary = "nests", .minimum = 2, .maximum = 1e6}, o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "discovery",
-              .summary = "probability that a component of a nest is abandoned",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("population", "nests").between(2, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("discovery", "probability that a component of a nest is abandoned").between(0, 1),
         o.discovery);
   fields(visit, o.flight);
 }

@@ -64,25 +64,14 @@ struct DifferentialEvolutionOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DifferentialEvolutionOptions& o) {
-  visit(Field{.key = "population", .summary = "members; 0 = five a variable", .minimum = 0, .maximum = 1e6},
-        o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "scale",
-              .summary = "factor F of the difference of two members",
-              .minimum = 0,
-              .maximum = 2,
-              .exclusive_minimum = true},
-        o.scale);
-  visit(Field{.key = "crossover",
-              .summary = "probability CR that a variable is taken from the mutant",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("population", "members; 0 = five a variable").between(0, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("scale", "factor F of the difference of two members").positive().at_most(2), o.scale);
+  visit(field::entry("crossover", "probability CR that a variable is taken from the mutant").between(0, 1),
         o.crossover);
-  visit(Field{.key = "scheme", .summary = "how mutants are made"}, o.scheme);
-  visit(Field{.key = "replacement", .summary = "when a trial takes the place of its target"}, o.replacement);
-  visit(Field{.key = "bounds", .summary = "what becomes of components that leave the box"}, o.bounds);
+  visit(field::entry("scheme", "how mutants are made"), o.scheme);
+  visit(field::entry("replacement", "when a trial takes the place of its target"), o.replacement);
+  visit(field::entry("bounds", "what becomes of components that leave the box"), o.bounds);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,

@@ -27,23 +27,17 @@ inline constexpr FireflyMove yang_attraction = {.attraction = 1, .attraction_lea
 
 template <class Visitor>
 void fields(Visitor&& visit, FireflyMove& o) {
-  visit(
-      Field{.key = "randomness",
-            .summary = "width alpha of the random part of a move at first, as a fraction of that of the box",
-            .minimum = 0},
-      o.randomness);
-  visit(
-      Field{
-          .key = "absorption", .summary = "gamma: how quickly attraction falls with distance", .minimum = 0},
-      o.absorption);
-  visit(Field{.key = "attraction",
-              .summary = "attraction beta_0 at distance 0; 1 with attraction_least 0.2 is mostly better",
-              .minimum = 0,
-              .maximum = 2},
+  visit(field::entry("randomness",
+                     "width alpha of the random part of a move at first, as a fraction of that of the box")
+            .not_negative(),
+        o.randomness);
+  visit(field::entry("absorption", "gamma: how quickly attraction falls with distance").not_negative(),
+        o.absorption);
+  visit(field::entry("attraction",
+                     "attraction beta_0 at distance 0; 1 with attraction_least 0.2 is mostly better")
+            .between(0, 2),
         o.attraction);
-  visit(
-      Field{.key = "attraction_least", .summary = "attraction beta_min far away", .minimum = 0, .maximum = 2},
-      o.attraction_least);
+  visit(field::entry("attraction_least", "attraction beta_min far away").between(0, 2), o.attraction_least);
 }
 
 /// Firefly algorithm (Yang 2009; Boskovic 2018, Algorithm 2.3): each firefly in turn moves towards every
@@ -59,11 +53,9 @@ struct FireflyOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FireflyOptions& o) {
-  visit(Field{.key = "population", .summary = "fireflies", .minimum = 2, .maximum = 1e4}, o.population);
-  visit(Field{.key = "generations",
-              .summary = "generations, the first included; randomness decays over them",
-              .minimum = 1,
-              .maximum = 1e9},
+  visit(field::entry("population", "fireflies").between(2, 1e4), o.population);
+  visit(field::entry("generations", "generations, the first included; randomness decays over them")
+            .between(1, 1e9),
         o.generations);
   fields(visit, o.move);
 }

@@ -29,18 +29,14 @@ struct GreyWolfOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GreyWolfOptions& o) {
-  visit(Field{.key = "population", .summary = "wolves in the pack", .minimum = 3, .maximum = 1e6},
-        o.population);
-  visit(Field{.key = "generations",
-              .summary = "generations, the first included; the reach falls to 0 over them",
-              .minimum = 1,
-              .maximum = 1e9},
+  visit(field::entry("population", "wolves in the pack").between(3, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included; the reach falls to 0 over them")
+            .between(1, 1e9),
         o.generations);
-  visit(Field{.key = "reset_worst_half",
-              .summary = "place the worse half of the pack at random before each move"},
+  visit(field::entry("reset_worst_half", "place the worse half of the pack at random before each move"),
         o.reset_worst_half);
-  visit(Field{.key = "absolute_value",
-              .summary = "absolute value of each step as printed in Boskovic 2018 Eq. (4.25), an erratum"},
+  visit(field::entry("absolute_value",
+                     "absolute value of each step as printed in Boskovic 2018 Eq. (4.25), an erratum"),
         o.absolute_value);
 }
 

@@ -26,17 +26,13 @@ struct HybridCuckooFireflyOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, HybridCuckooFireflyOptions& o) {
-  visit(Field{.key = "population", .summary = "nests", .minimum = 2, .maximum = 1e4}, o.population);
-  visit(Field{.key = "generations",
-              .summary = "generations, the first included; randomness decays over them",
-              .minimum = 1,
-              .maximum = 1e9},
+  visit(field::entry("population", "nests").between(2, 1e4), o.population);
+  visit(field::entry("generations", "generations, the first included; randomness decays over them")
+            .between(1, 1e9),
         o.generations);
-  visit(Field{.key = "swept",
-              .summary = "share of the nests, the worst ones, that move as fireflies",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
+  visit(field::entry("swept", "share of the nests, the worst ones, that move as fireflies")
+            .positive()
+            .at_most(1),
         o.swept);
   fields(visit, o.move);
   fields(visit, o.flight);

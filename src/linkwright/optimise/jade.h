@@ -23,22 +23,15 @@ struct JadeOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, JadeOptions& o) {
-  visit(Field{.key = "population", .summary = "members", .minimum = 4, .maximum = 1e6}, o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "best_share",
-              .summary = "share p of the population whose members count as best",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
+  visit(field::entry("population", "members").between(4, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("best_share", "share p of the population whose members count as best")
+            .positive()
+            .at_most(1),
         o.best_share);
-  visit(Field{.key = "adaptation",
-              .summary = "how fast the means of F and CR follow what succeeds, c",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("adaptation", "how fast the means of F and CR follow what succeeds, c").between(0, 1),
         o.adaptation);
-  visit(Field{.key = "archive", .summary = "draw differences from replaced members, too"}, o.archive);
+  visit(field::entry("archive", "draw differences from replaced members, too"), o.archive);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables, const JadeOptions& options,

@@ -27,17 +27,13 @@ struct LevyFlight {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LevyFlight& o) {
-  visit(Field{.key = "levy_exponent",
-              .summary = "exponent beta_L of the Levy steps; smaller has heavier tails",
-              .minimum = 0.3,
-              .maximum = 1.99},
+  visit(field::entry("levy_exponent", "exponent beta_L of the Levy steps; smaller has heavier tails")
+            .between(0.3, 1.99),
         o.exponent);
-  visit(Field{.key = "levy_step",
-              .summary = "factor of the Levy steps, as a fraction of the width of the box",
-              .minimum = 0,
-              .exclusive_minimum = true},
-        o.step);
-  visit(Field{.key = "levy", .summary = "form of the Levy flights"}, o.form);
+  visit(
+      field::entry("levy_step", "factor of the Levy steps, as a fraction of the width of the box").positive(),
+      o.step);
+  visit(field::entry("levy", "form of the Levy flights"), o.form);
 }
 
 /// Standard deviation sigma of the numerator of a Levy step: 0.696575 for the exponent 1.5.

@@ -76,7 +76,7 @@ decltype(auto) visit_method(Options&& o, F&& f) {
 /// `method` comes first; the keys after it are those of the method that was read.
 template <class Visitor>
 void fields(Visitor&& visit, OptimiserOptions& o) {
-  visit(Field{.key = "method", .summary = "population method"}, o.method);
+  visit(field::entry("method", "population method"), o.method);
   visit_method(o, [&](auto& options) { fields(visit, options); });
 }
 

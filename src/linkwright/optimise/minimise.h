@@ -32,23 +32,16 @@ struct StopCriteria {
 };
 template <class Visitor>
 void fields(Visitor&& visit, StopCriteria& o) {
-  visit(
-      Field{.key = "max_evaluations", .summary = "evaluations; 0 = no limit", .minimum = 0, .maximum = 1e15},
-      o.evaluations);
-  visit(Field{.key = "target_cost", .summary = "end when a feasible candidate costs at most this"},
-        o.target_cost);
-  visit(Field{.key = "stagnation",
-              .summary = "end after so many generations without a better candidate; 0 = never",
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::entry("max_evaluations", "evaluations; 0 = no limit").between(0, 1e15), o.evaluations);
+  visit(field::entry("target_cost", "end when a feasible candidate costs at most this"), o.target_cost);
+  visit(field::entry("stagnation", "end after so many generations without a better candidate; 0 = never")
+            .between(0, 1e9),
         o.stagnation);
-  visit(Field{.key = "spread",
-              .summary = "end when no member is further than this from the best; 0 = never",
-              .minimum = 0},
+  visit(field::entry("spread", "end when no member is further than this from the best; 0 = never")
+            .not_negative(),
         o.spread);
-  visit(Field{.key = "diameter",
-              .summary = "end when no two members are further apart than this; 0 = never",
-              .minimum = 0},
+  visit(field::entry("diameter", "end when no two members are further apart than this; 0 = never")
+            .not_negative(),
         o.diameter);
 }
 
@@ -88,12 +81,10 @@ struct MinimiseOptions {
 template <class Visitor>
 void fields(Visitor&& visit, MinimiseOptions& o) {
   fields(visit, o.stop);
-  visit(Field{.key = "constraints", .summary = "how candidates that violate constraints are ranked"},
-        o.constraints);
-  visit(Field{.key = "penalty_weight",
-              .summary = "what a candidate that violates a constraint costs more",
-              .minimum = 0},
-        o.penalty_weight);
+  visit(field::entry("constraints", "how candidates that violate constraints are ranked"), o.constraints);
+  visit(
+      field::entry("penalty_weight", "what a candidate that violates a constraint costs more").not_negative(),
+      o.penalty_weight);
 }
 
 /// One generation; NaN where there is no (feasible) candidate. The cost of a candidate is the mean of all

@@ -41,21 +41,12 @@ struct SmoothOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SmoothOptions& o) {
-  visit(Field{.key = "candidates",
-              .summary = "candidates drawn to choose starts from",
-              .minimum = 1,
-              .maximum = 1e7},
-        o.candidates);
-  visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6}, o.starts);
-  visit(Field{.key = "confirmations",
-              .summary = "end when so many searches found the best cost; 0 = make all starts",
-              .minimum = 0,
-              .maximum = 1e6},
+  visit(field::entry("candidates", "candidates drawn to choose starts from").between(1, 1e7), o.candidates);
+  visit(field::entry("starts", "local searches at most").between(1, 1e6), o.starts);
+  visit(field::entry("confirmations", "end when so many searches found the best cost; 0 = make all starts")
+            .between(0, 1e6),
         o.confirmations);
-  visit(Field{.key = "same_cost",
-              .summary = "relative: costs that differ by less are the same",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("same_cost", "relative: costs that differ by less are the same").between(0, 1),
         o.same_cost);
 }
 

@@ -41,22 +41,18 @@ struct LocalOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LocalOptions& o) {
-  visit(Field{.key = "method", .summary = "local search"}, o.method);
-  visit(Field{.key = "max_evaluations", .summary = "evaluations of the cost", .minimum = 1, .maximum = 1e9},
-        o.max_evaluations);
-  visit(Field{.key = "step_tolerance",
-              .summary = "end when a step is smaller than this, relative to the variables; 0 = never",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("method", "local search"), o.method);
+  visit(field::entry("max_evaluations", "evaluations of the cost").between(1, 1e9), o.max_evaluations);
+  visit(field::entry("step_tolerance",
+                     "end when a step is smaller than this, relative to the variables; 0 = never")
+            .between(0, 1),
         o.step_tolerance);
-  visit(Field{.key = "decrease_tolerance",
-              .summary = "end when a step changes the cost by less than this share; 0 = never",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("decrease_tolerance",
+                     "end when a step changes the cost by less than this share; 0 = never")
+            .between(0, 1),
         o.decrease_tolerance);
-  visit(Field{.key = "constraint_tolerance",
-              .summary = "a constraint holds when its value is at most this",
-              .minimum = 0},
+  visit(field::entry("constraint_tolerance", "a constraint holds when its value is at most this")
+            .not_negative(),
         o.constraint_tolerance);
 }
 

@@ -36,27 +36,17 @@ struct Nsga2Options {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Nsga2Options& o) {
-  visit(Field{.key = "population", .summary = "members, a multiple of 4", .minimum = 8, .maximum = 1e6},
-        o.population);
+  visit(field::entry("population", "members, a multiple of 4").between(8, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("crossover", "probability of crossover").between(0, 1), o.crossover);
   visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "crossover", .summary = "probability of crossover", .minimum = 0, .maximum = 1},
-        o.crossover);
-  visit(Field{.key = "crossover_index",
-              .summary = "distribution index of crossover; large = children near their parents",
-              .minimum = 1,
-              .maximum = 100},
-        o.crossover_index);
-  visit(Field{.key = "mutation",
-              .summary = "probability that a variable mutates; 0 = one over their number",
-              .minimum = 0,
-              .maximum = 1},
+      field::entry("crossover_index", "distribution index of crossover; large = children near their parents")
+          .between(1, 100),
+      o.crossover_index);
+  visit(field::entry("mutation", "probability that a variable mutates; 0 = one over their number")
+            .between(0, 1),
         o.mutation);
-  visit(Field{.key = "mutation_index",
-              .summary = "distribution index of mutation; large = small steps",
-              .minimum = 1,
-              .maximum = 100},
+  visit(field::entry("mutation_index", "distribution index of mutation; large = small steps").between(1, 100),
         o.mutation_index);
 }
 
@@ -72,15 +62,10 @@ struct MoeadOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, MoeadOptions& o) {
-  visit(Field{.key = "population", .summary = "members, more than neighbours", .minimum = 4, .maximum = 1e6},
-        o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "neighbours",
-              .summary = "members with the most similar weights, with whom one mates",
-              .minimum = 2,
-              .maximum = 1e6},
+  visit(field::entry("population", "members, more than neighbours").between(4, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("neighbours", "members with the most similar weights, with whom one mates")
+            .between(2, 1e6),
         o.neighbours);
 }
 
@@ -93,7 +78,7 @@ struct PagmoOptions {
 /// `method` comes first; the keys after it are those of the method that was read.
 template <class Visitor>
 void fields(Visitor&& visit, PagmoOptions& o) {
-  visit(Field{.key = "method", .summary = "method for several objectives"}, o.method);
+  visit(field::entry("method", "method for several objectives"), o.method);
   if (o.method == PagmoMethod::moead)
     fields(visit, o.moead);
   else
@@ -112,9 +97,7 @@ struct FrontOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FrontOptions& o) {
-  visit(
-      Field{.key = "max_evaluations", .summary = "evaluations; 0 = no limit", .minimum = 0, .maximum = 1e15},
-      o.evaluations);
+  visit(field::entry("max_evaluations", "evaluations; 0 = no limit").between(0, 1e15), o.evaluations);
 }
 
 /// One generation.

@@ -40,36 +40,23 @@ struct ParticleSwarmOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ParticleSwarmOptions& o) {
-  visit(Field{.key = "population", .summary = "particles", .minimum = 1, .maximum = 1e6}, o.population);
-  visit(Field{.key = "generations",
-              .summary = "generations, the first included; the inertia falls over them",
-              .minimum = 1,
-              .maximum = 1e9},
+  visit(field::entry("population", "particles").between(1, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included; the inertia falls over them")
+            .between(1, 1e9),
         o.generations);
-  visit(Field{.key = "own_attraction",
-              .summary = "factor c1 of the way to the best place of the particle itself",
-              .minimum = 0,
-              .maximum = 10},
+  visit(field::entry("own_attraction", "factor c1 of the way to the best place of the particle itself")
+            .between(0, 10),
         o.own_attraction);
-  visit(Field{.key = "swarm_attraction",
-              .summary = "factor c2 of the way to the best place of all",
-              .minimum = 0,
-              .maximum = 10},
+  visit(field::entry("swarm_attraction", "factor c2 of the way to the best place of all").between(0, 10),
         o.swarm_attraction);
-  visit(Field{.key = "inertia_start",
-              .summary = "share of the velocity that is kept, at first",
-              .minimum = 0,
-              .maximum = 2},
+  visit(field::entry("inertia_start", "share of the velocity that is kept, at first").between(0, 2),
         o.inertia_start);
-  visit(Field{.key = "inertia_end", .summary = "the same at the end", .minimum = 0, .maximum = 2},
-        o.inertia_end);
-  visit(Field{.key = "velocity_limit",
-              .summary = "largest move in one generation over the range of the variable",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
+  visit(field::entry("inertia_end", "the same at the end").between(0, 2), o.inertia_end);
+  visit(field::entry("velocity_limit", "largest move in one generation over the range of the variable")
+            .positive()
+            .at_most(1),
         o.velocity_limit);
-  visit(Field{.key = "bounds", .summary = "what becomes of a particle that leaves the box"}, o.bounds);
+  visit(field::entry("bounds", "what becomes of a particle that leaves the box"), o.bounds);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,

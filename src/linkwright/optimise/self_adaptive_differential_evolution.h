@@ -23,28 +23,16 @@ struct SelfAdaptiveDifferentialEvolutionOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SelfAdaptiveDifferentialEvolutionOptions& o) {
-  visit(Field{.key = "population", .summary = "members", .minimum = 4, .maximum = 1e6}, o.population);
-  visit(
-      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
-      o.generations);
-  visit(Field{.key = "scale_start",
-              .summary = "factor F of every member at first",
-              .minimum = 0,
-              .maximum = 2,
-              .exclusive_minimum = true},
+  visit(field::entry("population", "members").between(4, 1e6), o.population);
+  visit(field::entry("generations", "generations, the first included").between(1, 1e9), o.generations);
+  visit(field::entry("scale_start", "factor F of every member at first").positive().at_most(2),
         o.scale_start);
-  visit(Field{.key = "scale_lower", .summary = "least new F", .minimum = 0, .maximum = 2}, o.scale_lower);
-  visit(Field{.key = "scale_width", .summary = "width of the range of a new F", .minimum = 0, .maximum = 2},
-        o.scale_width);
-  visit(Field{.key = "scale_rate", .summary = "probability of a new F", .minimum = 0, .maximum = 1},
-        o.scale_rate);
-  visit(Field{.key = "crossover_start",
-              .summary = "crossover probability CR of every member at first",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("scale_lower", "least new F").between(0, 2), o.scale_lower);
+  visit(field::entry("scale_width", "width of the range of a new F").between(0, 2), o.scale_width);
+  visit(field::entry("scale_rate", "probability of a new F").between(0, 1), o.scale_rate);
+  visit(field::entry("crossover_start", "crossover probability CR of every member at first").between(0, 1),
         o.crossover_start);
-  visit(Field{.key = "crossover_rate", .summary = "probability of a new CR", .minimum = 0, .maximum = 1},
-        o.crossover_rate);
+  visit(field::entry("crossover_rate", "probability of a new CR").between(0, 1), o.crossover_rate);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,

@@ -28,17 +28,13 @@ struct SubpopulationFireflyOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SubpopulationFireflyOptions& o) {
-  visit(Field{.key = "population", .summary = "fireflies", .minimum = 2, .maximum = 1e4}, o.population);
-  visit(Field{.key = "generations",
-              .summary = "generations, the first included; randomness decays over them",
-              .minimum = 1,
-              .maximum = 1e9},
+  visit(field::entry("population", "fireflies").between(2, 1e4), o.population);
+  visit(field::entry("generations", "generations, the first included; randomness decays over them")
+            .between(1, 1e9),
         o.generations);
-  visit(Field{.key = "flights",
-              .summary = "most Levy flights of a firefly in search of a feasible place",
-              .minimum = 1,
-              .maximum = 1e4},
-        o.flights);
+  visit(
+      field::entry("flights", "most Levy flights of a firefly in search of a feasible place").between(1, 1e4),
+      o.flights);
   fields(visit, o.move);
   fields(visit, o.flight);
 }

@@ -17,31 +17,14 @@ struct LinkMass {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LinkMass& m) {
-  visit(Field{.key = "mass",
-              .summary = "mass of the link",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        m.mass);
-  visit(Field{.key = "inertia",
-              .summary = "moment of inertia about the mass centre",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e18,
-              .required = true},
+  visit(field::mass("mass", "mass of the link").not_negative().required(), m.mass);
+  visit(field::inertia("inertia", "moment of inertia about the mass centre").not_negative().required(),
         m.inertia);
-  visit(Field{.key = "centre_distance",
-              .summary = "distance of the mass centre from the link's own joint",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
+  visit(field::length("centre_distance", "distance of the mass centre from the link's own joint")
+            .not_negative()
+            .required(),
         m.centre_distance);
-  visit(Field{.key = "centre_angle",
-              .summary = "angle of the mass centre from the link line",
-              .dimension = Dimension::angle},
-        m.centre_angle);
+  visit(field::angle("centre_angle", "angle of the mass centre from the link line"), m.centre_angle);
 }
 
 /// A mass without extension that is fixed to a link: payload, motor, counterweight.
@@ -52,26 +35,9 @@ struct PointMass {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PointMass& m) {
-  visit(Field{.key = "mass",
-              .summary = "mass without extension",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        m.mass);
-  visit(Field{.key = "distance",
-              .summary = "from the link's own joint, negative = behind it",
-              .dimension = Dimension::length,
-              .minimum = -1e9,
-              .maximum = 1e9,
-              .required = true},
-        m.distance);
-  visit(Field{.key = "angle",
-              .summary = "from the link line, counter-clockwise",
-              .dimension = Dimension::angle,
-              .minimum = -1e3,
-              .maximum = 1e3},
-        m.angle);
+  visit(field::mass("mass", "mass without extension").not_negative().required(), m.mass);
+  visit(field::length("distance", "from the link's own joint, negative = behind it").required(), m.distance);
+  visit(field::angle("angle", "from the link line, counter-clockwise").between(-1e3, 1e3), m.angle);
 }
 
 /// All properties of its masses that affect the motion of a rigid link in the plane, in the frame of the

@@ -34,7 +34,7 @@ struct Chosen {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Chosen& c) {
-  visit(Field{.key = "method", .summary = "population method", .required = true}, c.method);
+  visit(field::entry("method", "population method").required(), c.method);
 }
 
 /// The numbers that an objective returned for so many candidates.

@@ -90,7 +90,7 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
   if (in_error) return std::nullopt;
   if (!first) {
     const auto noted = [&](const auto& missing) { return missing.base == field.key; };
-    if (field.required && std::none_of(record_->missing.begin(), record_->missing.end(), noted))
+    if (field.is_required && std::none_of(record_->missing.begin(), record_->missing.end(), noted))
       record_->missing.push_back({std::string(field.key), dimension});
     return std::nullopt;
   }
@@ -326,7 +326,7 @@ bool ObjectReader::convert(const Found& found, const Field& field, Range& result
   Field minimum = field, maximum = field;
   minimum.key = "min";
   maximum.key = "max";
-  minimum.required = maximum.required = minimum.inherits_unit = maximum.inherits_unit = true;
+  minimum.is_required = maximum.is_required = minimum.inherits_unit = maximum.inherits_unit = true;
   Range range;
   const bool has_minimum = bounds(minimum, range.lower), has_maximum = bounds(maximum, range.upper);
   if (!has_minimum || !has_maximum) return false;

@@ -136,19 +136,19 @@ class ObjectReader {
 
   /// True if the key is there, with any unit.
   bool has(const Field& field);
-  bool has(std::string_view key) { return has(Field{.key = key, .summary = {}}); }
+  bool has(std::string_view key) { return has(field::entry(key)); }
   /// True if the key is there and is a table: for values that may be a plain value or a table.
   bool is_table(const Field& field);
 
-  /// A table inside this one. Nothing when it is absent (an error if `field.required`) or no table (an
+  /// A table inside this one. Nothing when it is absent (an error if `field.is_required`) or no table (an
   /// error).
   std::optional<ObjectReader> table(const Field& field);
-  std::optional<ObjectReader> table(std::string_view key) { return table(Field{.key = key, .summary = {}}); }
+  std::optional<ObjectReader> table(std::string_view key) { return table(field::entry(key)); }
   /// Notes that a key which is not there is missing, and what to write.
   void missing(const Field& field, std::string hint);
   /// The tables of `[[key]]`; empty when absent.
   std::vector<ObjectReader> tables(const Field& field);
-  std::vector<ObjectReader> tables(std::string_view key) { return tables(Field{.key = key, .summary = {}}); }
+  std::vector<ObjectReader> tables(std::string_view key) { return tables(field::entry(key)); }
   /// All keys of a table whose keys are free (names that the user gives), each taken as known.
   const Value::Object& members();
 

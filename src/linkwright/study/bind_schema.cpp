@@ -64,7 +64,7 @@ void SchemaWriter::property(const Field& field, Value schema) {
   if (field.dimension != Dimension::none) schema["unit"] = units(field.dimension).front().suffix;
   properties_[key] = std::move(schema);
   if (dimension == Dimension::none) {
-    if (field.required) required_.push_back(Value(key));
+    if (field.is_required) required_.push_back(Value(key));
     return;
   }
   // The same key in the other units of its dimension; limits in SI do not apply to them.
@@ -76,7 +76,7 @@ void SchemaWriter::property(const Field& field, Value schema) {
   }
   patterns_[fmt::format("^{}_({})$", field.key, others)] =
       with("description", "as " + key + ", in another unit");
-  if (field.required) one_of_units_.push_back(with("oneOf", Value(std::move(either))));
+  if (field.is_required) one_of_units_.push_back(with("oneOf", Value(std::move(either))));
 }
 
 void SchemaWriter::alternative(const Field& field, const Word& word, SchemaWriter options, bool chosen,

@@ -33,7 +33,7 @@ class SchemaWriter {
     } else {
       Value schema = of(field, member);
       if constexpr (!HasFields<T> && !HasOwnForm<T>) {
-        if (!field.required) schema["default"] = ObjectWriter::to_value(member);
+        if (!field.is_required) schema["default"] = ObjectWriter::to_value(member);
       }
       property(field, std::move(schema));
     }
@@ -127,11 +127,12 @@ void SchemaWriter::choice(const Field& field, const std::variant<Options...>& me
     SchemaWriter writer;
     const Word word = choice_word(options);
     fields(writer, options);
-    const bool chosen = has_default && !field.required && std::holds_alternative<decltype(options)>(member);
+    const bool chosen =
+        has_default && !field.is_required && std::holds_alternative<decltype(options)>(member);
     alternative(field, word, std::move(writer), chosen, alternatives);
   };
   (add(Options{}), ...);
-  if (!has_default && !field.required) {
+  if (!has_default && !field.is_required) {
     Value absent;
     absent["not"]["required"].push_back(Value(field.key));
     alternatives.push_back(std::move(absent));
@@ -139,7 +140,7 @@ void SchemaWriter::choice(const Field& field, const std::variant<Options...>& me
   choices_.push_back(std::move(alternatives));
   Value schema;
   schema["type"] = "string";
-  if (has_default && !field.required)
+  if (has_default && !field.is_required)
     schema["default"] =
         std::visit([](const auto& options) { return Value(choice_word(options).name); }, member);
   property(field, std::move(schema));

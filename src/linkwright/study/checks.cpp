@@ -197,7 +197,7 @@ void read_row(ObjectReader& reader, CheckRequest& check) {
 
 std::vector<CheckRequest> read_checks(ObjectReader& document) {
   std::vector<CheckRequest> checks;
-  for (ObjectReader& reader : document.tables(Field{.key = "check", .summary = {}})) {
+  for (ObjectReader& reader : document.tables(field::entry("check"))) {
     CheckRequest check;
     reader.read(check);
     read_row(reader, check);

@@ -21,15 +21,14 @@ struct CheckRequest {
 };
 template <class Visitor>
 void fields(Visitor&& visit, CheckRequest& c) {
-  visit(Field{.key = "quantity",
-              .summary = "what is checked: best.<key>, statistics.<key>, <table>.<column>.<statistic>",
-              .required = true},
-        c.quantity);
-  visit(Field{.key = "at_most", .summary = "upper limit"}, c.at_most);
-  visit(Field{.key = "at_least", .summary = "lower limit"}, c.at_least);
-  visit(Field{.key = "equals", .summary = "expected value"}, c.equals);
-  visit(Field{.key = "tolerance", .summary = "allowed distance from the expected value", .minimum = 0},
-        c.tolerance);
+  visit(
+      field::entry("quantity", "what is checked: best.<key>, statistics.<key>, <table>.<column>.<statistic>")
+          .required(),
+      c.quantity);
+  visit(field::entry("at_most", "upper limit"), c.at_most);
+  visit(field::entry("at_least", "lower limit"), c.at_least);
+  visit(field::entry("equals", "expected value"), c.equals);
+  visit(field::entry("tolerance", "allowed distance from the expected value").not_negative(), c.tolerance);
 }
 
 /// Reads the row of a table that a quantity is of, `at` of its table, if it has one.

@@ -76,29 +76,13 @@ inline constexpr double most = 1e9;
 
 constexpr Field value(JointKind kind, std::string_view key, std::string_view summary, bool required = false,
                       int order = 0) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = dimension(kind, order),
-          .minimum = -most,
-          .maximum = most,
-          .required = required};
+  return field::of(dimension(kind, order), key, summary).between(-most, most).required(required);
 }
 
 template <class Visitor, class Law>
 void interval(Visitor&& visit, Law& law) {
-  visit(Field{.key = "start",
-              .summary = "time when the motion begins",
-              .dimension = Dimension::time,
-              .minimum = -most,
-              .maximum = most},
-        law.start);
-  visit(Field{.key = "duration",
-              .summary = "time that the motion takes",
-              .dimension = Dimension::time,
-              .minimum = 1e-9,
-              .maximum = most,
-              .required = true},
-        law.duration);
+  visit(field::time("start", "time when the motion begins"), law.start);
+  visit(field::time("duration", "time that the motion takes").at_least(1e-9).required(), law.duration);
 }
 
 template <class Visitor>
@@ -117,11 +101,10 @@ void list(Visitor&& visit, JointKind kind, math::Polynomial345& law) {
   visit(value(kind, "from", "position before", true), law.from);
   visit(value(kind, "to", "position after", true), law.to);
   interval(visit, law);
-  visit(Field{.key = "higher_coefficients",
-              .summary = "free coefficients of x^6, x^7, ... as shares of the stroke; n of them make the "
-                         "law of degree 5 + n",
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(field::entry("higher_coefficients",
+                     "free coefficients of x^6, x^7, ... as shares of the stroke; n of them make the "
+                     "law of degree 5 + n")
+            .between(-1e6, 1e6),
         law.higher);
 }
 template <class Visitor>
@@ -138,34 +121,17 @@ void list(Visitor&& visit, JointKind kind, math::EndConditions& law) {
 }
 template <class Visitor>
 void list(Visitor&& visit, JointKind kind, math::MotionTable& law) {
-  visit(Field{.key = "times",
-              .summary = "increasing times",
-              .dimension = Dimension::time,
-              .minimum = -most,
-              .maximum = most,
-              .required = true},
-        law.times);
+  visit(field::time("times", "increasing times").between(-most, most).required(), law.times);
   visit(value(kind, "values", "position at each time", true), law.values);
-  visit(Field{.key = "curve", .summary = "degree of the curve between the rows"}, law.curve);
-  visit(Field{.key = "ends", .summary = "what holds at the first and last row"}, law.ends);
+  visit(field::entry("curve", "degree of the curve between the rows"), law.curve);
+  visit(field::entry("ends", "what holds at the first and last row"), law.ends);
 }
 template <class Visitor>
 void list(Visitor&& visit, JointKind kind, math::HarmonicMotion& law) {
   visit(value(kind, "centre", "middle position"), law.centre);
   visit(value(kind, "amplitude", "largest distance from the middle", true), law.amplitude);
-  visit(Field{.key = "frequency",
-              .summary = "oscillations per time",
-              .dimension = Dimension::frequency,
-              .minimum = 0,
-              .maximum = most,
-              .required = true},
-        law.frequency);
-  visit(Field{.key = "phase",
-              .summary = "0: through the middle, forwards, at time 0",
-              .dimension = Dimension::angle,
-              .minimum = -most,
-              .maximum = most},
-        law.phase);
+  visit(field::frequency("frequency", "oscillations per time").between(0, most).required(), law.frequency);
+  visit(field::angle("phase", "0: through the middle, forwards, at time 0").between(-most, most), law.phase);
 }
 
 }  // namespace motion_fields
@@ -183,24 +149,9 @@ struct TimeSamples {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TimeSamples& t) {
-  visit(Field{.key = "from",
-              .summary = "first time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        t.from);
-  visit(Field{.key = "to",
-              .summary = "last time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9,
-              .required = true},
-        t.to);
-  visit(Field{.key = "samples",
-              .summary = "number of times, both ends included",
-              .minimum = 2,
-              .maximum = 100000,
-              .required = true},
+  visit(field::time("from", "first time"), t.from);
+  visit(field::time("to", "last time").required(), t.to);
+  visit(field::entry("samples", "number of times, both ends included").between(2, 100000).required(),
         t.samples);
 }
 

@@ -46,13 +46,11 @@ struct Output {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Output& o) {
-  visit(Field{.key = "dir", .summary = "folder of the results"}, o.dir);
-  visit(Field{.key = "formats", .summary = "files to write"}, o.formats);
-  visit(
-      Field{.key = "samples", .summary = "samples of curves and animations", .minimum = 2, .maximum = 100000},
-      o.samples);
-  visit(Field{.key = "units", .summary = "units of the numbers in result.json and CSV"}, o.units);
-  visit(Field{.key = "digits", .summary = "digits of the numbers in result.json and CSV"}, o.digits);
+  visit(field::entry("dir", "folder of the results"), o.dir);
+  visit(field::entry("formats", "files to write"), o.formats);
+  visit(field::entry("samples", "samples of curves and animations").between(2, 100000), o.samples);
+  visit(field::entry("units", "units of the numbers in result.json and CSV"), o.units);
+  visit(field::entry("digits", "digits of the numbers in result.json and CSV"), o.digits);
 }
 
 /// `[optimiser] seeds` of a study: the seeds first, first + 1, ..., each an independent run.
@@ -62,9 +60,8 @@ struct Seeds {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Seeds& s) {
-  visit(Field{.key = "first", .summary = "first seed", .minimum = 0}, s.first);
-  visit(Field{.key = "count", .summary = "number of seeds, one run each", .minimum = 1, .maximum = 100000},
-        s.count);
+  visit(field::entry("first", "first seed").not_negative(), s.first);
+  visit(field::entry("count", "number of seeds, one run each").between(1, 100000), s.count);
 }
 
 /// The part that every study has and the study module reads: a domain finds it here and never reads these

@@ -21,15 +21,15 @@
 namespace linkwright::study {
 namespace {
 
-const Field kind_field{.key = "kind", .summary = "what the study does", .required = true};
-const Field type_field{.key = "type", .summary = {}, .required = true};
-const Field schema_field{.key = "schema", .summary = "version of the study grammar"};
-const Field title_field{.key = "title", .summary = "one line for people"};
-const Field source_field{.key = "source", .summary = "where the numbers come from"};
-const Field output_field{.key = "output", .summary = "what is written, and where"};
-const Field quantities_field{.key = "quantities", .summary = "what is computed; all when absent"};
-const Field seeds_field{.key = "seeds", .summary = "one run for each seed"};
-const Field check_field{.key = "check", .summary = "makes the study a regression test"};
+const Field kind_field = field::entry("kind", "what the study does").required();
+const Field type_field = field::entry("type").required();
+const Field schema_field = field::entry("schema", "version of the study grammar");
+const Field title_field = field::entry("title", "one line for people");
+const Field source_field = field::entry("source", "where the numbers come from");
+const Field output_field = field::entry("output", "what is written, and where");
+const Field quantities_field = field::entry("quantities", "what is computed; all when absent");
+const Field seeds_field = field::entry("seeds", "one run for each seed");
+const Field check_field = field::entry("check", "makes the study a regression test");
 
 /// Keeps the kinds whose `part` is the word at a key. A misspelt word is an error, and the reading continues
 /// with the word that was probably meant, so that the other problems of the file are found too.
@@ -59,8 +59,7 @@ const Kind* find_kind(ObjectReader& root, std::span<const Kind> all) {
   if (kinds.empty()) return nullptr;
   if (kinds.front()->mechanism.empty()) return kinds.front();
 
-  std::optional<ObjectReader> mechanism =
-      root.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  std::optional<ObjectReader> mechanism = root.table(field::entry("mechanism").required());
   if (!mechanism) return nullptr;
   choose(kinds, &Kind::mechanism, *mechanism, type_field);
 
@@ -70,7 +69,7 @@ const Kind* find_kind(ObjectReader& root, std::span<const Kind> all) {
       std::any_of(kinds.begin(), kinds.end(), [](const Kind* k) { return !k->target.empty(); });
   if (!some_target || (no_target != kinds.end() && !root.has("target")))
     return no_target == kinds.end() ? nullptr : *no_target;
-  std::optional<ObjectReader> target = root.table(Field{.key = "target", .summary = {}, .required = true});
+  std::optional<ObjectReader> target = root.table(field::entry("target").required());
   if (!target) return nullptr;
   choose(kinds, &Kind::target, *target, type_field);
   return kinds.empty() ? nullptr : kinds.front();
@@ -232,7 +231,7 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
     // Without a kind it is not known what else is allowed here.
     root.members();
     for (const char* name : {"mechanism", "target"})
-      if (root.is_table(Field{.key = name, .summary = {}})) root.table(name)->members();
+      if (root.is_table(field::entry(name))) root.table(name)->members();
   }
   reader.finish([&] { return study.kind ? schema_of(*study.kind) : Value(); });
   if (reader.has_errors() || !study.kind) return std::nullopt;
@@ -270,7 +269,7 @@ Value schema_of(const Kind& kind) {
   Value version;
   version["const"] = schema_version;
   Field required_schema = schema_field;
-  required_schema.required = true;
+  required_schema.is_required = true;
   writer.property(required_schema, std::move(version));
   writer.property(kind_field, constant(kind.kind));
   Value text;

@@ -51,9 +51,8 @@ void fields(Visitor&& visit, DesignLengthsForm& p) {
        {"point_angle", "tracing point: direction from the line of the coupler, counter-clockwise"},
        {"frame_angle", "direction of the ground link"}}};
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    Field field{.key = keys[k].first,
-                .summary = keys[k].second,
-                .dimension = k < index(ClearanceLength::point_angle) ? Dimension::length : Dimension::angle};
+    Field field = field::of(k < index(ClearanceLength::point_angle) ? Dimension::length : Dimension::angle,
+                            keys[k].first, keys[k].second);
     if (k <= index(ClearanceLength::point_distance)) field.minimum = 0;
     field.exclusive_minimum = k <= index(ClearanceLength::rocker);
     visit(field, p.ranges[k]);
@@ -66,34 +65,18 @@ struct DesignMassForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignMassForm& m) {
-  visit(Field{.key = "mass",
-              .summary = "mass",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .exclusive_minimum = true},
-        m.ranges[0]);
-  visit(Field{.key = "centre_u",
-              .summary = "mass centre along the link, from its first joint",
-              .dimension = Dimension::length},
-        m.ranges[1]);
-  visit(Field{.key = "centre_v",
-              .summary = "mass centre to the left of that line",
-              .dimension = Dimension::length},
-        m.ranges[2]);
-  visit(Field{.key = "inertia",
-              .summary = "about the mass centre",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .exclusive_minimum = true},
-        m.ranges[3]);
+  visit(field::mass("mass", "mass").positive(), m.ranges[0]);
+  visit(field::length("centre_u", "mass centre along the link, from its first joint"), m.ranges[1]);
+  visit(field::length("centre_v", "mass centre to the left of that line"), m.ranges[2]);
+  visit(field::inertia("inertia", "about the mass centre").positive(), m.ranges[3]);
 }
 struct DesignMassesForm {
   DesignMassForm coupler, rocker;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignMassesForm& m) {
-  visit(Field{.key = "coupler", .summary = "from the clearance joint to the rocker"}, m.coupler);
-  visit(Field{.key = "rocker", .summary = "from its pivot to the coupler"}, m.rocker);
+  visit(field::entry("coupler", "from the clearance joint to the rocker"), m.coupler);
+  visit(field::entry("rocker", "from its pivot to the coupler"), m.rocker);
 }
 
 struct DesignDampingForm {
@@ -102,12 +85,7 @@ struct DesignDampingForm {
 template <class Visitor>
 void fields(Visitor&& visit, DesignDampingForm& d) {
   const auto damping = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::damping_angular,
-                .minimum = 0,
-                .maximum = 1e6},
-          value);
+    visit(field::damping_angular(key, summary).not_negative(), value);
   };
   damping("coupler", "viscous torque against the turning of the coupler", d.coupler);
   damping("rocker", "... of the rocker", d.rocker);
@@ -126,25 +104,21 @@ struct DesignMechanismForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignMechanismForm& m) {
-  visit(Field{.key = "branch", .summary = "assembly mode"}, m.branch);
-  visit(Field{.key = "clearance",
-              .summary = "of the crank pin: radius of the bush less radius of the pin",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e6,
-              .exclusive_minimum = true,
-              .required = true},
+  visit(field::entry("branch", "assembly mode"), m.branch);
+  visit(field::length("clearance", "of the crank pin: radius of the bush less radius of the pin")
+            .positive()
+            .at_most(1e6)
+            .required(),
         m.clearance);
   if (m.target != DesignTarget::masses)
-    visit(Field{.key = "crank_rotates_fully", .summary = "the crank rotates fully and is the shortest link"},
+    visit(field::entry("crank_rotates_fully", "the crank rotates fully and is the shortest link"),
           m.crank_rotates_fully);
-  visit(Field{.key = "parameters",
-              .summary = "lengths: fixed numbers, or { min, max } for design variables",
-              .required = m.target == DesignTarget::masses},
+  visit(field::entry("parameters", "lengths: fixed numbers, or { min, max } for design variables")
+            .required(m.target == DesignTarget::masses),
         m.parameters);
   if (m.target == DesignTarget::lengths) return;
-  visit(Field{.key = "mass", .summary = "masses: numbers, or { min, max }", .required = true}, m.mass);
-  visit(Field{.key = "damping", .summary = "viscous torques"}, m.damping);
+  visit(field::entry("mass", "masses: numbers, or { min, max }").required(), m.mass);
+  visit(field::entry("damping", "viscous torques"), m.damping);
 }
 
 /// `[drive]`.
@@ -153,18 +127,10 @@ struct DesignDriveForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignDriveForm& d) {
-  visit(Field{.key = "speed",
-              .summary = "of the crank, which rotates uniformly; counter-clockwise positive",
-              .dimension = Dimension::speed_angular,
-              .minimum = -1e6,
-              .maximum = 1e6,
-              .required = true},
+  visit(field::speed_angular("speed", "of the crank, which rotates uniformly; counter-clockwise positive")
+            .required(),
         d.speed);
-  visit(Field{.key = "start_angle",
-              .summary = "direction of the crank where the turn begins",
-              .dimension = Dimension::angle,
-              .minimum = -1e3,
-              .maximum = 1e3},
+  visit(field::angle("start_angle", "direction of the crank where the turn begins").between(-1e3, 1e3),
         d.start_angle);
 }
 
@@ -176,20 +142,14 @@ struct DesignTimingForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignTimingForm& t) {
-  visit(Field{.key = "start", .summary = "crank angle of the first point", .dimension = Dimension::angle},
-        t.start);
-  visit(Field{.key = "step", .summary = "crank rotation from point to point", .dimension = Dimension::angle},
-        t.step);
-  visit(Field{.key = "angles", .summary = "or the crank angle of each point", .dimension = Dimension::angle},
-        t.angles);
-  visit(
-      Field{.key = "free_within",
-            .summary = "each angle may deviate by this much in either direction; if absent it is prescribed",
-            .dimension = Dimension::angle,
-            .minimum = 0,
-            .maximum = 3.2,
-            .exclusive_minimum = true},
-      t.free_within);
+  visit(field::angle("start", "crank angle of the first point"), t.start);
+  visit(field::angle("step", "crank rotation from point to point"), t.step);
+  visit(field::angle("angles", "or the crank angle of each point"), t.angles);
+  visit(field::angle("free_within",
+                     "each angle may deviate by this much in either direction; if absent it is prescribed")
+            .positive()
+            .at_most(3.2),
+        t.free_within);
 }
 
 /// `[target]`.
@@ -202,22 +162,15 @@ struct DesignTargetForm : planar::PathPointsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignTargetForm& t) {
-  visit(Field{.key = "phase",
-              .summary = "wanted angle of the clearance link ahead of the crank",
-              .dimension = Dimension::angle,
-              .minimum = -3.2,
-              .maximum = 3.2},
+  visit(field::angle("phase", "wanted angle of the clearance link ahead of the crank").between(-3.2, 3.2),
         t.phase);
   if (t.target != DesignTarget::lengths)
-    visit(Field{.key = "samples",
-                .summary = "points of the turn at which the phase is compared",
-                .minimum = 8,
-                .maximum = 10000},
+    visit(field::entry("samples", "points of the turn at which the phase is compared").between(8, 10000),
           t.samples);
   if (t.target == DesignTarget::masses) return;
   if (t.target == DesignTarget::both)
-    visit(Field{.key = "stages", .summary = "how lengths and masses are found"}, t.stages);
-  visit(Field{.key = "timing", .summary = "crank angles of the points", .required = true}, t.timing);
+    visit(field::entry("stages", "how lengths and masses are found"), t.stages);
+  visit(field::entry("timing", "crank angles of the points").required(), t.timing);
   fields(visit, static_cast<planar::PathPointsForm&>(t));
 }
 
@@ -230,11 +183,10 @@ struct DesignReferenceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignReferenceForm& r) {
-  visit(Field{.key = "label", .summary = "its name in the report"}, r.label);
+  visit(field::entry("label", "its name in the report"), r.label);
   if (r.target != DesignTarget::masses)
-    visit(Field{.key = "parameters", .summary = "its lengths", .required = true}, r.parameters);
-  if (r.target != DesignTarget::lengths)
-    visit(Field{.key = "mass", .summary = "its masses", .required = true}, r.mass);
+    visit(field::entry("parameters", "its lengths").required(), r.parameters);
+  if (r.target != DesignTarget::lengths) visit(field::entry("mass", "its masses").required(), r.mass);
 }
 
 /// `[optimiser]`.
@@ -243,8 +195,7 @@ struct RecommendedDesign {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedDesign& r) {
-  visit(Field{.key = "starts", .summary = "local searches of each stage", .minimum = 1, .maximum = 1e6},
-        r.starts);
+  visit(field::entry("starts", "local searches of each stage").between(1, 1e6), r.starts);
 }
 constexpr Word choice_word(const RecommendedDesign&) {
   return {"recommended", "least squares from many starts; of masses on the periodic motion"};
@@ -257,7 +208,7 @@ struct DesignOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignOptimiser& o) {
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+  visit(field::entry("method", "how designs are searched"), o.method);
 }
 
 /// A design: variables of both problems.

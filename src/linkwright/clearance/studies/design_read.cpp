@@ -146,8 +146,7 @@ void read_masses(study::ObjectReader& document, study::ObjectReader& mechanism,
   s.mass.crank = {drive.start_angle, drive.speed};
   s.mass.phase = t.phase;
   s.mass.samples = t.samples;
-  if (drive_table.has(Field{.key = "speed", .summary = {}, .dimension = Dimension::speed_angular}) &&
-      drive.speed == 0)
+  if (drive_table.has(field::speed_angular("speed")) && drive.speed == 0)
     drive_table.error("speed", "the crank stands still", "give the speed that it works at");
   if (t.target == DesignTarget::both) return;
   const std::vector<double> lengths =
@@ -213,8 +212,7 @@ study::Kind kind_of(DesignTarget target) {
       if constexpr (requires { form.target; }) form.target = target;
       study::SchemaWriter writer;
       fields(writer, form);
-      document.property(Field{.key = key, .summary = summary, .required = required},
-                        std::move(writer).finish());
+      document.property(field::entry(key, summary).required(required), std::move(writer).finish());
     };
     table("mechanism", "the four-bar", true, DesignMechanismForm{});
     if (target != DesignTarget::lengths) {
@@ -252,7 +250,7 @@ std::optional<ClearanceDesignStudy> read_clearance_design(study::ObjectReader& d
   planar::Environment environment;
   DesignOptimiser optimiser;
   const auto read = [&](const char* key, bool required, auto& form) {
-    auto table = document.table(Field{.key = key, .summary = {}, .required = required});
+    auto table = document.table(field::entry(key).required(required));
     if (table) table->read(form);
     return table;
   };

@@ -25,13 +25,8 @@ constexpr double most_rows = 1e7;  // largest number of rows, of which a periodi
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
                        bool more_than = false, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = dimension,
-          .minimum = minimum,
-          .maximum = 1e18,
-          .exclusive_minimum = more_than,
-          .required = required};
+  const Field f = field::of(dimension, key, summary).required(required);
+  return more_than ? f.above(minimum) : f.at_least(minimum);
 }
 constexpr Field any_number(std::string_view key, std::string_view summary, Dimension dimension) {
   return number(key, summary, dimension, -1e9);
@@ -56,26 +51,21 @@ constexpr Word choice_word(const ContactForm&) {
 template <class Visitor>
 void material_fields(Visitor&& visit, ContactForm& c) {
   visit(number("bush_radius", "radius of the bush", Dimension::length, 0, true, true), c.bush_radius);
-  visit(Field{.key = "law", .summary = "how energy is lost in a contact"}, c.law);
-  visit(Field{.key = "restitution",
-              .summary = "coefficient of restitution of the law",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
+  visit(field::entry("law", "how energy is lost in a contact"), c.law);
+  visit(field::entry("restitution", "coefficient of restitution of the law").positive().at_most(1),
         c.restitution);
   visit(number("stiffness_N_per_m1_5",
                "K of the force K depth^1.5; if absent that of a pin in a bush of the material",
                Dimension::none, 0, true),
         c.stiffness);
   visit(number("modulus", "Young's modulus of pin and bush", Dimension::pressure, 0, true), c.modulus);
-  visit(Field{.key = "poisson", .summary = "Poisson's ratio of both", .minimum = 0, .maximum = 0.5},
-        c.poisson);
+  visit(field::entry("poisson", "Poisson's ratio of both").between(0, 0.5), c.poisson);
   visit(number("friction", "coefficient of friction", Dimension::none, 0), c.friction);
   visit(number("friction_from", "speed of sliding below which there is no friction", Dimension::speed, 0),
         c.friction_from);
   visit(number("friction_whole", "speed of sliding above which friction is whole", Dimension::speed, 0, true),
         c.friction_whole);
-  visit(Field{.key = "pin", .summary = "which body carries the pin"}, c.pin);
+  visit(field::entry("pin", "which body carries the pin"), c.pin);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ContactForm& c) {
@@ -133,10 +123,10 @@ struct PinForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PinForm& p) {
-  visit(Field{.key = "joint", .summary = "revolute joint that has clearance", .required = true}, p.joint);
+  visit(field::entry("joint", "revolute joint that has clearance").required(), p.joint);
   visit(number("clearance", "radius of the bush less radius of the pin", Dimension::length, 0, true, true),
         p.clearance);
-  visit(Field{.key = "model", .summary = "how pin and bush touch"}, p.model);
+  visit(field::entry("model", "how pin and bush touch"), p.model);
 }
 
 // The shortest link at a joint: name and length from it to another joint.
@@ -243,7 +233,7 @@ std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm
 
 void read_clearances(study::ObjectReader& document, ClearanceStudy& s, const study::DisplayUnits& units,
                      Value::Array& canonical) {
-  auto tables = document.tables(Field{.key = "clearance", .summary = {}});
+  auto tables = document.tables(field::entry("clearance"));
   if (tables.empty())
     document.error("clearance", "no joint has clearance",
                    "add a [[clearance]] table, or take mechanism.type = \"planar.linkage\"");
@@ -296,45 +286,29 @@ void read_clearances(study::ObjectReader& document, ClearanceStudy& s, const stu
 
 template <class Visitor>
 void fields(Visitor&& visit, TransientRun& r) {
-  visit(Field{.key = "to",
-              .summary = "when it ends",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9,
-              .required = true},
-        r.to);
+  visit(field::time("to", "when it ends").required(), r.to);
 }
 template <class Visitor>
 void fields(Visitor&& visit, PeriodicRun& r) {
-  visit(Field{.key = "max_turns",
-              .summary = "periods of the drives after which a motion that does not repeat is given up",
-              .minimum = 2,
-              .maximum = 10'000},
-        r.max_turns);
-  visit(Field{.key = "regime_tolerance",
-              .summary = "by which states one period apart may differ: shares of clearance and speeds",
-              .minimum = 1e-12,
-              .maximum = 0.1},
+  visit(
+      field::entry("max_turns", "periods of the drives after which a motion that does not repeat is given up")
+          .between(2, 10'000),
+      r.max_turns);
+  visit(field::entry("regime_tolerance",
+                     "by which states one period apart may differ: shares of clearance and speeds")
+            .between(1e-12, 0.1),
         r.tolerance);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ClearanceStudy& s) {
-  visit(Field{.key = "from",
-              .summary = "when the motion starts",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        s.from);
-  visit(Field{.key = "regime", .summary = "what is reported"}, s.regime);
-  visit(Field{.key = "samples",
-              .summary = "rows of the tables, both ends included; of a periodic regime those of a period",
-              .minimum = 2,
-              .maximum = 1e6},
+  visit(field::time("from", "when the motion starts"), s.from);
+  visit(field::entry("regime", "what is reported"), s.regime);
+  visit(field::entry("samples",
+                     "rows of the tables, both ends included; of a periodic regime those of a period")
+            .between(2, 1e6),
         s.samples);
-  visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-13, .maximum = 1e-3},
-        s.relative_tolerance);
-  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
-        s.max_steps);
+  visit(field::entry("rtol", "relative tolerance of a step").between(1e-13, 1e-3), s.relative_tolerance);
+  visit(field::entry("max_steps", "largest number of steps").between(1, 1e9), s.max_steps);
 }
 
 namespace {
@@ -379,7 +353,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   s.quantities = planar::chosen_quantities(common.output.quantities);
   s.scene_samples = common.output.samples;
   auto description = planar::read_linkage(document, planar::LinkageType::linkage, true, common.units);
-  auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
+  auto simulation = document.table(field::entry("simulation").required());
   if (simulation) {
     simulation->read(s);
     if (!s.periodic() && !(s.to() > s.from) && !document.document().has_errors())
@@ -418,9 +392,9 @@ study::Kind clearance_kind() {
   kind.schema = [](study::SchemaWriter& document) {
     planar::describe_linkage(document, planar::LinkageType::linkage);
     planar::describe_input_drives(document);
-    document.property(Field{.key = "clearance", .summary = "pins that have clearance", .required = true},
+    document.property(field::entry("clearance", "pins that have clearance").required(),
                       study::schema_array(study::schema_fields<PinForm>()));
-    document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
+    document.property(field::entry("simulation", "time and tolerances").required(),
                       study::schema_fields<ClearanceStudy>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -22,13 +22,7 @@ namespace {
 
 constexpr Field range(std::string_view key, std::string_view summary, Dimension dimension,
                       bool required = true) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = dimension,
-          .minimum = 0,
-          .maximum = 1e9,
-          .exclusive_minimum = true,
-          .required = required};
+  return field::of(dimension, key, summary).positive().at_most(1e9).required(required);
 }
 
 struct LoosePinForm {
@@ -37,7 +31,7 @@ struct LoosePinForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LoosePinForm& p) {
-  visit(Field{.key = "joint", .summary = "revolute joint that has clearance", .required = true}, p.joint);
+  visit(field::entry("joint", "revolute joint that has clearance").required(), p.joint);
   visit(range("clearance", "radius of the bush less radius of the pin", Dimension::length), p.clearance);
 }
 
@@ -47,10 +41,9 @@ struct LengthForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LengthForm& t) {
-  visit(Field{.key = "body", .summary = "body whose length deviates", .required = true}, t.body);
-  visit(Field{.key = "from", .summary = "point of the body that stays", .required = true}, t.from);
-  visit(Field{.key = "to", .summary = "point of the body that is nearer to it or farther", .required = true},
-        t.to);
+  visit(field::entry("body", "body whose length deviates").required(), t.body);
+  visit(field::entry("from", "point of the body that stays").required(), t.from);
+  visit(field::entry("to", "point of the body that is nearer to it or farther").required(), t.to);
   visit(range("tolerance", "the distance deviates by at most this, in either direction", Dimension::length),
         t.tolerance);
 }
@@ -61,10 +54,9 @@ struct WatchForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, WatchForm& w) {
-  visit(Field{.key = "coordinates", .summary = "joints whose angle or displacement is reported"},
-        w.coordinates);
-  visit(Field{.key = "forces", .summary = "joints whose force is reported"}, w.forces);
-  visit(Field{.key = "drives", .summary = "whether torques and forces of the drives are reported"}, w.drives);
+  visit(field::entry("coordinates", "joints whose angle or displacement is reported"), w.coordinates);
+  visit(field::entry("forces", "joints whose force is reported"), w.forces);
+  visit(field::entry("drives", "whether torques and forces of the drives are reported"), w.drives);
 }
 
 struct MonteCarloForm {
@@ -73,8 +65,8 @@ struct MonteCarloForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, MonteCarloForm& m) {
-  visit(Field{.key = "draws", .summary = "random linkages", .minimum = 100, .maximum = 100000}, m.draws);
-  visit(Field{.key = "seed", .summary = "seed of the random numbers", .minimum = 0}, m.seed);
+  visit(field::entry("draws", "random linkages").between(100, 100000), m.draws);
+  visit(field::entry("seed", "seed of the random numbers").not_negative(), m.seed);
 }
 
 struct LimitForm {
@@ -82,8 +74,8 @@ struct LimitForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LimitForm& l) {
-  visit(Field{.key = "point", .summary = "traced point, \"body.point\""}, l.point);
-  visit(Field{.key = "joint", .summary = "or joint whose coordinate is watched"}, l.joint);
+  visit(field::entry("point", "traced point, \"body.point\""), l.point);
+  visit(field::entry("joint", "or joint whose coordinate is watched"), l.joint);
 }
 constexpr Field limit_field(bool angle) {
   return range("error", "its error is to keep to this at every sample",
@@ -352,24 +344,23 @@ study::Prepared prepare_tolerance(study::ObjectReader& document, const study::Co
 
 void describe(study::SchemaWriter& document) {
   planar::describe_linkage_motion(document, planar::LinkageType::linkage, false);
-  document.property(Field{.key = "clearance", .summary = "pins that have clearance"},
+  document.property(field::entry("clearance", "pins that have clearance"),
                     study::schema_array(study::schema_fields<LoosePinForm>()));
-  document.property(Field{.key = "tolerance", .summary = "lengths that deviate"},
+  document.property(field::entry("tolerance", "lengths that deviate"),
                     study::schema_array(study::schema_fields<LengthForm>()));
-  document.property(Field{.key = "watch", .summary = "what is reported besides the traced points"},
+  document.property(field::entry("watch", "what is reported besides the traced points"),
                     study::schema_fields<WatchForm>());
   study::SchemaWriter limit;
   LimitForm form;
   fields(limit, form);
   for (const bool angle : {false, true}) {
     Field field = limit_field(angle);
-    field.required = false;  // one of them, by the joint
+    field.is_required = false;  // one of them, by the joint
     limit.property(field, study::schema_number());
   }
-  document.property(Field{.key = "limit", .summary = "errors to keep to: the share of linkages that do"},
+  document.property(field::entry("limit", "errors to keep to: the share of linkages that do"),
                     study::schema_array(std::move(limit).finish()));
-  document.property(Field{.key = "monte_carlo", .summary = "random linkages"},
-                    study::schema_fields<MonteCarloForm>());
+  document.property(field::entry("monte_carlo", "random linkages"), study::schema_fields<MonteCarloForm>());
 }
 
 }  // namespace

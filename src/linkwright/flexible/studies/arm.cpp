@@ -266,14 +266,12 @@ study::Kind arm_kind() {
       "input shaping";
   kind.example = templates::simulation_arm();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "hub and links", .required = true},
-                      study::schema_fields<ArmForm>());
-    document.property(Field{.key = "drive", .summary = "what turns hub and hinges", .required = true},
+    document.property(field::entry("mechanism", "hub and links").required(), study::schema_fields<ArmForm>());
+    document.property(field::entry("drive", "what turns hub and hinges").required(),
                       study::schema_array(study::schema_fields<ArmDriveForm>()));
-    document.property(
-        Field{.key = "shaping", .summary = "input shaping of all drives that cancels a vibration"},
-        study::schema_fields<ShapingForm>());
-    document.property(Field{.key = "simulation", .summary = "how it is followed in time", .required = true},
+    document.property(field::entry("shaping", "input shaping of all drives that cancels a vibration"),
+                      study::schema_fields<ShapingForm>());
+    document.property(field::entry("simulation", "how it is followed in time").required(),
                       study::schema_fields<SimulationForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

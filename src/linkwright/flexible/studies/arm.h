@@ -19,16 +19,15 @@ struct HingeForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, HingeForm& f) {
-  using beam_fields::number;
-  using enum Dimension;
   Hinge& h = f.joint;
-  visit(number("stiffness", "of a spring, without torque where both links are in line", stiffness_angular),
+  visit(field::stiffness_angular("stiffness", "of a spring, without torque where both links are in line")
+            .not_negative(),
         h.stiffness);
-  visit(number("damping", "of a damper", damping_angular), h.damping);
-  visit(number("mass", "of joint and motor", mass), h.mass);
-  visit(number("inner_inertia", "of what turns with the inner link, such as a stator", inertia),
+  visit(field::damping_angular("damping", "of a damper").not_negative(), h.damping);
+  visit(field::mass("mass", "of joint and motor").not_negative(), h.mass);
+  visit(field::inertia("inner_inertia", "of what turns with the inner link, such as a stator").not_negative(),
         h.inner_inertia);
-  visit(number("outer_inertia", "of what turns with the outer link, such as a rotor", inertia),
+  visit(field::inertia("outer_inertia", "of what turns with the outer link, such as a rotor").not_negative(),
         h.outer_inertia);
 }
 
@@ -42,13 +41,12 @@ struct ArmLinkForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ArmLinkForm& l) {
-  visit(Field{.key = "name", .summary = "for tables and drives; default: link1, link2, ..."}, l.name);
+  visit(field::entry("name", "for tables and drives; default: link1, link2, ..."), l.name);
   beam_fields::link(visit, l.beam);
   beam_fields::tip(visit, l.beam);
   visit(beam_fields::fibre_distance, l.fibre_distance);
-  visit(Field{.key = "divisions", .summary = "two cells each", .minimum = 1, .maximum = 200}, l.divisions);
-  visit(Field{.key = "hinge", .summary = "that carries the link; without it, the link is welded on in line"},
-        l.hinge);
+  visit(field::entry("divisions", "two cells each").between(1, 200), l.divisions);
+  visit(field::entry("hinge", "that carries the link; without it, the link is welded on in line"), l.hinge);
 }
 
 /// `[mechanism]`.
@@ -59,7 +57,7 @@ struct ArmForm {
 template <class Visitor>
 void fields(Visitor&& visit, ArmForm& a) {
   beam_fields::hub(visit, a.hub);
-  visit(Field{.key = "link", .summary = "the links from the hub outwards", .required = true}, a.links);
+  visit(field::entry("link", "the links from the hub outwards").required(), a.links);
 }
 
 /// `[[drive]]`.
@@ -69,13 +67,11 @@ struct ArmDriveForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ArmDriveForm& d) {
-  visit(Field{.key = "link",
-              .summary = "that is turned: the first one with the hub, another one in its hinge",
-              .required = true},
-        d.link);
-  visit(Field{.key = "law",
-              .summary = "what turns it; angles of a hinge count from the line of the inner link",
-              .required = true},
+  visit(
+      field::entry("link", "that is turned: the first one with the hub, another one in its hinge").required(),
+      d.link);
+  visit(field::entry("law", "what turns it; angles of a hinge count from the line of the inner link")
+            .required(),
         d.law);
 }
 

@@ -77,11 +77,11 @@ std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const stud
   ArmStudy s;
   s.samples = common.output.samples;
   std::vector<ArmDriveForm> drives;
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
-  auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
+  auto simulation = document.table(field::entry("simulation").required());
   if (mechanism) mechanism->read(s.mechanism);
-  document(Field{.key = "drive", .summary = {}, .required = true}, drives);
-  document(Field{.key = "shaping", .summary = {}}, s.shaping);
+  document(field::entry("drive").required(), drives);
+  document(field::entry("shaping"), s.shaping);
   if (simulation) simulation->read(s.simulation);
   if (mechanism) check_links(*mechanism, s.mechanism);
   if (simulation) check_times(s.simulation, *simulation);

@@ -35,26 +35,20 @@ struct SimulationForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SimulationForm& s) {
-  visit(beam_fields::number("end", "end of the simulated time", Dimension::time, true, true), s.end);
-  visit(beam_fields::number("step", "longest step of the integration", Dimension::time, false, true), s.step);
-  visit(Field{.key = "start", .summary = "how the links are at time 0"}, s.start);
-  visit(Field{.key = "extrapolate", .summary = "repeat with half the step and extrapolate"}, s.extrapolate);
-  visit(beam_fields::number("tolerance", "halve the step until the tip moves by no more", Dimension::length,
-                            false, true),
-        s.tolerance);
-  visit(Field{.key = "modes", .summary = "frequencies in the table of modes", .minimum = 1, .maximum = 20},
-        s.modes);
-  visit(Field{.key = "compare_divisions",
-              .summary = "repeat with twice the divisions and report the difference"},
+  visit(field::time("end", "end of the simulated time").positive().required(), s.end);
+  visit(field::time("step", "longest step of the integration").positive(), s.step);
+  visit(field::entry("start", "how the links are at time 0"), s.start);
+  visit(field::entry("extrapolate", "repeat with half the step and extrapolate"), s.extrapolate);
+  visit(field::length("tolerance", "halve the step until the tip moves by no more").positive(), s.tolerance);
+  visit(field::entry("modes", "frequencies in the table of modes").between(1, 20), s.modes);
+  visit(field::entry("compare_divisions", "repeat with twice the divisions and report the difference"),
         s.compare_divisions);
-  visit(
-      Field{.key = "deflection_scale",
-            .summary = "how many times as large the scene draws the bending; default: to scale where it can "
-                       "be seen, else 2, 5, 10, ... times",
-            .minimum = 0,
-            .maximum = 1e9,
-            .exclusive_minimum = true},
-      s.deflection_scale);
+  visit(field::entry("deflection_scale",
+                     "how many times as large the scene draws the bending; default: to scale where it can "
+                     "be seen, else 2, 5, 10, ... times")
+            .positive()
+            .at_most(1e9),
+        s.deflection_scale);
 }
 
 struct ChainPlot {

@@ -15,30 +15,15 @@
 // Drives of hubs and hinges, in files and ready for use.
 namespace linkwright::flexible {
 
-namespace drive_fields {
-
-constexpr Field start_angle = {.key = "angle",
-                               .summary = "at the start",
-                               .dimension = Dimension::angle,
-                               .minimum = -1e4,
-                               .maximum = 1e4};
-
-}  // namespace drive_fields
+inline constexpr Field start_angle_field = field::angle("angle", "at the start").between(-1e4, 1e4);
 
 struct SpinUpForm {
   SpinUp law;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SpinUpForm& f) {
-  visit(Field{.key = "speed",
-              .summary = "that is reached",
-              .dimension = Dimension::speed_angular,
-              .minimum = -1e6,
-              .maximum = 1e6,
-              .required = true},
-        f.law.rate);
-  visit(beam_fields::number("duration", "within which it is reached", Dimension::time, true, true),
-        f.law.duration);
+  visit(field::speed_angular("speed", "that is reached").required(), f.law.rate);
+  visit(field::time("duration", "within which it is reached").positive().required(), f.law.duration);
 }
 constexpr Word choice_word(const SpinUpForm&) {
   return {"spin_up", "from rest to a steady speed without a jump of the acceleration"};
@@ -50,17 +35,10 @@ struct SinePulseForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SinePulseForm& f) {
-  visit(Field{.key = "torque",
-              .summary = "amplitude",
-              .dimension = Dimension::torque,
-              .minimum = -1e12,
-              .maximum = 1e12,
-              .required = true},
-        f.law.torque);
-  visit(beam_fields::number("duration", "of the period, after which there is no torque", Dimension::time,
-                            true, true),
+  visit(field::torque("torque", "amplitude").required(), f.law.torque);
+  visit(field::time("duration", "of the period, after which there is no torque").positive().required(),
         f.law.duration);
-  visit(drive_fields::start_angle, f.angle);
+  visit(start_angle_field, f.angle);
 }
 constexpr Word choice_word(const SinePulseForm&) {
   return {"sine_torque", "one period of a sine as torque, then none"};
@@ -72,21 +50,9 @@ struct TorqueTableForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TorqueTableForm& f) {
-  visit(Field{.key = "times",
-              .summary = "increasing times",
-              .dimension = Dimension::time,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        f.law.times);
-  visit(Field{.key = "torques",
-              .summary = "torque at each time",
-              .dimension = Dimension::torque,
-              .minimum = -1e12,
-              .maximum = 1e12,
-              .required = true},
-        f.law.torques);
-  visit(drive_fields::start_angle, f.angle);
+  visit(field::time("times", "increasing times").not_negative().required(), f.law.times);
+  visit(field::torque("torques", "torque at each time").required(), f.law.torques);
+  visit(start_angle_field, f.angle);
 }
 constexpr Word choice_word(const TorqueTableForm&) {
   return {"torque_table", "torque in straight lines between rows, none before the first and after the last"};
@@ -97,13 +63,8 @@ struct FreeForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FreeForm& f) {
-  visit(drive_fields::start_angle, f.angle);
-  visit(Field{.key = "speed",
-              .summary = "at the start",
-              .dimension = Dimension::speed_angular,
-              .minimum = -1e6,
-              .maximum = 1e6},
-        f.speed);
+  visit(start_angle_field, f.angle);
+  visit(field::speed_angular("speed", "at the start"), f.speed);
 }
 constexpr Word choice_word(const FreeForm&) { return {"none", "no drive: it swings or turns freely"}; }
 
@@ -124,18 +85,11 @@ struct ShapingForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ShapingForm& f) {
-  visit(Field{.key = "shaper", .summary = "which impulses"}, f.shaper);
-  visit(Field{.key = "mode", .summary = "vibration that is not to be excited", .minimum = 1, .maximum = 5},
-        f.mode);
-  visit(Field{.key = "frequency",
-              .summary = "of the vibration; default: computed for the mode",
-              .dimension = Dimension::frequency,
-              .minimum = 0,
-              .maximum = 1e9,
-              .exclusive_minimum = true},
+  visit(field::entry("shaper", "which impulses"), f.shaper);
+  visit(field::entry("mode", "vibration that is not to be excited").between(1, 5), f.mode);
+  visit(field::frequency("frequency", "of the vibration; default: computed for the mode").positive(),
         f.frequency);
-  visit(Field{.key = "damping", .summary = "ratio of the vibration", .minimum = 0, .maximum = 0.99},
-        f.damping);
+  visit(field::entry("damping", "ratio of the vibration").between(0, 0.99), f.damping);
 }
 
 /// The drive of one joint: a motion that is given, a torque, or (neither) nothing.

@@ -54,9 +54,9 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
                                        Value& canonical) {
   HubLinkStudy s;
   s.samples = common.output.samples;
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
-  auto drive = document.table(Field{.key = "drive", .summary = {}, .required = true});
-  auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
+  auto drive = document.table(field::entry("drive").required());
+  auto simulation = document.table(field::entry("simulation").required());
   if (mechanism) mechanism->read(s.mechanism);
   if (drive) drive->read(s.drive);
   if (simulation) simulation->read(s.simulation);
@@ -186,11 +186,11 @@ study::Kind hub_link_kind() {
       "hub with an elastic link and a tip mass: motion, weld forces, stress, frequencies, input shaping";
   kind.example = templates::simulation_hub_link();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
+    document.property(field::entry("mechanism", "hub and link").required(),
                       study::schema_fields<HubLinkForm>());
-    document.property(Field{.key = "drive", .summary = "what turns the hub", .required = true},
+    document.property(field::entry("drive", "what turns the hub").required(),
                       study::schema_fields<HubDriveForm>());
-    document.property(Field{.key = "simulation", .summary = "how it is followed in time", .required = true},
+    document.property(field::entry("simulation", "how it is followed in time").required(),
                       study::schema_fields<HubSimulationForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -31,8 +31,8 @@ struct HubDriveForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, HubDriveForm& d) {
-  visit(Field{.key = "law", .summary = "what turns the hub", .required = true}, d.law);
-  visit(Field{.key = "shaping", .summary = "input shaping of the drive that cancels a vibration"}, d.shaping);
+  visit(field::entry("law", "what turns the hub").required(), d.law);
+  visit(field::entry("shaping", "input shaping of the drive that cancels a vibration"), d.shaping);
 }
 
 /// `[simulation]`.
@@ -44,14 +44,12 @@ struct HubSimulationForm : SimulationForm {
 template <class Visitor>
 void fields(Visitor&& visit, HubSimulationForm& s) {
   fields(visit, static_cast<SimulationForm&>(s));
-  visit(Field{.key = "divisions", .summary = "of the link, two cells each", .minimum = 1, .maximum = 1000},
-        s.divisions);
-  visit(Field{.key = "kinematics", .summary = "how the joints of the chain move"}, s.kinematics);
-  visit(
-      Field{.key = "compare_elastica",
-            .summary =
-                "repeat with a beam of polynomials, integrated by another method, and report the difference"},
-      s.compare_elastica);
+  visit(field::entry("divisions", "of the link, two cells each").between(1, 1000), s.divisions);
+  visit(field::entry("kinematics", "how the joints of the chain move"), s.kinematics);
+  visit(field::entry(
+            "compare_elastica",
+            "repeat with a beam of polynomials, integrated by another method, and report the difference"),
+        s.compare_elastica);
 }
 
 /// A simulation as read.

@@ -20,11 +20,10 @@ struct VibrationForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, VibrationForm& v) {
-  visit(Field{.key = "modes", .summary = "from the lowest on", .minimum = 1, .maximum = 20}, v.modes);
-  visit(Field{.key = "divisions", .summary = "of the link, two cells each", .minimum = 1, .maximum = 200},
-        v.divisions);
-  visit(Field{.key = "kinematics", .summary = "how the joints of the chain move"}, v.kinematics);
-  visit(Field{.key = "hub", .summary = "whether it yields to the link"}, v.hub);
+  visit(field::entry("modes", "from the lowest on").between(1, 20), v.modes);
+  visit(field::entry("divisions", "of the link, two cells each").between(1, 200), v.divisions);
+  visit(field::entry("kinematics", "how the joints of the chain move"), v.kinematics);
+  visit(field::entry("hub", "whether it yields to the link"), v.hub);
 }
 
 /// `[campbell]`: frequencies over the speed of the hub.
@@ -36,26 +35,15 @@ struct CampbellForm {
 template <class Visitor>
 void fields(Visitor&& visit, CampbellForm& c) {
   const auto speed = [&](std::string_view key, std::string_view summary, bool required, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::speed_angular,
-                .minimum = 0,
-                .maximum = 1e6,
-                .required = required},
-          value);
+    visit(field::speed_angular(key, summary).not_negative().required(required), value);
   };
   speed("from", "least speed of the hub", false, c.from);
   speed("to", "largest speed of the hub", true, c.to);
-  visit(
-      Field{
-          .key = "samples", .summary = "number of speeds, both ends included", .minimum = 2, .maximum = 2000},
-      c.samples);
-  visit(Field{.key = "orders",
-              .summary =
-                  "orders of excitation, multiples of the speed: where one meets a frequency is reported",
-              .minimum = 0,
-              .maximum = 1e4,
-              .exclusive_minimum = true},
+  visit(field::entry("samples", "number of speeds, both ends included").between(2, 2000), c.samples);
+  visit(field::entry("orders",
+                     "orders of excitation, multiples of the speed: where one meets a frequency is reported")
+            .positive()
+            .at_most(1e4),
         c.orders);
 }
 
@@ -68,8 +56,7 @@ template <class Visitor>
 void fields(Visitor&& visit, LoadForm& l) {
   const auto number = [&](std::string_view key, std::string_view summary, Dimension dimension, double most,
                           auto& value) {
-    visit(Field{.key = key, .summary = summary, .dimension = dimension, .minimum = -most, .maximum = most},
-          value);
+    visit(field::of(dimension, key, summary).between(-most, most), value);
   };
   number("force", "at the tip, along the undeformed link and across it", Dimension::force, 1e12, l.force);
   number("couple", "at the tip", Dimension::torque, 1e12, l.couple);

@@ -13,7 +13,7 @@ namespace {
 std::optional<VibrationStudy> read_vibration(study::ObjectReader& document, const study::Common& common,
                                              Value& canonical) {
   VibrationStudy s;
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   auto vibration = document.table("vibration");
   auto speeds = document.table("campbell");
   auto load = document.table("load");
@@ -73,13 +73,13 @@ study::Kind vibration_kind() {
       "deflection under load";
   kind.example = templates::analysis_hub_link();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
+    document.property(field::entry("mechanism", "hub and link").required(),
                       study::schema_fields<HubLinkForm>());
-    document.property(Field{.key = "vibration", .summary = "what is computed of its vibrations"},
+    document.property(field::entry("vibration", "what is computed of its vibrations"),
                       study::schema_fields<VibrationForm>());
-    document.property(Field{.key = "campbell", .summary = "frequencies over the speed of the hub"},
+    document.property(field::entry("campbell", "frequencies over the speed of the hub"),
                       study::schema_fields<CampbellForm>());
-    document.property(Field{.key = "load", .summary = "its load at rest against the hub"},
+    document.property(field::entry("load", "its load at rest against the hub"),
                       study::schema_fields<LoadForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

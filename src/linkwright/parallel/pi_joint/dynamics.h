@@ -31,9 +31,7 @@ struct PiMasses {
 template <class Visitor>
 void fields(Visitor&& visit, PiMasses& m) {
   const auto number = [](std::string_view key, std::string_view summary, Dimension dimension,
-                         double least = 0) {
-    return Field{.key = key, .summary = summary, .dimension = dimension, .minimum = least, .maximum = 1e9};
-  };
+                         double least = 0) { return field::of(dimension, key, summary).between(least, 1e9); };
   using enum Dimension;
   visit(number("arm_inertia", "of each of both arms about its pivot", inertia), m.arm_inertia);
   visit(number("arm_mass", "of each of both arms", mass), m.arm_mass);

@@ -24,31 +24,17 @@ struct PlatformMasses {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PlatformMasses& m) {
-  visit(Field{.key = "platform_mass",
-              .summary = "mass of the platform, centre in the platform point",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
+  visit(field::mass("platform_mass", "mass of the platform, centre in the platform point")
+            .not_negative()
+            .required(),
         m.mass);
-  visit(Field{.key = "platform_inertia",
-              .summary = "moments of inertia of the platform about x, y, z of its own, of robots that turn",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::inertia("platform_inertia",
+                       "moments of inertia of the platform about x, y, z of its own, of robots that turn")
+            .not_negative(),
         m.inertia);
-  visit(Field{.key = "platform_deviation",
-              .summary = "entries xy, yz, zx of the platform's inertia matrix",
-              .dimension = Dimension::inertia,
-              .minimum = -1e9,
-              .maximum = 1e9},
+  visit(field::inertia("platform_deviation", "entries xy, yz, zx of the platform's inertia matrix"),
         m.deviation);
-  visit(Field{.key = "payload",
-              .summary = "mass without extension in the platform point",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.payload);
+  visit(field::mass("payload", "mass without extension in the platform point").not_negative(), m.payload);
 }
 
 /// Masses of one leg.
@@ -69,53 +55,25 @@ struct LegMasses {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LegMasses& m) {
-  visit(Field{.key = "rod_mass",
-              .summary = "mass of the rods of a leg together",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        m.rod_mass);
-  visit(Field{.key = "rod_centre",
-              .summary = "mass centre of the rods as a share of their length, from the elbow",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::mass("rod_mass", "mass of the rods of a leg together").not_negative().required(), m.rod_mass);
+  visit(field::entry("rod_centre", "mass centre of the rods as a share of their length, from the elbow")
+            .between(0, 1),
         m.rod_centre);
-  visit(Field{.key = "rod_inertia",
-              .summary = "of the rods together, across them, about their mass centre; slender when left out",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::inertia("rod_inertia",
+                       "of the rods together, across them, about their mass centre; slender when left out")
+            .not_negative(),
         m.rod_inertia);
-  visit(Field{.key = "rod_split",
-              .summary = "simplified model: share of the rods' mass assigned to the platform, the rest to "
-                         "the elbow",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("rod_split",
+                     "simplified model: share of the rods' mass assigned to the platform, the rest to "
+                     "the elbow")
+            .between(0, 1),
         m.rod_split);
-  visit(Field{.key = "elbow_mass",
-              .summary = "mass without extension at the end of the arm",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::mass("elbow_mass", "mass without extension at the end of the arm").not_negative(),
         m.elbow_mass);
-  visit(Field{.key = "arm_inertia",
-              .summary = "of the arm about its pivot, with what the drive turns",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::inertia("arm_inertia", "of the arm about its pivot, with what the drive turns").not_negative(),
         m.arm_inertia);
-  visit(Field{.key = "arm_mass",
-              .summary = "mass of the arm",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.arm_mass);
-  visit(Field{.key = "arm_centre",
-              .summary = "mass centre of the arm from its pivot, negative = behind it",
-              .dimension = Dimension::length,
-              .minimum = -1e9,
-              .maximum = 1e9},
+  visit(field::mass("arm_mass", "mass of the arm").not_negative(), m.arm_mass);
+  visit(field::length("arm_centre", "mass centre of the arm from its pivot, negative = behind it"),
         m.arm_centre);
 }
 

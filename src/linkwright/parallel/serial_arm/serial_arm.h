@@ -116,29 +116,13 @@ struct SerialMasses {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialMasses& m) {
-  visit(Field{.key = "arm_inertia",
-              .summary = "of both arms about their pivots, with what a motor turns",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::inertia("arm_inertia", "of both arms about their pivots, with what a motor turns")
+            .not_negative(),
         m.arm_inertia);
-  visit(Field{.key = "arm_mass",
-              .summary = "mass of both arms",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.arm_mass);
-  visit(Field{.key = "arm_centre",
-              .summary = "mass centre of the arms from their pivots, negative = behind them",
-              .dimension = Dimension::length,
-              .minimum = -1e9,
-              .maximum = 1e9},
+  visit(field::mass("arm_mass", "mass of both arms").not_negative(), m.arm_mass);
+  visit(field::length("arm_centre", "mass centre of the arms from their pivots, negative = behind them"),
         m.arm_centre);
-  visit(Field{.key = "coupler_mass",
-              .summary = "mass of the coupler with all that does not turn on it",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::mass("coupler_mass", "mass of the coupler with all that does not turn on it").not_negative(),
         m.coupler_mass);
 }
 struct SerialArmMasses {

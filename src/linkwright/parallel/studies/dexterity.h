@@ -19,7 +19,7 @@ struct DexterityLimitsForm {
 template <class Visitor>
 void fields(Visitor&& visit, DexterityLimitsForm& l) {
   const auto index = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+    return field::entry(key, summary).between(0, 1);
   };
   visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("input", "least input transmission index"), l.input);
@@ -32,27 +32,13 @@ void fields(Visitor&& visit, DexterityLimitsForm& l) {
               "minimum constraint index of a DELTA: how firmly its parallelograms keep the platform from "
               "turning; default 0.2; 0: only never to be lost"),
         l.constraint);
-  visit(Field{.key = "arm_travel",
-              .summary = "largest less least arm angle, over all legs",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 6.3,
-              .exclusive_minimum = true},
+  visit(field::angle("arm_travel", "largest less least arm angle, over all legs").positive().at_most(6.3),
         l.arm_travel);
-  visit(Field{.key = "side_swing",
-              .summary = "of the rods out of the planes of their arms, at most",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.5707963267948966,
-              .exclusive_minimum = true},
+  visit(field::angle("side_swing", "of the rods out of the planes of their arms, at most")
+            .positive()
+            .at_most(1.5707963267948966),
         l.side_swing);
-  visit(Field{.key = "size",
-              .summary = "arm and rod together, at most",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e6,
-              .exclusive_minimum = true},
-        l.size);
+  visit(field::length("size", "arm and rod together, at most").positive().at_most(1e6), l.size);
 }
 
 /// `[target.pi_joint]`: Pi-joints that are designed with the robot.
@@ -62,11 +48,9 @@ struct PiTravelForm : PiLimitsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PiTravelForm& p) {
-  visit(robot_fields::angle("mounting", "outward angle of the arm where theta is 0; default: any"),
-        p.mounting);
-  visit(Field{.key = "ratio", .summary = "base by arm; default: 0.05 to 0.95", .minimum = 0, .maximum = 100},
-        p.ratio);
-  visit(Field{.key = "mirrored", .summary = "theta turns against the arm"}, p.mirrored);
+  visit(field::angle("mounting", "outward angle of the arm where theta is 0; default: any"), p.mounting);
+  visit(field::entry("ratio", "base by arm; default: 0.05 to 0.95").between(0, 100), p.ratio);
+  visit(field::entry("mirrored", "theta turns against the arm"), p.mirrored);
   fields(visit, static_cast<PiLimitsForm&>(p));
 }
 
@@ -82,26 +66,21 @@ struct RegionForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RegionForm& r) {
-  visit(Field{.key = "shape", .summary = "of the region"}, r.shape);
-  visit(robot_fields::length("width", "diameter, or extent along x"), r.width);
-  visit(robot_fields::length("length", "extent along y of a box", false), r.length);
-  visit(robot_fields::length("height", "extent away from the base", false), r.height);
-  visit(Field{.key = "symmetric", .summary = "look only at the part that the symmetry of the robot repeats"},
+  visit(field::entry("shape", "of the region"), r.shape);
+  visit(field::length("width", "diameter, or extent along x").not_negative().required(), r.width);
+  visit(field::length("length", "extent along y of a box").not_negative(), r.length);
+  visit(field::length("height", "extent away from the base").not_negative(), r.height);
+  visit(field::entry("symmetric", "look only at the part that the symmetry of the robot repeats"),
         r.symmetric);
-  visit(Field{.key = "nodes",
-              .summary = "points along radius, azimuth, depth (cylinder) or along the axes, where the "
-                         "indices are looked at",
-              .minimum = 1,
-              .maximum = 10000},
+  visit(field::entry("nodes",
+                     "points along radius, azimuth, depth (cylinder) or along the axes, where the "
+                     "indices are looked at")
+            .between(1, 10000),
         r.nodes);
-  visit(Field{.key = "cells",
-              .summary = "of the midpoint rule for means, likewise",
-              .minimum = 1,
-              .maximum = 10000},
-        r.cells);
-  visit(Field{.key = "goal", .summary = "what is optimised"}, r.goal);
-  visit(Field{.key = "limits", .summary = "what holds everywhere in the region"}, r.limits);
-  visit(Field{.key = "pi_joint", .summary = "Pi-joints that are designed with the robot"}, r.pi_joint);
+  visit(field::entry("cells", "of the midpoint rule for means, likewise").between(1, 10000), r.cells);
+  visit(field::entry("goal", "what is optimised"), r.goal);
+  visit(field::entry("limits", "what holds everywhere in the region"), r.limits);
+  visit(field::entry("pi_joint", "Pi-joints that are designed with the robot"), r.pi_joint);
 }
 
 struct RecommendedDexterity {
@@ -109,14 +88,11 @@ struct RecommendedDexterity {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedDexterity& r) {
-  visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6},
-        r.options.starts);
-  visit(Field{.key = "confirmations",
-              .summary = "end when so many local searches found the same; 0 = make all",
-              .minimum = 0,
-              .maximum = 1e6},
+  visit(field::entry("starts", "local searches at most").between(1, 1e6), r.options.starts);
+  visit(field::entry("confirmations", "end when so many local searches found the same; 0 = make all")
+            .between(0, 1e6),
         r.options.confirmations);
-  visit(Field{.key = "between_nodes", .summary = "check between the nodes as well"}, r.options.between_nodes);
+  visit(field::entry("between_nodes", "check between the nodes as well"), r.options.between_nodes);
 }
 constexpr Word choice_word(const RecommendedDexterity&) {
   return {"recommended", "sequential quadratic programming with exact derivatives at the worst poses"};
@@ -129,7 +105,7 @@ struct DexterityOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DexterityOptimiser& o) {
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+  visit(field::entry("method", "how designs are searched"), o.method);
 }
 
 /// A synthesis as read.

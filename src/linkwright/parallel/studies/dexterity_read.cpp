@@ -44,21 +44,15 @@ study::Kind kind_of(RobotFamily family) {
   kind.schema = [family](study::SchemaWriter& document) {
     study::SchemaWriter mechanism;
     for (const FamilyDimension& d : dimensions(family))
-      mechanism(Field{.key = d.name,
-                      .summary = d.summary,
-                      .dimension = d.is_angle ? Dimension::angle : Dimension::length,
-                      .minimum = 0,
-                      .maximum = 1e6,
-                      .required = true},
+      mechanism(field::of(d.is_angle ? Dimension::angle : Dimension::length, d.name, d.summary)
+                    .between(0, 1e6)
+                    .required(),
                 Range{});
-    document.property(
-        Field{
-            .key = "mechanism", .summary = "dimensions, fixed numbers or design variables", .required = true},
-        std::move(mechanism).finish());
-    document.property(
-        Field{.key = "target", .summary = "the region and what is wanted there", .required = true},
-        study::schema_fields<RegionForm>());
-    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+    document.property(field::entry("mechanism", "dimensions, fixed numbers or design variables").required(),
+                      std::move(mechanism).finish());
+    document.property(field::entry("target", "the region and what is wanted there").required(),
+                      study::schema_fields<RegionForm>());
+    document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<DexterityOptimiser>());
   };
   kind.prepare = [family](study::ObjectReader& document, const study::Common& common) {
@@ -80,20 +74,17 @@ std::optional<DexterityStudy> read_dexterity_study(study::ObjectReader& document
   DexterityTask& task = out.task;
   task.family = family;
   task.mode = elbows_out(family);
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
-  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
+  auto target = document.table(field::entry("target").required());
   RegionForm form;
   if (family == RobotFamily::five_bar) form.shape = RegionShape::rectangle;
   Value written = Value::object();
   if (mechanism)
     for (const FamilyDimension& d : dimensions(family)) {
       Range range;
-      const Field field{.key = d.name,
-                        .summary = d.summary,
-                        .dimension = d.is_angle ? Dimension::angle : Dimension::length,
-                        .minimum = 0,
-                        .maximum = 1e6,
-                        .required = true};
+      const Field field = field::of(d.is_angle ? Dimension::angle : Dimension::length, d.name, d.summary)
+                              .between(0, 1e6)
+                              .required();
       (*mechanism)(field, range);
       task.dimensions.push_back({range.lower, range.upper});
       study::ObjectWriter writer(written);

@@ -41,7 +41,7 @@ std::optional<RobotMasses> read_masses(study::ObjectReader& document, const Robo
 }
 
 void describe_masses(study::SchemaWriter& document) {
-  document.property(Field{.key = "masses", .summary = "of the platform and of each leg"},
+  document.property(field::entry("masses", "of the platform and of each leg"),
                     study::schema_fields<MassesForm>());
 }
 

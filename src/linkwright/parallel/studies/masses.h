@@ -18,17 +18,11 @@ template <class Visitor>
 void fields(Visitor&& visit, MassesForm& m) {
   fields(visit, m.platform);
   fields(visit, m.leg);
-  visit(
-      Field{
-          .key = "gravity",
-          .summary =
-              "acceleration of gravity, base axes; default: 9.80665 m/s2 downwards, along y of planar robots",
-          .dimension = Dimension::acceleration,
-          .minimum = -1e6,
-          .maximum = 1e6},
-      m.gravity);
-  visit(Field{.key = "pi_joint",
-              .summary = "masses of each Pi-joint, instead of arm_inertia, arm_mass, arm_centre"},
+  visit(field::acceleration(
+            "gravity",
+            "acceleration of gravity, base axes; default: 9.80665 m/s2 downwards, along y of planar robots"),
+        m.gravity);
+  visit(field::entry("pi_joint", "masses of each Pi-joint, instead of arm_inertia, arm_mass, arm_centre"),
         m.pi);
 }
 

@@ -315,7 +315,7 @@ std::optional<MotionStudy> read_motion(study::ObjectReader& document, const stud
 }
 
 void describe_motion(study::SchemaWriter& document) {
-  document.property(Field{.key = "motion", .summary = "what the tool does, from home"},
+  document.property(field::entry("motion", "what the tool does, from home"),
                     study::schema_fields<MotionForm>());
 }
 

@@ -21,26 +21,13 @@ struct MotionForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, MotionForm& m) {
-  visit(Field{.key = "interval",
-              .summary = "time between the rows of the table; the verdict does not depend on it",
-              .dimension = Dimension::time,
-              .minimum = 1e-6,
-              .maximum = 1e3},
+  visit(field::time("interval", "time between the rows of the table; the verdict does not depend on it")
+            .between(1e-6, 1e3),
         m.interval);
-  visit(Field{.key = "limits", .summary = "speed, acceleration and jerk of the tool"}, m.limits);
+  visit(field::entry("limits", "speed, acceleration and jerk of the tool"), m.limits);
   fields(visit, m.path);
-  visit(Field{.key = "force",
-              .summary = "of the process on the platform point, throughout",
-              .dimension = Dimension::force,
-              .minimum = -1e12,
-              .maximum = 1e12},
-        m.force);
-  visit(Field{.key = "moment",
-              .summary = "of the process on the platform (HEXA), throughout",
-              .dimension = Dimension::torque,
-              .minimum = -1e12,
-              .maximum = 1e12},
-        m.moment);
+  visit(field::force("force", "of the process on the platform point, throughout"), m.force);
+  visit(field::torque("moment", "of the process on the platform (HEXA), throughout"), m.moment);
 }
 
 struct MotionStudy {

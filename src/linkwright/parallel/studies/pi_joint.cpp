@@ -151,16 +151,16 @@ std::optional<PiAnalysis> read_analysis(study::ObjectReader& document, const stu
                                         Value& canonical) {
   PiAnalysis s;
   PiJointForm form;
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   if (mechanism) mechanism->read(form);
   PiSweepForm sweep{};
-  auto range = document.table(Field{.key = "sweep", .summary = {}, .required = true});
+  auto range = document.table(field::entry("sweep").required());
   if (range) range->read(sweep);
   std::optional<PiMasses> masses;
-  document(Field{.key = "masses", .summary = {}}, masses);
+  document(field::entry("masses"), masses);
   PiLoadForm load;
-  document(Field{.key = "load", .summary = {}}, load);
-  document(Field{.key = "calibration", .summary = {}}, s.calibration);
+  document(field::entry("load"), load);
+  document(field::entry("calibration"), s.calibration);
   if (!mechanism || !range || document.document().has_errors()) return std::nullopt;
   s.joint = {form.arm, form.ratio};
   if (const auto wrong = problem(s.joint)) {
@@ -394,16 +394,13 @@ study::Kind pi_analysis_kind() {
   kind.summary = "active Pi-joint over its angle: diagonal, torque, speed, resolution, stiffness, weight";
   kind.example = templates::analysis_pi_joint();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the joint", .required = true},
-                      study::schema_fields<PiJointForm>());
-    document.property(Field{.key = "sweep", .summary = "range of the angle", .required = true},
+    document.property(field::entry("mechanism", "the joint").required(), study::schema_fields<PiJointForm>());
+    document.property(field::entry("sweep", "range of the angle").required(),
                       study::schema_fields<PiSweepForm>());
-    document.property(Field{.key = "masses", .summary = "of its parts"}, study::schema_fields<PiMasses>());
-    document.property(Field{.key = "load", .summary = "at the output, and gravity"},
-                      study::schema_fields<PiLoadForm>());
-    document.property(
-        Field{.key = "calibration", .summary = "stiffness that was measured: the bars that fit it"},
-        study::schema_fields<CalibrationForm>());
+    document.property(field::entry("masses", "of its parts"), study::schema_fields<PiMasses>());
+    document.property(field::entry("load", "at the output, and gravity"), study::schema_fields<PiLoadForm>());
+    document.property(field::entry("calibration", "stiffness that was measured: the bars that fit it"),
+                      study::schema_fields<CalibrationForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
@@ -423,18 +420,18 @@ study::Kind pi_design_kind() {
   kind.summary = "smallest Pi-joint that gives a torque, speed and resolution over a range of its angle";
   kind.example = templates::synthesis_pi_joint_requirements();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "what is designed", .required = true},
+    document.property(field::entry("mechanism", "what is designed").required(),
                       study::SchemaWriter().finish());
-    document.property(Field{.key = "target", .summary = "what the joint must do", .required = true},
+    document.property(field::entry("target", "what the joint must do").required(),
                       study::schema_fields<RequirementsForm>());
-    document.property(Field{.key = "optimiser", .summary = "seeds"}, study::SchemaWriter().finish());
+    document.property(field::entry("optimiser", "seeds"), study::SchemaWriter().finish());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+    document.table(field::entry("mechanism").required());
     document.table("optimiser");
     RequirementsForm form;
-    auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+    auto target = document.table(field::entry("target").required());
     if (target) target->read(form);
     if (!target || document.document().has_errors()) return prepared;
     PiRequirements requirements = requirements_of(form);

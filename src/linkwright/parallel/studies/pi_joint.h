@@ -23,24 +23,13 @@ template <class Visitor>
 void fields(Visitor&& visit, ScrewForm& s) {
   const auto positive = [](std::string_view key, std::string_view summary, Dimension dimension,
                            bool required) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = dimension,
-                 .minimum = 0,
-                 .maximum = 1e12,
-                 .exclusive_minimum = true,
-                 .required = required};
+    return field::of(dimension, key, summary).positive().at_most(1e12).required(required);
   };
   visit(positive("lead", "travel of the screw for one turn", Dimension::length, true), s.lead);
-  visit(Field{.key = "efficiency",
-              .summary = "when the motor drives the load",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
-        s.efficiency);
+  visit(field::entry("efficiency", "when the motor drives the load").positive().at_most(1), s.efficiency);
   visit(positive("force_limit", "largest force of the screw", Dimension::force, false), s.force_limit);
   visit(positive("rate_limit", "largest rate of the diagonal", Dimension::speed, false), s.rate_limit);
-  visit(Field{.key = "motor", .summary = "torque, speed and steps of the motor"}, s.motor);
+  visit(field::entry("motor", "torque, speed and steps of the motor"), s.motor);
 }
 
 /// `[mechanism.stiffness]` of its bars; those that are left out are rigid.
@@ -51,20 +40,12 @@ struct BarsForm {
 template <class Visitor>
 void fields(Visitor&& visit, BarsForm& b) {
   const auto stiffness = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = Dimension::stiffness,
-                 .minimum = 0,
-                 .maximum = 1e15,
-                 .exclusive_minimum = true};
+    return field::stiffness(key, summary).positive();
   };
   visit(stiffness("arm", "along each arm"), b.arm);
   visit(stiffness("coupler", "along the coupler"), b.coupler);
   visit(stiffness("diagonal", "along the diagonal"), b.diagonal);
-  visit(Field{.key = "share",
-              .summary = "of the load that acts at the diagonal's end of the coupler",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("share", "of the load that acts at the diagonal's end of the coupler").between(0, 1),
         b.share);
 }
 
@@ -75,16 +56,10 @@ struct PiJointForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PiJointForm& p) {
-  visit(robot_fields::length("arm", "length of the arms"), p.arm);
-  visit(Field{.key = "ratio",
-              .summary = "base by arm, k = b/a",
-              .minimum = 0,
-              .maximum = 100,
-              .exclusive_minimum = true,
-              .required = true},
-        p.ratio);
-  visit(Field{.key = "drive", .summary = "screw and motor"}, p.drive);
-  visit(Field{.key = "stiffness", .summary = "of the bars"}, p.stiffness);
+  visit(field::length("arm", "length of the arms").not_negative().required(), p.arm);
+  visit(field::entry("ratio", "base by arm, k = b/a").positive().at_most(100).required(), p.ratio);
+  visit(field::entry("drive", "screw and motor"), p.drive);
+  visit(field::entry("stiffness", "of the bars"), p.stiffness);
 }
 
 /// `[load]` at the output, and gravity in axes of the joint.
@@ -94,17 +69,8 @@ struct PiLoadForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PiLoadForm& l) {
-  visit(Field{.key = "torque",
-              .summary = "that acts on the arms, positive where it increases the angle",
-              .dimension = Dimension::torque,
-              .minimum = -1e12,
-              .maximum = 1e12},
-        l.torque);
-  visit(Field{.key = "gravity",
-              .summary = "x across the base, y along it from the first pivot to the second",
-              .dimension = Dimension::acceleration,
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(field::torque("torque", "that acts on the arms, positive where it increases the angle"), l.torque);
+  visit(field::acceleration("gravity", "x across the base, y along it from the first pivot to the second"),
         l.gravity);
 }
 
@@ -114,8 +80,8 @@ struct PiSweepForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PiSweepForm& s) {
-  visit(robot_fields::angle("from", "first angle, above -90 deg", true), s.from);
-  visit(robot_fields::angle("to", "last angle, below 90 deg", true), s.to);
+  visit(field::angle("from", "first angle, above -90 deg").required(), s.from);
+  visit(field::angle("to", "last angle, below 90 deg").required(), s.to);
 }
 
 /// `[calibration]`: stiffness that was measured at the output.
@@ -124,14 +90,8 @@ struct CalibrationForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, CalibrationForm& c) {
-  visit(robot_fields::angle("angles", "where it was measured", true), c.angles);
-  visit(Field{.key = "stiffnesses",
-              .summary = "measured at each of these angles",
-              .dimension = Dimension::stiffness_angular,
-              .minimum = 0,
-              .maximum = 1e15,
-              .exclusive_minimum = true,
-              .required = true},
+  visit(field::angle("angles", "where it was measured").required(), c.angles);
+  visit(field::stiffness_angular("stiffnesses", "measured at each of these angles").positive().required(),
         c.stiffnesses);
 }
 
@@ -152,12 +112,7 @@ template <class Visitor>
 void fields(Visitor&& visit, PiLimitsForm& r) {
   const auto number = [](std::string_view key, std::string_view summary, Dimension dimension,
                          double most = 1e12) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = dimension,
-                 .minimum = 0,
-                 .maximum = most,
-                 .exclusive_minimum = true};
+    return field::of(dimension, key, summary).positive().at_most(most);
   };
   visit(number("torque", "at the output, everywhere", Dimension::torque), r.torque);
   visit(number("force_limit", "largest force of the diagonal", Dimension::force), r.force_limit);
@@ -168,11 +123,9 @@ void fields(Visitor&& visit, PiLimitsForm& r) {
   visit(number("transmission", "least angle between diagonal and arm", Dimension::angle, 1.57),
         r.transmission);
   visit(number("stroke", "largest stroke of the diagonal", Dimension::length), r.stroke);
-  visit(Field{.key = "telescoping",
-              .summary = "largest ratio of the longest to the shortest diagonal",
-              .minimum = 1,
-              .maximum = 1e6,
-              .exclusive_minimum = true},
+  visit(field::entry("telescoping", "largest ratio of the longest to the shortest diagonal")
+            .above(1)
+            .at_most(1e6),
         r.telescoping);
   visit(number("end_margin", "between the range and +-90 deg; default 1 deg", Dimension::angle, 1.5),
         r.end_margin);
@@ -185,13 +138,7 @@ struct RequirementsForm : PiLimitsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RequirementsForm& r) {
-  visit(Field{.key = "half_travel",
-              .summary = "half of the range of the angle",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.5707,
-              .exclusive_minimum = true,
-              .required = true},
+  visit(field::angle("half_travel", "half of the range of the angle").positive().at_most(1.5707).required(),
         r.half_travel);
   fields(visit, static_cast<PiLimitsForm&>(r));
 }

@@ -208,7 +208,7 @@ void Rows::next() {
 std::vector<AskedPose> read_asked_poses(study::ObjectReader& document, Freedom freedom, int arms,
                                         std::string_view owners, Value& canonical) {
   std::vector<AskedPose> out;
-  document(Field{.key = "pose", .summary = {}}, out);
+  document(field::entry("pose"), out);
   const bool turns = freedom == Freedom::space;
   const auto tables = document.tables("pose");
   for (std::size_t i = 0; i < out.size() && i < tables.size(); ++i) {
@@ -234,7 +234,7 @@ std::vector<AskedPose> read_asked_poses(study::ObjectReader& document, Freedom f
 PosesForm read_poses(study::ObjectReader& document, const RobotDescription& d, Value& canonical) {
   PosesForm out;
   out.poses = read_asked_poses(document, d.robot.freedom, d.robot.legs(), "legs", canonical);
-  document(Field{.key = "modes", .summary = {}}, out.modes);
+  document(field::entry("modes"), out.modes);
   if (out.modes && out.poses.empty())
     document.error("modes", "there is no pose whose modes could be listed", "add [[pose]]");
   if (out.modes) canonical["modes"] = study::write_fields(*out.modes);
@@ -242,9 +242,9 @@ PosesForm read_poses(study::ObjectReader& document, const RobotDescription& d, V
 }
 
 void describe_poses(study::SchemaWriter& document) {
-  document.property(Field{.key = "pose", .summary = "poses to be looked at"},
+  document.property(field::entry("pose", "poses to be looked at"),
                     study::schema_array(study::schema_fields<AskedPose>()));
-  document.property(Field{.key = "modes", .summary = "tables of the other solutions of each pose"},
+  document.property(field::entry("modes", "tables of the other solutions of each pose"),
                     study::schema_fields<ModesForm>());
 }
 

@@ -19,22 +19,12 @@ struct AskedPose {
 };
 template <class Visitor>
 void fields(Visitor&& visit, AskedPose& p) {
-  visit(Field{.key = "name", .summary = "for tables"}, p.name);
-  visit(robot_fields::place("position", "of the platform point"), p.position);
-  visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
-  visit(robot_fields::angle("arm_angles", "one a leg, instead of position: direct kinematics"), p.arm_angles);
-  visit(Field{.key = "force",
-              .summary = "that acts on the platform point",
-              .dimension = Dimension::force,
-              .minimum = -1e12,
-              .maximum = 1e12},
-        p.force);
-  visit(Field{.key = "moment",
-              .summary = "that acts on the platform (HEXA)",
-              .dimension = Dimension::torque,
-              .minimum = -1e12,
-              .maximum = 1e12},
-        p.moment);
+  visit(field::entry("name", "for tables"), p.name);
+  visit(field::length("position", "of the platform point"), p.position);
+  visit(field::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
+  visit(field::angle("arm_angles", "one a leg, instead of position: direct kinematics"), p.arm_angles);
+  visit(field::force("force", "that acts on the platform point"), p.force);
+  visit(field::torque("moment", "that acts on the platform (HEXA)"), p.moment);
 }
 
 /// `[modes]`: tables of the other solutions of each pose.
@@ -43,8 +33,8 @@ struct ModesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ModesForm& m) {
-  visit(Field{.key = "working", .summary = "all arm angles that put the platform there"}, m.working);
-  visit(Field{.key = "assembly", .summary = "all poses that the arm angles allow"}, m.assembly);
+  visit(field::entry("working", "all arm angles that put the platform there"), m.working);
+  visit(field::entry("assembly", "all poses that the arm angles allow"), m.assembly);
 }
 
 struct PosesForm {

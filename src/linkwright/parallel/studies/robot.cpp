@@ -17,12 +17,10 @@ struct ModeForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ModeForm& m) {
-  visit(Field{.key = "working_mode",
-              .summary =
-                  "one sign a leg, of (rod . direction in which the arm turns): 1 = the elbow of a DELTA "
-                  "outside; default: elbows outside",
-              .minimum = -1,
-              .maximum = 1},
+  visit(field::entry("working_mode",
+                     "one sign a leg, of (rod . direction in which the arm turns): 1 = the elbow of a DELTA "
+                     "outside; default: elbows outside")
+            .between(-1, 1),
         m.working_mode);
 }
 
@@ -219,12 +217,12 @@ std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism
   const auto wanted = static_cast<std::size_t>(count);
   std::vector<study::ObjectReader> tables;
   std::vector<DriveForm> forms;
-  if (mechanism.is_table(Field{.key = "drive", .summary = {}})) {
+  if (mechanism.is_table(field::entry("drive"))) {
     forms.emplace_back();
-    mechanism(Field{.key = "drive", .summary = {}}, forms.front());
+    mechanism(field::entry("drive"), forms.front());
     if (auto table = mechanism.table("drive")) tables.push_back(*table);
   } else if (mechanism.has("drive")) {
-    if (!mechanism(Field{.key = "drive", .summary = {}}, forms)) return std::nullopt;
+    if (!mechanism(field::entry("drive"), forms)) return std::nullopt;
     tables = mechanism.tables("drive");
     if (forms.size() != wanted) {
       mechanism.error("drive", fmt::format("{} drives for {} {}", forms.size(), count, owners),
@@ -257,10 +255,9 @@ std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism
 }
 
 void describe_drives(study::SchemaWriter& mechanism) {
-  mechanism.property(
-      Field{.key = "drive", .summary = "what turns the arms: one for all, or one for each arm"},
-      study::schema_any_of(
-          {study::schema_fields<DriveForm>(), study::schema_array(study::schema_fields<DriveForm>())}));
+  mechanism.property(field::entry("drive", "what turns the arms: one for all, or one for each arm"),
+                     study::schema_any_of({study::schema_fields<DriveForm>(),
+                                           study::schema_array(study::schema_fields<DriveForm>())}));
 }
 
 Value without(Value table, std::span<const std::string_view> bases) {
@@ -282,7 +279,7 @@ Pose pose_of(const PoseForm& form) { return {vec(form.position), math::turn_abou
 
 std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::string_view type,
                                            Value& canonical) {
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   if (!mechanism) return std::nullopt;
   RobotDescription out{.type = std::string(type)};
   std::optional<Robot> robot;
@@ -343,8 +340,7 @@ void describe_robot(study::SchemaWriter& document, std::string_view type) {
     describe(HexaForm{});
   else
     describe(PlanarForm{});
-  document.property(Field{.key = "mechanism", .summary = "the robot", .required = true},
-                    std::move(mechanism).finish());
+  document.property(field::entry("mechanism", "the robot").required(), std::move(mechanism).finish());
 }
 
 }  // namespace linkwright::parallel

@@ -19,49 +19,21 @@ namespace linkwright::parallel {
 /// Coordinates of a file as a vector.
 inline Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
 
-namespace robot_fields {
-
-constexpr double most = 1e6;
-constexpr Field length(std::string_view key, std::string_view summary, bool required = true) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = 0,
-          .maximum = most,
-          .required = required};
-}
-constexpr Field place(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = -most,
-          .maximum = most,
-          .required = required};
-}
-constexpr Field angle(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::angle,
-          .minimum = -1e3,
-          .maximum = 1e3,
-          .required = required};
-}
-
-}  // namespace robot_fields
-
 /// A leg of a DELTA that differs from the others.
 struct DeltaLegForm {
   double azimuth = 0, base_radius = 0, base_height = 0, platform_radius = 0, arm = 0, rod = 0;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DeltaLegForm& l) {
-  visit(robot_fields::angle("azimuth", "where it stands, counter-clockwise from x seen from above", true),
+  visit(field::angle("azimuth", "where it stands, counter-clockwise from x seen from above").required(),
         l.azimuth);
-  visit(robot_fields::length("base_radius", "axis of the robot to the arm's pivot"), l.base_radius);
-  visit(robot_fields::place("base_height", "of the arm's pivot"), l.base_height);
-  visit(robot_fields::length("platform_radius", "platform point to the rod's joint"), l.platform_radius);
-  visit(robot_fields::length("arm", "pivot to elbow"), l.arm);
-  visit(robot_fields::length("rod", "elbow to platform"), l.rod);
+  visit(field::length("base_radius", "axis of the robot to the arm's pivot").not_negative().required(),
+        l.base_radius);
+  visit(field::length("base_height", "of the arm's pivot"), l.base_height);
+  visit(field::length("platform_radius", "platform point to the rod's joint").not_negative().required(),
+        l.platform_radius);
+  visit(field::length("arm", "pivot to elbow").not_negative().required(), l.arm);
+  visit(field::length("rod", "elbow to platform").not_negative().required(), l.rod);
 }
 
 struct DeltaForm {
@@ -70,12 +42,12 @@ struct DeltaForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DeltaForm& d) {
-  visit(robot_fields::length("base_radius", "axis of the robot to the arms' pivots", false), d.base_radius);
-  visit(robot_fields::length("platform_radius", "platform point to the rods' joints", false),
+  visit(field::length("base_radius", "axis of the robot to the arms' pivots").not_negative(), d.base_radius);
+  visit(field::length("platform_radius", "platform point to the rods' joints").not_negative(),
         d.platform_radius);
-  visit(robot_fields::length("arm", "length of the arms, pivot to elbow", false), d.arm);
-  visit(robot_fields::length("rod", "length of the rods, elbow to platform", false), d.rod);
-  visit(Field{.key = "leg", .summary = "three legs that differ, instead of the lengths above"}, d.legs);
+  visit(field::length("arm", "length of the arms, pivot to elbow").not_negative(), d.arm);
+  visit(field::length("rod", "length of the rods, elbow to platform").not_negative(), d.rod);
+  visit(field::entry("leg", "three legs that differ, instead of the lengths above"), d.legs);
 }
 
 struct HexaForm {
@@ -84,15 +56,18 @@ struct HexaForm {
 template <class Visitor>
 void fields(Visitor&& visit, HexaForm& form) {
   HexaDimensions& d = form.dimensions;
-  visit(robot_fields::length("base_radius", "axis of the robot to the middle of a pair of pivots"),
+  visit(field::length("base_radius", "axis of the robot to the middle of a pair of pivots")
+            .not_negative()
+            .required(),
         d.base_radius);
-  visit(robot_fields::length("base_offset", "half the distance of a pair of pivots"), d.base_offset);
-  visit(robot_fields::length("platform_radius", "platform point to the rods' joints"), d.platform_radius);
-  visit(
-      robot_fields::angle("platform_angle", "half the angle between a pair of joints of the platform", true),
-      d.platform_angle);
-  visit(robot_fields::length("arm", "length of the arms, pivot to elbow"), d.arm);
-  visit(robot_fields::length("rod", "length of the rods, elbow to platform"), d.rod);
+  visit(field::length("base_offset", "half the distance of a pair of pivots").not_negative().required(),
+        d.base_offset);
+  visit(field::length("platform_radius", "platform point to the rods' joints").not_negative().required(),
+        d.platform_radius);
+  visit(field::angle("platform_angle", "half the angle between a pair of joints of the platform").required(),
+        d.platform_angle);
+  visit(field::length("arm", "length of the arms, pivot to elbow").not_negative().required(), d.arm);
+  visit(field::length("rod", "length of the rods, elbow to platform").not_negative().required(), d.rod);
 }
 
 struct PlanarLegForm {
@@ -102,10 +77,10 @@ struct PlanarLegForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PlanarLegForm& l) {
-  visit(robot_fields::place("base", "pivot of the arm", true), l.base);
-  visit(robot_fields::length("arm", "pivot to elbow"), l.arm);
-  visit(robot_fields::length("rod", "elbow to platform"), l.rod);
-  visit(robot_fields::place("platform", "joint of the platform seen from the platform point"), l.platform);
+  visit(field::length("base", "pivot of the arm").required(), l.base);
+  visit(field::length("arm", "pivot to elbow").not_negative().required(), l.arm);
+  visit(field::length("rod", "elbow to platform").not_negative().required(), l.rod);
+  visit(field::length("platform", "joint of the platform seen from the platform point"), l.platform);
 }
 
 struct PlanarForm {
@@ -113,7 +88,7 @@ struct PlanarForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PlanarForm& p) {
-  visit(Field{.key = "leg", .summary = "the two legs", .required = true}, p.legs);
+  visit(field::entry("leg", "the two legs").required(), p.legs);
 }
 
 /// Torque of a motor over its speed.
@@ -123,36 +98,11 @@ struct MotorForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, MotorForm& m) {
-  visit(
-      Field{
-          .key = "steps_per_turn", .summary = "of a stepper or of an encoder", .minimum = 1, .maximum = 1e9},
-      m.steps_per_turn);
-  visit(Field{.key = "top_speed",
-              .summary = "largest speed",
-              .dimension = Dimension::speed_angular,
-              .minimum = 0,
-              .maximum = 1e9,
-              .exclusive_minimum = true},
-        m.top_speed);
-  visit(Field{.key = "torque",
-              .summary = "largest torque, at every speed",
-              .dimension = Dimension::torque,
-              .minimum = 0,
-              .maximum = 1e9,
-              .exclusive_minimum = true},
-        m.torque);
-  visit(Field{.key = "speeds",
-              .summary = "of a torque-speed curve, from 0",
-              .dimension = Dimension::speed_angular,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.speeds);
-  visit(Field{.key = "torques",
-              .summary = "largest torque at each of these speeds",
-              .dimension = Dimension::torque,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.torques);
+  visit(field::entry("steps_per_turn", "of a stepper or of an encoder").between(1, 1e9), m.steps_per_turn);
+  visit(field::speed_angular("top_speed", "largest speed").positive().at_most(1e9), m.top_speed);
+  visit(field::torque("torque", "largest torque, at every speed").positive(), m.torque);
+  visit(field::speed_angular("speeds", "of a torque-speed curve, from 0").between(0, 1e9), m.speeds);
+  visit(field::torque("torques", "largest torque at each of these speeds").not_negative(), m.torques);
 }
 
 /// The motor; nothing when its keys contradict each other, which goes to the reader.
@@ -174,32 +124,17 @@ struct DriveForm {
 template <class Visitor>
 void fields(Visitor&& visit, DriveForm& d) {
   const auto positive = [](std::string_view key, std::string_view summary, Dimension dimension) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = dimension,
-                 .minimum = 0,
-                 .maximum = 1e12,
-                 .exclusive_minimum = true};
+    return field::of(dimension, key, summary).positive().at_most(1e12);
   };
-  visit(Field{.key = "type", .summary = "what turns the arm"}, d.type);
-  visit(Field{.key = "ratio",
-              .summary = "Pi-joint: its base by its arm, k = b/a",
-              .minimum = 0,
-              .maximum = 100,
-              .exclusive_minimum = true},
-        d.ratio);
-  visit(robot_fields::angle("mounting", "Pi-joint: arm angle where its angle theta is 0"), d.mounting);
-  visit(Field{.key = "mirrored", .summary = "Pi-joint: theta turns against the arm angle"}, d.mirrored);
-  visit(robot_fields::angle("travel", "lowest and highest angle: theta of a Pi-joint, or the arm's"),
-        d.travel);
+  visit(field::entry("type", "what turns the arm"), d.type);
+  visit(field::entry("ratio", "Pi-joint: its base by its arm, k = b/a").positive().at_most(100), d.ratio);
+  visit(field::angle("mounting", "Pi-joint: arm angle where its angle theta is 0"), d.mounting);
+  visit(field::entry("mirrored", "Pi-joint: theta turns against the arm angle"), d.mirrored);
+  visit(field::angle("travel", "lowest and highest angle: theta of a Pi-joint, or the arm's"), d.travel);
   visit(positive("lead", "Pi-joint: travel of the screw for one turn", Dimension::length), d.lead);
   visit(positive("gear_ratio", "motor at the pivot: turns of the motor for one of the arm", Dimension::none),
         d.gear_ratio);
-  visit(Field{.key = "efficiency",
-              .summary = "of screw or gear when the motor drives the load",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
+  visit(field::entry("efficiency", "of screw or gear when the motor drives the load").positive().at_most(1),
         d.efficiency);
   visit(positive("step", "Pi-joint: smallest step of the diagonal; default: of its motor", Dimension::length),
         d.step);
@@ -215,7 +150,7 @@ void fields(Visitor&& visit, DriveForm& d) {
   visit(positive("rate_limit", "Pi-joint: largest rate of the diagonal", Dimension::speed), d.rate_limit);
   visit(positive("speed_limit", "motor at the pivot: largest speed of the arm", Dimension::speed_angular),
         d.speed_limit);
-  visit(Field{.key = "motor", .summary = "torque, speed and steps of the motor"}, d.motor);
+  visit(field::entry("motor", "torque, speed and steps of the motor"), d.motor);
 }
 
 /// A drive as read, with what its screw or gear and its motor can do.
@@ -238,9 +173,9 @@ struct PoseForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseForm& p) {
-  visit(Field{.key = "name", .summary = "for tables"}, p.name);
-  visit(robot_fields::place("position", "of the platform point", true), p.position);
-  visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
+  visit(field::entry("name", "for tables"), p.name);
+  visit(field::length("position", "of the platform point").required(), p.position);
+  visit(field::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
 }
 /// The form in which it is read back: without a rotation where the tool does not turn.
 Value home_written(const PoseForm& form, bool turns);

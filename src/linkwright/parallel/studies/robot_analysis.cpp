@@ -32,9 +32,9 @@ study::Kind kind_of(const char* type) {
                                                                  : templates::analysis_constant_orientation();
   kind.schema = [type](study::SchemaWriter& document) {
     describe_robot(document, type);
-    document.property(Field{.key = "home", .summary = "where motions begin, and which assembly is meant"},
+    document.property(field::entry("home", "where motions begin, and which assembly is meant"),
                       study::schema_fields<PoseForm>());
-    document.property(Field{.key = "limits", .summary = "requirements for a usable pose"},
+    document.property(field::entry("limits", "requirements for a usable pose"),
                       study::schema_fields<QualityLimits>());
     describe_poses(document);
     describe_masses(document);
@@ -152,7 +152,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
   }
   s.description = *description;
   s.poses = read_poses(document, *description, canonical);
-  document(Field{.key = "limits", .summary = {}}, s.limits);
+  document(field::entry("limits"), s.limits);
   if (s.limits.constraint > 0 && description->robot.freedom != Freedom::space_translation)
     if (auto table = document.table("limits"))
       table->error("constraint", "only the legs of a DELTA are parallelograms", "leave it out");

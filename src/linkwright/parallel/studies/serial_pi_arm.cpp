@@ -103,7 +103,7 @@ void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& c
 }
 
 std::optional<SerialDescription> read_arm(study::ObjectReader& document, Value& canonical) {
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   if (!mechanism) return std::nullopt;
   SerialArmForm form;
   mechanism->read(form);
@@ -278,11 +278,11 @@ std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document
   }
   s.description = *description;
   s.poses = read_asked_poses(document, Freedom::plane_translation, 2, "joints", canonical);
-  document(Field{.key = "modes", .summary = {}}, s.modes);
+  document(field::entry("modes"), s.modes);
   if (s.modes && s.poses.empty())
     document.error("modes", "there is no pose whose modes could be listed", "add [[pose]]");
   if (s.modes) canonical["modes"] = study::write_fields(*s.modes);
-  document(Field{.key = "limits", .summary = {}}, s.limits);
+  document(field::entry("limits"), s.limits);
   canonical["limits"] = study::write_fields(s.limits);
   s.masses = read_masses(document, *description, canonical);
   const auto home = read_home(document, *description, canonical);
@@ -324,20 +324,18 @@ study::Kind serial_pi_arm_kind() {
     SerialArmForm form;
     fields(mechanism, form);
     describe_drives(mechanism);
-    document.property(Field{.key = "mechanism", .summary = "the arm", .required = true},
-                      std::move(mechanism).finish());
-    document.property(Field{.key = "home", .summary = "where motions begin"},
-                      study::schema_fields<PoseForm>());
-    document.property(Field{.key = "limits", .summary = "requirements for a usable pose"},
+    document.property(field::entry("mechanism", "the arm").required(), std::move(mechanism).finish());
+    document.property(field::entry("home", "where motions begin"), study::schema_fields<PoseForm>());
+    document.property(field::entry("limits", "requirements for a usable pose"),
                       study::schema_fields<SerialLimits>());
-    document.property(Field{.key = "pose", .summary = "poses to be looked at"},
+    document.property(field::entry("pose", "poses to be looked at"),
                       study::schema_array(study::schema_fields<AskedPose>()));
-    document.property(Field{.key = "modes", .summary = "table of both modes of each pose"},
+    document.property(field::entry("modes", "table of both modes of each pose"),
                       study::schema_fields<SerialModesForm>());
-    document.property(Field{.key = "masses", .summary = "of the payload and of each joint"},
+    document.property(field::entry("masses", "of the payload and of each joint"),
                       study::schema_fields<SerialMassesForm>());
     describe_motion(document);
-    document.property(Field{.key = "workspace", .summary = "grid of places of the tool point"},
+    document.property(field::entry("workspace", "grid of places of the tool point"),
                       study::schema_fields<SerialWorkspaceForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

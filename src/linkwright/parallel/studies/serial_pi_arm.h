@@ -21,15 +21,13 @@ struct SerialArmForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialArmForm& a) {
-  visit(robot_fields::place("base", "pivot of the first arm"), a.base);
-  visit(robot_fields::place("offset", "all that the couplers add between pivots and tool point"), a.offset);
-  Field arms = robot_fields::length("arms", "lengths of both arms");
+  visit(field::length("base", "pivot of the first arm"), a.base);
+  visit(field::length("offset", "all that the couplers add between pivots and tool point"), a.offset);
+  Field arms = field::length("arms", "lengths of both arms").not_negative().required();
   arms.exclusive_minimum = true;
   visit(arms, a.arms);
-  visit(Field{.key = "mode",
-              .summary = "sign of sin(q2 - q1): 1 = the second arm turns to the left of the first",
-              .minimum = -1,
-              .maximum = 1},
+  visit(field::entry("mode", "sign of sin(q2 - q1): 1 = the second arm turns to the left of the first")
+            .between(-1, 1),
         a.mode);
 }
 
@@ -41,8 +39,7 @@ struct SerialJointMassesForm {
 template <class Visitor>
 void fields(Visitor&& visit, SerialJointMassesForm& m) {
   fields(visit, m.plain);
-  visit(Field{.key = "pi_joint", .summary = "masses of its Pi-joint, instead of those of arms and coupler"},
-        m.pi);
+  visit(field::entry("pi_joint", "masses of its Pi-joint, instead of those of arms and coupler"), m.pi);
 }
 struct SerialMassesForm {
   double payload = 0;
@@ -51,20 +48,13 @@ struct SerialMassesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialMassesForm& m) {
-  visit(Field{.key = "payload",
-              .summary = "at the tool, not turning",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9},
-        m.payload);
-  visit(Field{.key = "gravity",
-              .summary = "acceleration of gravity, base axes; default: 9.80665 m/s2 against y; along z the "
-                         "bearings alone feel it",
-              .dimension = Dimension::acceleration,
-              .minimum = -1e6,
-              .maximum = 1e6},
-        m.gravity);
-  visit(Field{.key = "joint", .summary = "the two joints", .required = true}, m.joints);
+  visit(field::mass("payload", "at the tool, not turning").not_negative(), m.payload);
+  visit(
+      field::acceleration("gravity",
+                          "acceleration of gravity, base axes; default: 9.80665 m/s2 against y; along z the "
+                          "bearings alone feel it"),
+      m.gravity);
+  visit(field::entry("joint", "the two joints").required(), m.joints);
 }
 
 /// `[modes]`: a table of both arm configurations for each pose.
@@ -73,7 +63,7 @@ struct SerialModesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialModesForm& m) {
-  visit(Field{.key = "working", .summary = "both pairs of arm angles that put the tool there"}, m.working);
+  visit(field::entry("working", "both pairs of arm angles that put the tool there"), m.working);
 }
 
 /// `[limits]`: requirements for a usable pose, along a path and in the workspace.
@@ -84,14 +74,10 @@ struct SerialLimits {
 template <class Visitor>
 void fields(Visitor&& visit, SerialLimits& l) {
   const auto index = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+    return field::entry(key, summary).between(0, 1);
   };
   const auto angle = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = Dimension::angle,
-                 .minimum = 0,
-                 .maximum = 3.1415926535897931};
+    return field::angle(key, summary).between(0, 3.1415926535897931);
   };
   visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
@@ -108,13 +94,12 @@ struct SerialWorkspaceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialWorkspaceForm& w) {
-  visit(robot_fields::place("lower", "corner of the box; default: a box about all that the arms reach"),
-        w.lower);
-  visit(robot_fields::place("upper", "opposite corner"), w.upper);
-  Field step = robot_fields::length("step", "distance of the nodes");
+  visit(field::length("lower", "corner of the box; default: a box about all that the arms reach"), w.lower);
+  visit(field::length("upper", "opposite corner"), w.upper);
+  Field step = field::length("step", "distance of the nodes").not_negative().required();
   step.exclusive_minimum = true;
   visit(step, w.step);
-  visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
+  visit(field::entry("indices", "that are computed at each node and drawn"), w.indices);
 }
 
 /// `[mechanism]` read: the arm, its mode, and what its drives can do.

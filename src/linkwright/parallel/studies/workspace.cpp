@@ -267,7 +267,7 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
 }
 
 void describe_workspace(study::SchemaWriter& document) {
-  document.property(Field{.key = "workspace", .summary = "grid of places of the platform point"},
+  document.property(field::entry("workspace", "grid of places of the platform point"),
                     study::schema_fields<WorkspaceForm>());
 }
 

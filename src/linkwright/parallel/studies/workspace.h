@@ -20,11 +20,10 @@ struct QualityLimits {
 template <class Visitor>
 void fields(Visitor&& visit, QualityLimits& l) {
   const auto index = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+    return field::entry(key, summary).between(0, 1);
   };
   const auto angle = [](std::string_view key, std::string_view summary, double most) {
-    return Field{
-        .key = key, .summary = summary, .dimension = Dimension::angle, .minimum = 0, .maximum = most};
+    return field::angle(key, summary).between(0, most);
   };
   visit(index("transmission", "minimum transmission index of the legs"), l.transmission);
   visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
@@ -53,17 +52,12 @@ struct InscribedForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, InscribedForm& f) {
-  visit(Field{.key = "shape", .summary = "of the body"}, f.shape);
-  visit(robot_fields::place("axis", "x and y of the axis of a cylinder; default: anywhere"), f.axis);
-  Field height = robot_fields::length("height", "of a cylinder", false);
+  visit(field::entry("shape", "of the body"), f.shape);
+  visit(field::length("axis", "x and y of the axis of a cylinder; default: anywhere"), f.axis);
+  Field height = field::length("height", "of a cylinder").not_negative();
   height.exclusive_minimum = true;
   visit(height, f.height);
-  visit(Field{.key = "ratio",
-              .summary = "of a cylinder's height and diameter",
-              .minimum = 0,
-              .maximum = 1e6,
-              .exclusive_minimum = true},
-        f.ratio);
+  visit(field::entry("ratio", "of a cylinder's height and diameter").positive().at_most(1e6), f.ratio);
 }
 
 /// `[workspace]`: the nodes of a grid.
@@ -77,25 +71,22 @@ struct WorkspaceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, WorkspaceForm& w) {
-  visit(robot_fields::place("lower", "corner of the box", true), w.lower);
-  visit(robot_fields::place("upper", "opposite corner", true), w.upper);
-  Field step = robot_fields::length("step", "distance of the nodes");
+  visit(field::length("lower", "corner of the box").required(), w.lower);
+  visit(field::length("upper", "opposite corner").required(), w.upper);
+  Field step = field::length("step", "distance of the nodes").not_negative().required();
   step.exclusive_minimum = true;
   visit(step, w.step);
-  visit(robot_fields::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
-  visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
-  visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach, up to 500000"}, w.nodes);
-  visit(Field{.key = "aspects",
-              .summary = "count its aspects, the components without a singularity inside; up to 2e6 nodes"},
+  visit(field::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
+  visit(field::entry("indices", "that are computed at each node and drawn"), w.indices);
+  visit(field::entry("nodes", "table of all nodes that the legs reach, up to 500000"), w.nodes);
+  visit(field::entry("aspects",
+                     "count its aspects, the components without a singularity inside; up to 2e6 nodes"),
         w.aspects);
-  visit(Field{.key = "slices", .summary = "levels of z that are drawn", .minimum = 1, .maximum = 50},
-        w.slices);
-  visit(Field{.key = "boundary",
-              .summary = "rays around home on which the boundary of each slice is followed; 0 = none",
-              .minimum = 0,
-              .maximum = 10000},
+  visit(field::entry("slices", "levels of z that are drawn").between(1, 50), w.slices);
+  visit(field::entry("boundary", "rays around home on which the boundary of each slice is followed; 0 = none")
+            .between(0, 10000),
         w.boundary);
-  visit(Field{.key = "inscribed", .summary = "the largest body of a shape within it"}, w.inscribed);
+  visit(field::entry("inscribed", "the largest body of a shape within it"), w.inscribed);
 }
 
 struct WorkspaceStudy {

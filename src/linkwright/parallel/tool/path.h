@@ -122,153 +122,88 @@ constexpr Word choice_word(const PickAndPlace&) {
 constexpr Word choice_word(const ToolDwell&) { return {"dwell", "rest"}; }
 constexpr Word choice_word(const ToolTable&) { return {"table", "smooth curve through points in time"}; }
 
-namespace tool_fields {
-
-// Beyond it the digits of a double no longer separate neighbouring positions.
-inline constexpr double most = 1e9;
-
-constexpr Field place(std::string_view key, std::string_view summary, bool required = true) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = -most,
-          .maximum = most,
-          .required = required};
-}
-constexpr Field direction(std::string_view key, std::string_view summary) {
-  return {.key = key, .summary = summary, .minimum = -most, .maximum = most};
-}
-constexpr Field positive(std::string_view key, std::string_view summary, Dimension dimension) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = dimension,
-          .minimum = 0,
-          .maximum = most,
-          .exclusive_minimum = true};
-}
-constexpr Field rest(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::time,
-          .minimum = 0,
-          .maximum = most,
-          .required = required};
-}
-
+/// Fields of every step that moves.
 template <class Visitor, class Step>
-void common(Visitor&& visit, Step& step) {
-  visit(Field{.key = "rotation",
-              .summary = "orientation at the end: rotation vector seen from the base",
-              .dimension = Dimension::angle,
-              .minimum = -most,
-              .maximum = most},
+void step_fields(Visitor&& visit, Step& step) {
+  visit(field::angle("rotation", "orientation at the end: rotation vector seen from the base"),
         step.rotation);
-  visit(positive("speed", "largest speed of this step", Dimension::speed), step.speed);
+  visit(field::speed("speed", "largest speed of this step").positive(), step.speed);
 }
-
-}  // namespace tool_fields
 
 template <class Visitor>
 void fields(Visitor&& visit, ToolLine& s) {
-  visit(tool_fields::place("to", "end"), s.to);
-  tool_fields::common(visit, s);
+  visit(field::length("to", "end").required(), s.to);
+  step_fields(visit, s);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolArc& s) {
-  visit(tool_fields::place("through", "point on the way"), s.through);
-  visit(tool_fields::place("to", "end"), s.to);
-  tool_fields::common(visit, s);
+  visit(field::length("through", "point on the way").required(), s.through);
+  visit(field::length("to", "end").required(), s.to);
+  step_fields(visit, s);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolCircle& s) {
-  visit(tool_fields::place("centre", "point of the axis"), s.centre);
-  visit(tool_fields::direction("axis", "direction of the axis"), s.axis);
-  visit(Field{.key = "angle",
-              .summary = "turn about the axis, right-handed; may be more than 360 deg",
-              .dimension = Dimension::angle,
-              .minimum = -1e6,
-              .maximum = 1e6,
-              .required = true},
+  visit(field::length("centre", "point of the axis").required(), s.centre);
+  visit(field::entry("axis", "direction of the axis").between(-1e9, 1e9), s.axis);
+  visit(field::angle("angle", "turn about the axis, right-handed; may be more than 360 deg").required(),
         s.angle);
-  tool_fields::common(visit, s);
+  step_fields(visit, s);
 }
 template <class Visitor>
 void fields(Visitor&& visit, PickAndPlace& s) {
-  visit(tool_fields::place("to", "where it places"), s.to);
-  visit(tool_fields::direction("up", "direction in which it lifts"), s.up);
-  visit(Field{.key = "height",
-              .summary = "of the way across above the higher end",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = tool_fields::most,
-              .exclusive_minimum = true,
-              .required = true},
-        s.height);
-  visit(Field{.key = "corner",
-              .summary = "rounded part of the lower leg (or of half the way across, if that is shorter)",
-              .minimum = 0,
-              .maximum = 1,
-              .exclusive_minimum = true},
-        s.corner);
-  visit(Field{.key = "back", .summary = "and the same way back"}, s.back);
-  visit(tool_fields::rest("dwell", "rest where it places"), s.dwell);
-  visit(tool_fields::rest("back_dwell", "rest after the way back"), s.back_dwell);
-  tool_fields::common(visit, s);
+  visit(field::length("to", "where it places").required(), s.to);
+  visit(field::entry("up", "direction in which it lifts").between(-1e9, 1e9), s.up);
+  visit(field::length("height", "of the way across above the higher end").positive().required(), s.height);
+  visit(
+      field::entry("corner", "rounded part of the lower leg (or of half the way across, if that is shorter)")
+          .positive()
+          .at_most(1),
+      s.corner);
+  visit(field::entry("back", "and the same way back"), s.back);
+  visit(field::time("dwell", "rest where it places").not_negative(), s.dwell);
+  visit(field::time("back_dwell", "rest after the way back").not_negative(), s.back_dwell);
+  step_fields(visit, s);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolDwell& s) {
-  visit(tool_fields::rest("duration", "how long it rests", true), s.duration);
+  visit(field::time("duration", "how long it rests").not_negative().required(), s.duration);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolTable& s) {
-  visit(Field{.key = "file",
-              .summary = "CSV with time_s, x_mm, y_mm, z_mm and, if the tool turns, rotation_x_deg, ... or "
-                         "roll_deg, pitch_deg, yaw_deg, in place of the lists"},
+  visit(field::entry("file",
+                     "CSV with time_s, x_mm, y_mm, z_mm and, if the tool turns, rotation_x_deg, ... or "
+                     "roll_deg, pitch_deg, yaw_deg, in place of the lists"),
         s.file);
-  visit(Field{.key = "times",
-              .summary = "increasing times",
-              .dimension = Dimension::time,
-              .minimum = -tool_fields::most,
-              .maximum = tool_fields::most},
-        s.times);
-  visit(tool_fields::place("points", "place at each time", false), s.points);
-  visit(Field{.key = "rotations",
-              .summary = "rotation vector at each time",
-              .dimension = Dimension::angle,
-              .minimum = -tool_fields::most,
-              .maximum = tool_fields::most},
-        s.rotations);
+  visit(field::time("times", "increasing times"), s.times);
+  visit(field::length("points", "place at each time"), s.points);
+  visit(field::angle("rotations", "rotation vector at each time"), s.rotations);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolStep& s) {
-  visit(Field{.key = "type", .summary = "what the tool does", .required = true}, s.form);
+  visit(field::entry("type", "what the tool does").required(), s.form);
 }
 
 template <class Visitor>
 void fields(Visitor&& visit, ToolPath& p) {
-  visit(Field{.key = "law", .summary = "how the steps are run in time"}, p.law);
-  visit(Field{.key = "blend", .summary = "do not stop between steps of the same direction"}, p.blend);
-  visit(Field{.key = "corner",
-              .summary = "corners between lines are rounded, beginning this far from them; 0 = stop there",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = tool_fields::most},
+  visit(field::entry("law", "how the steps are run in time"), p.law);
+  visit(field::entry("blend", "do not stop between steps of the same direction"), p.blend);
+  visit(field::length("corner",
+                      "corners between lines are rounded, beginning this far from them; 0 = stop there")
+            .not_negative(),
         p.corner);
-  visit(Field{.key = "step", .summary = "what the tool does, in order", .required = true}, p.steps);
+  visit(field::entry("step", "what the tool does, in order").required(), p.steps);
 }
 
 template <class Visitor>
 void fields(Visitor&& visit, ToolLimits& l) {
-  using tool_fields::positive;
-  visit(positive("speed", "largest speed", Dimension::speed), l.speed);
-  visit(positive("acceleration", "largest acceleration", Dimension::acceleration), l.acceleration);
-  visit(positive("jerk", "largest jerk", Dimension::jerk), l.jerk);
-  visit(positive("angular_speed", "largest angular speed of turns", Dimension::speed_angular),
-        l.angular_speed);
-  visit(positive("angular_acceleration", "largest angular acceleration of turns",
-                 Dimension::acceleration_angular),
-        l.angular_acceleration);
-  visit(positive("angular_jerk", "largest angular jerk of turns", Dimension::jerk_angular), l.angular_jerk);
+  visit(field::speed("speed", "largest speed").positive(), l.speed);
+  visit(field::acceleration("acceleration", "largest acceleration").positive(), l.acceleration);
+  visit(field::jerk("jerk", "largest jerk").positive(), l.jerk);
+  visit(field::speed_angular("angular_speed", "largest angular speed of turns").positive(), l.angular_speed);
+  visit(
+      field::acceleration_angular("angular_acceleration", "largest angular acceleration of turns").positive(),
+      l.angular_acceleration);
+  visit(field::jerk_angular("angular_jerk", "largest angular jerk of turns").positive(), l.angular_jerk);
 }
 
 }  // namespace linkwright::parallel

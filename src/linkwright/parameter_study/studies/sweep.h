@@ -56,17 +56,15 @@ struct Parameter {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Parameter& p) {
-  visit(Field{.key = "key",
-              .summary = "what is changed, as for --set: mechanism.crank_mm, mechanism.link[0].length_mm",
-              .required = true},
+  visit(field::entry("key", "what is changed, as for --set: mechanism.crank_mm, mechanism.link[0].length_mm")
+            .required(),
         p.key);
-  visit(Field{.key = "min", .summary = "least value, in the unit of the key"}, p.min);
-  visit(Field{.key = "max", .summary = "greatest value"}, p.max);
-  visit(Field{.key = "values", .summary = "numbers or words instead of min and max"}, p.values);
-  visit(Field{.key = "steps", .summary = "values of a grid; default 11", .minimum = 1, .maximum = 1e6},
-        p.steps);
-  visit(Field{.key = "spacing", .summary = "of the values between min and max"}, p.spacing);
-  visit(Field{.key = "label", .summary = "name in tables and diagrams; default: the key"}, p.label);
+  visit(field::entry("min", "least value, in the unit of the key"), p.min);
+  visit(field::entry("max", "greatest value"), p.max);
+  visit(field::entry("values", "numbers or words instead of min and max"), p.values);
+  visit(field::entry("steps", "values of a grid; default 11").between(1, 1e6), p.steps);
+  visit(field::entry("spacing", "of the values between min and max"), p.spacing);
+  visit(field::entry("label", "name in tables and diagrams; default: the key"), p.label);
 }
 
 /// A number of each result.
@@ -88,8 +86,8 @@ struct LatinHypercubeSampling {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LatinHypercubeSampling& s) {
-  visit(Field{.key = "samples", .summary = "trials", .minimum = 1, .maximum = 1e6}, s.samples);
-  visit(Field{.key = "seed", .summary = "of the random numbers"}, s.seed);
+  visit(field::entry("samples", "trials").between(1, 1e6), s.samples);
+  visit(field::entry("seed", "of the random numbers"), s.seed);
 }
 constexpr Word choice_word(const LatinHypercubeSampling&) {
   return {"latin_hypercube", "each parameter falls once into each of as many intervals as there are trials"};
@@ -100,9 +98,7 @@ struct SobolSampling {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SobolSampling& s) {
-  visit(
-      Field{.key = "samples", .summary = "trials; powers of 2 fill space best", .minimum = 1, .maximum = 1e6},
-      s.samples);
+  visit(field::entry("samples", "trials; powers of 2 fill space best").between(1, 1e6), s.samples);
 }
 constexpr Word choice_word(const SobolSampling&) { return {"sobol", "a sequence that fills space evenly"}; }
 
@@ -112,9 +108,8 @@ struct ListSampling {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ListSampling& s) {
-  visit(Field{.key = "file", .summary = "CSV whose columns are called as the keys of the parameters"},
-        s.file);
-  visit(Field{.key = "trials", .summary = "or rows of values, in the order of the parameters"}, s.trials);
+  visit(field::entry("file", "CSV whose columns are called as the keys of the parameters"), s.file);
+  visit(field::entry("trials", "or rows of values, in the order of the parameters"), s.trials);
 }
 constexpr Word choice_word(const ListSampling&) { return {"list", "the trials of a CSV file or a list"}; }
 
@@ -125,17 +120,10 @@ struct MorrisSampling {
 };
 template <class Visitor>
 void fields(Visitor&& visit, MorrisSampling& s) {
-  visit(Field{.key = "trajectories",
-              .summary = "paths on which each parameter is changed once",
-              .minimum = 2,
-              .maximum = 1e5},
+  visit(field::entry("trajectories", "paths on which each parameter is changed once").between(2, 1e5),
         s.trajectories);
-  visit(Field{.key = "levels",
-              .summary = "values of each parameter, an even number",
-              .minimum = 2,
-              .maximum = 100},
-        s.levels);
-  visit(Field{.key = "seed", .summary = "of the random numbers"}, s.seed);
+  visit(field::entry("levels", "values of each parameter, an even number").between(2, 100), s.levels);
+  visit(field::entry("seed", "of the random numbers"), s.seed);
 }
 constexpr Word choice_word(const MorrisSampling&) {
   return {"morris", "elementary effects: which of many parameters matter, in few trials"};
@@ -147,12 +135,10 @@ struct SaltelliSampling {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SaltelliSampling& s) {
-  visit(Field{.key = "samples",
-              .summary = "rows; each takes as many trials as there are parameters and two more",
-              .minimum = 2,
-              .maximum = 1e6},
+  visit(field::entry("samples", "rows; each takes as many trials as there are parameters and two more")
+            .between(2, 1e6),
         s.samples);
-  visit(Field{.key = "seed", .summary = "of the confidence intervals"}, s.seed);
+  visit(field::entry("seed", "of the confidence intervals"), s.seed);
 }
 constexpr Word choice_word(const SaltelliSampling&) {
   return {"sobol_indices", "shares of the variance that each parameter has alone and together with others"};

@@ -26,7 +26,7 @@ constexpr int usual_steps = 11;
 constexpr std::size_t most_parameters = 64;
 constexpr double most_trials = 1e7;
 
-const Field sampling_field{.key = "method", .summary = "which values are tried"};
+const Field sampling_field = field::entry("method", "which values are tried");
 
 /// True if a value can be one of a list: a number, a word, true or false.
 bool is_plain(const Value& value) {
@@ -37,7 +37,7 @@ bool is_plain(const Value& value) {
 /// reported.
 Value inner_document(study::ObjectReader& table, const study::Common& common, ParameterStudy& s) {
   std::string file;
-  if (!table(Field{.key = "file", .summary = "file of the study"}, file)) {
+  if (!table(field::entry("file", "file of the study"), file)) {
     table.members();
     s.name = table.document().file();
     s.folder = common.folder;
@@ -264,11 +264,11 @@ void check_key(study::ObjectReader& where, const ParameterStudy& s, std::size_t 
 }
 
 void read_measures(study::ObjectReader& document, ParameterStudy& s) {
-  const Field list{.key = "measure", .summary = "numbers of each result"};
+  const Field list = field::entry("measure", "numbers of each result");
   for (study::ObjectReader& reader : document.tables(list)) {
     Measure& measure = s.measures.emplace_back();
-    reader(Field{.key = "quantity", .summary = {}, .required = true}, measure.request.quantity);
-    reader(Field{.key = "name", .summary = {}}, measure.name);
+    reader(field::entry("quantity").required(), measure.request.quantity);
+    reader(field::entry("name"), measure.name);
     study::read_row(reader, measure.request);
     if (std::any_of(measure.name.begin(), measure.name.end(), [](char c) {
           return !(c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'));
@@ -282,7 +282,7 @@ void read_measures(study::ObjectReader& document, ParameterStudy& s) {
 }
 
 void read_parameters(study::ObjectReader& document, ParameterStudy& s) {
-  const Field list{.key = "parameter", .summary = "what is changed"};
+  const Field list = field::entry("parameter", "what is changed");
   for (study::ObjectReader& reader : document.tables(list)) {
     Parameter& p = s.parameters.emplace_back();
     reader.read(p);
@@ -340,7 +340,7 @@ study::Prepared prepare_sweep(study::ObjectReader& document, const study::Common
                               std::span<const study::Kind> kinds) {
   ParameterStudy s;
   bool runs = false;
-  if (auto table = document.table(Field{.key = "study", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("study").required())) {
     s.study = inner_document(*table, common, s);
     runs = !s.study.is_null() && check_study(*table, s.study, s, kinds);
   }
@@ -373,16 +373,13 @@ Value any_table() {
 }
 
 void describe(study::SchemaWriter& document) {
-  document.property(
-      Field{
-          .key = "study", .summary = "the study that is run: all its tables, or its file", .required = true},
-      any_table());
-  document.property(Field{.key = "parameter", .summary = "a key that is changed"},
+  document.property(field::entry("study", "the study that is run: all its tables, or its file").required(),
+                    any_table());
+  document.property(field::entry("parameter", "a key that is changed"),
                     study::schema_array(study::schema_fields<Parameter>()));
   study::SchemaWriter sampling;
   sampling(sampling_field, Sampling{});
-  document.property(Field{.key = "sampling", .summary = "which values are tried"},
-                    std::move(sampling).finish());
+  document.property(field::entry("sampling", "which values are tried"), std::move(sampling).finish());
   Value measure, text, number;
   text["type"] = "string";
   measure["type"] = "object";
@@ -395,7 +392,7 @@ void describe(study::SchemaWriter& document) {
   measure["properties"]["at"]["additionalProperties"]["type"] = "number";
   measure["required"].push_back(Value("quantity"));
   measure["additionalProperties"] = false;
-  document.property(Field{.key = "measure", .summary = "a number of each result", .required = true},
+  document.property(field::entry("measure", "a number of each result").required(),
                     study::schema_array(std::move(measure)));
 }
 

@@ -90,10 +90,9 @@ struct BalancingOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, BalancingOptimiser& o) {
-  visit(Field{.key = "combine", .summary = "how several objectives become one answer, or a front of them"},
-        o.combine);
-  visit(Field{.key = "front", .summary = "points of a front", .minimum = 2, .maximum = 1000}, o.front);
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+  visit(field::entry("combine", "how several objectives become one answer, or a front of them"), o.combine);
+  visit(field::entry("front", "points of a front").between(2, 1000), o.front);
+  visit(field::entry("method", "how designs are searched"), o.method);
 }
 
 /// Word of the chosen method.

@@ -15,9 +15,9 @@ struct FourBarMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FourBarMechanism& m) {
-  visit(Field{.key = "branch", .summary = "assembly branch"}, m.linkage.branch);
-  visit(Field{.key = "parameters", .summary = "the linkage in numbers", .required = true}, m.linkage);
-  visit(Field{.key = "mass", .summary = "masses of the links; only forces and torques need them"}, m.masses);
+  visit(field::entry("branch", "assembly branch"), m.linkage.branch);
+  visit(field::entry("parameters", "the linkage in numbers").required(), m.linkage);
+  visit(field::entry("mass", "masses of the links; only forces and torques need them"), m.masses);
 }
 
 /// The linkage of it, with bodies crank, coupler and rocker and the joints O1 (driven), O2, O3 and O4. As in

@@ -44,20 +44,10 @@ struct FourBar {
 template <class Visitor>
 void fields(Visitor&& visit, FourBar& l) {
   const auto link = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::length,
-                .minimum = 0,
-                .maximum = 1e9,
-                .exclusive_minimum = true,
-                .required = true},
-          value);
+    visit(field::length(key, summary).positive().required(), value);
   };
   const auto place = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(
-        Field{
-            .key = key, .summary = summary, .dimension = Dimension::length, .minimum = -1e9, .maximum = 1e9},
-        value);
+    visit(field::length(key, summary), value);
   };
   link("ground", "length of the ground link O1-O4", l.ground);
   link("crank", "length of the crank O1-O2", l.crank);
@@ -67,12 +57,7 @@ void fields(Visitor&& visit, FourBar& l) {
   place("coupler_v", "coupler point along the left normal of O2->O3", l.coupler_v);
   place("pivot_x", "crank pivot O1, x", l.pivot_x);
   place("pivot_y", "crank pivot O1, y", l.pivot_y);
-  visit(Field{.key = "frame_angle",
-              .summary = "direction of O1->O4",
-              .dimension = Dimension::angle,
-              .minimum = -1e3,
-              .maximum = 1e3},
-        l.frame_angle);
+  visit(field::angle("frame_angle", "direction of O1->O4").between(-1e3, 1e3), l.frame_angle);
 }
 
 /// Position of a four-bar at one crank angle. Points in the global frame, angles relative to the ground link;

@@ -17,9 +17,9 @@ struct FourBarMasses {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FourBarMasses& m) {
-  visit(Field{.key = "crank", .summary = "own joint O1", .required = true}, m.crank);
-  visit(Field{.key = "coupler", .summary = "own joint O2", .required = true}, m.coupler);
-  visit(Field{.key = "rocker", .summary = "own joint O4", .required = true}, m.rocker);
+  visit(field::entry("crank", "own joint O1").required(), m.crank);
+  visit(field::entry("coupler", "own joint O2").required(), m.coupler);
+  visit(field::entry("rocker", "own joint O4").required(), m.rocker);
 }
 
 /// Forces (N) in the global frame and moments (N m), counter-clockwise positive. All NaN unless `status` is

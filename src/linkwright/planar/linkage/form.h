@@ -103,187 +103,128 @@ LinkageForm form_of(const Linkage& linkage);
 
 // ---------------------------------------------------------------------------------------------------------------
 
-namespace linkage_fields {
-
-inline constexpr double most = 1e9;
-constexpr Field place(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = -most,
-          .maximum = most,
-          .required = required};
-}
-constexpr Field angle(std::string_view key, std::string_view summary) {
-  return {.key = key, .summary = summary, .dimension = Dimension::angle, .minimum = -1e6, .maximum = 1e6};
-}
-constexpr Field positive(std::string_view key, std::string_view summary, Dimension dimension,
-                         bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = dimension,
-          .minimum = 0,
-          .maximum = 1e18,
-          .required = required};
-}
-constexpr Field text(std::string_view key, std::string_view summary, bool required = true) {
-  return {.key = key, .summary = summary, .required = required};
-}
-
-}  // namespace linkage_fields
-
 template <class Visitor>
 void fields(Visitor&& visit, AttachedMassForm& m) {
-  using namespace linkage_fields;
-  visit(text("name", "its name", false), m.name);
-  visit(positive("mass", "mass", Dimension::mass, true), m.mass);
-  visit(place("at", "where it sits, in the frame of the body", true), m.at);
+  visit(field::entry("name", "its name"), m.name);
+  visit(field::mass("mass", "mass").not_negative().required(), m.mass);
+  visit(field::length("at", "where it sits, in the frame of the body").required(), m.at);
 }
 template <class Visitor>
 void fields(Visitor&& visit, StartForm& s) {
-  using namespace linkage_fields;
-  visit(place("x", "origin of the body, x"), s.x);
-  visit(place("y", "origin of the body, y"), s.y);
-  visit(angle("angle", "angle of the body"), s.angle);
+  visit(field::length("x", "origin of the body, x"), s.x);
+  visit(field::length("y", "origin of the body, y"), s.y);
+  visit(field::angle("angle", "angle of the body"), s.angle);
 }
 template <class Visitor>
 void fields(Visitor&& visit, BodyForm& b) {
-  using namespace linkage_fields;
-  visit(text("name", "its name; the first body is the ground"), b.name);
-  visit(place("points", "named points in the frame of the body", true), b.points);
-  visit(positive("mass", "mass; only forces, torques and dynamics need it", Dimension::mass), b.mass);
-  visit(positive("inertia",
-                 "moment of inertia about the mass centre; if absent that of a uniform bar between its "
-                 "outermost joints, or plate over them",
-                 Dimension::inertia),
+  visit(field::entry("name", "its name; the first body is the ground").required(), b.name);
+  visit(field::length("points", "named points in the frame of the body").required(), b.points);
+  visit(field::mass("mass", "mass; only forces, torques and dynamics need it").not_negative(), b.mass);
+  visit(field::inertia("inertia",
+                       "moment of inertia about the mass centre; if absent that of a uniform bar between its "
+                       "outermost joints, or plate over them")
+            .not_negative(),
         b.inertia);
-  visit(place("centre", "mass centre in the frame of the body; if absent that of the bar or plate"),
+  visit(field::length("centre", "mass centre in the frame of the body; if absent that of the bar or plate"),
         b.centre);
-  visit(Field{.key = "attached", .summary = "masses that sit on the body: counterweights, payloads"},
-        b.attached);
-  visit(Field{.key = "start", .summary = "approximate position of the body at the start"}, b.start);
+  visit(field::entry("attached", "masses that sit on the body: counterweights, payloads"), b.attached);
+  visit(field::entry("start", "approximate position of the body at the start"), b.start);
 }
 template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {
-  using namespace linkage_fields;
-  visit(text("name", "its name; columns and drives use it"), j.name);
-  visit(Field{.key = "type", .summary = "kind of joint"}, j.type);
-  visit(text("first", "point of the first body, \"body.point\"; of a gear the body"), j.first);
-  visit(text("second", "point of the second body; of a gear the body"), j.second);
-  visit(angle("direction",
-              "direction of a slide or slot in the frame of the first body; of a weld the angle of "
-              "the second body from the first"),
+  visit(field::entry("name", "its name; columns and drives use it").required(), j.name);
+  visit(field::entry("type", "kind of joint"), j.type);
+  visit(field::entry("first", "point of the first body, \"body.point\"; of a gear the body").required(),
+        j.first);
+  visit(field::entry("second", "point of the second body; of a gear the body").required(), j.second);
+  visit(field::angle("direction",
+                     "direction of a slide or slot in the frame of the first body; of a weld the angle of "
+                     "the second body from the first"),
         j.direction);
-  visit(angle("direction_second",
-              "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
-              "linkage"),
+  visit(field::angle(
+            "direction_second",
+            "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
+            "linkage"),
         j.direction_second);
-  visit(Field{.key = "ratio",
-              .summary = "gear: turns of the second body for one of the first, seen from the carrier",
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(field::entry("ratio", "gear: turns of the second body for one of the first, seen from the carrier")
+            .between(-1e6, 1e6),
         j.ratio);
-  visit(angle("phase", "gear: angle of the second body when that of the first is 0"), j.phase);
-  visit(text("carrier", "gear: body that carries both axes", false), j.carrier);
-  visit(Field{.key = "pressure_angle",
-              .summary = "gear: of its teeth, which press their wheels apart; if absent 20 deg",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 0.8},
+  visit(field::angle("phase", "gear: angle of the second body when that of the first is 0"), j.phase);
+  visit(field::entry("carrier", "gear: body that carries both axes"), j.carrier);
+  visit(field::angle("pressure_angle", "gear: of its teeth, which press their wheels apart; if absent 20 deg")
+            .between(0, 0.8),
         j.pressure_angle);
-  visit(Field{.key = "friction", .summary = "coefficient of Coulomb friction", .minimum = 0, .maximum = 10},
-        j.friction);
-  visit(positive("pin_radius", "radius of the pin, for its friction", Dimension::length), j.pin_radius);
-  visit(positive("guide_length", "length of the slide, for the friction of its moment", Dimension::length),
+  visit(field::entry("friction", "coefficient of Coulomb friction").between(0, 10), j.friction);
+  visit(field::length("pin_radius", "radius of the pin, for its friction").not_negative(), j.pin_radius);
+  visit(field::length("guide_length", "length of the slide, for the friction of its moment").not_negative(),
         j.guide_length);
 }
 template <class Visitor>
 void fields(Visitor&& visit, AssemblyForm& a) {
-  visit(Field{.key = "bodies",
-              .summary =
-                  "a pair of bodies that are joined to each other; one body twice where the other is the "
-                  "block of a slot",
-              .required = true},
+  visit(field::entry("bodies",
+                     "a pair of bodies that are joined to each other; one body twice where the other is the "
+                     "block of a slot")
+            .required(),
         a.bodies);
-  visit(Field{.key = "mode", .summary = "which of the two assembly modes", .required = true}, a.mode);
+  visit(field::entry("mode", "which of the two assembly modes").required(), a.mode);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SpringForm& s) {
-  using namespace linkage_fields;
-  visit(text("name", "its name"), s.name);
-  visit(text("first", "point at one end, \"body.point\""), s.first);
-  visit(text("second", "point at the other end"), s.second);
-  visit(positive("stiffness", "stiffness", Dimension::stiffness), s.stiffness);
-  visit(positive("free_length", "length without force", Dimension::length), s.free_length);
-  visit(positive("damping", "of a damper beside it", Dimension::damping), s.damping);
+  visit(field::entry("name", "its name").required(), s.name);
+  visit(field::entry("first", "point at one end, \"body.point\"").required(), s.first);
+  visit(field::entry("second", "point at the other end").required(), s.second);
+  visit(field::stiffness("stiffness", "stiffness").not_negative(), s.stiffness);
+  visit(field::length("free_length", "length without force").not_negative(), s.free_length);
+  visit(field::damping("damping", "of a damper beside it").not_negative(), s.damping);
 }
 template <class Visitor>
 void fields(Visitor&& visit, TorsionSpringForm& s) {
-  using namespace linkage_fields;
-  visit(text("name", "its name"), s.name);
-  visit(text("first", "body at one end"), s.first);
-  visit(text("second", "body at the other end"), s.second);
-  visit(positive("stiffness", "stiffness", Dimension::stiffness_angular), s.stiffness);
-  visit(angle("free_angle", "angle of the second body from the first without torque"), s.free_angle);
-  visit(positive("damping", "of a damper beside it", Dimension::damping_angular), s.damping);
+  visit(field::entry("name", "its name").required(), s.name);
+  visit(field::entry("first", "body at one end").required(), s.first);
+  visit(field::entry("second", "body at the other end").required(), s.second);
+  visit(field::stiffness_angular("stiffness", "stiffness").not_negative(), s.stiffness);
+  visit(field::angle("free_angle", "angle of the second body from the first without torque"), s.free_angle);
+  visit(field::damping_angular("damping", "of a damper beside it").not_negative(), s.damping);
 }
 template <class Visitor>
 void fields(Visitor&& visit, FactorForm& f) {
-  visit(Field{.key = "against", .summary = "what the load depends on"}, f.against);
-  visit(Field{.key = "argument", .summary = "rising values of it, in rad, m, s or rad/s"}, f.argument);
-  visit(Field{.key = "factor", .summary = "factor of the load at each of them, straight lines between"},
-        f.factor);
-  visit(
-      Field{.key = "period",
-            .summary = "change of the argument after which the table repeats, 0 = never; default: a table of "
-                       "whole turns of the input repeats after them",
-            .minimum = 0},
-      f.period);
+  visit(field::entry("against", "what the load depends on"), f.against);
+  visit(field::entry("argument", "rising values of it, in rad, m, s or rad/s"), f.argument);
+  visit(field::entry("factor", "factor of the load at each of them, straight lines between"), f.factor);
+  visit(field::entry("period",
+                     "change of the argument after which the table repeats, 0 = never; default: a table of "
+                     "whole turns of the input repeats after them")
+            .not_negative(),
+        f.period);
 }
 template <class Visitor>
 void fields(Visitor&& visit, ForceForm& f) {
-  using namespace linkage_fields;
-  visit(text("name", "its name"), f.name);
-  visit(text("point", "where it acts, \"body.point\""), f.point);
-  visit(Field{.key = "force",
-              .summary = "components along x and y",
-              .dimension = Dimension::force,
-              .minimum = -1e15,
-              .maximum = 1e15,
-              .required = true},
-        f.force);
-  visit(Field{.key = "turns_with_body", .summary = "components in the frame of the body"}, f.turns_with_body);
+  visit(field::entry("name", "its name").required(), f.name);
+  visit(field::entry("point", "where it acts, \"body.point\"").required(), f.point);
+  visit(field::force("force", "components along x and y").required(), f.force);
+  visit(field::entry("turns_with_body", "components in the frame of the body"), f.turns_with_body);
   fields(visit, f.factor);
 }
 template <class Visitor>
 void fields(Visitor&& visit, TorqueForm& t) {
-  using namespace linkage_fields;
-  visit(text("name", "its name"), t.name);
-  visit(text("body", "the body it turns"), t.body);
-  visit(text("from", "the body that feels the opposite", false), t.from);
-  visit(Field{.key = "torque",
-              .summary = "counter-clockwise positive",
-              .dimension = Dimension::torque,
-              .minimum = -1e15,
-              .maximum = 1e15,
-              .required = true},
-        t.torque);
+  visit(field::entry("name", "its name").required(), t.name);
+  visit(field::entry("body", "the body it turns").required(), t.body);
+  visit(field::entry("from", "the body that feels the opposite"), t.from);
+  visit(field::torque("torque", "counter-clockwise positive").required(), t.torque);
   fields(visit, t.factor);
 }
 template <class Visitor>
 void fields(Visitor&& visit, LinkageForm& l) {
-  visit(Field{.key = "drawn", .summary = "points are given in one drawn position, in the global frame"},
-        l.drawn);
-  visit(linkage_fields::place("moment_centre", "shaking moments are about this place of the ground"),
+  visit(field::entry("drawn", "points are given in one drawn position, in the global frame"), l.drawn);
+  visit(field::length("moment_centre", "shaking moments are about this place of the ground"),
         l.moment_centre);
-  visit(Field{.key = "body", .summary = "the bodies; the first is the ground"}, l.bodies);
-  visit(Field{.key = "joint", .summary = "the joints"}, l.joints);
-  visit(Field{.key = "assembly", .summary = "which way pairs of bodies are assembled"}, l.assembly);
-  visit(Field{.key = "spring", .summary = "springs and dampers between two points"}, l.springs);
-  visit(Field{.key = "torsion_spring", .summary = "springs and dampers that turn two bodies"},
-        l.torsion_springs);
-  visit(Field{.key = "force", .summary = "forces on points"}, l.forces);
-  visit(Field{.key = "torque", .summary = "torques on bodies"}, l.torques);
+  visit(field::entry("body", "the bodies; the first is the ground"), l.bodies);
+  visit(field::entry("joint", "the joints"), l.joints);
+  visit(field::entry("assembly", "which way pairs of bodies are assembled"), l.assembly);
+  visit(field::entry("spring", "springs and dampers between two points"), l.springs);
+  visit(field::entry("torsion_spring", "springs and dampers that turn two bodies"), l.torsion_springs);
+  visit(field::entry("force", "forces on points"), l.forces);
+  visit(field::entry("torque", "torques on bodies"), l.torques);
 }
 
 }  // namespace linkwright::planar

@@ -46,49 +46,43 @@ Linkage slider_crank(const SliderCrankMechanism& mechanism);
 
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankForm& s) {
-  using namespace linkage_fields;
   const auto link = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::length,
-                .minimum = 1e-9,
-                .maximum = most,
-                .required = true},
-          value);
+    visit(field::length(key, summary).at_least(1e-9).required(), value);
   };
   link("crank", "length of the crank O-A", s.crank);
   link("rod", "length of the rod A-B", s.rod);
-  visit(place("offset", "of the guide line from O, along the left normal of its direction"), s.offset);
-  visit(angle("guide_angle", "direction of the guide"), s.guide_angle);
-  visit(place("pivot_x", "crank pivot O, x"), s.pivot_x);
-  visit(place("pivot_y", "crank pivot O, y"), s.pivot_y);
-  visit(place("rod_u", "tracing point C of the rod, along A->B"), s.rod_u);
-  visit(place("rod_v", "tracing point C of the rod, along the left normal of A->B"), s.rod_v);
+  visit(field::length("offset", "of the guide line from O, along the left normal of its direction"),
+        s.offset);
+  visit(field::angle("guide_angle", "direction of the guide"), s.guide_angle);
+  visit(field::length("pivot_x", "crank pivot O, x"), s.pivot_x);
+  visit(field::length("pivot_y", "crank pivot O, y"), s.pivot_y);
+  visit(field::length("rod_u", "tracing point C of the rod, along A->B"), s.rod_u);
+  visit(field::length("rod_v", "tracing point C of the rod, along the left normal of A->B"), s.rod_v);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMass& m) {
-  using namespace linkage_fields;
-  visit(positive("mass", "mass of the link", Dimension::mass, true), m.mass);
-  visit(positive("inertia", "moment of inertia about the mass centre", Dimension::inertia, true), m.inertia);
-  visit(positive("centre_distance", "distance of the mass centre from the link's own joint",
-                 Dimension::length, true),
+  visit(field::mass("mass", "mass of the link").not_negative().required(), m.mass);
+  visit(field::inertia("inertia", "moment of inertia about the mass centre").not_negative().required(),
+        m.inertia);
+  visit(field::length("centre_distance", "distance of the mass centre from the link's own joint")
+            .not_negative()
+            .required(),
         m.centre_distance);
-  visit(angle("centre_angle", "angle of the mass centre from the link line"), m.centre_angle);
-  visit(Field{.key = "attached", .summary = "masses fixed to it: counterweights"}, m.attached);
+  visit(field::angle("centre_angle", "angle of the mass centre from the link line"), m.centre_angle);
+  visit(field::entry("attached", "masses fixed to it: counterweights"), m.attached);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMasses& m) {
-  using namespace linkage_fields;
-  visit(Field{.key = "crank", .summary = "own joint O", .required = true}, m.crank);
-  visit(Field{.key = "rod", .summary = "own joint A", .required = true}, m.rod);
-  visit(positive("slider", "mass of the slider", Dimension::mass, true), m.slider);
+  visit(field::entry("crank", "own joint O").required(), m.crank);
+  visit(field::entry("rod", "own joint A").required(), m.rod);
+  visit(field::mass("slider", "mass of the slider").not_negative().required(), m.slider);
 }
 
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMechanism& m) {
-  visit(Field{.key = "branch", .summary = "assembly mode"}, m.branch);
-  visit(Field{.key = "parameters", .summary = "the linkage in numbers", .required = true}, m.parameters);
-  visit(Field{.key = "mass", .summary = "masses of the links; only forces and torques need them"}, m.masses);
+  visit(field::entry("branch", "assembly mode"), m.branch);
+  visit(field::entry("parameters", "the linkage in numbers").required(), m.parameters);
+  visit(field::entry("mass", "masses of the links; only forces and torques need them"), m.masses);
 }
 
 }  // namespace linkwright::planar

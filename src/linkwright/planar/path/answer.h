@@ -17,13 +17,8 @@ struct PathSynthesisOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathSynthesisOptions& o) {
-  visit(Field{.key = "starts",
-              .summary = "local searches; 0 = chosen from the problem",
-              .minimum = 0,
-              .maximum = 1e6},
-        o.starts);
-  visit(Field{.key = "max_solutions", .summary = "distinct designs to return", .minimum = 1, .maximum = 100},
-        o.max_solutions);
+  visit(field::entry("starts", "local searches; 0 = chosen from the problem").between(0, 1e6), o.starts);
+  visit(field::entry("max_solutions", "distinct designs to return").between(1, 100), o.max_solutions);
 }
 
 /// One step of a search's progress.

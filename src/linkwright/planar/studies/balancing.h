@@ -20,42 +20,30 @@ namespace linkwright::planar {
 
 template <class Visitor>
 void fields(Visitor&& visit, BalancingGoal& o) {
-  visit(Field{.key = "quantity", .summary = "column of the analysis: \"shaking_force_N\"", .required = true},
-        o.quantity);
-  visit(Field{.key = "measure", .summary = "one number for the column"}, o.measure);
-  visit(Field{.key = "weight",
-              .summary = "how much it counts among the others",
-              .minimum = 0,
-              .maximum = 1e9,
-              .exclusive_minimum = true},
-        o.weight);
-  visit(Field{.key = "reference",
-              .summary = "value that counts as 1, in the unit of the column; default: that of the initial "
-                         "design",
-              .minimum = 0,
-              .exclusive_minimum = true},
+  visit(field::entry("quantity", "column of the analysis: \"shaking_force_N\"").required(), o.quantity);
+  visit(field::entry("measure", "one number for the column"), o.measure);
+  visit(field::entry("weight", "how much it counts among the others").positive().at_most(1e9), o.weight);
+  visit(field::entry("reference",
+                     "value that counts as 1, in the unit of the column; default: that of the initial "
+                     "design")
+            .positive(),
         o.reference);
-  visit(Field{.key = "at_most",
-              .summary = "the objective may be at most this many times its reference",
-              .minimum = 0},
+  visit(field::entry("at_most", "the objective may be at most this many times its reference").not_negative(),
         o.at_most);
-  visit(Field{.key = "target",
-              .summary = "in order: the objective is met when it is at most this many times its reference",
-              .minimum = 0,
-              .exclusive_minimum = true},
+  visit(field::entry("target",
+                     "in order: the objective is met when it is at most this many times its reference")
+            .positive(),
         o.target);
 }
 template <class Visitor>
 void fields(Visitor&& visit, BalancingLimit& c) {
-  visit(Field{.key = "quantity",
-              .summary = "column of the analysis: \"transmission_angle_rad\"",
-              .required = true},
+  visit(field::entry("quantity", "column of the analysis: \"transmission_angle_rad\"").required(),
         c.quantity);
-  visit(Field{.key = "measure", .summary = "one number for the column", .required = true}, c.measure);
-  visit(Field{.key = "change", .summary = "measure the difference from the initial design"}, c.change);
-  visit(Field{.key = "at_least", .summary = "lower limit, in the unit of the column"}, c.at_least);
-  visit(Field{.key = "at_most", .summary = "upper limit, in the unit of the column"}, c.at_most);
-  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+  visit(field::entry("measure", "one number for the column").required(), c.measure);
+  visit(field::entry("change", "measure the difference from the initial design"), c.change);
+  visit(field::entry("at_least", "lower limit, in the unit of the column"), c.at_least);
+  visit(field::entry("at_most", "upper limit, in the unit of the column"), c.at_most);
+  visit(field::entry("enabled", "false leaves it out"), c.enabled);
 }
 
 /// A kind of mechanism that can be balanced.

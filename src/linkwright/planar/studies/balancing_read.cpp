@@ -94,7 +94,7 @@ study::Common plain(const study::Common& common) {
 // The `type` of a mechanism is read by the study module in a whole document.
 void know_type(study::ObjectReader& root) {
   std::string type;
-  if (auto mechanism = root.table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
+  if (auto mechanism = root.table("mechanism")) (*mechanism)(field::entry("type"), type);
 }
 
 void check_quantities(study::ObjectReader& document, std::string_view list,
@@ -120,11 +120,11 @@ std::string first_bad_row(const Table& table) {
 }
 
 void read_goals(study::ObjectReader& document, BalancingStudy& s) {
-  document(Field{.key = "objective", .summary = "what is minimised", .required = true}, s.objectives);
+  document(field::entry("objective", "what is minimised").required(), s.objectives);
   if (s.objectives.empty() && document.has("objective"))
     document.error("objective", "no objective is given", "add [[objective]]");
   std::vector<BalancingLimit> limits;
-  document(Field{.key = "constraint", .summary = "what must hold"}, limits);
+  document(field::entry("constraint", "what must hold"), limits);
   std::vector<study::ObjectReader> entries = document.tables("constraint");
   for (std::size_t k = 0; k < limits.size() && k < entries.size(); ++k) {
     const BalancingLimit& c = limits[k];
@@ -203,7 +203,7 @@ void check_initial(study::ObjectReader& document, const study::Common& common, B
 BalancingStudy read_balancing_study(study::ObjectReader& document, const study::Common& common) {
   BalancingStudy s;
   std::string type;
-  if (auto mechanism = document.table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
+  if (auto mechanism = document.table("mechanism")) (*mechanism)(field::entry("type"), type);
   auto known = std::find_if(mechanisms.begin(), mechanisms.end(),
                             [&](const BalancedMechanism& m) { return m.type == type; });
   // A wrong type has been reported; without any that is near there is nothing to read the rest by.
@@ -258,7 +258,7 @@ void describe_table(study::SchemaWriter& document, std::string_view key, bool ar
   Value table;
   table["type"] = "object";
   table["description"] = "as in the analysis; any number may be { min, max, initial }";
-  document.property(Field{.key = key, .summary = "as in the analysis", .required = required},
+  document.property(field::entry(key, "as in the analysis").required(required),
                     array ? study::schema_array(std::move(table)) : std::move(table));
 }
 
@@ -277,11 +277,11 @@ study::Kind kind_of(const BalancedMechanism& mechanism) {
     describe_table(document, "environment", false, false);
     describe_table(document, "sweep", false, false);
     if (many_drives) describe_table(document, "trace", true, false);
-    document.property(Field{.key = "objective", .summary = "what is minimised", .required = true},
+    document.property(field::entry("objective", "what is minimised").required(),
                       study::schema_array(study::schema_fields<BalancingGoal>()));
-    document.property(Field{.key = "constraint", .summary = "what must hold"},
+    document.property(field::entry("constraint", "what must hold"),
                       study::schema_array(study::schema_fields<BalancingLimit>()));
-    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+    document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<BalancingOptimiser>());
   };
   kind.prepare = prepare;

@@ -12,23 +12,15 @@ struct DwellMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DwellMechanism& m) {
-  visit(Field{.key = "ground",
-              .summary = "length of the ground link of the four-bar, which scales all others",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e6},
+  visit(field::length("ground", "length of the ground link of the four-bar, which scales all others")
+            .between(1e-6, 1e6),
         m.ground);
-  visit(Field{.key = "shortest_link_ratio",
-              .summary = "shortest link, in ground links",
-              .minimum = 0.01,
-              .maximum = 0.9},
-        m.shortest);
-  visit(Field{.key = "longest_link_ratio",
-              .summary =
-                  "longest link, in ground links; coordinates of coupler point and pivots stay below it, too",
-              .minimum = 1,
-              .maximum = 20,
-              .exclusive_minimum = true},
+  visit(field::entry("shortest_link_ratio", "shortest link, in ground links").between(0.01, 0.9), m.shortest);
+  visit(field::entry(
+            "longest_link_ratio",
+            "longest link, in ground links; coordinates of coupler point and pivots stay below it, too")
+            .above(1)
+            .at_most(20),
         m.longest);
 }
 
@@ -39,13 +31,7 @@ template <class Visitor>
 void fields(Visitor&& visit, DwellTarget& t) {
   const auto angle = [&](const char* key, const char* summary, double least, double most, bool required,
                          double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::angle,
-                .minimum = least,
-                .maximum = most,
-                .required = required},
-          value);
+    visit(field::angle(key, summary).between(least, most).required(required), value);
   };
   angle("dwell_angle", "rotation of the crank during which the output rests", 0.03490658503988659,
         5.235987755982989, true, t.dwell);

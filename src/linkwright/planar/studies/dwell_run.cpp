@@ -225,16 +225,13 @@ study::Kind dwell_kind() {
   kind.summary = "six-bar whose output rests while the crank turns on";
   kind.example = templates::synthesis_six_bar_dwell();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the six-bar"},
-                      study::schema_fields<DwellMechanism>());
-    document.property(Field{.key = "target", .summary = "the dwell"}, study::schema_fields<DwellTarget>());
+    document.property(field::entry("mechanism", "the six-bar"), study::schema_fields<DwellMechanism>());
+    document.property(field::entry("target", "the dwell"), study::schema_fields<DwellTarget>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     DwellStudy s;
-    if (auto table = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
-      table->read(s.mechanism);
-    if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true}))
-      table->read(s.target);
+    if (auto table = document.table(field::entry("mechanism").required())) table->read(s.mechanism);
+    if (auto table = document.table(field::entry("target").required())) table->read(s.target);
     study::Prepared prepared;
     prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
     prepared.canonical["target"] = study::write_fields(s.target);

@@ -23,39 +23,23 @@ template <class Visitor>
 void fields(Visitor&& visit, ElasticBodyForm& f) {
   const auto number = [&](std::string_view key, std::string_view summary, Dimension dimension, double most,
                           double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = dimension,
-                .minimum = 0,
-                .maximum = most,
-                .exclusive_minimum = true,
-                .required = true},
-          value);
+    visit(field::of(dimension, key, summary).positive().at_most(most).required(), value);
   };
-  visit(Field{.key = "body", .summary = "flexible body", .required = true}, f.body);
-  visit(Field{.key = "from", .summary = "its point where the beam begins; default: at a joint"}, f.from);
-  visit(Field{.key = "to", .summary = "its point where the beam ends; default: at another joint"}, f.to);
-  visit(Field{.key = "segments",
-              .summary = "cells of the beam, with a spring in the middle of each",
-              .minimum = 1,
-              .maximum = 64},
+  visit(field::entry("body", "flexible body").required(), f.body);
+  visit(field::entry("from", "its point where the beam begins; default: at a joint"), f.from);
+  visit(field::entry("to", "its point where the beam ends; default: at another joint"), f.to);
+  visit(field::entry("segments", "cells of the beam, with a spring in the middle of each").between(1, 64),
         f.beam.segments);
   number("density", "of its material", Dimension::density, 1e6, f.beam.density);
   number("area", "of its cross-section", Dimension::area, 1e4, f.beam.area);
   number("second_moment", "of its cross-section, for bending in the plane", Dimension::second_moment_of_area,
          1e8, f.beam.second_moment);
   number("elastic_modulus", "of its material", Dimension::pressure, 1e15, f.beam.elastic_modulus);
-  visit(Field{.key = "fibre_distance",
-              .summary = "of the outer fibre from the neutral line, for the stress",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e3},
+  visit(field::length("fibre_distance", "of the outer fibre from the neutral line, for the stress")
+            .between(0, 1e3),
         f.beam.fibre_distance);
-  visit(Field{.key = "stiffness_damping",
-              .summary = "Kelvin and Voigt's: retardation time of the material",
-              .dimension = Dimension::time,
-              .minimum = 0,
-              .maximum = 1e3},
+  visit(field::time("stiffness_damping", "Kelvin and Voigt's: retardation time of the material")
+            .between(0, 1e3),
         f.beam.damping);
 }
 

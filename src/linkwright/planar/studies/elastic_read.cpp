@@ -91,7 +91,7 @@ std::vector<ElasticPieces> place_elastic(study::ObjectReader& document, Linkage&
 }
 
 void describe_elastic(study::SchemaWriter& document) {
-  document.property(Field{.key = "elastic", .summary = "flexible bodies, as beams"},
+  document.property(field::entry("elastic", "flexible bodies, as beams"),
                     study::schema_array(study::schema_fields<ElasticBodyForm>()));
 }
 

@@ -10,12 +10,7 @@ struct Environment {
 };
 template <class Visitor>
 void fields(Visitor&& visit, Environment& e) {
-  visit(Field{.key = "gravity",
-              .summary = "along -y of the global frame",
-              .dimension = Dimension::acceleration,
-              .minimum = 0,
-              .maximum = 1e6},
-        e.gravity);
+  visit(field::acceleration("gravity", "along -y of the global frame").not_negative(), e.gravity);
 }
 
 }  // namespace linkwright::planar

@@ -32,8 +32,8 @@ struct FunctionRange {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FunctionRange& r) {
-  visit(Field{.key = "from", .summary = "x where the motion begins", .required = true}, r.from);
-  visit(Field{.key = "to", .summary = "x where it ends", .required = true}, r.to);
+  visit(field::entry("from", "x where the motion begins").required(), r.from);
+  visit(field::entry("to", "x where it ends").required(), r.to);
 }
 
 struct FunctionTarget {
@@ -50,43 +50,31 @@ struct FunctionTarget {
 /// The output range of a four-bar is an angle, that of a slider-crank a length.
 template <class Visitor>
 void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
-  visit(Field{.key = "function", .summary = "what is to be generated; or a table"}, t.function);
-  visit(Field{.key = "exponent", .summary = "of power"}, t.exponent);
-  visit(Field{.key = "coefficients", .summary = "of polynomial, the constant first"}, t.coefficients);
-  visit(Field{.key = "table",
-              .summary = "points [x, y] by rising x, joined by a natural cubic spline; as many rows as the "
-                         "linkage meets are its precision points, unless at, points or fit is given"},
+  visit(field::entry("function", "what is to be generated; or a table"), t.function);
+  visit(field::entry("exponent", "of power"), t.exponent);
+  visit(field::entry("coefficients", "of polynomial, the constant first"), t.coefficients);
+  visit(field::entry("table",
+                     "points [x, y] by rising x, joined by a natural cubic spline; as many rows as the "
+                     "linkage meets are its precision points, unless at, points or fit is given"),
         t.table);
-  visit(Field{.key = "x", .summary = "range of x; default: that of the table"}, t.x);
-  visit(Field{.key = "input_range",
-              .summary = "rotation of the crank over the range, signed",
-              .dimension = Dimension::angle,
-              .minimum = -6.283185307179586,
-              .maximum = 6.283185307179586,
-              .required = true},
+  visit(field::entry("x", "range of x; default: that of the table"), t.x);
+  visit(field::angle("input_range", "rotation of the crank over the range, signed")
+            .between(-6.283185307179586, 6.283185307179586)
+            .required(),
         t.input_range);
   if (slider)
-    visit(Field{.key = "output_range",
-                .summary = "travel of the slider over the range, signed",
-                .dimension = Dimension::length,
-                .required = true},
+    visit(field::length("output_range", "travel of the slider over the range, signed").required(),
           t.output_length);
   else
-    visit(Field{.key = "output_range",
-                .summary = "rotation of the rocker over the range, signed",
-                .dimension = Dimension::angle,
-                .minimum = -6.283185307179586,
-                .maximum = 6.283185307179586,
-                .required = true},
+    visit(field::angle("output_range", "rotation of the rocker over the range, signed")
+              .between(-6.283185307179586, 6.283185307179586)
+              .required(),
           t.output_angle);
-  visit(Field{.key = "fit", .summary = "how the function is met"}, t.fit);
+  visit(field::entry("fit", "how the function is met"), t.fit);
   if (!exact) return;
-  visit(Field{.key = "points",
-              .summary = "number of precision points, at Chebyshev's places (points)",
-              .minimum = 3,
-              .maximum = 5},
+  visit(field::entry("points", "number of precision points, at Chebyshev's places (points)").between(3, 5),
         t.points);
-  visit(Field{.key = "at", .summary = "x of the precision points instead (points)"}, t.at);
+  visit(field::entry("at", "x of the precision points instead (points)"), t.at);
 }
 struct RockerTarget : FunctionTarget {};
 template <class Visitor>
@@ -113,25 +101,16 @@ struct RockerMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RockerMechanism& m) {
-  visit(Field{.key = "ground",
-              .summary = "length of the ground link, which scales all others",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e6},
+  visit(field::length("ground", "length of the ground link, which scales all others").between(1e-6, 1e6),
         m.ground);
-  visit(Field{.key = "input_start",
-              .summary =
-                  "direction of the crank at the first x, from the ground link; instead of a precision point",
-              .dimension = Dimension::angle},
+  visit(field::angle(
+            "input_start",
+            "direction of the crank at the first x, from the ground link; instead of a precision point"),
         m.input_start);
-  visit(
-      Field{.key = "output_start", .summary = "that of the rocker, likewise", .dimension = Dimension::angle},
-      m.output_start);
-  visit(Field{.key = "least_transmission_angle",
-              .summary = "between coupler and rocker over the range (minimax); default: no limit",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.2217304763960306},
+  visit(field::angle("output_start", "that of the rocker, likewise"), m.output_start);
+  visit(field::angle("least_transmission_angle",
+                     "between coupler and rocker over the range (minimax); default: no limit")
+            .between(0, 1.2217304763960306),
         m.transmission);
 }
 struct SliderMechanism {
@@ -139,11 +118,9 @@ struct SliderMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderMechanism& m) {
-  visit(
-      Field{.key = "input_start",
-            .summary = "direction of the crank at the first x, from the guide; instead of a precision point",
-            .dimension = Dimension::angle},
-      m.input_start);
+  visit(field::angle("input_start",
+                     "direction of the crank at the first x, from the guide; instead of a precision point"),
+        m.input_start);
 }
 
 /// The structure of a six-bar.
@@ -160,27 +137,16 @@ struct SixBarMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SixBarMechanism& m) {
-  visit(Field{.key = "structure", .summary = "what the six-bar is made of"}, m.structure);
-  visit(Field{.key = "ground",
-              .summary = "length of the ground link, of either four-bar of watt_2",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e6},
+  visit(field::entry("structure", "what the six-bar is made of"), m.structure);
+  visit(field::length("ground", "length of the ground link, of either four-bar of watt_2").between(1e-6, 1e6),
         m.ground);
-  visit(Field{.key = "longest_link_ratio",
-              .summary = "longest link, in ground links",
-              .minimum = 1,
-              .maximum = 20},
-        m.longest);
-  visit(
-      Field{.key = "least_transmission_angle",
-            .summary =
-                "between coupler and rocker, and link and output; six-bars that have it over the range come "
-                "first",
-            .dimension = Dimension::angle,
-            .minimum = 0,
-            .maximum = 1.2217304763960306},
-      m.transmission);
+  visit(field::entry("longest_link_ratio", "longest link, in ground links").between(1, 20), m.longest);
+  visit(field::angle(
+            "least_transmission_angle",
+            "between coupler and rocker, and link and output; six-bars that have it over the range come "
+            "first")
+            .between(0, 1.2217304763960306),
+        m.transmission);
 }
 
 struct FunctionStudy {

@@ -196,10 +196,10 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
                                s.x_from, s.x_to),
                    fmt::format("if radians are meant, write from = {:.6g}, to = {:.6g}",
                                math::degrees(s.x_from), math::degrees(s.x_to)));
-  if (s.target.input_range == 0 && target.has(Field{.key = "input_range", .dimension = Dimension::angle}))
+  if (s.target.input_range == 0 && target.has(field::angle("input_range")))
     target.error("input_range", "the crank does not turn", "write a rotation other than 0");
   if (output_range == 0 &&
-      target.has(Field{.key = "output_range", .dimension = p.slider ? Dimension::length : Dimension::angle}))
+      target.has(field::of(p.slider ? Dimension::length : Dimension::angle, "output_range")))
     target.error("output_range", "the output does not move", "write a range other than 0");
   const double from = s.x_from, span = s.x_to - s.x_from, y0 = y(from), y1 = y(s.x_to);
   bool rises = false, falls = false;
@@ -252,8 +252,7 @@ template <class Target, class Mechanism>
 FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mechanism, Target& target) {
   FunctionStudy s;
   s.problem.slider = std::is_same_v<Mechanism, SliderMechanism>;
-  if (auto table = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
-    table->read(mechanism);
+  if (auto table = document.table(field::entry("mechanism").required())) table->read(mechanism);
   if constexpr (std::is_same_v<Mechanism, RockerMechanism>) {
     s.mechanism = mechanism;
   } else if constexpr (std::is_same_v<Mechanism, SliderMechanism>) {
@@ -264,7 +263,7 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
     s.transmission = mechanism.transmission;
     s.structure = mechanism.structure;
   }
-  if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("target").required())) {
     table->read(target);
     s.target = target;
     set_function(*table, s);
@@ -289,8 +288,8 @@ void complete_kind(study::Kind& kind, std::string what) {
   kind.kind = "synthesis";
   kind.target = "function";
   kind.schema = [what](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = what}, study::schema_fields<Mechanism>());
-    document.property(Field{.key = "target", .summary = "the function"}, study::schema_fields<Target>());
+    document.property(field::entry("mechanism", what), study::schema_fields<Mechanism>());
+    document.property(field::entry("target", "the function"), study::schema_fields<Target>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     Mechanism mechanism;

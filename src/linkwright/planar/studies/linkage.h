@@ -176,11 +176,7 @@ template <class Visitor>
 void joint_fields(Visitor&& visit, bool rotary, InputSamples& a, bool required = true) {
   visit(drive_field(rotary, 0, "from", "first value", required), a.from);
   visit(drive_field(rotary, 0, "to", "last value", required), a.to);
-  visit(Field{.key = "samples",
-              .summary = "number of values, both ends included",
-              .minimum = 2,
-              .maximum = 100000},
-        a.samples);
+  visit(field::entry("samples", "number of values, both ends included").between(2, 100000), a.samples);
 }
 /// Describes them for both kinds of joints; which of them is required only the reader knows.
 template <class T>
@@ -193,7 +189,7 @@ void describe_joint_fields(study::SchemaWriter& table) {
             if (rotary) table(field, member);
             return;
           }
-          field.required = false;
+          field.is_required = false;
           table.property(field, study::schema_number());
         },
         rotary, defaults);

@@ -29,13 +29,8 @@ struct LinkageEnvironment {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LinkageEnvironment& e) {
-  visit(Field{.key = "gravity",
-              .summary = "acceleration of free fall",
-              .dimension = Dimension::acceleration,
-              .minimum = 0,
-              .maximum = 1e6},
-        e.gravity);
-  visit(linkage_fields::angle("gravity_direction", "where it points, from the x axis"), e.direction);
+  visit(field::acceleration("gravity", "acceleration of free fall").not_negative(), e.gravity);
+  visit(field::angle("gravity_direction", "where it points, from the x axis"), e.direction);
 }
 
 // Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
@@ -82,17 +77,16 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
   }
 }
 
-const Field sample_field{.key = "sample", .summary = "built-in linkage, instead of bodies and joints"};
-const Field sample_count_field{.key = "sample_count",
-                               .summary = "links of the sample arm, loops of the sample four_bar_chain",
-                               .minimum = 1,
-                               .maximum = 200};
+const Field sample_field = field::entry("sample", "built-in linkage, instead of bodies and joints");
+const Field sample_count_field =
+    field::entry("sample_count", "links of the sample arm, loops of the sample four_bar_chain")
+        .between(1, 200);
 
 std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   const std::span<const LinkageSample> all = linkage_samples();
   std::vector<Word> words;
   for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
-  const auto index = mechanism.word(Field{.key = "sample", .summary = "built-in linkage"}, words);
+  const auto index = mechanism.word(field::entry("sample", "built-in linkage"), words);
   if (!index) return std::nullopt;
   std::optional<int> count;
   mechanism(sample_count_field, count);
@@ -175,7 +169,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
                                                bool needs_masses, const study::DisplayUnits& units,
                                                bool lists_quantities) {
   LinkageDescription out;
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   LinkageEnvironment environment;
   auto surroundings = document.table("environment");
   if (surroundings) surroundings->read(environment);
@@ -240,8 +234,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   const bool own_drives = !l.driven.empty();
   for (study::ObjectReader& drive : drives) {
     std::string joint;
-    if (!drive(Field{.key = "joint", .summary = {}, .required = !own_drives || drives.size() > 1}, joint))
-      continue;
+    if (!drive(field::entry("joint").required(!own_drives || drives.size() > 1), joint)) continue;
     const int j = joint_index(l, joint);
     if (j < 0) {
       std::vector<std::string_view> known;
@@ -262,7 +255,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   }
   for (study::ObjectReader& trace : traces) {
     std::string point;
-    if (!trace(Field{.key = "point", .summary = {}, .required = true}, point)) continue;
+    if (!trace(field::entry("point").required(), point)) continue;
     const auto dot = point.rfind('.');
     const int body = dot == std::string::npos ? -1 : body_index(l, std::string_view(point).substr(0, dot));
     const int index = body < 0 ? -1
@@ -409,10 +402,10 @@ Value motion_study(const Linkage& linkage, bool rotary, std::span<const double> 
 
 void describe_linkage(study::SchemaWriter& document, LinkageType type) {
   if (type == LinkageType::slider_crank) {
-    document.property(Field{.key = "mechanism", .summary = "the slider-crank", .required = true},
+    document.property(field::entry("mechanism", "the slider-crank").required(),
                       study::schema_fields<SliderCrankMechanism>());
   } else if (type == LinkageType::four_bar) {
-    document.property(Field{.key = "mechanism", .summary = "the four-bar", .required = true},
+    document.property(field::entry("mechanism", "the four-bar").required(),
                       study::schema_fields<FourBarMechanism>());
   } else {
     study::SchemaWriter mechanism;
@@ -420,16 +413,13 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
     fields(mechanism, form);
     mechanism(sample_field, std::optional<std::string>());
     mechanism(sample_count_field, std::optional<int>());
-    document.property(Field{.key = "mechanism", .summary = "the linkage", .required = true},
-                      std::move(mechanism).finish());
+    document.property(field::entry("mechanism", "the linkage").required(), std::move(mechanism).finish());
   }
-  document.property(Field{.key = "environment", .summary = "what acts from outside"},
+  document.property(field::entry("environment", "what acts from outside"),
                     study::schema_fields<LinkageEnvironment>());
   study::SchemaWriter trace;
-  trace(
-      Field{.key = "point", .summary = "a point whose path is of interest, \"body.point\"", .required = true},
-      std::string());
-  document.property(Field{.key = "trace", .summary = "points to report and draw"},
+  trace(field::entry("point", "a point whose path is of interest, \"body.point\"").required(), std::string());
+  document.property(field::entry("trace", "points to report and draw"),
                     study::schema_array(std::move(trace).finish()));
 }
 
@@ -441,7 +431,7 @@ std::vector<study::ObjectReader> drive_tables(study::ObjectReader& document) {
 }
 void describe_drives(study::SchemaWriter& document, std::string_view summary, study::SchemaWriter one) {
   Value table = std::move(one).finish();
-  document.property(Field{.key = "drive", .summary = summary},
+  document.property(field::entry("drive", summary),
                     study::schema_any_of({study::schema_array(table), table}));
 }
 
@@ -452,7 +442,7 @@ Field drive_field(bool rotary, int order, std::string_view key, std::string_view
 
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
   std::string joint;
-  if (!table(Field{.key = "joint", .summary = {}, .required = l.driven.size() > 1}, joint))
+  if (!table(field::entry("joint").required(l.driven.size() > 1), joint))
     return l.driven.size() == 1 && !table.has("joint") ? std::optional<std::size_t>(0) : std::nullopt;
   for (std::size_t i = 0; i < l.driven.size(); ++i)
     if (input_joint(l, i).name == joint) return i;
@@ -465,9 +455,9 @@ namespace {
 template <study::JointKind kind>
 std::optional<math::MotionLaw> read_law_of(study::ObjectReader& drive, bool required, Value& canonical) {
   study::DrivenLaw<kind> law;
-  if (!drive(Field{.key = "law", .summary = "motion law", .required = required}, law)) return std::nullopt;
+  if (!drive(field::entry("law", "motion law").required(required), law)) return std::nullopt;
   study::ObjectWriter writer(canonical);
-  writer(Field{.key = "law", .summary = {}}, law);
+  writer(field::entry("law"), law);
   math::MotionLaw out = motion_law(law);
   if (const auto wrong = problem(out)) drive.error(wrong->key, wrong->message, wrong->hint);
   return out;

@@ -22,15 +22,11 @@ namespace linkwright::planar {
 
 template <class Visitor>
 void fields(Visitor&& visit, LinkageQuality& q) {
-  visit(Field{.key = "output_joint",
-              .summary = "joint whose ratios to the input and dead centres are reported"},
+  visit(field::entry("output_joint", "joint whose ratios to the input and dead centres are reported"),
         q.output_joint);
-  visit(Field{.key = "centrodes", .summary = "bodies whose centrodes against the ground are tabled"},
-        q.centrodes);
-  visit(Field{.key = "instant_centres", .summary = "table of all instant centres at every position"},
-        q.instant_centres);
-  visit(Field{.key = "assembly_modes",
-              .summary = "table of all assembly modes of the linkage at the first position"},
+  visit(field::entry("centrodes", "bodies whose centrodes against the ground are tabled"), q.centrodes);
+  visit(field::entry("instant_centres", "table of all instant centres at every position"), q.instant_centres);
+  visit(field::entry("assembly_modes", "table of all assembly modes of the linkage at the first position"),
         q.assembly_modes);
 }
 
@@ -49,13 +45,12 @@ constexpr std::array<EnumName<SweepRange>, 2> names(SweepRange) {
         "where the linkage assembles about the drawn position, or nearest to it: of one input, whose first "
         "and last value then only bound it and may be left out"}}};
 }
-constexpr Field circuits_field{.key = "circuits",
-                               .summary = "which positions of a grid over one input count"};
-constexpr Field range_field{.key = "range", .summary = "how far a grid over one input goes"};
-constexpr Field change_point_field{
-    .key = "at_change_point", .summary = "grid over one input: how the linkage continues at a change point"};
-constexpr Field crank_angle_field{.key = "crank_angle",
-                                  .summary = "the axis of a four-bar: crank angles from the ground link"};
+constexpr Field circuits_field = field::entry("circuits", "which positions of a grid over one input count");
+constexpr Field range_field = field::entry("range", "how far a grid over one input goes");
+constexpr Field change_point_field =
+    field::entry("at_change_point", "grid over one input: how the linkage continues at a change point");
+constexpr Field crank_angle_field =
+    field::entry("crank_angle", "the axis of a four-bar: crank angles from the ground link");
 constexpr double most_rows = 1e6;
 
 /// The link that the drive of a four-bar turns.
@@ -63,7 +58,7 @@ enum class DriveInput { crank };
 constexpr std::array<EnumName<DriveInput>, 1> names(DriveInput) {
   return {{{DriveInput::crank, "crank", "the crank O1-O2: joint O1"}}};
 }
-constexpr Field input_field{.key = "input", .summary = "link of a four-bar that is driven"};
+constexpr Field input_field = field::entry("input", "link of a four-bar that is driven");
 
 // The kinds of a sweep share the reading of drives: rates over a grid, laws over time.
 void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType type, bool over_time,
@@ -77,7 +72,7 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
   // Without a speed the table of a four-bar is that of a machine at rest, which nobody asks for by silence.
   const bool speeds = s.quantities.rates || s.quantities.dynamic();
   if (type == LinkageType::four_bar && !document.has("drive") && speeds)
-    document.table(Field{.key = "drive", .summary = {}, .required = true});
+    document.table(field::entry("drive").required());
   for (study::ObjectReader& drive : drive_tables(document)) {
     const auto input = input_of(drive, l);
     if (!input) continue;
@@ -128,8 +123,8 @@ bool leave_out_forces(study::ObjectReader& document, LinkageType type, const Lin
 // The axes of a grid; of a four-bar its only one by the name that it has there.
 std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType type) {
   if (type != LinkageType::four_bar || sweep.has("input"))
-    return sweep.tables(Field{.key = "input", .summary = {}, .required = true});
-  auto axis = sweep.table(Field{.key = crank_angle_field.key, .summary = {}, .required = true});
+    return sweep.tables(field::entry("input").required());
+  auto axis = sweep.table(field::entry(crank_angle_field.key).required());
   return axis ? std::vector{*axis} : std::vector<study::ObjectReader>();
 }
 
@@ -153,7 +148,7 @@ Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point,
   Value::Array axes(l.driven.size(), Value::object());
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
     study::ObjectWriter writer(axes[i]);
-    writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
+    writer(field::entry("joint"), input_joint(l, i).name);
     joint_fields(writer, input_joint(l, i).type == JointType::revolute, grid.inputs[i]);
   }
   out["type"] = "grid";
@@ -166,7 +161,7 @@ Value written(const Linkage& l, InputGrid grid, AtChangePoint at_change_point,
 // A turn of the only input, for a study that says nothing of it.
 bool turn(study::ObjectReader& document, const Linkage& l, LinkageStudy& s, Value& canonical) {
   if (l.driven.size() != 1 || input_joint(l, 0).type != JointType::revolute) {
-    document.table(Field{.key = "sweep", .summary = {}, .required = true});
+    document.table(field::entry("sweep").required());
     return false;
   }
   InputGrid grid{{{input_joint(l, 0).name, 0, 2 * pi}}};
@@ -279,7 +274,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   auto sweep = document.table("sweep");
   // Known keys, so that a bad mechanism does not make all others look unknown.
   SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
-  if (sweep) (*sweep)(Field{.key = "type", .summary = "how rows are placed"}, how);
+  if (sweep) (*sweep)(field::entry("type", "how rows are placed"), how);
   if (!description) {
     if (sweep) sweep->members();
     if (auto quality = document.table("quality")) quality->members();
@@ -313,7 +308,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     read_drives(document, l, type, false, s, drives);
   } else {
     study::TimeSamples times;
-    if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
+    if (auto table = sweep->table(field::entry("time").required())) {
       table->read(times);
       if (times.samples >= 2 && !(times.to > times.from))
         table->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
@@ -359,18 +354,17 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
 void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point) {
   describe_linkage(document, type);
   study::SchemaWriter drive;
-  drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
-  drive(Field{.key = "law", .summary = "motion law, for a sweep over time"}, std::optional<study::AnyLaw>());
+  drive(field::entry("joint", "driven joint"), std::string());
+  drive(field::entry("law", "motion law, for a sweep over time"), std::optional<study::AnyLaw>());
   describe_joint_fields<LinkageDrive>(drive);
   if (type == LinkageType::four_bar) drive(input_field, std::optional<DriveInput>());
   describe_drives(document, "how driven joints move", std::move(drive));
   study::SchemaWriter axis;
-  axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
+  axis(field::entry("joint", "driven joint"), std::string());
   describe_joint_fields<InputSamples>(axis);
   study::SchemaWriter sweep;
-  sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
-  sweep.property(Field{.key = "input", .summary = "axes of a grid"},
-                 study::schema_array(std::move(axis).finish()));
+  sweep(field::entry("type", "how rows are placed"), SweepType::grid);
+  sweep.property(field::entry("input", "axes of a grid"), study::schema_array(std::move(axis).finish()));
   if (type == LinkageType::four_bar) {
     study::SchemaWriter crank_angle;
     InputSamples defaults;
@@ -380,16 +374,15 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   sweep(range_field, SweepRange::given);
   sweep(circuits_field, CircuitRows::reached);
   if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
-  sweep.property(Field{.key = "time", .summary = "times of the rows"},
-                 study::schema_fields<study::TimeSamples>());
-  document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
+  sweep.property(field::entry("time", "times of the rows"), study::schema_fields<study::TimeSamples>());
+  document.property(field::entry("sweep", "where it is evaluated"), std::move(sweep).finish());
 }
 
 namespace {
 
 void describe(study::SchemaWriter& document, LinkageType type) {
   describe_linkage_motion(document, type, true);
-  document.property(Field{.key = "quality", .summary = "what is computed beyond the table"},
+  document.property(field::entry("quality", "what is computed beyond the table"),
                     study::schema_fields<LinkageQuality>());
 }
 

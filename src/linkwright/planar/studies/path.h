@@ -51,20 +51,13 @@ void fields(Visitor&& visit, PathParameters& p) {
       "crank angle at the first point, from O->B0 (equal steps)"};
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
     const bool angle = j >= index(FourBarParameter::frame_angle), link = j <= index(FourBarParameter::rocker);
-    Field field{.key = name(FourBarParameter(j)),
-                .summary = summaries[j],
-                .dimension = angle ? Dimension::angle : Dimension::length};
+    Field field =
+        field::of(angle ? Dimension::angle : Dimension::length, name(FourBarParameter(j)), summaries[j]);
     if (link) field.minimum = 0;
     visit(field, p.ranges[j]);
   }
-  visit(Field{.key = "rocker_pivot_x",
-              .summary = "where the rocker pivot B0 may be, x",
-              .dimension = Dimension::length},
-        p.rocker_pivot_x);
-  visit(Field{.key = "rocker_pivot_y",
-              .summary = "where the rocker pivot B0 may be, y",
-              .dimension = Dimension::length},
-        p.rocker_pivot_y);
+  visit(field::length("rocker_pivot_x", "where the rocker pivot B0 may be, x"), p.rocker_pivot_x);
+  visit(field::length("rocker_pivot_y", "where the rocker pivot B0 may be, y"), p.rocker_pivot_y);
 }
 
 struct FourBarPathForm {
@@ -74,10 +67,9 @@ struct FourBarPathForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, FourBarPathForm& m) {
-  visit(Field{.key = "branch", .summary = "assembly branch to search"}, m.branch);
-  visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
-  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
-        m.parameters);
+  visit(field::entry("branch", "assembly branch to search"), m.branch);
+  visit(field::entry("sense", "sense of crank rotation to search"), m.sense);
+  visit(field::entry("parameters", "fixed numbers, or { min, max } for design variables"), m.parameters);
 }
 
 /// How points are met.
@@ -101,8 +93,8 @@ struct PathTarget : PathTargetForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTarget& t) {
-  visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
-  visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
+  visit(field::entry("point", "point that traces the path"), t.point);
+  visit(field::entry("fit", "how the points are met"), t.fit);
   fields(visit, static_cast<PathTargetForm&>(t));
 }
 
@@ -118,8 +110,8 @@ struct PathObjectiveEntry {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathObjectiveEntry& o) {
-  visit(Field{.key = "type", .summary = "what is minimised", .required = true}, o.type);
-  visit(Field{.key = "weight", .summary = "factor", .minimum = 0, .exclusive_minimum = true}, o.weight);
+  visit(field::entry("type", "what is minimised").required(), o.type);
+  visit(field::entry("weight", "factor").positive(), o.weight);
 }
 
 struct CrankRotatesFully {};
@@ -134,12 +126,9 @@ struct TransmissionLimit {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TransmissionLimit& t) {
-  visit(Field{.key = "min",
-              .summary = "least angle between coupler and rocker, folded to 0..90 deg",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.5707963267948966,
-              .required = true},
+  visit(field::angle("min", "least angle between coupler and rocker, folded to 0..90 deg")
+            .between(0, 1.5707963267948966)
+            .required(),
         t.min);
 }
 constexpr Word choice_word(const TransmissionLimit&) {
@@ -151,16 +140,8 @@ struct PackagingLimit {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PackagingLimit& p) {
-  visit(Field{.key = "x",
-              .summary = "{ min, max } of both fixed pivots",
-              .dimension = Dimension::length,
-              .required = true},
-        p.x);
-  visit(Field{.key = "y",
-              .summary = "{ min, max } of both fixed pivots",
-              .dimension = Dimension::length,
-              .required = true},
-        p.y);
+  visit(field::length("x", "{ min, max } of both fixed pivots").required(), p.x);
+  visit(field::length("y", "{ min, max } of both fixed pivots").required(), p.y);
 }
 constexpr Word choice_word(const PackagingLimit&) { return {"packaging", "both fixed pivots inside a box"}; }
 
@@ -185,8 +166,8 @@ struct PathConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathConstraint& c) {
-  visit(Field{.key = "type", .summary = "what is limited", .required = true}, c.limit);
-  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+  visit(field::entry("type", "what is limited").required(), c.limit);
+  visit(field::entry("enabled", "false leaves it out"), c.enabled);
 }
 
 /// Whether a constraint of a path holds; the order of the points is one that no study can give up.
@@ -218,7 +199,7 @@ struct PathOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathOptimiser& o) {
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+  visit(field::entry("method", "how designs are searched"), o.method);
 }
 
 /// A path synthesis study as read.

@@ -174,7 +174,7 @@ void check_targets(study::ObjectReader& target, const char* key, const PathTarge
 
 void read_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                  bool with_bands, PathTargets& targets) {
-  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  const bool has_points = target.has(field::length("points"));
   const bool has_file = target.has("points_file");
   if (has_points && has_file) {
     target.error("points_file", "the target has both points and points_file", "keep one of them");
@@ -202,7 +202,7 @@ void read_points(study::ObjectReader& target, const study::Common& common, const
 
 // The middles of gates, and half of the way from one post to the other.
 void read_gates(study::ObjectReader& target, const PathTargetForm& form, PathTargets& targets) {
-  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  const bool has_points = target.has(field::length("points"));
   if (has_points || target.has("points_file")) {
     target.error("gates",
                  fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),

@@ -20,12 +20,8 @@ struct PathPointsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathPointsForm& t) {
-  visit(
-      Field{
-          .key = "points", .summary = "target points [x, y] in their order", .dimension = Dimension::length},
-      t.points);
-  visit(Field{.key = "points_file",
-              .summary = "CSV file with columns x_m, y_m (any length unit) instead of points"},
+  visit(field::length("points", "target points [x, y] in their order"), t.points);
+  visit(field::entry("points_file", "CSV file with columns x_m, y_m (any length unit) instead of points"),
         t.points_file);
 }
 
@@ -35,18 +31,8 @@ struct PathGate {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathGate& g) {
-  visit(Field{.key = "from",
-              .summary = "one post [x, y]",
-              .dimension = Dimension::length,
-              .required = true,
-              .inherits_unit = true},
-        g.from);
-  visit(Field{.key = "to",
-              .summary = "the other post [x, y]",
-              .dimension = Dimension::length,
-              .required = true,
-              .inherits_unit = true},
-        g.to);
+  visit(field::length("from", "one post [x, y]").required().with_inherited_unit(), g.from);
+  visit(field::length("to", "the other post [x, y]").required().with_inherited_unit(), g.to);
 }
 
 /// `timing` of a `[target]`.
@@ -57,21 +43,15 @@ struct PathTiming {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTiming& t) {
-  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
-  visit(Field{.key = "step",
-              .summary = "crank rotation from point to point (equal_steps)",
-              .dimension = Dimension::angle},
-        t.step);
-  visit(Field{.key = "increments",
-              .summary = "crank rotation from each point to the next, one less than points (increments)",
-              .dimension = Dimension::angle},
+  visit(field::entry("mode", "how crank angles are tied to the points"), t.mode);
+  visit(field::angle("step", "crank rotation from point to point (equal_steps)"), t.step);
+  visit(field::angle("increments",
+                     "crank rotation from each point to the next, one less than points (increments)"),
         t.increments);
-  visit(
-      Field{.key = "angles",
-            .summary = "crank angle of each point (given): of a four-bar from O->B0, of a slider-crank from "
-                       "the x axis; fit = \"exact\" takes the rotations between them",
-            .dimension = Dimension::angle},
-      t.angles);
+  visit(field::angle("angles",
+                     "crank angle of each point (given): of a four-bar from O->B0, of a slider-crank from "
+                     "the x axis; fit = \"exact\" takes the rotations between them"),
+        t.angles);
 }
 
 /// `[target]` of a path synthesis, whatever the mechanism that traces the path.
@@ -84,25 +64,17 @@ struct PathTargetForm : PathPointsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTargetForm& t) {
-  visit(Field{.key = "closed",
-              .summary =
-                  "the last point is followed by the first; default: whether the last repeats the first"},
+  visit(field::entry("closed",
+                     "the last point is followed by the first; default: whether the last repeats the first"),
         t.closed);
-  visit(Field{.key = "gates",
-              .summary = "instead of points: pairs of points that the path passes between, in their order",
-              .dimension = Dimension::length},
+  visit(field::length("gates",
+                      "instead of points: pairs of points that the path passes between, in their order"),
         t.gates);
-  visit(Field{.key = "tolerance",
-              .summary = "every point or gate counts as met within this distance, at no cost",
-              .dimension = Dimension::length,
-              .minimum = 0},
+  visit(field::length("tolerance", "every point or gate counts as met within this distance, at no cost")
+            .not_negative(),
         t.tolerance);
-  visit(Field{.key = "tolerances",
-              .summary = "the same, one for each point or gate",
-              .dimension = Dimension::length,
-              .minimum = 0},
-        t.tolerances);
-  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
+  visit(field::length("tolerances", "the same, one for each point or gate").not_negative(), t.tolerances);
+  visit(field::entry("timing", "how crank angles are tied to the points"), t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));
 }
 

@@ -104,19 +104,18 @@ void set_constraints(study::ObjectReader& document, PathStudy& s) {
 
 PathStudy read_path_study(study::ObjectReader& document, const study::Common& common) {
   PathStudy s;
-  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
-    mechanism->read(s.mechanism);
-  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  if (auto mechanism = document.table(field::entry("mechanism").required())) mechanism->read(s.mechanism);
+  auto target = document.table(field::entry("target").required());
   if (target) {
     target->read(s.target);
     static_cast<PathTargets&>(s.problem) = read_path_targets(*target, common, s.target);
     read_timing(*target, common.units, s);
   }
-  document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
+  document(field::entry("objective", "what is minimised"), s.objectives);
   if (s.objectives.size() > 1)
     document.error("objective", fmt::format("{} objectives, path synthesis has one", s.objectives.size()),
                    "keep one [[objective]]");
-  document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
+  document(field::entry("constraint", "what must hold"), s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, common.units, s);
   set_rocker_pivot(s);
@@ -136,14 +135,13 @@ study::Kind path_kind() {
   kind.example = templates::synthesis_four_bar_path_points();
   kind.absent = absent_from_four_bar_paths();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the four-bar"},
-                      study::schema_fields<FourBarPathForm>());
-    document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<PathTarget>());
-    document.property(Field{.key = "objective", .summary = "what is minimised"},
+    document.property(field::entry("mechanism", "the four-bar"), study::schema_fields<FourBarPathForm>());
+    document.property(field::entry("target", "the path"), study::schema_fields<PathTarget>());
+    document.property(field::entry("objective", "what is minimised"),
                       study::schema_array(study::schema_fields<PathObjectiveEntry>()));
-    document.property(Field{.key = "constraint", .summary = "what must hold"},
+    document.property(field::entry("constraint", "what must hold"),
                       study::schema_array(study::schema_fields<PathConstraint>()));
-    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+    document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<PathOptimiser>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -21,23 +21,14 @@ struct PoseForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseForm& p) {
+  visit(field::length("x", "origin of the body, x").required(), p.x);
+  visit(field::length("y", "origin of the body, y").required(), p.y);
   visit(
-      Field{.key = "x", .summary = "origin of the body, x", .dimension = Dimension::length, .required = true},
-      p.x);
-  visit(
-      Field{.key = "y", .summary = "origin of the body, y", .dimension = Dimension::length, .required = true},
-      p.y);
-  visit(Field{.key = "angle",
-              .summary = "rotation of the body; left out: a point that its origin passes at any rotation",
-              .dimension = Dimension::angle},
-        p.angle);
-  visit(Field{.key = "weight",
-              .summary = "of the errors of this pose next to the others (least_squares)",
-              .minimum = 0,
-              .exclusive_minimum = true},
+      field::angle("angle", "rotation of the body; left out: a point that its origin passes at any rotation"),
+      p.angle);
+  visit(field::entry("weight", "of the errors of this pose next to the others (least_squares)").positive(),
         p.weight);
-  visit(Field{.key = "exact",
-              .summary = "met exactly, the others as near as can be (least_squares); four at most"},
+  visit(field::entry("exact", "met exactly, the others as near as can be (least_squares); four at most"),
         p.exact);
 }
 
@@ -47,12 +38,8 @@ struct PivotLineForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PivotLineForm& l) {
-  visit(
-      Field{
-          .key = "point", .summary = "on the line [x, y]", .dimension = Dimension::length, .required = true},
-      l.point);
-  visit(Field{.key = "direction", .summary = "of the line", .dimension = Dimension::angle, .required = true},
-        l.direction);
+  visit(field::length("point", "on the line [x, y]").required(), l.point);
+  visit(field::angle("direction", "of the line").required(), l.direction);
 }
 
 struct PivotRegionForm {
@@ -60,16 +47,8 @@ struct PivotRegionForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PivotRegionForm& r) {
-  visit(Field{.key = "min",
-              .summary = "least coordinates [x, y]",
-              .dimension = Dimension::length,
-              .required = true},
-        r.min);
-  visit(Field{.key = "max",
-              .summary = "greatest coordinates [x, y]",
-              .dimension = Dimension::length,
-              .required = true},
-        r.max);
+  visit(field::length("min", "least coordinates [x, y]").required(), r.min);
+  visit(field::length("max", "greatest coordinates [x, y]").required(), r.max);
 }
 
 /// One `[[mechanism.pivot]]`: what is known of the pivots of a dyad.
@@ -81,25 +60,17 @@ struct PivotForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PivotForm& p) {
-  visit(
-      Field{.key = "dyad", .summary = "which of the two dyads", .minimum = 1, .maximum = 2, .required = true},
-      p.dyad);
-  visit(Field{.key = "fixed", .summary = "its pivot on the ground [x, y]", .dimension = Dimension::length},
-        p.fixed);
-  visit(Field{.key = "moving",
-              .summary = "its pivot on the body, in the frame of the body [x, y]",
-              .dimension = Dimension::length},
-        p.moving);
-  visit(Field{.key = "fixed_on_line", .summary = "a line that its pivot on the ground lies on"},
-        p.fixed_on_line);
-  visit(Field{.key = "moving_on_line",
-              .summary = "a line of the body that its pivot on the body lies on, in the frame of the body"},
+  visit(field::entry("dyad", "which of the two dyads").between(1, 2).required(), p.dyad);
+  visit(field::length("fixed", "its pivot on the ground [x, y]"), p.fixed);
+  visit(field::length("moving", "its pivot on the body, in the frame of the body [x, y]"), p.moving);
+  visit(field::entry("fixed_on_line", "a line that its pivot on the ground lies on"), p.fixed_on_line);
+  visit(field::entry("moving_on_line",
+                     "a line of the body that its pivot on the body lies on, in the frame of the body"),
         p.moving_on_line);
-  visit(Field{.key = "fixed_in_region", .summary = "a rectangle that its pivot on the ground lies in"},
+  visit(field::entry("fixed_in_region", "a rectangle that its pivot on the ground lies in"),
         p.fixed_in_region);
-  visit(Field{.key = "moving_in_region",
-              .summary =
-                  "a rectangle of the body that its pivot on the body lies in, in the frame of the body"},
+  visit(field::entry("moving_in_region",
+                     "a rectangle of the body that its pivot on the body lies in, in the frame of the body"),
         p.moving_in_region);
 }
 
@@ -110,11 +81,9 @@ struct PoseMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseMechanism& m) {
-  visit(Field{.key = "dyads", .summary = "what may join the body to the ground"}, m.dyads);
-  visit(Field{.key = "pivot", .summary = "pivots that are given, or lie on given lines or in regions"},
-        m.pivots);
-  visit(Field{.key = "crank_rotates_fully",
-              .summary = "true leaves out linkages whose driven link does not turn round"},
+  visit(field::entry("dyads", "what may join the body to the ground"), m.dyads);
+  visit(field::entry("pivot", "pivots that are given, or lie on given lines or in regions"), m.pivots);
+  visit(field::entry("crank_rotates_fully", "true leaves out linkages whose driven link does not turn round"),
         m.crank_rotates_fully);
 }
 
@@ -138,20 +107,16 @@ struct PoseTarget {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseTarget& t) {
-  visit(Field{.key = "fit", .summary = "how the poses are met"}, t.fit);
-  visit(Field{.key = "pose", .summary = "places of the body in their order"}, t.poses);
-  visit(Field{.key = "file",
-              .summary = "CSV file with columns x_mm, y_mm, angle_deg (any units) instead of poses"},
+  visit(field::entry("fit", "how the poses are met"), t.fit);
+  visit(field::entry("pose", "places of the body in their order"), t.poses);
+  visit(field::entry("file", "CSV file with columns x_mm, y_mm, angle_deg (any units) instead of poses"),
         t.file);
-  visit(
-      Field{.key = "angle_length",
-            .summary =
-                "what a rotation error of a radian counts as (least_squares); default: the root mean square "
-                "distance of the places from their middle",
-            .dimension = Dimension::length,
-            .minimum = 0,
-            .exclusive_minimum = true},
-      t.angle_length);
+  visit(field::length(
+            "angle_length",
+            "what a rotation error of a radian counts as (least_squares); default: the root mean square "
+            "distance of the places from their middle")
+            .positive(),
+        t.angle_length);
 }
 
 struct PoseSearch {
@@ -159,9 +124,7 @@ struct PoseSearch {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseSearch& s) {
-  visit(
-      Field{.key = "max_solutions", .summary = "how many linkages are listed", .minimum = 1, .maximum = 100},
-      s.max_solutions);
+  visit(field::entry("max_solutions", "how many linkages are listed").between(1, 100), s.max_solutions);
 }
 
 struct PoseStudy {

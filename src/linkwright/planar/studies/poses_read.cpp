@@ -305,13 +305,13 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
 
 PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& common) {
   PoseStudy s;
-  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
+  if (auto mechanism = document.table(field::entry("mechanism").required())) {
     mechanism->read(s.mechanism);
     if (s.mechanism.dyads.empty())
       mechanism->error("dyads", "no type of dyad is allowed", "write dyads = [\"RR\"]");
     set_pivots(*mechanism, s);
   }
-  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+  if (auto target = document.table(field::entry("target").required())) {
     target->read(s.target);
     const bool has_poses = target->has("pose"), has_file = target->has("file");
     if (has_poses && has_file)
@@ -345,10 +345,10 @@ study::Kind pose_kind() {
       "four-bars, slider-cranks and other linkages of links and slides that lead a body through poses";
   kind.example = templates::synthesis_four_bar_poses();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "what holds the body"},
+    document.property(field::entry("mechanism", "what holds the body"),
                       study::schema_fields<PoseMechanism>());
-    document.property(Field{.key = "target", .summary = "the poses"}, study::schema_fields<PoseTarget>());
-    document.property(Field{.key = "optimiser", .summary = "how linkages are listed"},
+    document.property(field::entry("target", "the poses"), study::schema_fields<PoseTarget>());
+    document.property(field::entry("optimiser", "how linkages are listed"),
                       study::schema_fields<PoseSearch>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -27,40 +27,19 @@ struct ArmLinkEntry {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ArmLinkEntry& l) {
-  visit(Field{.key = "name", .summary = "letters, digits and _; begins the names of its columns"}, l.name);
-  visit(Field{.key = "length",
-              .summary = "own joint to next joint or tip",
-              .dimension = Dimension::length,
-              .minimum = 1e-9,
-              .maximum = 1e9,
-              .required = true},
-        l.length);
-  visit(Field{.key = "mass",
-              .summary = "mass of the link, without what is attached",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        l.mass);
-  visit(Field{.key = "inertia",
-              .summary = "moment of inertia about its mass centre; default: uniform rod, m L^2 / 12",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e18},
+  visit(field::entry("name", "letters, digits and _; begins the names of its columns"), l.name);
+  visit(field::length("length", "own joint to next joint or tip").between(1e-9, 1e9).required(), l.length);
+  visit(field::mass("mass", "mass of the link, without what is attached").not_negative().required(), l.mass);
+  visit(field::inertia("inertia", "moment of inertia about its mass centre; default: uniform rod, m L^2 / 12")
+            .not_negative(),
         l.inertia);
-  visit(Field{.key = "centre_distance",
-              .summary = "distance of its mass centre from its own joint; default: half its length",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::length("centre_distance",
+                      "distance of its mass centre from its own joint; default: half its length")
+            .not_negative(),
         l.centre_distance);
-  visit(Field{.key = "centre_angle",
-              .summary = "angle of its mass centre from the link line",
-              .dimension = Dimension::angle,
-              .minimum = -1e3,
-              .maximum = 1e3},
+  visit(field::angle("centre_angle", "angle of its mass centre from the link line").between(-1e3, 1e3),
         l.centre_angle);
-  visit(Field{.key = "attached", .summary = "masses fixed to it: payload, motor, counterweight"}, l.attached);
+  visit(field::entry("attached", "masses fixed to it: payload, motor, counterweight"), l.attached);
 }
 
 /// `[mechanism]` of the analysis.
@@ -71,12 +50,11 @@ struct ArmMechanism {
 template <class Visitor>
 void fields(Visitor&& visit, ArmMechanism& m) {
   const auto place = [](std::string_view key, std::string_view summary) {
-    return Field{
-        .key = key, .summary = summary, .dimension = Dimension::length, .minimum = -1e9, .maximum = 1e9};
+    return field::length(key, summary);
   };
   visit(place("base_x", "joint O1, x"), m.base_x);
   visit(place("base_y", "joint O1, y"), m.base_y);
-  visit(Field{.key = "link", .summary = "the links from the base outwards", .required = true}, m.links);
+  visit(field::entry("link", "the links from the base outwards").required(), m.links);
 }
 
 /// From where the angle of a law counts.
@@ -93,9 +71,9 @@ struct ArmDrive {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ArmDrive& d) {
-  visit(Field{.key = "link", .summary = "name of the link", .required = true}, d.link);
-  visit(Field{.key = "angle", .summary = "from where its angle counts"}, d.angle);
-  visit(Field{.key = "law", .summary = "how its angle moves in time", .required = true}, d.law);
+  visit(field::entry("link", "name of the link").required(), d.link);
+  visit(field::entry("angle", "from where its angle counts"), d.angle);
+  visit(field::entry("law", "how its angle moves in time").required(), d.law);
 }
 
 struct TimeSweep {
@@ -103,7 +81,7 @@ struct TimeSweep {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TimeSweep& s) {
-  visit(Field{.key = "time", .summary = "times of the rows", .required = true}, s.time);
+  visit(field::entry("time", "times of the rows").required(), s.time);
 }
 
 /// The columns of the table.

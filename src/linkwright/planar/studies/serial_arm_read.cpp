@@ -101,16 +101,16 @@ SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study:
   SerialArmStudy s;
   s.quantities = chosen_arm_quantities(common.output.quantities);
   bool links = false;
-  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
+  if (auto mechanism = document.table(field::entry("mechanism").required())) {
     mechanism->read(s.mechanism);
     links = !s.mechanism.links.empty();
     if (links || mechanism->has("link")) complete_links(*mechanism, s.mechanism.links);
   }
   std::vector<ArmDrive> drives;
-  const bool read = document(Field{.key = "drive", .summary = {}, .required = true}, drives);
+  const bool read = document(field::entry("drive").required(), drives);
   if (read && links) s.drives = sorted_drives(document, s.mechanism.links, drives);
   if (auto environment = document.table("environment")) environment->read(s.environment);
-  if (auto sweep = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+  if (auto sweep = document.table(field::entry("sweep").required())) {
     sweep->read(s.sweep);
     const study::TimeSamples& time = s.sweep.time;
     if (auto axis = sweep->table("time"); axis && time.samples >= 2 && time.to <= time.from)
@@ -128,13 +128,12 @@ study::Kind serial_arm_kind() {
   kind.quantities = quantity_words();
   kind.example = templates::analysis_serial_arm();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the arm", .required = true},
-                      study::schema_fields<ArmMechanism>());
-    document.property(Field{.key = "drive", .summary = "how each link moves", .required = true},
+    document.property(field::entry("mechanism", "the arm").required(), study::schema_fields<ArmMechanism>());
+    document.property(field::entry("drive", "how each link moves").required(),
                       study::schema_array(study::schema_fields<ArmDrive>()));
-    document.property(Field{.key = "environment", .summary = "what acts from outside"},
+    document.property(field::entry("environment", "what acts from outside"),
                       study::schema_fields<Environment>());
-    document.property(Field{.key = "sweep", .summary = "when it is evaluated", .required = true},
+    document.property(field::entry("sweep", "when it is evaluated").required(),
                       study::schema_fields<TimeSweep>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

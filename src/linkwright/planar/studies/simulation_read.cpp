@@ -20,55 +20,36 @@ namespace linkwright::planar {
 template <class Visitor>
 void fields(Visitor&& visit, LinkageSimulationStudy& s) {
   const auto time = [&](std::string_view key, std::string_view summary, bool required, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::time,
-                .minimum = -1e9,
-                .maximum = 1e9,
-                .required = required},
-          value);
+    visit(field::time(key, summary).required(required), value);
   };
   time("from", "when the motion starts", false, s.from);
   time("to", "when it ends", true, s.to);
-  visit(
-      Field{
-          .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
-      s.samples);
-  visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
-  visit(Field{.key = "method", .summary = "integration method; with elastic bodies chosen by their damping"},
+  visit(field::entry("samples", "rows of the table, both ends included").between(2, 1e6), s.samples);
+  visit(field::entry("route", "coordinates of the equations of motion"), s.route);
+  visit(field::entry("method", "integration method; with elastic bodies chosen by their damping"),
         s.options.method);
-  visit(Field{.key = "rtol",
-              .summary = "relative tolerance of a step; default with elastic bodies: 1e-7",
-              .minimum = 1e-14,
-              .maximum = 1e-2},
+  visit(field::entry("rtol", "relative tolerance of a step; default with elastic bodies: 1e-7")
+            .between(1e-14, 1e-2),
         s.options.relative_tolerance);
-  visit(Field{.key = "atol",
-              .summary =
-                  "absolute tolerance of a step: rad, rad/s; of displacements times the size of the linkage; "
-                  "default with elastic bodies: 1e-7",
-              .minimum = 1e-16,
-              .maximum = 1e-2},
+  visit(field::entry(
+            "atol",
+            "absolute tolerance of a step: rad, rad/s; of displacements times the size of the linkage; "
+            "default with elastic bodies: 1e-7")
+            .between(1e-16, 1e-2),
         s.options.absolute_tolerance);
-  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
-        s.options.max_steps);
-  visit(
-      Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
-      s.options.at_change_point);
-  visit(Field{.key = "settle",
-              .summary = "time before `from` at which elastic bodies start, undeformed; its rows are left "
-                         "out, so that vibrations that the start excites die out if they are damped",
-              .dimension = Dimension::time,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::entry("max_steps", "largest number of steps").between(1, 1e9), s.options.max_steps);
+  visit(field::entry("at_change_point", "where assembly modes meet, as of a parallelogram in line"),
+        s.options.at_change_point);
+  visit(field::time("settle",
+                    "time before `from` at which elastic bodies start, undeformed; its rows are left "
+                    "out, so that vibrations that the start excites die out if they are damped")
+            .not_negative(),
         s.settle);
-  visit(
-      Field{
-          .key = "deflection_scale",
-          .summary =
-              "scale at which deflections of elastic bodies are drawn; default: chosen from 1, 2, 5, 10, ...",
-          .minimum = 1,
-          .maximum = 1e12},
-      s.deflection_scale);
+  visit(field::entry(
+            "deflection_scale",
+            "scale at which deflections of elastic bodies are drawn; default: chosen from 1, 2, 5, 10, ...")
+            .between(1, 1e12),
+        s.deflection_scale);
 }
 
 namespace {
@@ -77,7 +58,7 @@ namespace {
 // large angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without
 // being better.
 constexpr double elastic_tolerance = 1e-7;
-constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
+constexpr Field free_field = field::entry("free", "no drive: forces move the joint");
 
 }  // namespace
 
@@ -99,7 +80,7 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
   }
   for (study::ObjectReader& drive : drive_tables(document)) {
     std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
-    drive(Field{.key = "joint", .summary = {}}, joint);
+    drive(field::entry("joint"), joint);
     std::size_t i = 0;
     while (i < l.driven.size() && input_joint(l, i).name != joint) ++i;
     if (i == l.driven.size()) continue;
@@ -129,11 +110,10 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
 
 void describe_input_drives(study::SchemaWriter& document) {
   study::SchemaWriter drive;
-  drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
+  drive(field::entry("joint", "joint whose coordinate it is"), std::string());
   drive(free_field, false);
   describe_joint_fields<InputDrive>(drive);
-  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
-        std::optional<study::AnyLaw>());
+  drive(field::entry("law", "motion law of a joint that is not free"), std::optional<study::AnyLaw>());
   describe_drives(document, "joints that are free, or move as a law says", std::move(drive));
 }
 
@@ -193,7 +173,7 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
   const bool elastic = !document.tables("elastic").empty();
   // A beam brings its own mass.
   auto description = read_linkage(document, type, !elastic, common.units);
-  if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("simulation").required())) {
     table->read(s);
     if (!(s.to > s.from) && !document.document().has_errors())
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
@@ -269,7 +249,7 @@ study::Kind simulation_kind_of(LinkageType type) {
     describe_linkage(document, type);
     describe_input_drives(document);
     describe_elastic(document);
-    document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
+    document.property(field::entry("simulation", "time and tolerances").required(),
                       study::schema_fields<LinkageSimulationStudy>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {

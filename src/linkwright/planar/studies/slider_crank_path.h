@@ -44,9 +44,8 @@ void fields(Visitor&& visit, SliderPathParameters& p) {
       "crank angle at the first point, from the x axis (equal_steps, increments)"};
   for (std::size_t j = 0; j < slider_parameter_count; ++j) {
     const auto parameter = SliderParameter(j);
-    Field field{.key = name(parameter),
-                .summary = summaries[j],
-                .dimension = is_angle(parameter) ? Dimension::angle : Dimension::length};
+    Field field =
+        field::of(is_angle(parameter) ? Dimension::angle : Dimension::length, name(parameter), summaries[j]);
     if (j <= index(SliderParameter::point_distance)) field.minimum = 0;
     visit(field, p.ranges[j]);
   }
@@ -59,10 +58,9 @@ struct SliderPathMechanism {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathMechanism& m) {
-  visit(Field{.key = "branch", .summary = "where the slider is searched"}, m.branch);
-  visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
-  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
-        m.parameters);
+  visit(field::entry("branch", "where the slider is searched"), m.branch);
+  visit(field::entry("sense", "sense of crank rotation to search"), m.sense);
+  visit(field::entry("parameters", "fixed numbers, or { min, max } for design variables"), m.parameters);
 }
 
 /// The point that traces.
@@ -85,8 +83,8 @@ struct SliderPathTarget : PathTargetForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathTarget& t) {
-  visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
-  visit(Field{.key = "fit", .summary = "how the points are met"}, t.fit);
+  visit(field::entry("point", "point that traces the path"), t.point);
+  visit(field::entry("fit", "how the points are met"), t.fit);
   fields(visit, static_cast<PathTargetForm&>(t));
 }
 
@@ -105,12 +103,10 @@ struct SliderObjectiveEntry {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderObjectiveEntry& o) {
-  visit(Field{.key = "type", .summary = "what is minimised", .required = true}, o.type);
-  visit(Field{.key = "weight",
-              .summary = "factor, where a method of one objective minimises the sum of both",
-              .minimum = 0,
-              .exclusive_minimum = true},
-        o.weight);
+  visit(field::entry("type", "what is minimised").required(), o.type);
+  visit(
+      field::entry("weight", "factor, where a method of one objective minimises the sum of both").positive(),
+      o.weight);
 }
 
 struct PressureLimit {
@@ -118,13 +114,10 @@ struct PressureLimit {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PressureLimit& l) {
-  visit(Field{.key = "max",
-              .summary = "greatest angle between rod and guide, over the turn or the arc",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 1.5707963267948966,
-              .exclusive_minimum = true,
-              .required = true},
+  visit(field::angle("max", "greatest angle between rod and guide, over the turn or the arc")
+            .positive()
+            .at_most(1.5707963267948966)
+            .required(),
         l.max);
 }
 constexpr Word choice_word(const PressureLimit&) {
@@ -136,13 +129,8 @@ struct StrokeLimit {
 };
 template <class Visitor>
 void fields(Visitor&& visit, StrokeLimit& l) {
-  visit(Field{.key = "min", .summary = "least stroke", .dimension = Dimension::length, .minimum = 0}, l.min);
-  visit(Field{.key = "max",
-              .summary = "greatest stroke",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .exclusive_minimum = true},
-        l.max);
+  visit(field::length("min", "least stroke").not_negative(), l.min);
+  visit(field::length("max", "greatest stroke").positive(), l.max);
 }
 constexpr Word choice_word(const StrokeLimit&) {
   return {"stroke",
@@ -156,8 +144,8 @@ struct SliderPathConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathConstraint& c) {
-  visit(Field{.key = "type", .summary = "what is limited", .required = true}, c.limit);
-  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+  visit(field::entry("type", "what is limited").required(), c.limit);
+  visit(field::entry("enabled", "false leaves it out"), c.enabled);
 }
 
 /// `method = "nsga2"` and `"moead"`: fronts by methods of pagmo.
@@ -189,12 +177,9 @@ struct SliderPathOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathOptimiser& o) {
-  visit(Field{.key = "front",
-              .summary = "points of the front, when there are two objectives",
-              .minimum = 2,
-              .maximum = 1000},
+  visit(field::entry("front", "points of the front, when there are two objectives").between(2, 1000),
         o.front);
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+  visit(field::entry("method", "how designs are searched"), o.method);
 }
 
 /// A study as read.

@@ -116,15 +116,14 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
 
 SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common) {
   SliderPathStudy s;
-  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
-    mechanism->read(s.mechanism);
-  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+  if (auto mechanism = document.table(field::entry("mechanism").required())) mechanism->read(s.mechanism);
+  if (auto target = document.table(field::entry("target").required())) {
     target->read(s.target);
     static_cast<PathTargets&>(s.problem) = read_path_targets(*target, common, s.target);
     read_timing(*target, common.units, s);
   }
-  document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
-  document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
+  document(field::entry("objective", "what is minimised"), s.objectives);
+  document(field::entry("constraint", "what must hold"), s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
   set_objectives(document, s);
@@ -146,15 +145,14 @@ study::Kind slider_path_kind() {
   kind.example = templates::synthesis_slider_crank_path_points();
   kind.absent = absent_from_slider_crank_paths();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
+    document.property(field::entry("mechanism", "the slider-crank"),
                       study::schema_fields<SliderPathMechanism>());
-    document.property(Field{.key = "target", .summary = "the path"},
-                      study::schema_fields<SliderPathTarget>());
-    document.property(Field{.key = "objective", .summary = "what is minimised"},
+    document.property(field::entry("target", "the path"), study::schema_fields<SliderPathTarget>());
+    document.property(field::entry("objective", "what is minimised"),
                       study::schema_array(study::schema_fields<SliderObjectiveEntry>()));
-    document.property(Field{.key = "constraint", .summary = "what must hold"},
+    document.property(field::entry("constraint", "what must hold"),
                       study::schema_array(study::schema_fields<SliderPathConstraint>()));
-    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+    document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<SliderPathOptimiser>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -14,20 +14,14 @@ namespace linkwright::planar {
 
 template <class Visitor>
 void fields(Visitor&& visit, SpeedFluctuationSetup& s) {
-  visit(Field{.key = "mean_speed",
-              .summary = "of the input, a turn over its time; negative: backwards",
-              .dimension = Dimension::speed_angular,
-              .minimum = -1e6,
-              .maximum = 1e6,
-              .required = true},
+  visit(field::speed_angular("mean_speed", "of the input, a turn over its time; negative: backwards")
+            .required(),
         s.mean_speed);
-  visit(linkage_fields::angle("start", "of the input where the cycle begins"), s.start);
-  visit(Field{.key = "fluctuation",
-              .summary = "wanted (largest - least) / mean of the speed; a flywheel makes it so",
-              .minimum = 1e-6,
-              .maximum = 1},
+  visit(field::angle("start", "of the input where the cycle begins"), s.start);
+  visit(field::entry("fluctuation", "wanted (largest - least) / mean of the speed; a flywheel makes it so")
+            .between(1e-6, 1),
         s.fluctuation);
-  visit(Field{.key = "samples", .summary = "of a turn", .minimum = 16, .maximum = 100000}, s.samples);
+  visit(field::entry("samples", "of a turn").between(16, 100000), s.samples);
 }
 
 namespace {
@@ -37,7 +31,7 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
   study::Prepared prepared;
   SpeedFluctuationStudy s;
   auto description = read_linkage(document, type, true, common.units);
-  if (auto table = document.table(Field{.key = "speed_fluctuation", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("speed_fluctuation").required())) {
     table->read(s.setup);
     if (s.setup.mean_speed == 0)
       table->error("mean_speed", "a machine at rest has no cycle", "give its speed");
@@ -77,11 +71,11 @@ study::Kind fluctuation_kind(LinkageType type) {
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
     study::SchemaWriter drive;
-    drive(Field{.key = "joint", .summary = "joint of the input"}, std::string());
+    drive(field::entry("joint", "joint of the input"), std::string());
     describe_drives(document, "the input that turns", std::move(drive));
-    document.property(Field{.key = "speed_fluctuation",
-                            .summary = "the cycle and the coefficient of speed fluctuation that it may have",
-                            .required = true},
+    document.property(field::entry("speed_fluctuation",
+                                   "the cycle and the coefficient of speed fluctuation that it may have")
+                          .required(),
                       study::schema_fields<SpeedFluctuationSetup>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {

@@ -40,9 +40,7 @@ struct SwingMechanism {
 /// Lengths that may be given, and how long the coupler (rod) may be.
 template <class Visitor, class Length>
 void stroke_length_field(Visitor&& visit, std::string_view key, std::string_view summary, Length& value) {
-  visit(
-      Field{.key = key, .summary = summary, .dimension = Dimension::length, .minimum = 1e-6, .maximum = 1e6},
-      value);
+  visit(field::length(key, summary).between(1e-6, 1e6), value);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SwingMechanism& m) {
@@ -51,14 +49,12 @@ void fields(Visitor&& visit, SwingMechanism& m) {
   stroke_length_field(visit, "crank", "length of the crank, instead or besides", m.crank);
   stroke_length_field(visit, "coupler", "length of the coupler, likewise", m.coupler);
   stroke_length_field(visit, "rocker", "length of the rocker, likewise", m.rocker);
-  visit(Field{.key = "largest_coupler_ratio",
-              .summary = "longest coupler, in cranks, that may be chosen",
-              .minimum = 1,
-              .maximum = 1e3,
-              .exclusive_minimum = true},
+  visit(field::entry("largest_coupler_ratio", "longest coupler, in cranks, that may be chosen")
+            .above(1)
+            .at_most(1e3),
         m.largest_ratio);
-  visit(Field{.key = "branch", .summary = "side of the rocker, seen from the crank"}, m.branch);
-  visit(Field{.key = "rotation", .summary = "of the crank"}, m.rotation);
+  visit(field::entry("branch", "side of the rocker, seen from the crank"), m.branch);
+  visit(field::entry("rotation", "of the crank"), m.rotation);
 }
 struct StrokeMechanism {
   std::optional<double> crank, rod;
@@ -69,27 +65,19 @@ template <class Visitor>
 void fields(Visitor&& visit, StrokeMechanism& m) {
   stroke_length_field(visit, "crank", "length of the crank; default: the one that transmits best", m.crank);
   stroke_length_field(visit, "rod", "length of the rod instead", m.rod);
-  visit(Field{.key = "largest_rod_ratio",
-              .summary = "longest rod, in cranks, that may be chosen",
-              .minimum = 1,
-              .maximum = 1e3,
-              .exclusive_minimum = true},
+  visit(field::entry("largest_rod_ratio", "longest rod, in cranks, that may be chosen").above(1).at_most(1e3),
         m.largest_ratio);
-  visit(Field{.key = "rotation", .summary = "of the crank"}, m.rotation);
+  visit(field::entry("rotation", "of the crank"), m.rotation);
 }
 
 template <class Visitor>
 void time_ratio_fields(Visitor&& visit, std::optional<double>& time_ratio, std::optional<double>& imbalance) {
-  visit(Field{.key = "time_ratio",
-              .summary = "time of the slow stroke over that of the quick one, 1 or more",
-              .minimum = 1,
-              .maximum = 1e3},
+  visit(field::entry("time_ratio", "time of the slow stroke over that of the quick one, 1 or more")
+            .between(1, 1e3),
         time_ratio);
-  visit(Field{.key = "imbalance_angle",
-              .summary = "instead: the crank turns by 180 degrees and this during the slow stroke",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 3.12413936106985},
+  visit(field::angle("imbalance_angle",
+                     "instead: the crank turns by 180 degrees and this during the slow stroke")
+            .between(0, 3.12413936106985),
         imbalance);
 }
 struct SwingTarget {
@@ -99,15 +87,12 @@ struct SwingTarget {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SwingTarget& t) {
-  visit(Field{.key = "swing_angle",
-              .summary = "of the rocker between its dead centres",
-              .dimension = Dimension::angle,
-              .minimum = 1e-3,
-              .maximum = 3.12413936106985,
-              .required = true},
+  visit(field::angle("swing_angle", "of the rocker between its dead centres")
+            .between(1e-3, 3.12413936106985)
+            .required(),
         t.swing);
   time_ratio_fields(visit, t.time_ratio, t.imbalance);
-  visit(Field{.key = "slow_stroke", .summary = "sense of the slow stroke; default: the better one"}, t.slow);
+  visit(field::entry("slow_stroke", "sense of the slow stroke; default: the better one"), t.slow);
 }
 struct StrokeTarget {
   double stroke = 0;
@@ -116,15 +101,10 @@ struct StrokeTarget {
 };
 template <class Visitor>
 void fields(Visitor&& visit, StrokeTarget& t) {
-  visit(Field{.key = "stroke",
-              .summary = "of the slider between its dead centres",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e6,
-              .required = true},
+  visit(field::length("stroke", "of the slider between its dead centres").between(1e-6, 1e6).required(),
         t.stroke);
   time_ratio_fields(visit, t.time_ratio, t.imbalance);
-  visit(Field{.key = "slow_stroke", .summary = "sense of the slow stroke"}, t.slow);
+  visit(field::entry("slow_stroke", "sense of the slow stroke"), t.slow);
 }
 
 /// A length that is given.

@@ -23,7 +23,7 @@ std::string angle_text(double angle) { return fmt::format("{:.4g}°", math::degr
 // |imbalance|; nothing where it has been reported.
 std::optional<double> read_imbalance(study::ObjectReader& target, const std::optional<double>& ratio,
                                      const std::optional<double>& imbalance) {
-  const bool has_angle = target.has(Field{.key = "imbalance_angle", .dimension = Dimension::angle});
+  const bool has_angle = target.has(field::angle("imbalance_angle"));
   if (ratio && imbalance) {
     target.error("imbalance_angle", "the target has both a time ratio and an imbalance angle",
                  "keep one of them");
@@ -81,7 +81,7 @@ void set_given(study::ObjectReader& mechanism, SwingStudy& s, const SwingMechani
   if (given.empty()) {
     bool any = false;
     for (const char* key : {"ground", "crank", "coupler", "rocker"})
-      any = any || mechanism.has(Field{.key = key, .dimension = Dimension::length});
+      any = any || mechanism.has(field::length(key));
     if (!any)
       mechanism.error("ground", "the linkage has no length",
                       "write ground_mm = 100, or the length of the crank, coupler or rocker");
@@ -145,7 +145,7 @@ void require_fitting(study::ObjectReader& mechanism, SwingStudy& s) {
 
 SwingStudy study_of(study::ObjectReader& document, SwingMechanism& mechanism, SwingTarget& target) {
   SwingStudy s;
-  auto body = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto body = document.table(field::entry("mechanism").required());
   if (body) {
     body->read(mechanism);
     set_given(*body, s, mechanism);
@@ -153,7 +153,7 @@ SwingStudy study_of(study::ObjectReader& document, SwingMechanism& mechanism, Sw
     s.branch = mechanism.branch;
     s.rotation = mechanism.rotation;
   }
-  if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("target").required())) {
     table->read(target);
     s.swing = target.swing;
     if (const auto imbalance = read_imbalance(*table, target.time_ratio, target.imbalance);
@@ -176,7 +176,7 @@ SwingStudy study_of(study::ObjectReader& document, SwingMechanism& mechanism, Sw
 SwingStudy study_of(study::ObjectReader& document, StrokeMechanism& mechanism, StrokeTarget& target) {
   SwingStudy s;
   s.slider = true;
-  auto body = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto body = document.table(field::entry("mechanism").required());
   if (body) {
     body->read(mechanism);
     s.largest_ratio = mechanism.largest_ratio;
@@ -184,7 +184,7 @@ SwingStudy study_of(study::ObjectReader& document, StrokeMechanism& mechanism, S
     if (mechanism.crank && mechanism.rod)
       body->error("rod", "crank and rod are both given, one of them settles the linkage", "keep one");
   }
-  if (auto table = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("target").required())) {
     table->read(target);
     s.given[0] = {StrokeLength::chord, target.stroke};
     if (const auto imbalance = read_imbalance(*table, target.time_ratio, target.imbalance)) {
@@ -214,8 +214,8 @@ template <class Target, class Mechanism>
 void complete_stroke_kind(study::Kind& kind, std::string what) {
   kind.kind = "synthesis";
   kind.schema = [what](study::SchemaWriter& document) {
-    document.property(Field{.key = "mechanism", .summary = what}, study::schema_fields<Mechanism>());
-    document.property(Field{.key = "target", .summary = "its strokes"}, study::schema_fields<Target>());
+    document.property(field::entry("mechanism", what), study::schema_fields<Mechanism>());
+    document.property(field::entry("target", "its strokes"), study::schema_fields<Target>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     Mechanism mechanism;

@@ -24,18 +24,12 @@ struct LinkFitOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LinkFitOptions& o) {
-  visit(Field{.key = "starts", .summary = "local searches for a link at most", .minimum = 1, .maximum = 1e6},
-        o.starts);
-  visit(Field{.key = "tolerance",
-              .summary = "root mean square of the structural errors at which a link counts as exact",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .exclusive_minimum = true},
-        o.tolerance);
-  visit(Field{.key = "same_point",
-              .summary = "links whose points lie closer are one link",
-              .dimension = Dimension::length,
-              .minimum = 0},
+  visit(field::entry("starts", "local searches for a link at most").between(1, 1e6), o.starts);
+  visit(
+      field::length("tolerance", "root mean square of the structural errors at which a link counts as exact")
+          .positive(),
+      o.tolerance);
+  visit(field::length("same_point", "links whose points lie closer are one link").not_negative(),
         o.same_point);
 }
 

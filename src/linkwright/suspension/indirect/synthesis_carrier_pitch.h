@@ -25,31 +25,19 @@ struct CarrierPitchFitOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, CarrierPitchFitOptions& o) {
-  visit(Field{.key = "technique", .summary = "what stands for the missing carrier pitch"}, o.technique);
-  visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6}, o.starts);
-  visit(Field{.key = "iterations", .summary = "steps of each search", .minimum = 1, .maximum = 1e6},
-        o.iterations);
-  visit(Field{.key = "final_iterations",
-              .summary = "steps of the best searches, one after the other until one is good enough",
-              .minimum = 1,
-              .maximum = 1e6},
+  visit(field::entry("technique", "what stands for the missing carrier pitch"), o.technique);
+  visit(field::entry("starts", "local searches at most").between(1, 1e6), o.starts);
+  visit(field::entry("iterations", "steps of each search").between(1, 1e6), o.iterations);
+  visit(field::entry("final_iterations",
+                     "steps of the best searches, one after the other until one is good enough")
+            .between(1, 1e6),
         o.final_iterations);
-  visit(Field{.key = "tolerance",
-              .summary = "root mean square of the structural errors at which the search ends",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .exclusive_minimum = true},
+  visit(field::length("tolerance", "root mean square of the structural errors at which the search ends")
+            .positive(),
         o.tolerance);
-  visit(Field{.key = "largest_carrier_pitch",
-              .summary = "bound of the unknown carrier pitches",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .exclusive_minimum = true},
+  visit(field::angle("largest_carrier_pitch", "bound of the unknown carrier pitches").positive(),
         o.largest_carrier_pitch);
-  visit(Field{.key = "distinct_links",
-              .summary = "ends with two links nearer than this are refused",
-              .dimension = Dimension::length,
-              .minimum = 0},
+  visit(field::length("distinct_links", "ends with two links nearer than this are refused").not_negative(),
         o.distinct_links);
 }
 

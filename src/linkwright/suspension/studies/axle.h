@@ -20,19 +20,14 @@ struct VehicleForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, VehicleForm& v) {
-  visit(Field{.key = "axle", .summary = "where this axle is"}, v.axle);
+  visit(field::entry("axle", "where this axle is"), v.axle);
   const auto length = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = Dimension::length,
-                 .minimum = 0.01,
-                 .maximum = 1e3,
-                 .required = true};
+    return field::length(key, summary).between(0.01, 1e3).required();
   };
   visit(length("wheelbase", "between the axles"), v.layout.wheelbase);
   visit(length("centre_height", "mass centre above the ground"), v.layout.centre_height);
   const auto share = [](std::string_view key, std::string_view summary) {
-    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+    return field::entry(key, summary).between(0, 1);
   };
   visit(share("front_brake_share", "of the braking force"), v.layout.front_brake_share);
   visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
@@ -46,15 +41,11 @@ struct AxleForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, AxleForm& a) {
-  visit(Field{.key = "roll", .summary = "angles by which the body leans to the left over a plane road"},
-        a.roll);
-  visit(Field{.key = "rack", .summary = "displacements of the rack, the wheels at their reference height"},
-        a.rack);
-  visit(Field{.key = "rack_per_turn",
-              .summary = "C factor: rack travel by a turn of the steering wheel, for the steering ratio",
-              .dimension = Dimension::length,
-              .minimum = 1e-4,
-              .maximum = 10},
+  visit(field::entry("roll", "angles by which the body leans to the left over a plane road"), a.roll);
+  visit(field::entry("rack", "displacements of the rack, the wheels at their reference height"), a.rack);
+  visit(field::length("rack_per_turn",
+                      "C factor: rack travel by a turn of the steering wheel, for the steering ratio")
+            .between(1e-4, 10),
         a.rack_per_turn);
 }
 

@@ -31,11 +31,10 @@ struct JointForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {
-  visit(Field{.key = "link", .summary = "name of the link", .required = true}, j.link);
-  visit(Field{.key = "end", .summary = "which of its joints; left out: a rod and both its joints in series"},
-        j.end);
+  visit(field::entry("link", "name of the link").required(), j.link);
+  visit(field::entry("end", "which of its joints; left out: a rod and both its joints in series"), j.end);
   const auto stiffness = [](std::string_view key, std::string_view summary, Dimension dimension) {
-    return Field{.key = key, .summary = summary, .dimension = dimension, .minimum = 0, .maximum = 1e15};
+    return field::of(dimension, key, summary).between(0, 1e15);
   };
   visit(
       stiffness("stiffness", "the same in all directions, free to turn: a ball joint", Dimension::stiffness),
@@ -44,10 +43,9 @@ void fields(Visitor&& visit, JointForm& j) {
   visit(stiffness("radial", "of a bushing, across its axis", Dimension::stiffness), j.radial);
   visit(stiffness("torsional", "of a bushing, about its axis", Dimension::stiffness_angular), j.torsional);
   visit(stiffness("conical", "of a bushing, about axes across", Dimension::stiffness_angular), j.conical);
-  visit(Field{.key = "axis",
-              .summary = "of a bushing, of any length; default: the hinge of the link, or the line of a rod",
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(field::entry("axis",
+                     "of a bushing, of any length; default: the hinge of the link, or the line of a rod")
+            .between(-1e6, 1e6),
         j.axis);
 }
 
@@ -63,20 +61,10 @@ struct LoadForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LoadForm& l) {
-  visit(Field{.key = "name", .summary = "of the load case", .required = true}, l.name);
-  visit(Field{.key = "at", .summary = "where the force acts on the carrier"}, l.at);
-  visit(Field{.key = "force",
-              .summary = "in the vehicle's frame: forward, left, up",
-              .dimension = Dimension::force,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        l.force);
-  visit(Field{.key = "moment",
-              .summary = "about its axes",
-              .dimension = Dimension::torque,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        l.moment);
+  visit(field::entry("name", "of the load case").required(), l.name);
+  visit(field::entry("at", "where the force acts on the carrier"), l.at);
+  visit(field::force("force", "in the vehicle's frame: forward, left, up"), l.force);
+  visit(field::torque("moment", "about its axes"), l.moment);
 }
 
 struct ComplianceForm {
@@ -87,21 +75,17 @@ struct ComplianceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ComplianceForm& c) {
-  visit(Field{.key = "support",
-              .summary =
-                  "what carries the wheel; default: the spring if its stiffness is known, else the height "
-                  "of the contact"},
+  visit(field::entry("support",
+                     "what carries the wheel; default: the spring if its stiffness is known, else the height "
+                     "of the contact"),
         c.support);
-  visit(Field{.key = "preload",
-              .summary =
-                  "load of the wheel at rest, upward at the contact, whose turning with the links counts; "
-                  "needs a spring",
-              .dimension = Dimension::force,
-              .minimum = 0,
-              .maximum = 1e9},
+  visit(field::force("preload",
+                     "load of the wheel at rest, upward at the contact, whose turning with the links counts; "
+                     "needs a spring")
+            .not_negative(),
         c.preload);
-  visit(Field{.key = "joint", .summary = "elastic joints; all others are rigid"}, c.joints);
-  visit(Field{.key = "load", .summary = "loads in addition to the standard cases"}, c.loads);
+  visit(field::entry("joint", "elastic joints; all others are rigid"), c.joints);
+  visit(field::entry("load", "loads in addition to the standard cases"), c.loads);
 }
 
 /// Checks what was read against the suspension; problems go to the reader.

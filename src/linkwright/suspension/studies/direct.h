@@ -37,39 +37,20 @@ struct DesignForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignForm& d) {
-  visit(Field{.key = "point", .summary = "of a link: \"tie rod.body\", \"lower wishbone.body_2\""}, d.point);
-  visit(Field{.key = "box",
-              .summary = "edge of the box around the point, or its three edges",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e3},
-        d.box);
-  visit(Field{.key = "given", .summary = "coordinates that stay as they are"}, d.given);
-  visit(Field{.key = "link", .summary = "a US link whose length is a design variable"}, d.link);
-  visit(Field{.key = "length",
-              .summary = "its range",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e3},
-        d.length);
+  visit(field::entry("point", "of a link: \"tie rod.body\", \"lower wishbone.body_2\""), d.point);
+  visit(field::length("box", "edge of the box around the point, or its three edges").between(0, 1e3), d.box);
+  visit(field::entry("given", "coordinates that stay as they are"), d.given);
+  visit(field::entry("link", "a US link whose length is a design variable"), d.link);
+  visit(field::length("length", "its range").between(1e-6, 1e3), d.length);
 }
 
-namespace guide_fields {
-constexpr Field size(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = 0,
-          .maximum = 1e3,
-          .required = required};
-}
+/// Fields of a box.
 template <class Visitor, class Box>
-void box(Visitor&& visit, Box& b) {
-  visit(place("x", "its range along x", true), b.x);
-  visit(place("y", "its range along y", true), b.y);
-  visit(place("z", "its range along z", true), b.z);
+void box_fields(Visitor&& visit, Box& b) {
+  visit(field::length("x", "its range along x").required(), b.x);
+  visit(field::length("y", "its range along y").required(), b.y);
+  visit(field::length("z", "its range along z").required(), b.z);
 }
-}  // namespace guide_fields
 
 /// `[[constraint]]`.
 struct LengthConstraint {
@@ -78,9 +59,9 @@ struct LengthConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LengthConstraint& c) {
-  visit(Field{.key = "link", .summary = "name of the link", .required = true}, c.link);
-  visit(guide_fields::size("min", "least distance of its points"), c.min);
-  visit(guide_fields::size("max", "greatest distance of its points"), c.max);
+  visit(field::entry("link", "name of the link").required(), c.link);
+  visit(field::length("min", "least distance of its points").not_negative(), c.min);
+  visit(field::length("max", "greatest distance of its points").not_negative(), c.max);
 }
 constexpr Word choice_word(const LengthConstraint&) { return {"link_length", "how long a link may be"}; }
 
@@ -90,9 +71,11 @@ struct LinkClearanceConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LinkClearanceConstraint& c) {
-  visit(Field{.key = "first", .summary = "name of a link", .required = true}, c.first);
-  visit(Field{.key = "second", .summary = "name of another one", .required = true}, c.second);
-  visit(guide_fields::size("min", "minimum distance of their lines: both radii and the clearance", true),
+  visit(field::entry("first", "name of a link").required(), c.first);
+  visit(field::entry("second", "name of another one").required(), c.second);
+  visit(field::length("min", "minimum distance of their lines: both radii and the clearance")
+            .not_negative()
+            .required(),
         c.min);
 }
 constexpr Word choice_word(const LinkClearanceConstraint&) {
@@ -106,13 +89,15 @@ struct TyreClearanceConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TyreClearanceConstraint& c) {
-  visit(Field{.key = "link", .summary = "name of the link", .required = true}, c.link);
-  visit(guide_fields::size("inner_diameter", "of the tyre, inside which the rim leaves space", true),
+  visit(field::entry("link", "name of the link").required(), c.link);
+  visit(field::length("inner_diameter", "of the tyre, inside which the rim leaves space")
+            .not_negative()
+            .required(),
         c.inner_diameter);
-  visit(guide_fields::size("outer_diameter", "of the tyre; default: tyre_diameter of the wheel"),
+  visit(field::length("outer_diameter", "of the tyre; default: tyre_diameter of the wheel").not_negative(),
         c.outer_diameter);
-  visit(guide_fields::size("width", "of the tyre", true), c.width);
-  visit(guide_fields::size("min", "least distance of the link's line", true), c.min);
+  visit(field::length("width", "of the tyre").not_negative().required(), c.width);
+  visit(field::length("min", "least distance of the link's line").not_negative().required(), c.min);
 }
 constexpr Word choice_word(const TyreClearanceConstraint&) {
   return {"tyre_clearance", "distance between a link and the tyre"};
@@ -125,9 +110,9 @@ struct BoxClearanceConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, BoxClearanceConstraint& c) {
-  visit(Field{.key = "link", .summary = "name of the link", .required = true}, c.link);
-  guide_fields::box(visit, c);
-  visit(guide_fields::size("min", "least distance of the link's line"), c.min);
+  visit(field::entry("link", "name of the link").required(), c.link);
+  box_fields(visit, c);
+  visit(field::length("min", "least distance of the link's line").not_negative(), c.min);
 }
 constexpr Word choice_word(const BoxClearanceConstraint&) {
   return {"box_clearance", "distance between a link and a box of the body"};
@@ -139,8 +124,8 @@ struct KeepOutConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, KeepOutConstraint& c) {
-  visit(Field{.key = "point", .summary = "of a link: \"tie rod.body\"", .required = true}, c.point);
-  guide_fields::box(visit, c);
+  visit(field::entry("point", "of a link: \"tie rod.body\"").required(), c.point);
+  box_fields(visit, c);
 }
 constexpr Word choice_word(const KeepOutConstraint&) {
   return {"keep_out", "a box that a point stays out of"};
@@ -153,7 +138,7 @@ struct DirectConstraint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DirectConstraint& c) {
-  visit(Field{.key = "type", .summary = "what is limited", .required = true}, c.limit);
+  visit(field::entry("type", "what is limited").required(), c.limit);
 }
 
 struct RecommendedDirect {
@@ -161,16 +146,11 @@ struct RecommendedDirect {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedDirect& r) {
-  visit(Field{.key = "goal", .summary = "what is minimised"}, r.options.goal);
-  visit(Field{.key = "starts", .summary = "local searches from random places", .minimum = 1, .maximum = 1e6},
-        r.options.starts);
-  visit(Field{.key = "refined",
-              .summary = "best ends that are refined for the goal",
-              .minimum = 1,
-              .maximum = 1e4},
+  visit(field::entry("goal", "what is minimised"), r.options.goal);
+  visit(field::entry("starts", "local searches from random places").between(1, 1e6), r.options.starts);
+  visit(field::entry("refined", "best ends that are refined for the goal").between(1, 1e4),
         r.options.refined);
-  visit(Field{.key = "evaluations", .summary = "of a local search, at most", .minimum = 1, .maximum = 1e7},
-        r.options.evaluations);
+  visit(field::entry("evaluations", "of a local search, at most").between(1, 1e7), r.options.evaluations);
 }
 constexpr Word choice_word(const RecommendedDirect&) {
   return {"recommended", "least squares with exact gradients from many starts, then the goal"};
@@ -181,9 +161,9 @@ struct PublishedDirect {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PublishedDirect& p) {
-  visit(Field{.key = "goal", .summary = "what is minimised"}, p.options.goal);
-  visit(Field{.key = "population", .summary = "members", .minimum = 4, .maximum = 1e6}, p.population);
-  visit(Field{.key = "generations", .summary = "at most", .minimum = 1, .maximum = 1e7}, p.generations);
+  visit(field::entry("goal", "what is minimised"), p.options.goal);
+  visit(field::entry("population", "members").between(4, 1e6), p.population);
+  visit(field::entry("generations", "at most").between(1, 1e7), p.generations);
 }
 constexpr Word choice_word(const PublishedDirect&) {
   return {"differential_evolution", "with the settings of Poznanovic 2016: F 0.6, CR 0.9"};
@@ -194,8 +174,8 @@ struct DirectOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DirectOptimiser& o) {
-  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
-  visit(Field{.key = "objective", .summary = "the one that the goal `one` makes small"}, o.objective);
+  visit(field::entry("method", "how designs are searched"), o.method);
+  visit(field::entry("objective", "the one that the goal `one` makes small"), o.objective);
 }
 
 /// A synthesis as read.

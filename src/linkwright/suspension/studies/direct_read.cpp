@@ -73,9 +73,9 @@ class TargetReader {
       : target_(target), common_(common), s_(s) {}
 
   void read() {
-    target_(Field{.key = "coordinate", .summary = {}}, s_.task.driver);
+    target_(field::entry("coordinate"), s_.task.driver);
     std::string file;
-    if (target_(Field{.key = "file", .summary = {}}, file))
+    if (target_(field::entry("file"), file))
       if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
         Diagnostics problems;
         table_ = read_csv(*text, file, problems);
@@ -119,10 +119,10 @@ class TargetReader {
       if (quantity_of(column, s_.lock)) bases.push_back(study::base_of(column.key));
     std::vector<Word> words;
     for (const std::string& b : bases) words.push_back({b});
-    const auto which = table.word(Field{.key = "quantity", .summary = {}, .required = true}, words);
-    table(Field{.key = "measure", .summary = {}}, c.measure);
-    table(Field{.key = "weight", .summary = {}, .minimum = 0, .maximum = 1e9}, c.weight);
-    table(Field{.key = "objective", .summary = {}}, c.objective);
+    const auto which = table.word(field::entry("quantity").required(), words);
+    table(field::entry("measure"), c.measure);
+    table(field::entry("weight").between(0, 1e9), c.weight);
+    table(field::entry("objective"), c.objective);
     if (!which) {
       table.members();  // the meaning of the other keys depends on the quantity
       return std::nullopt;
@@ -134,16 +134,14 @@ class TargetReader {
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
     const auto number = [&](std::string_view key, double least) {
-      return Field{.key = key, .summary = {}, .dimension = dimension, .minimum = least, .maximum = 1e9};
+      return field::of(dimension, key).between(least, 1e9);
     };
-    const auto length = [](std::string_view key) {
-      return Field{.key = key, .summary = {}, .dimension = Dimension::length, .minimum = -10, .maximum = 10};
-    };
+    const auto length = [](std::string_view key) { return field::length(key).between(-10, 10); };
     Numbers travel, rack, value;
     const bool has_travel = table(length("travel"), travel), has_rack = table(length("rack"), rack);
     const bool has_value = table(number("value", -1e9), value);
     const bool has_tolerance = table(number("tolerance", 0), c.tolerance.least);
-    table(Field{.key = "tolerance_slope", .summary = {}, .minimum = 0, .maximum = 1e3}, c.tolerance.slope);
+    table(field::entry("tolerance_slope").between(0, 1e3), c.tolerance.slope);
     table(number("tolerance_from", 0), c.tolerance.from);
     if (!has_tolerance || !(c.tolerance.least > 0)) {
       if (!has_tolerance && !table.has(number("tolerance", 0)))
@@ -199,7 +197,7 @@ class TargetReader {
 
 void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<DesignForm>& kept) {
   std::vector<DesignForm> forms;
-  document(Field{.key = "design", .summary = {}}, forms);
+  document(field::entry("design"), forms);
   std::vector<study::ObjectReader> tables = document.tables("design");
   WheelGuide& guide = s.description.guide;
   for (std::size_t i = 0; i < forms.size() && i < tables.size(); ++i) {
@@ -340,10 +338,10 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
     s.description = *description;
     s.lock = description->guide.spring ? Driver::spring : Driver::wheel_centre_z;
   }
-  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  auto target = document.table(field::entry("target").required());
   if (target) {
     std::optional<Driver> lock;
-    target->operator()(Field{.key = "steering_lock", .summary = {}}, lock);
+    target->operator()(field::entry("steering_lock"), lock);
     if (lock) s.lock = *lock;
     TargetReader(*target, common, s).read();
     if (description && !description->guide.spring &&
@@ -352,7 +350,7 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
                     "add [mechanism.spring], or take wheel_centre_z");
   }
   std::vector<DesignForm> lengths;
-  document(Field{.key = "constraint", .summary = {}}, s.constraints);
+  document(field::entry("constraint"), s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (!description) return std::nullopt;
   read_designs(document, s, lengths);
@@ -417,40 +415,35 @@ study::Kind direct_kind() {
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
     study::SchemaWriter target, curve;
-    curve.property(
-        Field{.key = "quantity", .summary = "column of an analysis, without unit", .required = true},
-        Value());
-    curve.property(Field{.key = "measure", .summary = "value, change, relative_change"}, Value());
-    curve.property(Field{.key = "objective", .summary = "name under which curves count together"}, Value());
-    curve.property(Field{.key = "weight", .summary = "on its deviations"}, study::schema_number());
+    curve.property(field::entry("quantity", "column of an analysis, without unit").required(), Value());
+    curve.property(field::entry("measure", "value, change, relative_change"), Value());
+    curve.property(field::entry("objective", "name under which curves count together"), Value());
+    curve.property(field::entry("weight", "on its deviations"), study::schema_number());
     const Value numbers =
         study::schema_any_of({study::schema_number(), study::schema_array(study::schema_number())});
-    curve.property(Field{.key = "travel", .summary = "one or a list", .dimension = Dimension::length},
-                   numbers);
-    curve.property(Field{.key = "rack", .summary = "one or a list", .dimension = Dimension::length}, numbers);
+    curve.property(field::length("travel", "one or a list"), numbers);
+    curve.property(field::length("rack", "one or a list"), numbers);
     for (const Dimension dimension :
          {Dimension::none, Dimension::length, Dimension::angle, Dimension::angle_by_length}) {
-      curve.property(Field{.key = "value", .summary = "one or a list", .dimension = dimension}, numbers);
-      curve.property(
-          Field{.key = "tolerance", .summary = "by which a value may be missed", .dimension = dimension},
-          study::schema_number());
-      curve.property(
-          Field{.key = "tolerance_from", .summary = "size from which it grows", .dimension = dimension},
-          study::schema_number());
+      curve.property(field::of(dimension, "value", "one or a list"), numbers);
+      curve.property(field::of(dimension, "tolerance", "by which a value may be missed"),
+                     study::schema_number());
+      curve.property(field::of(dimension, "tolerance_from", "size from which it grows"),
+                     study::schema_number());
     }
-    curve.property(Field{.key = "tolerance_slope", .summary = "by which it grows"}, study::schema_number());
-    target.property(Field{.key = "coordinate", .summary = "what travels"}, Value());
-    target.property(Field{.key = "steering_lock", .summary = "what the steering axis holds"}, Value());
-    target.property(Field{.key = "file", .summary = "CSV file with values of curves"}, Value());
-    target.property(Field{.key = "curve", .summary = "target curves", .required = true},
+    curve.property(field::entry("tolerance_slope", "by which it grows"), study::schema_number());
+    target.property(field::entry("coordinate", "what travels"), Value());
+    target.property(field::entry("steering_lock", "what the steering axis holds"), Value());
+    target.property(field::entry("file", "CSV file with values of curves"), Value());
+    target.property(field::entry("curve", "target curves").required(),
                     study::schema_array(std::move(curve).finish()));
-    document.property(Field{.key = "target", .summary = "what is prescribed for the wheel", .required = true},
+    document.property(field::entry("target", "what is prescribed for the wheel").required(),
                       std::move(target).finish());
-    document.property(Field{.key = "design", .summary = "what is free"},
+    document.property(field::entry("design", "what is free"),
                       study::schema_array(study::schema_fields<DesignForm>()));
-    document.property(Field{.key = "constraint", .summary = "clearances and lengths"},
+    document.property(field::entry("constraint", "clearances and lengths"),
                       study::schema_array(study::schema_fields<DirectConstraint>()));
-    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+    document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<DirectOptimiser>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

@@ -121,7 +121,7 @@ class GuideReader {
   }
 
   void wheel() {
-    auto table = mechanism_.table(Field{.key = "wheel", .summary = {}, .required = true});
+    auto table = mechanism_.table(field::entry("wheel").required());
     if (!table || !form_.wheel) return;
     const WheelForm& w = *form_.wheel;
     GuideWheel& out = out_.guide.wheel;
@@ -302,7 +302,7 @@ class GuideReader {
     out.link = s.attached_to == "carrier" ? -1 : link_named(*table, "attached_to", s.attached_to);
     out_.guide.spring = out;
     if (s.stiffness) out_.spring = SpringLaw{*s.stiffness, s.preload};
-    if (!s.stiffness && table->has(Field{.key = "preload", .summary = {}, .dimension = Dimension::force}))
+    if (!s.stiffness && table->has(field::force("preload")))
       table->error("preload", "needs the stiffness as well", "write stiffness_N_per_mm");
   }
 
@@ -362,7 +362,7 @@ bool anything_open(const GuideDescription& d) {
 
 std::optional<GuideDescription> read_guide(study::ObjectReader& document, const study::Common& common,
                                            OpenPoints open) {
-  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto mechanism = document.table(field::entry("mechanism").required());
   if (!mechanism) return std::nullopt;
   std::optional<GuideDescription> out = GuideReader(*mechanism, common, open).read();
   if (!out) return std::nullopt;
@@ -460,7 +460,7 @@ Value write_guide(GuideDescription d, const WheelGuide& found) {
 }
 
 void describe_guide(study::SchemaWriter& document) {
-  document.property(Field{.key = "mechanism", .summary = "the wheel suspension", .required = true},
+  document.property(field::entry("mechanism", "the wheel suspension").required(),
                     study::schema_fields<GuideForm>());
 }
 

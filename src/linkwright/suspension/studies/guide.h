@@ -56,17 +56,6 @@ constexpr std::array<EnumName<MovedBy>, 1> names(MovedBy) {
   return {{{MovedBy::rack, "rack", "its body points move along the rack"}}};
 }
 
-namespace guide_fields {
-constexpr Field place(std::string_view key, std::string_view summary, bool required = false) {
-  return {.key = key,
-          .summary = summary,
-          .dimension = Dimension::length,
-          .minimum = -1e3,
-          .maximum = 1e3,
-          .required = required};
-}
-}  // namespace guide_fields
-
 struct WheelForm {
   std::optional<PointsForm> centre;
   std::string point;  ///< hard point instead of `centre`
@@ -76,26 +65,18 @@ struct WheelForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, WheelForm& w) {
-  visit(guide_fields::place("centre", "wheel centre at the reference"), w.centre);
-  visit(Field{.key = "point", .summary = "name of the hard point at the wheel centre"}, w.point);
+  visit(field::length("centre", "wheel centre at the reference"), w.centre);
+  visit(field::entry("point", "name of the hard point at the wheel centre"), w.point);
   const auto angle = [](std::string_view key, std::string_view summary) {
-    return Field{
-        .key = key, .summary = summary, .dimension = Dimension::angle, .minimum = -1.5, .maximum = 1.5};
+    return field::angle(key, summary).between(-1.5, 1.5);
   };
   visit(angle("toe", "at the reference, > 0: front of the wheel towards the vehicle"), w.toe);
   visit(angle("camber", "at the reference, > 0: top of the wheel away from the vehicle"), w.camber);
-  visit(Field{.key = "tyre_diameter",
-              .summary = "of the tyre as it stands",
-              .dimension = Dimension::length,
-              .minimum = 0.01,
-              .maximum = 100,
-              .required = true},
+  visit(field::length("tyre_diameter", "of the tyre as it stands").between(0.01, 100).required(),
         w.tyre_diameter);
-  visit(Field{.key = "rim_diameter",
-              .summary = "where toe is measured as a length, between the front and the rear edge of the rim",
-              .dimension = Dimension::length,
-              .minimum = 0.01,
-              .maximum = 100},
+  visit(field::length("rim_diameter",
+                      "where toe is measured as a length, between the front and the rear edge of the rim")
+            .between(0.01, 100),
         w.rim_diameter);
 }
 
@@ -110,27 +91,21 @@ struct GuideLinkForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideLinkForm& l) {
-  visit(Field{.key = "name", .summary = "of the link, for messages and tables"}, l.name);
-  visit(Field{.key = "type", .summary = "joint at the body, joint at the carrier", .required = true}, l.type);
-  visit(guide_fields::place("body", "points at the body: one, or two on the axis of a hinge"), l.body);
-  visit(guide_fields::place("carrier", "points at the carrier: one, or two on the axis of a hinge"),
-        l.carrier);
-  visit(Field{.key = "points",
-              .summary = "names of hard points instead of body and carrier, those of the body first"},
+  visit(field::entry("name", "of the link, for messages and tables"), l.name);
+  visit(field::entry("type", "joint at the body, joint at the carrier").required(), l.type);
+  visit(field::length("body", "points at the body: one, or two on the axis of a hinge"), l.body);
+  visit(field::length("carrier", "points at the carrier: one, or two on the axis of a hinge"), l.carrier);
+  visit(field::entry("points", "names of hard points instead of body and carrier, those of the body first"),
         l.points);
-  visit(Field{.key = "length",
-              .summary = "of a US or SS link, instead of the distance of its points",
-              .dimension = Dimension::length,
-              .minimum = 1e-6,
-              .maximum = 1e3},
-        l.length);
-  visit(Field{.key = "moved_by", .summary = "what moves its body points"}, l.moved_by);
-  visit(Field{.key = "cross_axis",
-              .summary = "of a US link: direction of the axis of its universal joint that is fixed in the "
-                         "body; default: level "
-                         "and across the link. What is fixed to the link off its line turns with it",
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(
+      field::length("length", "of a US or SS link, instead of the distance of its points").between(1e-6, 1e3),
+      l.length);
+  visit(field::entry("moved_by", "what moves its body points"), l.moved_by);
+  visit(field::entry("cross_axis",
+                     "of a US link: direction of the axis of its universal joint that is fixed in the "
+                     "body; default: level "
+                     "and across the link. What is fixed to the link off its line turns with it")
+            .between(-1e6, 1e6),
         l.cross_axis);
 }
 
@@ -145,23 +120,18 @@ struct GuideCouplerForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideCouplerForm& c) {
-  visit(Field{.key = "name", .summary = "of the coupler"}, c.name);
-  visit(Field{.key = "first", .summary = "name of the US link that it begins on", .required = true}, c.first);
-  visit(Field{.key = "fraction",
-              .summary = "its place on that link as a share of the length, from the body",
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::entry("name", "of the coupler"), c.name);
+  visit(field::entry("first", "name of the US link that it begins on").required(), c.first);
+  visit(field::entry("fraction", "its place on that link as a share of the length, from the body")
+            .between(0, 1),
         c.fraction);
-  visit(Field{.key = "offset",
-              .summary = "its place on that link as a distance from the body, instead of fraction",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e3},
+  visit(field::length("offset", "its place on that link as a distance from the body, instead of fraction")
+            .between(0, 1e3),
         c.offset);
-  visit(guide_fields::place("first_point", "its point on that link, off the line too, instead of fraction"),
+  visit(field::length("first_point", "its point on that link, off the line too, instead of fraction"),
         c.first_point);
-  visit(Field{.key = "second", .summary = "name of the SR link that it ends on", .required = true}, c.second);
-  visit(guide_fields::place("point", "its point on that link", true), c.point);
+  visit(field::entry("second", "name of the SR link that it ends on").required(), c.second);
+  visit(field::length("point", "its point on that link").required(), c.point);
 }
 
 struct GuideSpringForm {
@@ -173,22 +143,13 @@ struct GuideSpringForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideSpringForm& s) {
-  visit(guide_fields::place("body", "its end at the body"), s.body);
-  visit(guide_fields::place("moving", "its other end"), s.moving);
-  visit(Field{.key = "points", .summary = "names of two hard points instead of both"}, s.points);
-  visit(Field{.key = "attached_to", .summary = "\"carrier\" or the name of a link"}, s.attached_to);
-  visit(Field{.key = "stiffness",
-              .summary = "of the spring, for wheel rates and compliance",
-              .dimension = Dimension::stiffness,
-              .minimum = 0,
-              .maximum = 1e12},
+  visit(field::length("body", "its end at the body"), s.body);
+  visit(field::length("moving", "its other end"), s.moving);
+  visit(field::entry("points", "names of two hard points instead of both"), s.points);
+  visit(field::entry("attached_to", "\"carrier\" or the name of a link"), s.attached_to);
+  visit(field::stiffness("stiffness", "of the spring, for wheel rates and compliance").not_negative(),
         s.stiffness);
-  visit(Field{.key = "preload",
-              .summary = "force with which it pushes its ends apart at the reference",
-              .dimension = Dimension::force,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        s.preload);
+  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
 }
 
 /// Named points beside the mechanism, in their own frame.
@@ -200,22 +161,15 @@ struct HardPointsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, HardPointsForm& h) {
-  visit(Field{.key = "file", .summary = "list of points: CSV with name,x_mm,y_mm,z_mm, or plain text"},
-        h.file);
-  visit(Field{.key = "unit", .summary = "of a plain text list"}, h.unit);
-  visit(Field{.key = "x", .summary = "where the x axis of the points points to"}, h.frame.x);
-  visit(Field{.key = "y", .summary = "where their y axis points to"}, h.frame.y);
-  visit(Field{.key = "z", .summary = "where their z axis points to"}, h.frame.z);
+  visit(field::entry("file", "list of points: CSV with name,x_mm,y_mm,z_mm, or plain text"), h.file);
+  visit(field::entry("unit", "of a plain text list"), h.unit);
+  visit(field::entry("x", "where the x axis of the points points to"), h.frame.x);
+  visit(field::entry("y", "where their y axis points to"), h.frame.y);
+  visit(field::entry("z", "where their z axis points to"), h.frame.z);
   std::array<double, 3> origin{h.frame.origin.x, h.frame.origin.y, h.frame.origin.z};
-  visit(guide_fields::place("origin", "their origin in the vehicle's frame: x forward, y left, z up"),
-        origin);
+  visit(field::length("origin", "their origin in the vehicle's frame: x forward, y left, z up"), origin);
   h.frame.origin = {origin[0], origin[1], origin[2]};
-  visit(Field{.key = "points",
-              .summary = "points given here, by name",
-              .dimension = Dimension::length,
-              .minimum = -1e6,
-              .maximum = 1e6},
-        h.points);
+  visit(field::length("points", "points given here, by name").between(-1e6, 1e6), h.points);
 }
 
 struct RackForm {
@@ -223,10 +177,8 @@ struct RackForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RackForm& r) {
-  visit(Field{.key = "direction",
-              .summary = "of the rack, of any length; displacements along it are positive",
-              .minimum = -1e6,
-              .maximum = 1e6},
+  visit(field::entry("direction", "of the rack, of any length; displacements along it are positive")
+            .between(-1e6, 1e6),
         r.direction);
 }
 
@@ -242,16 +194,14 @@ struct GuideForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideForm& g) {
-  visit(Field{.key = "sample", .summary = "a built-in wheel suspension instead of everything else"},
-        g.sample);
-  visit(Field{.key = "side", .summary = "of the vehicle; a sample is mirrored for the right one"}, g.side);
-  visit(Field{.key = "hard_points", .summary = "named points, and the frame they are given in"},
-        g.hard_points);
-  visit(Field{.key = "wheel", .summary = "the wheel at the reference"}, g.wheel);
-  visit(Field{.key = "link", .summary = "links and joints between body and carrier"}, g.links);
-  visit(Field{.key = "coupler", .summary = "rods between two links"}, g.couplers);
-  visit(Field{.key = "spring", .summary = "between the body and the carrier or a link"}, g.spring);
-  visit(Field{.key = "rack", .summary = "of the steering"}, g.rack);
+  visit(field::entry("sample", "a built-in wheel suspension instead of everything else"), g.sample);
+  visit(field::entry("side", "of the vehicle; a sample is mirrored for the right one"), g.side);
+  visit(field::entry("hard_points", "named points, and the frame they are given in"), g.hard_points);
+  visit(field::entry("wheel", "the wheel at the reference"), g.wheel);
+  visit(field::entry("link", "links and joints between body and carrier"), g.links);
+  visit(field::entry("coupler", "rods between two links"), g.couplers);
+  visit(field::entry("spring", "between the body and the carrier or a link"), g.spring);
+  visit(field::entry("rack", "of the steering"), g.rack);
 }
 
 /// The freedom that a study may leave to its points.

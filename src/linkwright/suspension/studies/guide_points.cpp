@@ -27,13 +27,7 @@ struct OpenCoordinate {
 template <class Visitor>
 void fields(Visitor&& visit, OpenCoordinate& c) {
   const auto limit = [](std::string_view key, std::string_view summary, bool required) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = Dimension::length,
-                 .minimum = -1e3,
-                 .maximum = 1e3,
-                 .required = required,
-                 .inherits_unit = true};
+    return field::length(key, summary).between(-1e3, 1e3).required(required).with_inherited_unit();
   };
   visit(limit("min", "least value", true), c.lower);
   visit(limit("max", "largest value", true), c.upper);
@@ -49,19 +43,12 @@ struct OpenPoint {
 };
 template <class Visitor>
 void fields(Visitor&& visit, OpenPoint& p) {
-  Field near = guide_fields::place("near", "place that the box is around", true);
+  Field near = field::length("near", "place that the box is around").required();
   near.inherits_unit = true;
   visit(near, p.near);
-  visit(Field{.key = "box",
-              .summary = "edge of the box, or its three edges",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e3,
-              .required = true},
-        p.box);
-  visit(guide_fields::place("offset", "of the middle of the box from that place"), p.offset);
-  visit(Field{.key = "given", .summary = "coordinates that are not open: they stay as `near` has them"},
-        p.given);
+  visit(field::length("box", "edge of the box, or its three edges").between(0, 1e3).required(), p.box);
+  visit(field::length("offset", "of the middle of the box from that place"), p.offset);
+  visit(field::entry("given", "coordinates that are not open: they stay as `near` has them"), p.given);
 }
 
 PointForm form_of(const OpenPoint& p) {

@@ -23,20 +23,10 @@ struct PoseEntry {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseEntry& p) {
-  visit(Field{.key = "rack",
-              .summary = "displacement along its direction",
-              .dimension = Dimension::length,
-              .minimum = -10,
-              .maximum = 10},
-        p.rack);
-  visit(guide_fields::place("centre", "of the wheel, in the vehicle's frame", true), p.centre);
+  visit(field::length("rack", "displacement along its direction").between(-10, 10), p.rack);
+  visit(field::length("centre", "of the wheel, in the vehicle's frame").required(), p.centre);
   const auto angle = [](std::string_view key, std::string_view summary, bool required) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = Dimension::angle,
-                 .minimum = -1.5,
-                 .maximum = 1.5,
-                 .required = required};
+    return field::angle(key, summary).between(-1.5, 1.5).required(required);
   };
   visit(angle("toe", "> 0: front of the wheel towards the vehicle", true), p.toe);
   visit(angle("camber", "> 0: top of the wheel away from the vehicle", true), p.camber);
@@ -52,8 +42,8 @@ struct PosesTarget {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PosesTarget& t) {
-  visit(Field{.key = "file", .summary = "CSV file with one position per line"}, t.file);
-  visit(Field{.key = "pose", .summary = "positions of the carrier"}, t.poses);
+  visit(field::entry("file", "CSV file with one position per line"), t.file);
+  visit(field::entry("pose", "positions of the carrier"), t.poses);
 }
 
 struct RecommendedIndirect {
@@ -62,8 +52,7 @@ struct RecommendedIndirect {
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedIndirect& r) {
   fields(visit, r.options.link);
-  visit(Field{.key = "unknown_carrier_pitch",
-              .summary = "for positions that do not prescribe the carrier pitch"},
+  visit(field::entry("unknown_carrier_pitch", "for positions that do not prescribe the carrier pitch"),
         r.options.carrier_pitch);
 }
 constexpr Word choice_word(const RecommendedIndirect&) {
@@ -75,18 +64,14 @@ struct PublishedIndirect {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PublishedIndirect& p) {
-  visit(Field{.key = "generations", .summary = "at most", .minimum = 1, .maximum = 1e7},
-        p.options.method.method.generations);
-  visit(Field{.key = "together", .summary = "all links at once, not link by link"}, p.options.together);
-  visit(Field{.key = "tolerance",
-              .summary = "root mean square of the structural errors of a link that counts as found",
-              .dimension = Dimension::length,
-              .minimum = 1e-14,
-              .maximum = 1},
+  visit(field::entry("generations", "at most").between(1, 1e7), p.options.method.method.generations);
+  visit(field::entry("together", "all links at once, not link by link"), p.options.together);
+  visit(field::length("tolerance", "root mean square of the structural errors of a link that counts as found")
+            .between(1e-14, 1),
         p.options.tolerance);
-  visit(Field{.key = "carrier_pitch_technique",
-              .summary = "how carrier pitches that are not prescribed are represented"},
-        p.options.method.technique);
+  visit(
+      field::entry("carrier_pitch_technique", "how carrier pitches that are not prescribed are represented"),
+      p.options.method.technique);
 }
 constexpr Word choice_word(const PublishedIndirect&) {
   return {"differential_evolution",
@@ -98,7 +83,7 @@ struct IndirectOptimiser {
 };
 template <class Visitor>
 void fields(Visitor&& visit, IndirectOptimiser& o) {
-  visit(Field{.key = "method", .summary = "how links are searched"}, o.method);
+  visit(field::entry("method", "how links are searched"), o.method);
 }
 
 /// A synthesis as read.

@@ -138,7 +138,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
             "link", fmt::format("'{}' has a length: in this synthesis it follows from its points", l.name),
             "remove length");
   }
-  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true}))
+  if (auto target = document.table(field::entry("target").required()))
     read_poses(*target, common, s.task, form);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (!description || document.document().has_errors()) return std::nullopt;
@@ -171,9 +171,9 @@ study::Kind indirect_kind() {
   kind.example = templates::synthesis_corner_carrier_poses();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
-    document.property(Field{.key = "target", .summary = "positions of the carrier", .required = true},
+    document.property(field::entry("target", "positions of the carrier").required(),
                       study::schema_fields<PosesTarget>());
-    document.property(Field{.key = "optimiser", .summary = "how links are searched"},
+    document.property(field::entry("optimiser", "how links are searched"),
                       study::schema_fields<IndirectOptimiser>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

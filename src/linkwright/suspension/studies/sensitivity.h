@@ -18,9 +18,9 @@ struct SensitivityForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SensitivityForm& s) {
-  visit(Field{.key = "quantities",
-              .summary = "columns of the sweep, without unit; default: toe, camber, half_track_change, "
-                         "roll_centre_height"},
+  visit(field::entry("quantities",
+                     "columns of the sweep, without unit; default: toe, camber, half_track_change, "
+                     "roll_centre_height"),
         s.quantities);
 }
 
@@ -31,17 +31,9 @@ struct PointTolerance {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PointTolerance& p) {
-  visit(Field{.key = "coordinate",
-              .summary = "\"tie rod.body\" for all three, \"tie rod.body_z\" for one",
-              .required = true},
+  visit(field::entry("coordinate", "\"tie rod.body\" for all three, \"tie rod.body_z\" for one").required(),
         p.coordinate);
-  visit(Field{.key = "tolerance",
-              .summary = "plus and minus",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1,
-              .required = true},
-        p.tolerance);
+  visit(field::length("tolerance", "plus and minus").between(0, 1).required(), p.tolerance);
 }
 
 /// `[tolerances]`.
@@ -53,23 +45,17 @@ struct TolerancesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TolerancesForm& t) {
-  visit(Field{.key = "tolerance",
-              .summary = "plus and minus, of every coordinate of every point that has none of its own",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1},
+  visit(field::length("tolerance",
+                      "plus and minus, of every coordinate of every point that has none of its own")
+            .between(0, 1),
         t.tolerance);
-  visit(Field{.key = "point", .summary = "tolerances of their own"}, t.points);
-  visit(
-      Field{.key = "quantities", .summary = "columns of the sweep, without unit; default as for sensitivity"},
-      t.quantities);
-  visit(Field{.key = "samples",
-              .summary = "designs drawn at random and solved; 0 = none",
-              .minimum = 0,
-              .maximum = 1e6},
+  visit(field::entry("point", "tolerances of their own"), t.points);
+  visit(field::entry("quantities", "columns of the sweep, without unit; default as for sensitivity"),
+        t.quantities);
+  visit(field::entry("samples", "designs drawn at random and solved; 0 = none").between(0, 1e6),
         t.monte_carlo.samples);
-  visit(Field{.key = "scatter", .summary = "how numbers lie in their tolerances"}, t.monte_carlo.scatter);
-  visit(Field{.key = "seed", .summary = "of the designs drawn", .minimum = 0}, t.monte_carlo.seed);
+  visit(field::entry("scatter", "how numbers lie in their tolerances"), t.monte_carlo.scatter);
+  visit(field::entry("seed", "of the designs drawn").not_negative(), t.monte_carlo.seed);
 }
 
 /// Check what was read against the suspension; problems go to the reader. Defaults are filled in.

@@ -22,7 +22,7 @@ struct TravelValues {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TravelValues& t) {
-  visit(Field{.key = "coordinate", .summary = "what travels, as a change from the reference"}, t.coordinate);
+  visit(field::entry("coordinate", "what travels, as a change from the reference"), t.coordinate);
   fields(visit, t.values);
 }
 
@@ -32,8 +32,8 @@ struct GridSweep {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GridSweep& s) {
-  visit(Field{.key = "travel", .summary = "values of the wheel's travel", .required = true}, s.travel);
-  visit(Field{.key = "rack", .summary = "values of the rack; default: centred"}, s.rack);
+  visit(field::entry("travel", "values of the wheel's travel").required(), s.travel);
+  visit(field::entry("rack", "values of the rack; default: centred"), s.rack);
 }
 constexpr Word choice_word(const GridSweep&) { return {"grid", "every travel with every rack displacement"}; }
 
@@ -44,13 +44,12 @@ struct GuideSweep {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideSweep& s) {
-  visit(Field{.key = "type", .summary = "which positions are taken"}, s.type);
-  visit(Field{.key = "steering_lock",
-              .summary = "what is held constant while steering, for the steering axis: spring, "
-                         "wheel_centre_z or contact_z; default: the spring if there is one"},
+  visit(field::entry("type", "which positions are taken"), s.type);
+  visit(field::entry("steering_lock",
+                     "what is held constant while steering, for the steering axis: spring, "
+                     "wheel_centre_z or contact_z; default: the spring if there is one"),
         s.steering_lock);
-  visit(Field{.key = "assemblies", .summary = "table of the other assembly modes of the suspension"},
-        s.assemblies);
+  visit(field::entry("assemblies", "table of the other assembly modes of the suspension"), s.assemblies);
 }
 
 /// An analysis as read.

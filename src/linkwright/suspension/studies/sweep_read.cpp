@@ -23,7 +23,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   auto table = document.table("baseline");
   if (!table) return std::nullopt;
   std::string file;
-  const bool named = (*table)(Field{.key = "file", .summary = {}}, file);
+  const bool named = (*table)(field::entry("file"), file);
   if (named == table->has("mechanism")) {
     table->error("file", named ? "the baseline is given twice" : "the baseline is missing",
                  "write file = \"before.toml\", the study that holds it; or [baseline.mechanism]");
@@ -31,7 +31,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   }
   if (!named) {
     std::string type;
-    if (auto mechanism = table->table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
+    if (auto mechanism = table->table("mechanism")) (*mechanism)(field::entry("type"), type);
     return read_guide(*table, common, OpenPoints::none);
   }
   Diagnostics problems;
@@ -99,7 +99,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   const auto description = read_guide(document, common, OpenPoints::none);
   GuideSweep sweep;
   std::optional<std::vector<double>> travels, racks = std::vector{0.0};
-  if (auto table = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+  if (auto table = document.table(field::entry("sweep").required())) {
     table->read(sweep);
     const GridSweep& grid = std::get<GridSweep>(sweep.type);
     s.travel = grid.travel.coordinate;
@@ -129,11 +129,11 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
   }
   s.baseline = read_baseline(document, common);
-  document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
-  document(Field{.key = "axle", .summary = {}}, s.axle);
-  document(Field{.key = "compliance", .summary = {}}, s.compliance);
-  document(Field{.key = "sensitivity", .summary = {}}, s.sensitivity);
-  document(Field{.key = "tolerances", .summary = {}}, s.tolerances);
+  document(field::entry("vehicle"), s.vehicle);
+  document(field::entry("axle"), s.axle);
+  document(field::entry("compliance"), s.compliance);
+  document(field::entry("sensitivity"), s.sensitivity);
+  document(field::entry("tolerances"), s.tolerances);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->guide);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->guide);
   if (description && s.axle) complete_axle(document, *s.axle, description->guide);
@@ -193,23 +193,22 @@ study::Kind sweep_kind() {
   kind.example = templates::analysis_corner();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
-    document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},
+    document.property(field::entry("sweep", "positions that are taken").required(),
                       study::schema_fields<GuideSweep>());
     study::SchemaWriter baseline;
-    baseline.property(Field{.key = "file", .summary = "study whose mechanism it is"}, Value());
-    baseline.property(Field{.key = "mechanism", .summary = "the mechanism itself"},
-                      study::schema_fields<GuideForm>());
-    document.property(Field{.key = "baseline", .summary = "another wheel suspension to compare with"},
+    baseline.property(field::entry("file", "study whose mechanism it is"), Value());
+    baseline.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<GuideForm>());
+    document.property(field::entry("baseline", "another wheel suspension to compare with"),
                       std::move(baseline).finish());
-    document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
+    document.property(field::entry("vehicle", "what the axle is part of: anti-dive, Ackermann"),
                       study::schema_fields<VehicleForm>());
-    document.property(Field{.key = "axle", .summary = "both wheels: roll and steering"},
+    document.property(field::entry("axle", "both wheels: roll and steering"),
                       study::schema_fields<AxleForm>());
-    document.property(Field{.key = "compliance", .summary = "elastic joints and loads"},
+    document.property(field::entry("compliance", "elastic joints and loads"),
                       study::schema_fields<ComplianceForm>());
-    document.property(Field{.key = "sensitivity", .summary = "derivatives of curves by the hard points"},
+    document.property(field::entry("sensitivity", "derivatives of curves by the hard points"),
                       study::schema_fields<SensitivityForm>());
-    document.property(Field{.key = "tolerances", .summary = "bands of curves when points have tolerances"},
+    document.property(field::entry("tolerances", "bands of curves when points have tolerances"),
                       study::schema_fields<TolerancesForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

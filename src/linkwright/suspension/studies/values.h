@@ -24,13 +24,12 @@ struct AngleValues : InputValues {};
 template <class Visitor>
 void visit_values(Visitor&& visit, InputValues& v, Dimension dimension, double most) {
   const auto number = [&](std::string_view key, std::string_view summary, double least) {
-    return Field{.key = key, .summary = summary, .dimension = dimension, .minimum = least, .maximum = most};
+    return field::of(dimension, key, summary).between(least, most);
   };
   visit(number("from", "first value", -most), v.from);
   visit(number("to", "last value", -most), v.to);
   visit(number("step", "between values", 1e-9), v.step);
-  visit(Field{.key = "samples", .summary = "number of values, instead of step", .minimum = 1, .maximum = 1e6},
-        v.samples);
+  visit(field::entry("samples", "number of values, instead of step").between(1, 1e6), v.samples);
   visit(number("values", "instead of from, to and step", -most), v.values);
 }
 template <class Visitor>
