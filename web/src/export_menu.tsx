@@ -1,7 +1,8 @@
 // Exports of the report at the present position.
 import { useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";
-import { drawingSvg, dxf, png, save, slug } from "./exports";
+import { dxf } from "./dxf";
+import { drawingSvg, png, save, slug } from "./exports";
 import { oneStudy, type Design } from "./data";
 import { fragment } from "./link";
 import { Menu } from "./menu";

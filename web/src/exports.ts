@@ -1,10 +1,6 @@
 // Files that the report gives away.
-import { extentOf, isSymbol, symbolLines } from "./arrows";
 import type { Num, Scene, Table } from "./data";
 import { decimal } from "./decimal";
-import { isSpatial } from "./grid";
-import { analyse, placeAt, type Place } from "./motion";
-import { beyond, helix, wheelCircle } from "./space_view";
 import { inFile } from "./units";
 import { targetErrors } from "./view";
 
@@ -41,113 +37,6 @@ export function targetTable(scene: Scene): Table | null {
     data: Object.values(columns).map((values) => target.x.map((_, i) => values[i] ?? null)),
     status: [],
   };
-}
-
-/** The scene at a sample as an AutoCAD R12 drawing in millimetres, scale 1:1: the same layers as the program writes. */
-export function dxf(scene: Scene, sample: number): string {
-  const out: string[] = [];
-  const spatial = isSpatial(scene);
-  const put = (...pairs: (string | number)[]) => out.push(...pairs.map(String));
-  const mm = (metres: number) => Number((metres * 1000).toPrecision(9));
-  const at = (first: number, p: Place) => put(first, mm(p.x), first + 10, mm(p.y), first + 20, mm(p.z ?? 0));
-  const line = (layer: string, a: Place, b: Place) => {
-    put(0, "LINE", 8, layer);
-    at(10, a);
-    at(11, b);
-  };
-  const circle = (layer: string, p: Place, radius: number) => {
-    put(0, "CIRCLE", 8, layer);
-    at(10, p);
-    put(40, mm(radius));
-  };
-  const polyline = (layer: string, places: Place[], closed: boolean) => {
-    put(0, "POLYLINE", 8, layer, 66, 1, 10, 0, 20, 0, 30, 0, 70, (closed ? 1 : 0) + (spatial ? 8 : 0));
-    for (const p of places) {
-      put(0, "VERTEX", 8, layer);
-      at(10, p);
-      if (spatial) put(70, 32);
-    }
-    put(0, "SEQEND", 8, layer);
-  };
-  const symbol = Math.max(extentOf(scene) ?? 0.1, 1e-6) / 100;
-  put(999, "linkwright: units are millimetres, scale 1:1", 0, "SECTION", 2, "HEADER", 9, "$ACADVER", 1, "AC1009", 0, "ENDSEC");
-  put(0, "SECTION", 2, "TABLES", 0, "TABLE", 2, "LTYPE", 70, 2);
-  put(0, "LTYPE", 2, "CONTINUOUS", 70, 0, 3, "Solid line", 72, 65, 73, 0, 40, 0);
-  put(0, "LTYPE", 2, "DASHDOT", 70, 0, 3, "Dash dot", 72, 65, 73, 4, 40, 10, 49, 6, 49, -2, 49, 0, 49, -2, 0, "ENDTAB");
-  const layers: [string, number, string][] = [
-    ["GROUND", 8, "DASHDOT"], ["LINKS", 5, "CONTINUOUS"], ["JOINTS", 7, "CONTINUOUS"], ["TRACE", 3, "CONTINUOUS"], ["TARGETS", 1, "CONTINUOUS"],
-  ];
-  if (scene.bodies.some((b) => b.style === "axis")) layers.push(["AXES", 1, "DASHDOT"]);
-  if (scene.discs?.length) layers.push(["WHEELS", 8, "CONTINUOUS"]);
-  put(0, "TABLE", 2, "LAYER", 70, layers.length);
-  for (const [name, colour, type] of layers) put(0, "LAYER", 2, name, 70, 0, 62, colour, 6, type);
-  put(0, "ENDTAB", 0, "ENDSEC", 0, "SECTION", 2, "ENTITIES");
-  for (const body of scene.bodies) {
-    if (body.style === "gap" || body.run) continue;
-    const places = body.points.map((p) => placeAt(scene, p, sample)).filter((p): p is Place => p !== null);
-    if (places.length < body.points.length) continue;
-    const layer = body.style === "ground" || body.style === "guide" ? "GROUND" : "LINKS";
-    if (body.style === "axis") {
-      const on = beyond(places);
-      for (let i = 1; i < on.length; ++i) line("AXES", on[i - 1], on[i]);
-    } else if (body.style === "plate" && places.length > 2) polyline(layer, places, true);
-    else
-      for (let i = 1; i < places.length; ++i)
-        if (spatial && body.style === "spring") polyline(layer, helix(places[i - 1], places[i], 6 * symbol), false);
-        else if (isSymbol(body.style) && !spatial) for (const stroke of symbolLines(body.style, places[i - 1], places[i], 3 * symbol)) polyline(layer, stroke, false);
-        else line(layer, places[i - 1], places[i]);
-  }
-  for (const disc of spatial ? (scene.discs ?? []) : [])
-    for (const side of [-0.5, 0, 0.5]) {
-      const rim = wheelCircle(scene, disc, sample, side * disc.width, 72);
-      if (rim.length) polyline("WHEELS", rim, true);
-    }
-  for (const { centre, rim } of spatial ? [] : scene.circles) {
-    const [c, r] = [placeAt(scene, centre, sample), placeAt(scene, rim, sample)];
-    if (c && r) circle("LINKS", c, Math.hypot(r.x - c.x, r.y - c.y));
-  }
-  for (const joint of scene.joints) {
-    const p = placeAt(scene, joint.point, sample);
-    if (!p) continue;
-    if (spatial) {
-      put(0, "POINT", 8, "JOINTS");
-      at(10, p);
-    } else circle("JOINTS", p, symbol);
-    put(0, "TEXT", 8, "JOINTS");
-    at(10, { ...p, x: p.x + 1.5 * symbol, y: p.y + 1.5 * symbol });
-    put(40, mm(2 * symbol), 1, joint.name.replace(/[^\x20-\x7e]/g, "?"));
-    if (joint.style === "ground_pivot" && !spatial)
-      polyline("GROUND", [p, { x: p.x - 2 * symbol, y: p.y - 3 * symbol }, { x: p.x + 2 * symbol, y: p.y - 3 * symbol }], true);
-  }
-  const { ok } = analyse(scene);
-  for (const trace of scene.traces) {
-    if (trace.run) continue;
-    let run: Place[] = [];
-    let whole = true;
-    const flush = (closed: boolean) => {
-      if (run.length > 1) polyline("TRACE", run, closed);
-      run = [];
-    };
-    scene.input.forEach((_, i) => {
-      const p = placeAt(scene, trace.point, i);
-      if (p && ok[i]) run.push(p);
-      else {
-        whole = false;
-        flush(false);
-      }
-    });
-    flush(trace.closed && whole);
-  }
-  for (const target of spatial ? [] : scene.targets)
-    target.x.forEach((x, i) => {
-      const y = target.y[i];
-      if (x === null || y == null) return;
-      put(0, "POINT", 8, "TARGETS");
-      at(10, { x, y });
-      circle("TARGETS", { x, y }, symbol / 2);
-    });
-  put(0, "ENDSEC", 0, "EOF");
-  return out.join("\n") + "\n";
 }
 
 /** A file name made of a title. */

@@ -8,11 +8,11 @@ import { hullOf } from "./hull";
 type Coloured = Material & { color: Color; opacity: number; linewidth?: number };
 interface Item {
   depth: number; // away from the eye
-  over?: number;  // order of things at one place: the one with more of it is seen
+  over?: number; // where things are at one place, what has more of it is seen
   paint: (to: CanvasRenderingContext2D) => void;
 }
 
-/** True if the browser has a graphics card for WebGL: computing the pictures itself, a browser is too slow to move them. */
+/** Whether the browser has a graphics card for WebGL: what it computes itself is too slow to move. */
 export function hasFastWebgl(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return false;
@@ -38,7 +38,7 @@ function cornersOf(shape: BufferGeometry): Vector3[] {
   return all;
 }
 
-const pieces = 4;  // pieces of a bar
+const pieces = 4; // of a bar
 const shades = new Map<string, string>();
 function shade(colour: Color, by: number): string {
   const key = `${colour.getHex()} ${by}`;
@@ -47,101 +47,146 @@ function shade(colour: Color, by: number): string {
   return text;
 }
 
-/** Paints what a camera sees of a scene on a canvas of so many pixels, `scale` of them to a px of the page. */
-export function paint(to: CanvasRenderingContext2D, stage: Scene, camera: Camera, background: Color, width: number, height: number, scale: number): void {
-  stage.updateMatrixWorld();
-  camera.updateMatrixWorld();
-  const view = camera.matrixWorldInverse;
-  const whole = new Matrix4().multiplyMatrices(camera.projectionMatrix, view);
-  const seen = new Vector3();
-  const depthOf = (place: Vector3) => -seen.copy(place).applyMatrix4(view).z;
-  /** The position of a place on the canvas; null = behind the eye. */
-  const spot = (place: Vector3): Spot | null => {
-    const e = whole.elements;
+/** How a camera sees places, on a canvas of so many pixels. */
+class Sight {
+  private readonly view: Matrix4;
+  private readonly whole: Matrix4;
+  private readonly side: Vector3;
+  private readonly seen = new Vector3();
+
+  constructor(camera: Camera, private readonly width: number, private readonly height: number) {
+    this.view = camera.matrixWorldInverse;
+    this.whole = new Matrix4().multiplyMatrices(camera.projectionMatrix, this.view);
+    this.side = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+  }
+
+  depth(place: Vector3): number {
+    return -this.seen.copy(place).applyMatrix4(this.view).z;
+  }
+
+  /** Where a place is on the canvas; null = behind the eye. */
+  spot(place: Vector3): Spot | null {
+    const e = this.whole.elements;
     const w = e[3] * place.x + e[7] * place.y + e[11] * place.z + e[15];
     if (w <= 0) return null;
-    const { x, y } = seen.copy(place).applyMatrix4(whole);
-    return { x: ((x + 1) / 2) * width, y: ((1 - y) / 2) * height };
-  };
+    const { x, y } = this.seen.copy(place).applyMatrix4(this.whole);
+    return { x: ((x + 1) / 2) * this.width, y: ((1 - y) / 2) * this.height };
+  }
+
   /** Pixels of a length across the line of sight, at a place. */
-  const side = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
-  const pixels = (length: number, place: Vector3) => {
-    const [a, b] = [spot(place), spot(place.clone().addScaledVector(side, length))];
+  pixels(length: number, place: Vector3): number {
+    const [a, b] = [this.spot(place), this.spot(place.clone().addScaledVector(this.side, length))];
     return a && b ? Math.hypot(b.x - a.x, b.y - a.y) : 0;
-  };
+  }
+}
 
-  const items: Item[] = [];
-  const path = (spots: (Spot | null)[], closed: boolean) => {
+const middleOf = (places: Vector3[]) => places.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(1, places.length));
+const radiusOf = (object: Object3D) => new Vector3().setFromMatrixColumn(object.matrixWorld, 0).length();
+
+/** Collects what is painted of each object. */
+class Painter {
+  private readonly items: Item[] = [];
+
+  /** `scale` pixels of the canvas are a px of the page. */
+  constructor(private readonly to: CanvasRenderingContext2D, private readonly sight: Sight, private readonly scale: number) {}
+
+  add(object: Object3D): void {
+    const material = (object as Mesh).material as Coloured | undefined;
+    if (!material) return;
+    if (object instanceof LineSegments2) return this.lines(object, material);
+    if (!(object instanceof Mesh)) return;
+    switch (object.geometry.type) {
+      case "CylinderGeometry":
+        return this.bar(object, material);
+      case "SphereGeometry":
+        return this.ball(object, material);
+      case "TubeGeometry":
+        return this.wire(object as Mesh<TubeGeometry>, material);
+      case "BufferGeometry":
+        return this.facets(object, material);
+      default:
+        return this.solid(object, material);
+    }
+  }
+
+  /** Paints from far to near. */
+  paint(): void {
+    this.items.sort((a, b) => b.depth - a.depth || (a.over ?? 0) - (b.over ?? 0));
+    for (const item of this.items) item.paint(this.to);
+  }
+
+  private path(spots: (Spot | null)[], closed: boolean): boolean {
     if (spots.some((p) => p === null)) return false;
-    to.beginPath();
-    spots.forEach((p, i) => (i ? to.lineTo(p!.x, p!.y) : to.moveTo(p!.x, p!.y)));
-    if (closed) to.closePath();
+    this.to.beginPath();
+    spots.forEach((p, i) => (i ? this.to.lineTo(p!.x, p!.y) : this.to.moveTo(p!.x, p!.y)));
+    if (closed) this.to.closePath();
     return true;
-  };
-  const stroke = (colour: string, thick: number) => {
-    to.strokeStyle = colour;
-    to.lineWidth = thick;
-    to.stroke();
-  };
+  }
 
-  function lines(object: LineSegments2, { color, opacity, linewidth = 1 }: Coloured): void {
+  private stroke(colour: string, thick: number): void {
+    this.to.strokeStyle = colour;
+    this.to.lineWidth = thick;
+    this.to.stroke();
+  }
+
+  private lines(object: LineSegments2, { color, opacity, linewidth = 1 }: Coloured): void {
     const start = object.geometry.attributes.instanceStart as unknown as { data: { array: Float32Array } } | undefined;
     const ends = start?.data.array ?? [];
-    const ways: [Spot, Spot][] = [];
+    const segments: [Spot, Spot][] = [];
     const middle = new Vector3();
     const place = new Vector3();
     for (let i = 0; i + 5 < ends.length; i += 6) {
-      const a = spot(place.set(ends[i], ends[i + 1], ends[i + 2]).applyMatrix4(object.matrixWorld));
+      const a = this.sight.spot(place.set(ends[i], ends[i + 1], ends[i + 2]).applyMatrix4(object.matrixWorld));
       middle.add(place);
-      const b = spot(place.set(ends[i + 3], ends[i + 4], ends[i + 5]).applyMatrix4(object.matrixWorld));
+      const b = this.sight.spot(place.set(ends[i + 3], ends[i + 4], ends[i + 5]).applyMatrix4(object.matrixWorld));
       middle.add(place);
-      if (a && b) ways.push([a, b]);
+      if (a && b) segments.push([a, b]);
     }
-    if (!ways.length) return;
-    items.push({
-      depth: depthOf(middle.divideScalar(ends.length / 3)),
-      paint: () => {
+    if (!segments.length) return;
+    this.items.push({
+      depth: this.sight.depth(middle.divideScalar(ends.length / 3)),
+      paint: (to) => {
         to.globalAlpha = opacity;
         to.beginPath();
         let last: Spot | null = null;
-        for (const [a, b] of ways) {
+        for (const [a, b] of segments) {
           if (!last || a.x !== last.x || a.y !== last.y) to.moveTo(a.x, a.y);
           to.lineTo(b.x, b.y);
           last = b;
         }
-        stroke(shade(color, 0), linewidth * scale);
+        this.stroke(shade(color, 0), linewidth * this.scale);
       },
     });
   }
 
   /** A round bar along its own y from 0 to 1. */
-  function bar(object: Mesh, { color }: Coloured): void {
+  private bar(object: Mesh, { color }: Coloured): void {
     const at = (share: number) => new Vector3(0, share, 0).applyMatrix4(object.matrixWorld);
-    const radius = seen.setFromMatrixColumn(object.matrixWorld, 0).length();
+    const radius = radiusOf(object);
     for (let i = 0; i < pieces; ++i) {
       const [a, middle, b] = [at(i / pieces), at((i + 0.5) / pieces), at((i + 1) / pieces)];
-      items.push({
-        depth: depthOf(middle),
-        paint: () => {
-          if (!path([spot(a), spot(b)], false)) return;
-          const thick = 2 * pixels(radius, middle);
+      this.items.push({
+        depth: this.sight.depth(middle),
+        paint: (to) => {
+          if (!this.path([this.sight.spot(a), this.sight.spot(b)], false)) return;
+          const thick = 2 * this.sight.pixels(radius, middle);
           to.globalAlpha = 1;
-          stroke(shade(color, -0.35), thick);
-          stroke(shade(color, 0), 0.72 * thick);
-          stroke(shade(color, 0.3), 0.28 * thick);
+          this.stroke(shade(color, -0.35), thick);
+          this.stroke(shade(color, 0), 0.72 * thick);
+          this.stroke(shade(color, 0.3), 0.28 * thick);
         },
       });
     }
   }
 
-  function ball(object: Mesh, { color }: Coloured): void {
+  private ball(object: Mesh, { color }: Coloured): void {
     const middle = new Vector3().setFromMatrixPosition(object.matrixWorld);
-    const radius = seen.setFromMatrixColumn(object.matrixWorld, 0).length();
-    items.push({
-      depth: depthOf(middle) - radius, // it lies before the bars that end in it
+    const radius = radiusOf(object);
+    this.items.push({
+      depth: this.sight.depth(middle) - radius, // it lies before the bars that end in it
       over: object.renderOrder,
-      paint: () => {
-        const [at, r] = [spot(middle), pixels(radius, middle)];
+      paint: (to) => {
+        const [at, r] = [this.sight.spot(middle), this.sight.pixels(radius, middle)];
         if (!at) return;
         to.globalAlpha = 1;
         for (const [by, share, off] of [[-0.35, 1, 0], [0, 0.8, 0.08], [0.4, 0.32, 0.3]]) {
@@ -155,37 +200,37 @@ export function paint(to: CanvasRenderingContext2D, stage: Scene, camera: Camera
   }
 
   /** The wire of a spring. */
-  function wire(object: Mesh<TubeGeometry>, { color }: Coloured): void {
+  private wire(object: Mesh<TubeGeometry>, { color }: Coloured): void {
     const { path: curve, radius } = object.geometry.parameters;
     const { x, y } = object.scale; // the wire was wound in full size and divided by what stretches it
     const first = curve.getPoint(0), last = curve.getPoint(1);
     const length = (last.y - first.y) / 0.9;
     const spots = Array.from({ length: 113 }, (_, i) => {
       const p = curve.getPoint(i / 112);
-      return spot(p.set(p.x / first.x, p.y / length, p.z / first.x).applyMatrix4(object.matrixWorld));
+      return this.sight.spot(p.set(p.x / first.x, p.y / length, p.z / first.x).applyMatrix4(object.matrixWorld));
     });
     const middle = new Vector3(0, 0.5, 0).applyMatrix4(object.matrixWorld);
     if (x > 0 && y > 0)
-      items.push({
-        depth: depthOf(middle),
-        paint: () => {
-          if (!path(spots, false)) return;
+      this.items.push({
+        depth: this.sight.depth(middle),
+        paint: (to) => {
+          if (!this.path(spots, false)) return;
           to.globalAlpha = 1;
-          stroke(shade(color, -0.25), 2 * pixels(radius, middle));
-          stroke(shade(color, 0.2), 0.8 * pixels(radius, middle));
+          this.stroke(shade(color, -0.25), 2 * this.sight.pixels(radius, middle));
+          this.stroke(shade(color, 0.2), 0.8 * this.sight.pixels(radius, middle));
         },
       });
   }
 
   /** Triangles, as plates are made of. */
-  function facets(object: Mesh, { color, opacity }: Coloured): void {
+  private facets(object: Mesh, { color, opacity }: Coloured): void {
     const { position } = object.geometry.attributes;
     const all = Array.from({ length: position.count }, (_, i) => new Vector3().fromBufferAttribute(position, i).applyMatrix4(object.matrixWorld));
-    const middle = all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(1, all.length));
-    items.push({
-      depth: depthOf(middle),
-      paint: () => {
-        const spots = all.map(spot);
+    const middle = middleOf(all);
+    this.items.push({
+      depth: this.sight.depth(middle),
+      paint: (to) => {
+        const spots = all.map((p) => this.sight.spot(p));
         to.globalAlpha = opacity;
         to.fillStyle = shade(color, 0);
         to.beginPath();
@@ -205,37 +250,33 @@ export function paint(to: CanvasRenderingContext2D, stage: Scene, camera: Camera
   }
 
   /** Anything without hollows. */
-  function solid(object: Mesh, { color, opacity, transparent }: Coloured): void {
+  private solid(object: Mesh, { color, opacity, transparent }: Coloured): void {
     const all = cornersOf(object.geometry).map((v) => v.clone().applyMatrix4(object.matrixWorld));
-    const middle = all.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(1, all.length));
-    items.push({
-      depth: transparent ? depthOf(middle) : all.reduce((least, p) => Math.min(least, depthOf(p)), Infinity),
-      paint: () => {
-        const spots = all.map(spot).filter((p) => p !== null);
-        if (spots.length < all.length || !path(hullOf(spots), true)) return;
+    const middle = middleOf(all);
+    this.items.push({
+      depth: transparent ? this.sight.depth(middle) : all.reduce((least, p) => Math.min(least, this.sight.depth(p)), Infinity),
+      paint: (to) => {
+        const spots = all.map((p) => this.sight.spot(p)).filter((p) => p !== null);
+        if (spots.length < all.length || !this.path(hullOf(spots), true)) return;
         to.globalAlpha = transparent ? opacity : 1;
         to.fillStyle = shade(color, 0);
         to.fill();
-        if (!transparent) stroke(shade(color, -0.35), scale);
+        if (!transparent) this.stroke(shade(color, -0.35), this.scale);
       },
     });
   }
+}
 
-  stage.traverseVisible((object: Object3D) => {
-    const material = (object as Mesh).material as Coloured | undefined;
-    if (!material) return;
-    if (object instanceof LineSegments2) lines(object, material);
-    else if (object instanceof Mesh) {
-      const kind = object.geometry.type;
-      (kind === "CylinderGeometry" ? bar : kind === "SphereGeometry" ? ball : kind === "TubeGeometry" ? wire : kind === "BufferGeometry" ? facets : solid)(object as Mesh<TubeGeometry>, material);
-    }
-  });
-  items.sort((a, b) => b.depth - a.depth || (a.over ?? 0) - (b.over ?? 0));
-
+/** Paints what a camera sees of a scene on a canvas of so many pixels, `scale` of them to a px of the page. */
+export function paint(to: CanvasRenderingContext2D, stage: Scene, camera: Camera, background: Color, width: number, height: number, scale: number): void {
+  stage.updateMatrixWorld();
+  camera.updateMatrixWorld();
+  const painter = new Painter(to, new Sight(camera, width, height), scale);
+  stage.traverseVisible((object) => painter.add(object));
   to.globalAlpha = 1;
   to.lineJoin = "round";
   to.fillStyle = shade(background, 0);
   to.fillRect(0, 0, width, height);
-  for (const item of items) item.paint(to);
+  painter.paint();
   to.globalAlpha = 1;
 }

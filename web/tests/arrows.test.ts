@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { arcPaths, arcTurn, arrowPaths, arrowScale, boundsWith, componentsNear, headOf, keyValue, largestMoment, lineOf, readMoment, readVector, symbolLines, valueNear } from "../src/arrows";
 import { boxOf, curvesOf, frameOf, nameOfPair, nearestPoint } from "../src/curves";
 import type { Plot, Scene, Table, Vector } from "../src/data";
-import { dxf } from "../src/exports";
+import { dxf } from "../src/dxf";
 import { analyse } from "../src/motion";
 import { bounds } from "../src/view";
 

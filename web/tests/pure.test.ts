@@ -1,7 +1,8 @@
 /// <reference types="vite/client" />
 import { describe, expect, it } from "vitest";
 import { readTable, type Scene } from "../src/data";
-import { csv, dxf, slug } from "../src/exports";
+import { dxf } from "../src/dxf";
+import { csv, slug } from "../src/exports";
 import { histogram, readLog, stackDots } from "../src/log";
 import { nearestRow, sortedRows } from "../src/rows";
 import { format, labelWith, nameOf, quantity, unitOf } from "../src/units";

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { arrowScale, componentsNear, extentOf, readVector } from "../src/arrows";
 import type { Plot, Scene, Table } from "../src/data";
-import { dxf } from "../src/exports";
+import { dxf } from "../src/dxf";
 import { isSpatial, middleRow, rowOf, samplesOf } from "../src/grid";
 import { aligned, groupsOf, inputOf, linesOf, presentGroup } from "../src/groups";
 import { analyse, placeNear } from "../src/motion";
