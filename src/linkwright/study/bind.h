@@ -21,7 +21,7 @@
 #include "linkwright/study/bind_traits.h"
 
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
-// single values by `reader(Field{...}, member)`. Members may be double, bool, whole numbers, std::string,
+// single values by `reader(field::length(...), member)`. Members may be double, bool, whole numbers, std::string,
 // Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list or a form of its own
 // (HasOwnForm), std::optional of any
 // of these, std::vector of any of these but bool and optional, std::vector of std::pair<std::string, any of

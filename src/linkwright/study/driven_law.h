@@ -19,7 +19,7 @@ template <JointKind kind>
 using DrivenLaw = std::variant<Driven<kind, math::ConstantSpeed>, Driven<kind, math::CycloidalMotion>,
                                Driven<kind, math::Polynomial345>, Driven<kind, math::EndConditions>,
                                Driven<kind, math::MotionTable>, Driven<kind, math::HarmonicMotion>>;
-/// Members of a study: visit(Field{.key = "law", ...}, law) reads the word and, beside it, the law's keys.
+/// Members of a study: visit(field::entry("law", ...), law) reads the word and, beside it, the law's keys.
 using RotaryLaw = DrivenLaw<JointKind::rotary>;
 using LinearLaw = DrivenLaw<JointKind::linear>;
 

@@ -104,7 +104,7 @@ struct Kind {
   /// help.
   std::span<const Absent> absent;
 
-  /// Describes the domain's top-level tables: document.property(Field{.key = "mechanism", ...},
+  /// Describes the domain's top-level tables: document.property(field::entry("mechanism", ...),
   /// schema_fields<...>()).
   std::function<void(SchemaWriter& document)> schema;
   /// Reads the domain's tables through the reader of the document, which also takes the problems, all of them
