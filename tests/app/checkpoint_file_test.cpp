@@ -36,7 +36,7 @@ class CheckpointFileTest : public ::testing::Test {
   }
   void write(std::string_view text) const { std::ofstream(file_, std::ios::binary) << text; }
 
-  /// What load says about the file as it is; it must stay as it is.
+  /// The message of load about the file as it is; it must stay as it is.
   std::string refusal() const {
     const std::string before = text();
     CheckpointFile checkpoint(file_, owner);

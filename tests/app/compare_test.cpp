@@ -194,7 +194,7 @@ TEST(Compare, TheStudyInEveryResultIsReadBack) {
     Diagnostics diagnostics;
     const auto study = load_study(folder / file.path, {}, kinds, diagnostics);
     ASSERT_TRUE(study);
-    // As it stands in result.json: numbers with all digits, no comments and no places in a file.
+    // The study as in result.json: numbers with all digits, no comments and no places in a file.
     const std::string text = study::to_json(study->canonical);
     const Value document = study::read_text(text, study::Syntax::json, "result.json", diagnostics);
     diagnostics.clear();

@@ -16,7 +16,8 @@
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 
-// What every kind that finds designs hands out: a study of each, which runs as it is and says the same.
+// Studies of designs, from every kind that finds designs: a study of each, which runs as it is and says the
+// same.
 namespace linkwright::app {
 namespace {
 
@@ -88,7 +89,7 @@ void four_bar_path(const Designed& d) {
   EXPECT_NEAR(number(d.solution().classification, "min_transmission_angle_rad"),
               *std::min_element(transmission.begin(), transmission.end()), 2e-3)
       << "at steps of a degree";
-  // With free timing each point is as far from the curve as from where the design meets it.
+  // For free timing each point is as far from the curve as from where the design meets it.
   const double rms = number(d.solution().objectives, "path_error_rms_m");
   EXPECT_NEAR(distance_from(table_of(d.found, d.numbered("points")), column(sweep, "coupler_C_x_m"),
                             column(sweep, "coupler_C_y_m")),
@@ -329,7 +330,7 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, DesignsOf, ::testing::ValuesIn(finders()), [
   return name;
 });
 
-// Where such a crank locks no speed is determined, and an analysis that goes there has no answer.
+// A crank that locks has no determined speed there, and an analysis that goes there has no answer.
 TEST(Designs, OfCranksThatDoNotTurnFullyStayOffTheirDeadPoints) {
   const study::Study source = study_in(R"(
 schema = 1

@@ -177,8 +177,8 @@ TEST(EditStudy, ATableIsPutBehindTheOthersOfItsListInTheirUnits) {
   EXPECT_EQ(change(body_poses, {{"target.pose[2]", body_pose(0.07, -0.08, 0)}}),
             replaced(body_poses, "60.0\n",
                      "60.0\n\n[[target.pose]]\nx_mm      = 70.0\ny_mm      = -80.0\nangle_deg = 0.0\n"));
-  // What has no such list yet gets one, behind the table that it comes into; of an entry of a list into that
-  // one.
+  // A study without such a list gets one, behind the table that it comes into; of an entry of a list into
+  // that one.
   Value mass = Value::object();
   mass["mass_kg"] = 2.0;
   EXPECT_EQ(

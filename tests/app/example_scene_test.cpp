@@ -36,7 +36,7 @@ TEST_F(ExampleScene, ReadsTheFilesBesideIt) {
   EXPECT_TRUE(std::filesystem::exists(folder_ + "/hardpoints.txt"));
 }
 
-// Of a search that takes many seconds it is what has been found after so many steps, whatever the time.
+// A search of many seconds shows its state after a fixed number of steps, whatever the time.
 TEST_F(ExampleScene, OfASearchIsTheSameEachTime) {
   const Value once = of("fourbar-18-points-grey-wolf");
   EXPECT_TRUE(once.find("scene")->is_object());

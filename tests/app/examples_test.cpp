@@ -87,7 +87,7 @@ TEST(Examples, AreFoundByNameOrByPart) {
   EXPECT_EQ(find_examples("").size(), examples().size());
 }
 
-// What people look for, in their words; each must find these examples, and perhaps more.
+// Words in which people search; each must find these examples, and perhaps more.
 constexpr std::pair<std::string_view, std::string_view> trade_words[] = {
     {"excavator", "excavator-arm excavator-bucket"},
     {"backhoe", "excavator-arm excavator-bucket"},
@@ -174,7 +174,7 @@ TEST(Examples, AreNotFoundByChance) {
       if (example->name == name) return true;
     return false;
   };
-  EXPECT_FALSE(finds("cam", "film-claw"));  // of a camera
+  EXPECT_FALSE(finds("cam", "film-claw"));  // the word for a camera
   EXPECT_FALSE(finds("arm", "clearance-four-bar-lengths-swarm"));
   EXPECT_FALSE(finds("excavator umbrella", "umbrella"));  // every word counts
   EXPECT_TRUE(find_examples("helicopter").empty());

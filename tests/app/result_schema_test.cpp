@@ -8,7 +8,7 @@
 namespace linkwright::app {
 namespace {
 
-// That results of all kinds fit is checked with the program, in tests/tools.
+// The program checks in tests/tools that results of all kinds fit.
 TEST(ResultSchema, NamesEveryStatusVerdictAndMember) {
   const Value schema = result_schema();
   const auto& status = schema.find("$defs")->find("status")->find("enum")->as_array();

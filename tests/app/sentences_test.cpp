@@ -20,7 +20,7 @@
 #include "linkwright/study/study.h"
 #include "support/message.h"
 
-// What all examples say: headlines, facts and warnings are sentences whose numbers are numbers.
+// The texts of all examples: headlines, facts and warnings are sentences whose numbers are numbers.
 namespace linkwright::app {
 namespace {
 
@@ -30,7 +30,7 @@ struct Told {
   std::string example;
 };
 
-// Of searches what they find in their first moment; the words are the same.
+// Searches show what they find in their first moment; the words are the same.
 const std::vector<Told>& told() {
   static const std::vector<Told> all = [] {
     std::vector<Told> out;
@@ -68,7 +68,7 @@ std::vector<Sentence> sentences_of(const study::Result& result) {
   return out;
 }
 
-// What has no value says an order of solution, a type or a way in words.
+// A fact without a value says an order of solution, a type or a way in words.
 TEST(SentencesOfExamples, MostFactsHaveAValue) {
   std::size_t facts = 0, values = 0;
   for (const Told& t : told())

@@ -23,7 +23,7 @@ std::string example_text(std::string_view name) {
   return {};
 }
 
-/// What a run shows, without what its clock says.
+/// The output of a run, without what its clock says.
 View timeless(View view) {
   const std::size_t at = view.json.rfind("\"seconds\":");
   if (at != std::string::npos) view.json.erase(at, view.json.find_first_of(",}", at) - at);

@@ -314,7 +314,7 @@ TEST_F(SharedLoop, DoesItselfWhatARankHasBegunAndNotEnded) {
   EXPECT_EQ(Squares::done, static_cast<int>(most));
 }
 
-/// What a rank has received, one message after the other.
+/// The messages that a rank has received, one message after the other.
 class Received {
  public:
   explicit Received(Ranks& ranks) : ranks_(ranks) {
@@ -354,7 +354,7 @@ TEST_F(SharedLoop, GivesAsManyPiecesAsAreAskedForAndAnEvenShareInTheEnd) {
     given += received.next() + ",";
   }
   EXPECT_EQ(given, "p0 30,p30 60,p60 80,p80 90,p90 95,p95 97,p97 98,p98 99,p99 100,p100 100,");
-  // What lasts long enough is given in smaller shares.
+  // Pieces that last long enough are given in smaller shares.
   other->send(0, "a100 1 another");
   EXPECT_EQ(received.next(), "p0 12");
   other->send(0, "e");

@@ -107,7 +107,7 @@ TEST(PageView, PointsSayWhichNumbersMadeThem) {
   }
 }
 
-/// Where a point of a scene is; the origin for index -1.
+/// The place of a point in a scene; the origin for index -1.
 std::array<double, 3> place_of(const Value& scene, std::int64_t index, std::size_t sample) {
   if (index < 0) return {0, 0, 0};
   const Value& point = scene.find("points")->as_array()[static_cast<std::size_t>(index)];
@@ -121,7 +121,7 @@ std::array<double, 3> place_of(const Value& scene, std::int64_t index, std::size
   return out;
 }
 
-/// How far what is drawn is from the numbers of a handle at a sample; NaN where it is not assembled.
+/// The distance of the drawing from the numbers of a handle at a sample; NaN where it is not assembled.
 double missed(const Value& scene, const Value& handle, const Value& number, std::size_t sample) {
   const std::string& measure = handle.find("measure")->as_string();
   const auto at = place_of(scene, handle.find("point")->as_integer(), sample);
@@ -151,7 +151,7 @@ double missed(const Value& scene, const Value& handle, const Value& number, std:
 TEST(PageView, WhatIsDrawnMeasuresTheNumbersOfTheStudy) {
   struct Case {
     const char *kind, *edits;
-    std::vector<std::string> keys;  // that the drawing has at least; "mechanism." is left out
+    std::vector<std::string> keys;  // keys that the drawing has at least; "mechanism." is left out
   };
   const std::vector<Case> cases{
       {"analysis/planar.four_bar",
@@ -221,7 +221,7 @@ TEST(PageView, WhatIsDrawnMeasuresTheNumbersOfTheStudy) {
 }
 
 TEST(PageView, WhatTheStudyDoesNotNumberCannotBeHeld) {
-  // What a balancing draws are its designs.
+  // The designs of a balancing are drawn.
   Diagnostics diagnostics;
   const study::Kind* kind = find_kind("balancing/planar.serial_arm", catalogue(), diagnostics);
   ASSERT_NE(kind, nullptr);

@@ -22,7 +22,7 @@ AutomaticPin steel_pin(const planar::Linkage& l, const char* joint, double angle
           .rate = rate};
 }
 
-// Where contact holds it is continuous contact, to the bit.
+// Lasting contact is continuous contact, to the bit.
 TEST(AutomaticContact, IsContinuousContactWhereThatHolds) {
   const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g0-w10"));
   const AutomaticPin pin = steel_pin(l, "A", full_turn / 36, 10);

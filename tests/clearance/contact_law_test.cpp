@@ -135,7 +135,7 @@ TEST(ContactLaw, StiffnessOfAPinInABush) {
   EXPECT_NEAR(
       pin_stiffness(0.01, 0.0095),
       test::number_at(test::published_case("clearance-joint.json", "slider-crank-contact"), "computed.K"),
-      1);  // of 6.6e10
+      1);  // relative to 6.6e10
   EXPECT_THAT(test::message([] { pin_stiffness(0.01, 0.01); }),
               ::testing::HasSubstr("a pin of radius 0.01 m in a bush of 0.01 m"));
 }

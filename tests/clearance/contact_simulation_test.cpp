@@ -34,7 +34,7 @@ void compare(const std::vector<ContactEvent>& events, const Value& wanted, std::
     EXPECT_NEAR(events[k].end / test::number_at(w, "end_s"), 1, tolerance) << k;
     EXPECT_NEAR(events[k].approach / test::number_at(w, "approach_m_s"), 1, tolerance) << k;
     EXPECT_NEAR(math::angle_difference(events[k].angle, test::number_at(w, "angle_rad")), 0, 1e-4) << k;
-    // Of the reference the largest at its steps.
+    // The reference gives the largest value at its steps.
     EXPECT_NEAR(events[k].force / test::number_at(w, "F_max_N"), 1, 2e-4) << k;
   }
 }
@@ -152,7 +152,7 @@ TEST(ContactSimulation, EnergyIsAccountedFor) {
   }
 }
 
-// Where the tension of continuous contact stays positive, both models are one.
+// Both models agree where the tension of continuous contact stays positive.
 TEST(ContactSimulation, PressedContactIsContinuousContact) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   const Value& wanted = computed("fourbar-contact-vs-continuous");
@@ -192,7 +192,7 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
   EXPECT_LT(force, 0.01);
 }
 
-// With a vanishing clearance pressed pins carry the force of the ideal joint.
+// Pressed pins with vanishing clearance carry the force of the ideal joint.
 TEST(ContactSimulation, TheIdealJointIsTheLimit) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
@@ -324,7 +324,7 @@ TEST(ContactSimulation, RefusesWhatIsNoBush) {
               ::testing::HasSubstr("joint 'guide' must be a revolute joint without drive and friction"));
 }
 
-// Of a long motion only the first contacts are listed, and the totals are those of all.
+// Only the first contacts of a long motion are listed, and the totals are those of all.
 TEST(ContactSimulation, ListsNoMoreContactsThanAskedForAndCountsAll) {
   const ContactRun all = slider_crank(0, 8e-3, {}), few = slider_crank(0, 8e-3, {.max_events = 3});
   ASSERT_GT(all.events.size(), 10u);

@@ -179,7 +179,7 @@ TEST(FourBarClearanceMotion, WithoutWeightSpeedIsOnlyATimeScale) {
   }
 }
 
-// With all mass at A' the link swings about the crank's direction like a pendulum in the field of the
+// A link with all mass at A' swings about the crank's direction like a pendulum in the field of the
 // centripetal acceleration: sqrt(L2 / r) times a turn, ten for 1 mm in 100 mm.
 TEST(FourBarClearanceMotion, SwingsAsOftenAsThePendulumDoes) {
   ClearanceFourBar model = published_four_bar("gamma-design1-table2-g0-w10");

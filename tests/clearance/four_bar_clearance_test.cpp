@@ -134,7 +134,7 @@ TEST(FourBarClearance, ForcesAreInBalance) {
     const double speed = 20, rise = 100;
     const ClearanceInstant now = clearance_instant(m, crank, speed, rise, link);
     ASSERT_EQ(now.status, Status::done);
-    // What the damper takes over the arm of the link; rounding of forces of some newtons.
+    // The damper's part of the force over the arm of the link; rounding of forces of some newtons.
     EXPECT_NEAR(now.tangential, -m.link_damping * link.rate / m.clearance, 1e-10);
 
     // Power: drive and weight go into kinetic energy and dampers. Kinetic energy by differences.

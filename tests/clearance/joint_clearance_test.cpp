@@ -101,7 +101,7 @@ TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
   EXPECT_GT(wanted.separated, 0.05);
 }
 
-// Where it is to stop it stops on the far side of the loss, and the state there is one to go on from.
+// A run that is to stop does so on the far side of the loss, and the state there is one to go on from.
 TEST(JointClearance, StopsWhereContactIsLost) {
   const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
@@ -223,8 +223,8 @@ TEST(JointClearance, AnyLinkage) {
   EXPECT_LT(run.simulation.largest_drift, 1e-7 * run.simulation.peak_energy);
 }
 
-// With a vanishing clearance the tension becomes the force of the ideal joint, and the path its path, both
-// with the first power of the clearance: the start is where that force presses, turning as it does.
+// For vanishing clearance the tension becomes the force of the ideal joint, and the path its path, both with
+// the first power of the clearance: the start is where that force presses, turning as it does.
 TEST(JointClearance, TheIdealJointIsTheLimit) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w50");
   ClearanceFourBar ideal = model;

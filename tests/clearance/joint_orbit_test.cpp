@@ -58,7 +58,7 @@ TEST(JointOrbit, FourBarHasThePublishedOrbits) {
   EXPECT_NEAR(std::abs(first.multipliers[0].imag()), 0.478776, 1e-5);
 }
 
-// With damping departures die out, and going on turn after turn leads to the same motion.
+// Departures die out with damping, and going on turn after turn leads to the same motion.
 TEST(JointOrbit, DampedMotionSettlesOnIt) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   model.link_damping = 1e-5;

@@ -121,7 +121,7 @@ TEST(ClearanceMassSynthesis, InterruptedKeepsTheBestThatATrialHasShown) {
     EXPECT_LE(some.path_rms, before);
     before = some.path_rms;
   }
-  EXPECT_LT(before, 2e-6);  // as BothStagesAtOnce
+  EXPECT_LT(before, 2e-6);  // tolerance as in BothStagesAtOnce
 }
 
 TEST(ClearanceMassSynthesis, OrbitsAreInterrupted) {

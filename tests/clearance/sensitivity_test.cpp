@@ -64,7 +64,7 @@ TEST(ClearanceSensitivity, InterruptedGivesTheSamplesSoFar) {
   {
     const LooksAllowed looks(2);  // at every 1024 samples of the nominal motion
     const auto some = clearance_sensitivity(l, tolerances, outputs, samples, {}, &context);
-    EXPECT_EQ(some.size(), 2048u);  // of the third part; one block of derivatives
+    EXPECT_EQ(some.size(), 2048u);  // size of the third part; one block of derivatives
     for (std::size_t k = 0; k < some.size(); ++k) EXPECT_EQ(some[k].worst_error, all[k].worst_error);
   }
   const LooksAllowed looks(9 + 3);  // after four blocks of 2048, two parameters each
@@ -120,7 +120,7 @@ TEST(ClearanceSensitivity, WorstErrorIsThatOfTheWorstDirection) {
     for (std::size_t k = 0; k < 4; ++k) parts += row.contributions[k], squares += row.mean_squares[k];
     EXPECT_NEAR(parts, row.worst_error[0], 1e-18);
     EXPECT_NEAR(squares, row.deviation[0] * row.deviation[0] + row.deviation[1] * row.deviation[1], 1e-20);
-    // Of a number the error is that of the value.
+    // The error of a number is that of the value.
     EXPECT_NEAR(row.worst_error[1], row.worst[2], 1e-16);
   }
 }
@@ -221,7 +221,7 @@ TEST(ClearanceSensitivity, RefusesWhatIsNotThere) {
   EXPECT_THAT(text({.lengths = {{1, 0, 0, 1e-3}}}, {}),
               ::testing::HasSubstr("body 'crank': points 0 and 0 have no distance"));
   EXPECT_THAT(text({}, {.points = {{2, 7}}}), ::testing::HasSubstr("there is no point 7 of body 2"));
-  // Where the linkage does not assemble there are no values.
+  // A linkage that does not assemble has no values.
   planar::Linkage apart = l;
   apart.bodies[2].points[1].at = 0.01;
   const auto rows =

@@ -159,7 +159,7 @@ TEST(Arguments, CommandsDescribeThemselves) {
   EXPECT_EQ(out->value, "FOLDER");
   EXPECT_EQ(commands[2].name, "compare");
   EXPECT_TRUE(commands[2].positionals.at(0).repeated);
-  // What is for the installation alone is not described.
+  // Commands for the installation alone are not described.
   for (const CommandHelp& command : commands)
     for (const CommandHelp::Option& o : command.options) EXPECT_NE(o.long_name, "--man");
 }

@@ -26,7 +26,7 @@ TEST(Completion, WordsAreThoseOfTheProgram) {
   EXPECT_THAT(words.at("COMMAND"), ::testing::Contains("compare"));
 }
 
-/// What bash offers for a line: runs the script in a bash.
+/// The completions that bash offers for a line: runs the script in a bash.
 class BashCompletion : public test::ProgramFixture {
  protected:
   BashCompletion() : ProgramFixture("/bin/bash") {

@@ -191,7 +191,7 @@ TEST_F(RealLists, ExamplesByTheWordsOfTheTrade) {
   EXPECT_EQ(err_, "error: nothing in the list holds 'excavater'; did you mean 'excavator'?\n");
   EXPECT_EQ(run({"examples", "helicopter"}), 2);
   EXPECT_EQ(err_, "error: nothing in the list holds 'helicopter'; `linkwright examples` lists all\n");
-  // What is not modelled, or is called otherwise here, is answered as the catalogue does.
+  // Things that are not modelled, or are called otherwise here, are answered as the catalogue does.
   for (const char* word : {"ratchet", "pulley", "drawers"}) {
     EXPECT_EQ(run({"catalogue", word}), 0) << word;
     const std::string answer = out_;
@@ -215,7 +215,7 @@ TEST_F(RealLists, SamplesSayWhichMechanismTakesThem) {
             "\n`sample = \"NAME\"` in [mechanism] takes one of them, with its dimensions and masses.\n");
   EXPECT_EQ(run({"samples", "helicopter"}), 2);
   EXPECT_EQ(err_, "error: nothing in the list holds 'helicopter'; `linkwright samples` lists all\n");
-  // Who looks in the wrong list is shown the right ones.
+  // A search in the wrong list is shown the right ones.
   EXPECT_EQ(run({"catalogue", "jansen"}), 2);
   EXPECT_EQ(
       err_,

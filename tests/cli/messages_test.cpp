@@ -5,8 +5,8 @@
 
 #include "tests/cli/messages_fixture.h"
 
-// What people who write their first studies get wrong, and what the real program answers: whole messages, so
-// that each change of one is seen here.
+// Mistakes in first studies, and the answers of the real program: whole messages, so that each change of one
+// is seen here.
 namespace linkwright::cli {
 namespace {
 

@@ -17,7 +17,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::cli::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// Runs a built program as users do, in a folder of its own: exit codes and both streams.
 class ProgramFixture : public ::testing::Test {

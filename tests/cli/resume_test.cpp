@@ -100,8 +100,8 @@ TEST_F(Resume, AnInterruptedRunSaysHowItGoesOn) {
     return command("fourbar-18-points.toml", {"--set", "optimiser.seeds.count=100000", "--time-limit",
                                               std::to_string(seconds), "--out", "a"});
   };
-  // How far half a second goes depends on the machine: whether the checks hold, and whether there is anything
-  // to go on from.
+  // The progress in half a second depends on the machine: whether the checks hold, and whether there is
+  // anything to go on from.
   double seconds = 0.5;
   for (; seconds < 60; seconds *= 2) {
     EXPECT_THAT(run(words(seconds)), ::testing::AnyOf(0, 1));

@@ -71,7 +71,7 @@ TEST_F(Workbench, OpensThePageIfItCan) {
   ::setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
   const pid_t child = start({"serve", "--open"});
   const std::string opened = written("opened", "\n");
-  // What a browser is started with is seen by all users of the machine: a page of this one leads on.
+  // All users of the machine see the arguments that a browser is started with: a page of this one leads on.
   EXPECT_THAT(opened, MatchesRegex("/.*/linkwright-[A-Za-z0-9]+/workbench.html\n"));
   const fs::path page = opened.substr(0, opened.size() - 1);
   EXPECT_THAT(text_of(page), ContainsRegex("url=http://127\\.0\\.0\\.1:[0-9]+/#token=[0-9a-f]+\""));

@@ -51,7 +51,7 @@ TEST(QuantityColumns, EachFaultIsReportedOnce) {
             "t.csv: error: load_kN: load is given twice\n"
             "t.csv: error: mass_kg: unknown column; columns are x, tilt and load, each with its unit\n"
             "t.csv: error: time: column is missing; add time_s\n");
-  // What is there without its unit is not missing.
+  // A column without its unit is not missing.
   EXPECT_THAT(found.keys, ElementsAre("x", "tilt_mm", "load_N"));
   EXPECT_THAT(found.values, ElementsAre(IsEmpty(), IsEmpty(), ElementsAre(3)));
 }

@@ -135,7 +135,7 @@ TEST(ChainEquations, ResidualsAgreeWithVirtualWork) {
     }
 }
 
-// What the drive and the motors of the coordinates give is what the energy gains and the dampers take.
+// The power of the drive and of the motors of the coordinates is that of the energy and of the dampers.
 TEST(ChainEquations, PowerFeedsTheEnergy) {
   for (const Kinematics kinematics : {chord_consistent, hub_axis, source_linearised}) {
     const bool printed = kinematics == source_linearised;

@@ -100,7 +100,7 @@ TEST(InputShaping, StopsALinkWithoutVibration) {
   const double unshaped = left(none);
   EXPECT_GT(unshaped, 0.05);
   const auto zv = impulses(Shaper::zv, {w});
-  EXPECT_LT(left(zv), 0.03 * unshaped);  // what is left is the second mode
+  EXPECT_LT(left(zv), 0.03 * unshaped);  // the rest is the second mode
   EXPECT_LT(left(combined(zv, impulses(Shaper::zv, {w2}))), 0.003 * unshaped);
   // Shaped for a frequency ten per cent off.
   const double zv_off = left(impulses(Shaper::zv, {1.1 * w})),

@@ -140,7 +140,7 @@ TEST(Modes, ExtensionAndBendingJoinOnATurningHub) {
 }
 
 TEST(Modes, ShapeOfTheFirstMode) {
-  // Of a uniform cantilever without tip mass, from its closed form (z = 1.875104, its ratio 0.734096).
+  // A uniform cantilever without tip mass, from its closed form (z = 1.875104, its ratio 0.734096).
   Beam beam = spin_up_beam(Theory::euler_bernoulli);
   beam.tip_mass = 0;
   const ModeShape found = mode_shape(discretise(beam, 8), 1);

@@ -43,7 +43,8 @@ TEST(FlexibleReproductions, Torque) {
   const double continuum[] = {0.13405, 0.26674, 0.52282, 0.75860};
   const char* printed[] = {"0.1343", "0.2686", "0.5373", "0.8059"};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(table[i].ours, continuum[i], 3e-5) << table[i].item;  // of 8 divisions and steps of 2 ms
+    // Error of 8 divisions and steps of 2 ms.
+    EXPECT_NEAR(table[i].ours, continuum[i], 3e-5) << table[i].item;
     EXPECT_THAT(table[i].note, HasSubstr(std::string("the printed equations give ") + printed[i]));
   }
 }

@@ -155,7 +155,7 @@ TEST(Simulation, DampersTakeWhatTheBooksSay) {
 }
 
 TEST(Simulation, FreeVibrationDecaysAsItsDampingSays) {
-  // Of the first mode: damping ratio mass_damping / (2 w) + stiffness_damping w / 2.
+  // The damping ratio of the first mode is mass_damping / (2 w) + stiffness_damping w / 2.
   Beam beam = torque_beam();
   beam.stiffness_damping = 0.01;
   beam.mass_damping = 0.1;

@@ -8,7 +8,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::flexible::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 inline const std::vector<study::Kind>& kinds() {
   static const auto all = studies();

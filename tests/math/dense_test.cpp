@@ -19,7 +19,7 @@ using ::testing::SizeIs;
 
 using Numbers = std::vector<double>;
 
-// Of a matrix with columns of the length of `out`.
+// The product of a matrix with columns of the length of `out`.
 Numbers times(const Numbers& matrix, const Numbers& x) {
   Numbers out(matrix.size() / x.size());
   for (std::size_t j = 0; j < x.size(); ++j)

@@ -16,7 +16,8 @@ namespace {
 using test::message;
 using ::testing::HasSubstr;
 
-// Of the error model; the functions here are smooth over their scales and of a few operations.
+// The size of the error by the model; the functions here are smooth over their scales and of a few
+// operations.
 const double model_error = 7.0 / 6 * std::pow(std::numeric_limits<double>::epsilon(), 2.0 / 3);
 
 TEST(Differences, StepIsTheCubeRootOfEpsilon) {

@@ -44,7 +44,7 @@ TEST(OdeEvents, BouncingBallMeetsTheFloorEveryTime) {
   const auto expected = impacts(g, 40);
   OdeWorkspace workspace;
   for (const OdeMethod method : ode_methods)
-    // With output every 0.1 s, every 1 ms, and none.
+    // Output every 0.1 s, every 1 ms, and none.
     for (const int outputs : {0, 40, 4000}) {
       std::vector<double> times;
       for (int i = 1; i <= outputs; ++i) times.push_back(4.0 * i / outputs);

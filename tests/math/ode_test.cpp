@@ -129,7 +129,7 @@ TEST(Ode, AnEmptyIntervalIsDone) {
   }
 }
 
-// What is delivered between steps is as accurate as what is delivered at their ends.
+// Values between steps are as accurate as accurate as what is delivered at their ends.
 TEST(Ode, OutputsAreAsAccurateAsSteps) {
   OdeWorkspace workspace;
   for (const OdeMethod method : ode_methods)

@@ -6,10 +6,10 @@
 
 #include "linkwright/math/ode.h"
 
-// What the tests of initial value problems share: the harmonic oscillator from (1, 0), by every method.
+// The common problem of the tests of initial values: the harmonic oscillator from (1, 0), by every method.
 namespace linkwright::test {}
 namespace linkwright::math::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 inline constexpr std::array ode_methods = {
     OdeMethod::explicit_runge_kutta_5, OdeMethod::explicit_runge_kutta_8, OdeMethod::adams, OdeMethod::bdf};

@@ -46,7 +46,7 @@ TEST(Vector3, TurnOfARotationIsTheVectorThatMadeIt) {
   }
   // Small turns keep their digits.
   EXPECT_LT(norm(turn_of(turn_about({1e-12, 0, 0})) - Vec3{1e-12, 0, 0}), 1e-27);
-  // Of half a turn either vector may come.
+  // Half a turn may have either vector.
   const Vec3 half = turn_of(turn_about(4 * std::atan(1.0) * unit({1, -2, 2})));
   EXPECT_LT(std::min(norm(half - 4 * std::atan(1.0) * unit({1, -2, 2})),
                      norm(half + 4 * std::atan(1.0) * unit({1, -2, 2}))),

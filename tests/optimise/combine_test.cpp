@@ -77,7 +77,7 @@ TEST(Combine, CapsAddWhatExceedsThem) {
   ASSERT_EQ(reasons.size(), 1u);
   EXPECT_EQ(reasons[0].reason, "objective_1_at_most");
   EXPECT_EQ(reasons[0].amount, 1);
-  EXPECT_FALSE(largest(plain()).explain);  // as the parts
+  EXPECT_FALSE(largest(plain()).explain);  // the same as the parts
 }
 
 TEST(Combine, ACombinationCanBeCombinedAgain) {
@@ -134,7 +134,7 @@ TEST(Combine, AnyMethodMinimisesAndReportsAllObjectives) {
     for (const ParetoPoint& a : mean.front)
       for (const ParetoPoint& b : mean.front) EXPECT_FALSE(dominates(a.costs, b.costs));
   }
-  // With a cap on the first objective: sqrt(f1) + sqrt(f2) = 2 on the front.
+  // A cap on the first objective: sqrt(f1) + sqrt(f2) = 2 on the front.
   RunContext context;
   const double caps[] = {0.25, HUGE_VAL};
   options.stop.generations = 2000;

@@ -246,7 +246,8 @@ TEST(ConeProgramme, AgreesWithSequentialQuadraticProgramming) {
         },
         x, low, high, {}, context);
     ASSERT_EQ(local.status, Status::done);
-    // What SLSQP's own tolerances leave; never below the lower bound by more than its constraints may be off.
+    // Tolerances of SLSQP leave this gap; never below the lower bound by more than its constraints may be
+    // off.
     EXPECT_NEAR(local.cost, r.cost, 1e-7 * r.cost) << seed;
     EXPECT_GE(local.cost, r.lower_bound - 1e-8) << seed;
   }

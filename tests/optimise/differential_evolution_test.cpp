@@ -126,8 +126,8 @@ TEST(DifferentialEvolution, EverySchemeFindsTheKnownOptima) {
 }
 
 TEST(DifferentialEvolution, MutantsAreOfTheirScheme) {
-  // With CR = 1 every trial must be a mutant for some distinct members; all choices are tried. Some
-  // components must be inside of the box by themselves.
+  // For CR = 1 every trial must be a mutant for some distinct members; all choices are tried. Some components
+  // must be inside of the box by themselves.
   const std::vector<Variable> variables = {{"x", -100, 100}, {"y", -100, 100}};
   for (const MutationScheme scheme : later_schemes) {
     const double f = 0.3;
@@ -195,8 +195,7 @@ TEST(DifferentialEvolution, InPlaceEndsWhereOthersDo) {
 }
 
 TEST(DifferentialEvolution, InPlaceLaterTrialsAreMadeFromAcceptedOnes) {
-  // With CR = 1 every trial is x_a + F (x_b - x_c) of the members at that moment, distinct and not its
-  // target.
+  // For CR = 1 every trial is x_a + F (x_b - x_c) of the members at that moment, distinct and not its target.
   const std::vector<Variable> variables = {{"x", -100, 100}, {"y", -100, 100}};
   for (const MutantBounds bounds : {MutantBounds::clip, MutantBounds::midpoint}) {
     const auto optimiser = make_optimiser(
@@ -217,7 +216,7 @@ TEST(DifferentialEvolution, InPlaceLaterTrialsAreMadeFromAcceptedOnes) {
       bool found = false;
       for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = 0; b < 4; ++b) {
-          const std::size_t c = 6 - i - a - b;  // of 0 + 1 + 2 + 3 what is left
+          const std::size_t c = 6 - i - a - b;  // the one that is left of 0 + 1 + 2 + 3
           if (a == b || a == i || b == i) continue;
           const auto kept = [&](std::size_t j) {
             const double v = x[a][j] + 0.6 * (x[b][j] - x[c][j]);

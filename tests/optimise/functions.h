@@ -15,7 +15,7 @@
 /// help.
 namespace linkwright::test {}
 namespace linkwright::optimise::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 struct Value {
   double cost = 0;

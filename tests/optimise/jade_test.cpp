@@ -71,7 +71,7 @@ TEST(Jade, MembersNeverGetWorse) {
 }
 
 TEST(Jade, OnlyBetterTrialsReplaceTheirTargets) {
-  // Where all cost the same, the members stay those of the first generation.
+  // Members stay those of the first generation if all costs are the same.
   const std::vector<Variable> variables = {{"x", 0, 1}, {"y", 0, 1}};
   const auto optimiser = make_optimiser(variables, JadeOptions{.population = 8}, {});
   const std::vector<double> zero(8, 0.0);

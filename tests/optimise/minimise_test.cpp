@@ -121,7 +121,7 @@ TEST(Minimise, MedianAndMeanAreOfTheFeasibleCandidates) {
   MinimiseOptions options;
   options.stop.generations = 1;
   const Report report = minimise(problem, method, options, {}, context);
-  EXPECT_EQ(report.log[0].median, 2.5);  // of 0, 1, 4, 16
+  EXPECT_EQ(report.log[0].median, 2.5);  // median of 0, 1, 4, 16
   EXPECT_EQ(report.log[0].mean, 5.25);
   EXPECT_NEAR(report.log[0].violated, 0.2, 1e-15);
 }
@@ -312,7 +312,7 @@ TEST(Minimise, AllocatesNothingPerGeneration) {
   };
   RunContext context;
   for (const Method method : all_methods) {
-    if (method == Method::cma_es) continue;  // that is pagmo's, which does
+    if (method == Method::cma_es) continue;  // the method is pagmo's, which does allocate
     const auto count = [&](int generations) {
       MinimiseOptions options;
       options.stop = {.generations = generations, .stagnation = 100000, .spread = 1e-300};
@@ -377,7 +377,7 @@ TEST(Minimise, AKillBetweenLogAndStateDoesNoHarm) {
   options.stop.generations = 12;
   RunContext plain;
   const Report whole = minimise(problem, OptimiserOptions{}, options, {}, plain);
-  // What the disk held after each keep, which may have been the last.
+  // The state on the disk after each save, which may have been the last.
   linkwright::test::MemoryCheckpoint checkpoint;
   std::vector<std::map<std::string, Value>> disks;
   checkpoint.kept = [&](std::string_view) { disks.push_back(checkpoint.entries); };

@@ -208,7 +208,7 @@ TEST(NloptBridge, AFunctionThatLooksItselfEndsTheSearch) {
     double least = HUGE_VAL;
     int calls = 0;
     const auto watched = [&](Numbers x, Out gradient) {
-      // As if the time had run out within the seventh call.
+      // The time runs out within the seventh call.
       if (++calls == 7) {
         context.cancel();
         go_on(context);
@@ -237,7 +237,7 @@ TEST(NloptBridge, ValuesThatDoNotExistEndTheSearch) {
   EXPECT_EQ(report.status, Status::not_converged);
   EXPECT_EQ(report.end, LocalEnd::not_finite);
   EXPECT_EQ(report.cost, rosenbrock(x, {}));
-  EXPECT_LT(report.cost, 24.2);  // of the start
+  EXPECT_LT(report.cost, 24.2);  // cost of the start
   x = {2, 1};
   EXPECT_EQ(minimise_local(broken, x, {}, {}, {}, context).cost, HUGE_VAL);
   EXPECT_EQ(x[0], 2);

@@ -155,7 +155,7 @@ TEST(Optimiser, AGenerationAllocatesNothing) {
     for (const Method method : every_method) {
       OptimiserOptions options = {.method = method};
       options.grey_wolf.reset_worst_half = reset;
-      if (method == Method::cma_es) continue;  // that is pagmo's, which does
+      if (method == Method::cma_es) continue;  // the method is pagmo's, which does allocate
       const auto optimiser = make_optimiser(problem.variables, options, {});
       const std::vector<double> violation(optimiser->population(), 0.0);
       const auto before = linkwright::test::allocations();
@@ -206,7 +206,7 @@ void generation(const Problem& problem, Optimiser& optimiser) {
 }
 
 TEST(Optimiser, ARestoredStateGoesOnWithTheSameBits) {
-  // With constraints, so that violations matter, and with infinite costs.
+  // A problem with constraints, so that violations matter, and with infinite costs.
   const Problem g06 = test::g06();
   const Problem rare = test::make_problem(3, -1, 1, [](std::span<const double> x) {
     return x[0] > 0.9 ? test::Value{x[1] * x[2]} : test::Value{HUGE_VAL, 1 - x[0]};
@@ -375,7 +375,7 @@ TEST(Incumbent, IsWithoutAReferenceTheLeastSumOverMedians) {
   EXPECT_EQ(first({1, 400, 2, 400, 3, 100, 9, 100}, {0, 0, 0, 0}), 2u);
   // A median of zero counts as 1.
   EXPECT_EQ(first({0, 5, 0, 4, 0, 3, 0, 9}, {0, 0, 0, 0}), 2u);
-  // Of equals the first; with nothing feasible the least violated.
+  // The first of equals counts; with nothing feasible the least violated.
   EXPECT_EQ(first({1, 1, 1, 1, 1, 1, 1, 1}, {0, 0, 0, 0}), 0u);
   EXPECT_EQ(first({1, 1, 1, 1, 1, 1, 1, 1}, {4, 3, 2, 3}), 2u);
   // Cheaper than the chosen one, but not for the sum: it may stay, as nothing dominates it.

@@ -231,8 +231,8 @@ TEST(OursAgainstPagmo, GreyWolf) {
 }
 
 TEST(OursAgainstPagmo, ParticleSwarm) {
-  // With constant inertia (1) and the best of all (1), as pagmo has no falling inertia. Ours stops at bounds,
-  // and knows the best of the last generation, pagmo that of this one.
+  // Constant inertia (1) and the best of all (1), as pagmo has no falling inertia. Ours stops at bounds, and
+  // knows the best of the last generation, pagmo that of this one.
   OptimiserOptions ours = {.method = Method::particle_swarm};
   ours.particle_swarm.generations = moves + 1;
   ours.particle_swarm.inertia_start = ours.particle_swarm.inertia_end = 0.6;

@@ -39,7 +39,7 @@ TEST(Dominates, ComparesAsManyObjectives) {
 
 TEST(NonDominated, LeavesTheFrontInOrder) {
   const std::vector<double> costs = {3, 3, 1, 4, 2, 2, 1, 4, 4, 1, 2, 5};
-  EXPECT_THAT(non_dominated(costs, 2), ElementsAre(1, 2, 4));  // of the equal (1, 4) the first
+  EXPECT_THAT(non_dominated(costs, 2), ElementsAre(1, 2, 4));  // the first of the equal (1, 4)
   EXPECT_THAT(non_dominated(costs, 1), ElementsAre(2));        // twelve costs of one objective
   EXPECT_TRUE(non_dominated({}, 2).empty());
   EXPECT_THAT(message([&] { non_dominated(costs, 5); }), HasSubstr("12 costs of 5 objectives"));
@@ -74,7 +74,7 @@ TEST(ParetoArchive, KeepsTheFrontOfAllThatItWasTold) {
   ASSERT_EQ(kept.size(), expected.size());
   EXPECT_GT(kept.size(), 5u);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    EXPECT_EQ(kept[i].x, expected[i].x);  // of equals the first
+    EXPECT_EQ(kept[i].x, expected[i].x);  // the first of equals
     EXPECT_EQ(kept[i].costs, expected[i].costs);
   }
 }

@@ -33,7 +33,8 @@ class Shared final : public Checkpoint {
   }
 
   test::MemoryCheckpoint kept;
-  const test::MemoryCheckpoint* others = nullptr;  // what they have kept when this one waits for them
+  // Checkpoints that they have saved when this one waits for them.
+  const test::MemoryCheckpoint* others = nullptr;
   std::set<std::string> loops;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::optimise::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// A problem of one candidate at a time: `value(x, out)` writes objectives and constraints.
 template <class Value>

@@ -39,7 +39,7 @@ TEST(Statistics, FiguresOfKnownOutcomes) {
   EXPECT_EQ(s.seeds, 5);
   EXPECT_EQ(s.feasible, 3);
   EXPECT_EQ(s.best, 1);
-  EXPECT_EQ(s.median, 3);  // of 1, 2, 3, infinite, infinite
+  EXPECT_EQ(s.median, 3);  // median of 1, 2, 3, infinite, infinite
   EXPECT_EQ(s.quantile25, 2);
   EXPECT_EQ(s.worst, infinity);
   EXPECT_EQ(s.mean, infinity);

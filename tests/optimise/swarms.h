@@ -13,7 +13,7 @@
 /// seeds.
 namespace linkwright::test {}
 namespace linkwright::optimise::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 inline Problem sphere10() {
   return make_problem(10, 0, 1, [](std::span<const double> u) {

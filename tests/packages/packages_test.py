@@ -123,7 +123,7 @@ def main():
             root.call("/usr/bin/python3", "-m", "venv", "--system-site-packages", "/opt/venv")
             root.call("/opt/venv/bin/pip", "--disable-pip-version-check", "install", "--quiet", "--no-index", root.put(wheel))
             same(root.result("/opt/venv/bin/python", "-c", f"'{script}'"), expected, wheel.name)
-        # What a library needs is listed; compilers are no part of it.
+        # The requirements of a library are listed; compilers are no part of it.
         listed = run("dpkg-deb", "-c", next(out.glob("linkwright-dev_*.deb")))
         for file in ("usr/include/linkwright/planar.h", "cmake/Linkwright/LinkwrightConfig.cmake", "pkgconfig/linkwright.pc", "liblinkwright_planar.a"):
             assert file in listed, file

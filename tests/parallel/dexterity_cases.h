@@ -4,7 +4,7 @@
 
 namespace linkwright::parallel {
 
-/// Where a design stands against a limit; null if it was not asked for.
+/// The margin of a design against a limit; null if it was not asked for.
 inline const DexterityStand* stand_of(const DexterityDesign& design, DexterityLimit limit) {
   for (const DexterityStand& stand : design.limits)
     if (stand.limit == limit) return &stand;

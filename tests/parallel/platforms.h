@@ -10,7 +10,7 @@ namespace linkwright::parallel {
 
 inline PlatformLegs complex_platform(std::uint32_t number) { return random_platform(4711, number); }
 
-/// With e . h = 0.
+/// A point with e . h = 0.
 inline PlatformPoint complex_point(std::uint32_t number) {
   RandomStream random({4712, number});
   PlatformPoint x;

@@ -42,7 +42,7 @@ TEST(Sampling, TheSobolSequenceIsTheKnownOne) {
   // The first points behind the origin, as Joe and Kuo print them.
   EXPECT_THAT(sobol_sequence(4, 3).coordinates,
               ElementsAre(0.5, 0.5, 0.5, 0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.375, 0.375, 0.625));
-  // With the origin, 2^10 points of any coordinate are one in each of 2^10 intervals.
+  // The first 2^10 points, origin included, of any coordinate are one in each of 2^10 intervals.
   const Points points = sobol_sequence(1023, 200);
   for (std::size_t j = 0; j < 200; ++j) {
     std::vector<int> hits(1024, 0);

@@ -12,7 +12,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// Keys of the sixteen numbers in the reference file, in the order of FourBarNumber.
 inline constexpr std::array<std::string_view, four_bar_number_count> design_keys = {

@@ -10,7 +10,7 @@
 // Balancing studies as texts, and what is read from them.
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// A four-bar of which all masses, mass centres and inertias are open.
 inline const std::string four_bar_masses = R"(schema = 1

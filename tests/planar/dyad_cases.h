@@ -48,7 +48,7 @@ inline GuidingDyad listed_dyad(const Value& value) {
   return out;
 }
 
-/// How far two dyads of one type are from each other, relative to their size; a line has two normals.
+/// The distance of two dyads of one type, relative to their size; a line has two normals.
 inline double apart(const GuidingDyad& a, const GuidingDyad& b) {
   if (a.type != b.type) return infinity;
   const double size = 1 + std::abs(a.fixed) + std::abs(a.moving) + a.length;

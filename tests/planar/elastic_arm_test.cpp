@@ -52,17 +52,17 @@ TEST(ElasticArm, HeldByItsDriveSoundsAsTheExactBeamWithATipMass) {
     off.push_back(AtRest(made(arm(), {beam(n)}, {{0, 0, 0}}), {{0, 0, 0}}).first_frequency() / exact - 1);
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_NEAR(off[i - 1] / off[i], 4, 0.1);
-    // What is left is of fourth order: 0.013 of the first error, n = 4, over 4^2.
+    // The remaining error is of fourth order: 0.013 of the first error, n = 4, over 4^2.
     EXPECT_NEAR((4 * off[i] - off[i - 1]) / 3, 0, i == 1 ? 1e-4 : 1e-5);
   }
 }
 
-// How far the tip is from where the rigid arm has it, across, at the times of the figures up to the end of
-// the spin-up to 4 rad/s within 15 s.
+// The deflection of the tip from the rigid arm, across, at the times of the figures up to the end of the
+// spin-up to 4 rad/s within 15 s.
 std::vector<double> spun_up(int segments, std::span<const double> times) {
   const double speed = 4, duration = 15;
   const ElasticLinkage e = made(arm(), {beam(segments)}, {{0, 0, 0}});
-  // Of the rate speed (t / T - sin(2 pi t / T) / (2 pi)) the angle in a fine table.
+  // The angle for the rate speed (t / T - sin(2 pi t / T) / (2 pi)) the angle in a fine table.
   math::MotionTable table;
   for (int i = 0; i <= 600; ++i) {
     const double t = duration * i / 600, w = 2 * pi / duration;

@@ -12,7 +12,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 // A steel strip of 20 mm x 4 mm that bends about its thin side.
 constexpr double modulus = 2.1e11, area = 8e-5, second_moment = 0.02 * 4e-3 * 4e-3 * 4e-3 / 12,

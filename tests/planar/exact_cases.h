@@ -27,8 +27,8 @@ inline std::vector<std::complex<double>> exact_points(std::string_view id) {
   return places(linkwright::test::at(exact_case(id), "inputs.points_m"));
 }
 
-/// Where tests keep the start set of nine points, which takes seconds to find and is the same in each of
-/// them.
+/// The folder in which tests keep the start set of nine points, which takes seconds to find and is the same
+/// in each of them.
 inline std::filesystem::path starts_folder() {
   return std::filesystem::path(testing::TempDir()) / "linkwright-nine-point-starts";
 }

@@ -76,7 +76,7 @@ inline RandomTarget random_target(NinePointTarget kind, std::uint32_t number) {
   return out;
 }
 
-/// Whether a four-bar is among the real ones of the solutions, with either of its cranks first.
+/// True if a four-bar is among the real ones of the solutions, with either of its cranks first.
 inline bool has(const NinePointSolutions& found, const TracingFourBar& bars, std::complex<double> first) {
   for (const CurveClass& curve : found.classes) {
     if (!curve.real) continue;

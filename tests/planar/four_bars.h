@@ -10,7 +10,7 @@
 
 namespace linkwright::planar {
 
-/// How rapidcheck prints a counterexample.
+/// Prints a counterexample of rapidcheck.
 inline void showValue(const FourBar& l, std::ostream& out) {
   out << "{ground " << l.ground << ", crank " << l.crank << ", coupler " << l.coupler << ", rocker "
       << l.rocker << ", point " << l.coupler_u << ", " << l.coupler_v << ", pivot " << l.pivot_x << ", "
@@ -21,7 +21,7 @@ inline void showValue(const FourBar& l, std::ostream& out) {
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 using linkwright::test::between;
 using linkwright::test::log_between;

@@ -10,7 +10,7 @@
 // The same linkage in another place, and other models as linkages.
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// Mirrors at the x axis (if so), then turns, then shifts.
 struct Change {
@@ -70,7 +70,7 @@ inline Linkage apply(const Change& c, const Linkage& original) {
   l.gravity = c.vector(l.gravity);
   return l;
 }
-/// What the inputs become: angles from the ground are turned, all angles mirrored.
+/// The inputs after the change: angles from the ground are turned, all angles mirrored.
 inline std::vector<InputMotion> apply(const Change& c, const Linkage& original,
                                       std::vector<InputMotion> inputs) {
   for (std::size_t k = 0; k < inputs.size(); ++k) {

@@ -16,14 +16,14 @@
 // and what another way of following finds.
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 enum class SweptKind { plate_on_legs, cylinder_in_a_loop, inner_drive, floating_shock, raised_arm };
 constexpr int swept_kinds = 5;
 
 struct SweptLinkage {
   Linkage linkage;
-  double from = 0, to = 0;  ///< of the sweep
+  double from = 0, to = 0;  ///< range of the sweep
 };
 
 /// A linkage drawn at random; points lie in a square of 1 m, none nearer than 0.1 m to the next.
@@ -100,9 +100,8 @@ inline SweptLinkage swept_linkage(SweptKind kind, RandomStream& random) {
   return out;
 }
 
-/// Where the mode of a place is, by steps of the input that shorten until nothing unexpected happens:
-/// Newton's method from what the rates foretell must hardly correct it, and the determinants must keep their
-/// signs.
+/// Finds the mode of a place by steps of the input that shorten until nothing unexpected happens: Newton's
+/// method from what the rates foretell must hardly correct it, and the determinants must keep their signs.
 class PlainFollower {
  public:
   explicit PlainFollower(const LinkagePlan& plan) : plan_(plan), motion_(plan) {}

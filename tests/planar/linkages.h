@@ -14,7 +14,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -86,9 +86,8 @@ inline BodyMass whole_mass(const LinkageBody& body) {
   return {mass, inertia - mass * std::norm(centre), centre};
 }
 
-/// How far Newton's and Euler's equations of each body are from being met by the reported joint forces,
-/// drives and loads: the largest force (N) or moment (N m), from the model and the motion of the bodies
-/// alone.
+/// The largest residual of Newton's and Euler's equations of each body for the reported joint forces, drives
+/// and loads: the largest force (N) or moment (N m), from the model and the motion of the bodies alone.
 inline double unbalance(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m,
                         const LinkageForces& f) {
   double worst = 0;

@@ -13,7 +13,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 using linkwright::test::at;
 using linkwright::test::number_at;

@@ -35,7 +35,7 @@ TEST(Reproductions, TheArmOfTable21) {
   EXPECT_NEAR(table[0].ours, 0.220270706547, 1e-11);
   EXPECT_NEAR(table[1].ours, 0.117662134855, 1e-11);
   EXPECT_NEAR(table[3].ours, 0.074888265539, 1e-11);
-  // What more is possible, and what it costs the motors: peaks of planar-dynamics-balancing.json.
+  // Designs with more freedom, and their price to the motors: peaks of planar-dynamics-balancing.json.
   std::map<std::string, double> ours;
   for (const study::Comparison& r : table) ours[r.item] = r.ours;
   EXPECT_LT(ours.at("F, law of degree 8"), 0.1131);
@@ -50,8 +50,8 @@ TEST(Reproductions, AllPercentagesOfTables23And27WithTheFourCorrections) {
   const auto small = rows_of_table("boskovic-2018-table-2.3"),
              large = rows_of_table("boskovic-2018-table-2.7");
   EXPECT_THAT(verdicts(small), ElementsAre(Pair("reproduced", 8)));
-  // Of 120: twelve increases, and the rest of the two designs with a misprint (24 less two of the increases
-  // each belongs to case 2, FA one, CS two).
+  // The table has 120 entries: twelve increases, and the rest of the two designs with a misprint (24 less two
+  // of the increases each belongs to case 2, FA one, CS two).
   EXPECT_THAT(verdicts(large), ElementsAre(Pair("corrected", 12 + 24 - 3), Pair("reproduced", 120 - 33)));
   const auto increases =
       std::count_if(large.begin(), large.end(), [](const study::Comparison& r) { return r.ours < 0; });

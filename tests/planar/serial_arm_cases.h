@@ -9,7 +9,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// An arm of n links with mass centres anywhere and up to two masses attached to each.
 inline SerialArm any_arm(std::size_t n) {

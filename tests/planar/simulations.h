@@ -10,9 +10,9 @@
 
 namespace linkwright::test {}
 namespace linkwright::planar::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
-/// What a simulation gave, with copies of its rows.
+/// The result of a simulation, with copies of its rows.
 struct SimulationRun {
   struct Row {
     double time;

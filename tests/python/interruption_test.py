@@ -30,7 +30,7 @@ class After:
 
 class Interruption(unittest.TestCase):
     def ends_at_once(self, run):
-        # With its message the exception says nothing of how long it took: the best of three leaves out a busy machine.
+        # The message of the exception says nothing of how long it took: the best of three leaves out a busy machine.
         took = []
         for _ in range(3):
             sent = After(0.5)
@@ -79,7 +79,8 @@ class Progress(unittest.TestCase):
     def test_false_ends_the_run_with_the_best_so_far(self):
         begin = time.perf_counter()
         result = long_study().run(lambda stage, fraction, best: False)
-        self.assertLess(time.perf_counter() - begin, 30)  # of minutes; a busy machine takes seconds to begin
+        # Seconds out of minutes; a busy machine takes seconds to begin.
+        self.assertLess(time.perf_counter() - begin, 30)
         self.assertEqual(("cancelled", "incomplete", 4), (result.status, result.verdict, result.exit_code))
 
     def test_what_it_raises_ends_the_run(self):

@@ -43,7 +43,8 @@ Colour oklab(const Colour& rgb) {
                lms);
 }
 
-// How a person without M cones sees it (Machado, Oliveira, Fernandes 2009, Table 1, deuteranomaly 1.0).
+// The colour as a person without M cones sees it (Machado, Oliveira, Fernandes 2009, Table 1, deuteranomaly
+// 1.0).
 Colour deuteranope(const Colour& rgb) {
   Colour out = times(
       {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What other programs read is tested by check_dxf.py.
+// The script check_dxf.py tests what other programs read.
 
 TEST(Dxf, LayersCanBeLeftOut) {
   const auto result = test::sample_result();

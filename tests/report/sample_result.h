@@ -6,7 +6,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::report::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// A finished path synthesis as a domain would give it: two crank-rockers through the 18 points of Boskovic
 /// 2018, Eq. (4.27)-(4.30), and a double rocker that assembles on part of the turn only. The mechanisms are

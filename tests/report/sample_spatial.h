@@ -4,7 +4,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::report::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// A double wishbone over wheel travel and rack as a domain would give it: a spatial scene with a second
 /// input, a wheel, a spring with damper, the steering axis, a force and a velocity; a table of toe and camber

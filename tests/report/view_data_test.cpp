@@ -127,7 +127,7 @@ TEST(ViewData, SpatialScenesAndTheirPlots) {
   EXPECT_EQ(plots[0].find("group")->as_string(), "rack_m");
   EXPECT_EQ(study::to_json(*plots[0].find("bands")), R"([{"lower":"low","upper":"high","label":"target"}])");
   EXPECT_EQ(plots[0].find("baseline")->as_string(), "before");
-  // What a planar report does not have it does not carry either.
+  // A planar report does not carry keys that it does not have.
   for (const char* key : {"group", "bands", "baseline"}) EXPECT_EQ(plots[1].find(key), nullptr) << key;
 }
 
@@ -217,7 +217,7 @@ TEST(ViewData, TheViewerHasTheSameKeys) {
   result.solutions[0].study["mechanism"]["type"] = "planar.four_bar";
   result.changes.resize(1);
   result.comparisons.resize(1);
-  // What a report leaves out, a page with the program behind it has.
+  // A page with the program behind it has the handles that a report leaves out.
   EXPECT_EQ(first_of(data(result), "scenes").find("handles"), nullptr);
   std::vector<double> numbers;
   const Value out = view_data({.result = result, .lists = NumberLists(numbers)});

@@ -5,7 +5,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::report::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// Empty when tags of an XML text without declarations nest and close properly and no attribute or text holds
 /// a bare < or &; else what is wrong first. Enough for what our writers emit, not an XML parser.
@@ -36,7 +36,7 @@ inline std::string fault_of_xml(const std::string& text) {
   return open.empty() ? "" : "never closed: " + open.back();
 }
 
-/// How often a part stands in a text.
+/// The number of occurrences of a part in a text.
 inline std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;

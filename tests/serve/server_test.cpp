@@ -72,7 +72,7 @@ class ServerTest : public ::testing::Test {
     EXPECT_EQ(::connect(socket, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
     return socket;
   }
-  /// What comes back for some bytes, up to the end of the connection.
+  /// The answer to some bytes, up to the end of the connection.
   std::string exchange(std::string_view bytes) const {
     const int socket = connected();
     const timeval patience{30, 0};

@@ -20,7 +20,7 @@ std::vector<std::string> told(const Diagnostics& problems) {
   return out;
 }
 
-// What is said of links with these names; "" is a link without one. The names are then complete.
+// The messages about links with these names; "" is a link without one. The names are then complete.
 std::vector<std::string> said_of(std::vector<std::string>& names) {
   std::string text = "[mechanism]\n";
   for (const std::string& name : names)

@@ -298,7 +298,7 @@ TEST(Bind, TablesErrorsOfMeaningAndFreeNames) {
   EXPECT_EQ(to_string(diagnostics[0]), "s.toml:4:12: error: timing.step_deg: does not divide the turn");
 }
 
-/// What a domain does: it reads links, then looks for one by name, in a table of its own.
+/// A reader like that of a domain: it reads links, then looks for one by name, in a table of its own.
 std::string read_and_refer(std::string_view text, bool with_schema = true) {
   Diagnostics diagnostics;
   const Value document = read_text(text, Syntax::toml, "s.toml", diagnostics);
@@ -347,7 +347,7 @@ TEST(Bind, OneMistakeGivesOneMessage) {
             "s.toml:2:1: error: mechanism.link[0].nme: unknown key; did you mean 'name'?\n");
   EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 'a'\n[[mechanism.link]]\nname = 'a'\n" + rest),
             "s.toml:1:1: error: mechanism.link: 'a' is used twice\n");
-  // What the schema does not know is unknown all the same.
+  // A key that the schema does not know is unknown all the same.
   EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 5\n[[trace]]\nby = 'x'\n"),
             "s.toml:2:8: error: mechanism.link[0].name: is 5, must be a text in quotes\n"
             "s.toml:4:1: error: trace[0].by: unknown key\n");
@@ -407,7 +407,7 @@ TEST(Bind, AMisspeltKeyExplainsWhatIsMissingForIt) {
   EXPECT_EQ(read_choice("[table]\n"),
             "s.toml:1:1: error: table.links: there are no links\n"
             "s.toml:1:1: error: table.wheel: this key is missing\n");
-  // What is asked for only without the key.
+  // The choice is asked for only without the key.
   EXPECT_EQ(read_choice("[table]\nsampel = 'a'\n"),
             "s.toml:2:1: error: table.sampel: unknown key; did you mean 'sample'?\n");
   // One that is there as well explains nothing.
@@ -447,7 +447,8 @@ TEST(Bind, SchemaFollowsTheFieldList) {
   EXPECT_FALSE(schema.find("unevaluatedProperties")->as_bool());
 }
 
-// Where the key of a choice may be absent, exactly one alternative takes a table without it.
+// Exactly one alternative takes a table without the key of a choice, if that may be absent, exactly one
+// alternative takes a table without it.
 TEST(Bind, SchemaOfAChoiceAsksForItsKeyButOnce) {
   const auto required = [](const Value& alternative) {
     const Value* keys = alternative.find("required");

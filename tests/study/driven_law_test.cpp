@@ -66,7 +66,7 @@ TEST(DrivenLaw, IsReadWithTheUnitsOfItsJoint) {
       messages);
   EXPECT_EQ(messages, "");
   EXPECT_EQ(std::get<math::EndConditions>(motion_law(polynomial.law)).start_jerk, pi);
-  // What is written reads back to the same.
+  // A written law reads back to the same.
   const Value written = write_fields(polynomial);
   EXPECT_DOUBLE_EQ(written.find("end_speed_rad_per_s")->as_number(), pi);
   EXPECT_EQ(written.find("start_acceleration_rad_per_s2"), nullptr);

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// What a person sees of a text: one line a diagnostic.
+/// The messages that a person sees of a text: one line a diagnostic.
 std::string read_messages(std::string_view text, Syntax syntax = Syntax::toml) {
   Diagnostics diagnostics;
   const Value value = read_text(text, syntax, "s.toml", diagnostics);

@@ -171,7 +171,7 @@ TEST(Study, KeysOfOtherTablesAreSentHome) {
             "first table\n");
   EXPECT_EQ(messages("to_deg = 90", "to_deg = 90\n[target.output]\nsamples = 3"),
             "s.toml:13:9: error: target.output: unknown key; it belongs in [output]\n");
-  // Where several tables know a key, nobody can tell which is meant.
+  // Several tables that know a key leave open which is meant.
   EXPECT_THAT(messages("[mechanism]", "type = 'x'\n[mechanism]"),
               HasSubstr("type: unknown key; allowed here: "));
 }

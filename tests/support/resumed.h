@@ -68,7 +68,7 @@ inline void expect_resumed_alike(std::span<const study::Kind> kinds, const std::
   kept.kept = nullptr;
   std::erase_if(kept.entries, [](const auto& entry) { return entry.first != "seed 1"; });
   compare(run(kept));
-  // What was kept of another study, or is no seed at all.
+  // Values saved by another study, or that are no seed at all.
   for (const char* what : {"status", "evaluations"}) {
     kept.entries = before;
     Value& seed = kept.entries["seed 1"];

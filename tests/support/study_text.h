@@ -49,7 +49,7 @@ inline study::Result run_text(std::span<const study::Kind> kinds, const std::str
   return prepared ? study::run_study(*prepared, context) : study::Result();
 }
 
-/// What a fact says; "no fact" when there is none of this label.
+/// The sentence of a fact; "no fact" when there is none of this label.
 inline Sentence sentence(const study::Result& result, std::string_view label) {
   for (const study::Fact& f : result.facts)
     if (f.label == label) return f.text;

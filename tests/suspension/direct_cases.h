@@ -5,7 +5,7 @@
 
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// The suspension of example 5 of Poznanovic 2016 with other body points 3, 4 and 5.
 inline WheelGuide with_points(const DirectTask& task, const Value& points) {

@@ -14,7 +14,7 @@
 // Studies of this module as texts.
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 using linkwright::test::fact;
 using linkwright::test::replaced;

@@ -13,13 +13,13 @@
 
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
-using namespace linkwright::test;  // what the tests of all modules share
+using namespace linkwright::test;  // shared by the tests of all modules
 
 /// A mechanism of the published figures, and the positions that its carrier takes.
 struct Example {
   CarrierTargets targets;
   WheelGuide guide;
-  std::vector<GuideLink> links;  ///< of the suspension, with names
+  std::vector<GuideLink> links;  ///< links of the suspension, with names
 };
 
 inline Example published_example(std::string_view id) {

@@ -16,7 +16,7 @@ import tempfile
 program = sys.argv[1]
 examples = pathlib.Path(sys.argv[2])
 every = int(sys.argv[3]) if len(sys.argv) > 3 else 1
-# With built-in mechanisms, of which templates have none.
+# Built-in mechanisms are included, of which templates have none.
 with_samples = ["studies/jansen-leg", "studies/four-bar-chain-2", "studies/tolerances-hoeken"]
 
 

@@ -35,7 +35,7 @@ async function until(what) {
   for (const end = Date.now() + 10_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 30))) if (await what()) return;
   assert.fail(`never happened: ${what}`);
 }
-/** What is seen becomes this: a click's answer is drawn when the browser comes to it. */
+/** A value that is seen becomes this: a click's answer is drawn when the browser comes to it. */
 async function equal(read, expected, message) {
   for (const end = Date.now() + 10_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 30)))
     if (Object.is(await read(), expected)) return;
@@ -389,7 +389,7 @@ test("polar diagrams have equal axes and follow the animation both ways", async 
   await page.locator("#scrub").fill("30");
   const dot = page.locator('[data-plot="polar"] .at');
   assert.ok(Math.abs(Number(await dot.getAttribute("data-x")) - x[30]) < 1e-6 && Math.abs(Number(await dot.getAttribute("data-y")) - y[30]) < 1e-6);
-  // Where the force points straight up from its middle, a quarter of a turn has gone by.
+  // A quarter of a turn has gone by when the force points straight up from its middle.
   const svg = page.locator('[data-plot="polar"] .polar > svg');
   await svg.scrollIntoViewIfNeeded();
   const curve = await page.locator('[data-plot="polar"] .curve').boundingBox();
@@ -467,7 +467,7 @@ test("maps are zoomed together and by themselves keep equal axes", async () => {
   await page.mouse.up();
   await until(() => zoomed(0.5));
   await equal(() => card.locator(".drag").count(), 0);
-  // What is read lies where it is seen: the middle stays the middle, the corner is half as far from it.
+  // Values lie where they are seen: the middle stays the middle, the corner is half as far from it.
   await page.mouse.move(box.x + box.width * 0.5, box.y + box.height * 0.5);
   await until(async () => (await card.locator(".read").innerText()).startsWith("x 0 mm, y 0 mm: "));
   await card.locator(".reset").click();
@@ -479,7 +479,7 @@ test("maps are zoomed together and by themselves keep equal axes", async () => {
   await until(async () => !(await zoomed(1)));
   await map.dblclick();
   await until(() => zoomed(1));
-  // With keys: the part follows the place that is read.
+  // Keys move the part to the place that is read.
   await card.locator(".map").focus();
   for (let i = 0; i < 2; ++i) await page.keyboard.press("+");
   await until(() => zoomed(1 / 2.25));
@@ -872,7 +872,7 @@ async function spatialPicture(device) {
   const kind = await page.evaluate(() => (document.querySelector("#space canvas").getContext("2d") ? "plane" : "webgl"));
   const names = await page.locator(".space-labels span:not([hidden])").evaluateAll((all) => all.map((e) => e.style.transform));
   const shot = await page.locator("#space canvas").screenshot({ animations: "disabled" });
-  /** How much darker than paper, on average, each of 8 x 6 fields is; 1 = black. */
+  /** The darkness of each of 8 x 6 fields against paper, on average; 1 = black. */
   const fields = await page.evaluate(async (data) => {
     const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))]));
     const canvas = Object.assign(document.createElement("canvas"), { width: picture.width, height: picture.height });
@@ -1021,7 +1021,7 @@ test("the study of a design can be taken along", async () => {
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
   const rows = page.locator("#solutions tbody tr");
   await equal(() => rows.locator("[data-design]").count(), 2, "the third solution has none");
-  // Of any solution, whichever is drawn.
+  // The export of any solution, whichever is drawn.
   const [file] = await Promise.all([page.waitForEvent("download"), page.locator('[data-design="1"]').click()]);
   assert.match(file.suggestedFilename(), /^2-[a-z0-9.-]+\.toml$/);
   const text = readFileSync(await file.path(), "utf8");
@@ -1030,7 +1030,7 @@ test("the study of a design can be taken along", async () => {
   await equal(() => rows.nth(0).getAttribute("class"), "current", "which does not change what is drawn");
   await rows.nth(1).locator(".copy").click();
   await until(async () => (await clipboard()) === text);
-  // Of the one that is drawn.
+  // The export of the one that is drawn.
   await page.locator('[data-solution="1"]').click();
   assert.equal(await readFileSync((await download(page, "design")).path, "utf8"), text);
   await page.evaluate(() => navigator.clipboard.writeText(""));

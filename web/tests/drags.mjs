@@ -48,7 +48,7 @@ const pick = (list) => list[Math.floor(random() * list.length)];
 
 engine._engine_catalogue();
 const { samples, kinds, examples } = answer();
-/** Those with several inputs need a sweep, which their examples have. */
+/** Studies with several inputs need a sweep, which their examples have. */
 const studyOf = (sample) => {
   const text = `schema = 1\nkind = "analysis"\n\n[mechanism]\ntype = "planar.linkage"\nsample = "${sample}"\n`;
   if (!run(text).diagnostics.some((d) => d.key === "sweep")) return text;
@@ -83,8 +83,8 @@ function lengthsHold(scene, size) {
       assert.ok(Math.max(0, ...lengths) - Math.min(Infinity, ...lengths) <= 1e-7 * size || !lengths.length, `${body.name} changes its length while it moves`);
     }
 }
-const step = 0.01; // of the size, of a drag in space
-const lever = 30; // how many times as far as what is dragged another joint may go
+const step = 0.01;  // share of the size, for a drag in space
+const lever = 30;  // largest ratio of the displacement of another joint to that of the dragged one
 
 /** No joint goes further than a step of the drag can take it. */
 function staysOnBranch(before, after, sample, size) {

@@ -21,7 +21,7 @@ await context.addInitScript(() => {
   globalThis.requestAnimationFrame = (run) =>
     request((time) => {
       const from = performance.now();
-      // What is drawn anew is so in microtasks, of which some call for others.
+      // Parts drawn again are so in microtasks, of which some call for others.
       const later = (turns) => queueMicrotask(() => (turns > 0 ? later(turns - 1) : costs.set(time, (costs.get(time) ?? 0) + performance.now() - from)));
       run(time);
       later(3);

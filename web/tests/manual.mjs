@@ -55,7 +55,7 @@ test("all links lead somewhere", () => {
   assert.deepEqual(lost, []);
 });
 
-/** What a text gives to run: studies with their names, and commands. */
+/** The runnable parts of a text: studies with their names, and commands. */
 function runnable(file) {
   const blocks = [...readFileSync(join(texts, file), "utf8").matchAll(/^```(toml|sh) run\n([^]*?)^```$/gm)].map(([, word, code]) => ({ word, code }));
   const studies = blocks.filter((b) => b.word === "toml").map(({ code }, i) => ({ name: /^# file: (\S+)/.exec(code)?.[1] ?? `study-${i + 1}.toml`, code }));
@@ -83,7 +83,7 @@ test("search finds keys, words and nothing, without a network", async () => {
   assert.ok((await page.locator("#found a").count()) > 3);
   await page.locator("#search").fill("crank_rotates_fully");
   assert.match(await page.locator("#found a").first().getAttribute("href"), /reference\//);
-  // What a message says leads to it.
+  // The text of a message leads to it.
   await page.locator("#search").fill("a quote is not closed");
   assert.ok((await page.locator("#found a").evaluateAll((links) => links.map((l) => l.getAttribute("href")))).some((href) => /messages\.html#error-/.test(href)));
   await page.locator("#search").fill("nosuchwordanywhere");

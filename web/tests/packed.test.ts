@@ -41,7 +41,7 @@ describe("the small form of the data", () => {
 });
 
 describe("numbers in files", () => {
-  // As fmt writes them: {} of fmt 9.
+  // Numbers as fmt writes them: {} of fmt 9.
   const written: [number, string][] = [[0, "0"], [-0, "-0"], [12, "12"], [0.1, "0.1"], [1e-4, "0.0001"], [1.5e-5, "1.5e-05"], [-1e-300, "-1e-300"],
     [1e15, "1000000000000000"], [1e16, "1e+16"], [123456789012345680000, "1.2345678901234568e+20"], [1 / 3, "0.3333333333333333"], [5e-324, "5e-324"]];
   it("have the digits and the powers of the program", () => {

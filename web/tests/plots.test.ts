@@ -35,7 +35,7 @@ describe("rows over a turn", () => {
     expect(order).toEqual([0, 2]);
     expect(xs[0]).toBeCloseTo(30, 9);
     expect(xs[1]).toBeCloseTo(30, 9);
-    // Of a motion that is no turn nothing is moved.
+    // A motion that is no turn is not moved.
     expect(turnOf(analyse(scene([0, 1, 2])))).toBeUndefined();
   });
 });

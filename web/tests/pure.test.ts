@@ -105,7 +105,7 @@ describe("log", () => {
     expect(dots.map((d) => d.level)).toEqual([0, 1, 2]);
     expect(logarithmic).toBe(false);
     expect(stackDots([1, 1000], 10).logarithmic).toBe(true);
-    // Of a part of the axis, which is as long as the whole.
+    // The axis shows a part, which is as long as the whole.
     const part = stackDots([1, 10, 100, 1000], 10, [1 / 3, 1]);
     expect([part.low, part.high].map(Math.round)).toEqual([10, 1000]);
     expect(part.dots.map((d) => [d.index, d.share])).toEqual([[1, 0], [2, 0.5], [3, 1]]);

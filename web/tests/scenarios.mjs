@@ -1,4 +1,4 @@
-// What the browser tests have in common: how the browser is started, and how scenarios run.
+// The common part of the browser tests: how the browser is started, and how scenarios run.
 import { chromium } from "playwright-core";
 
 /** A browser without network, sandbox and graphics card; WebGL is computed. */

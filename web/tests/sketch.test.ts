@@ -39,7 +39,7 @@ test("freedoms are not only counted", () => {
   const line: Sketch = { pins: [pinned(0, 0, { ground: true }), pinned(30, 40), pinned(90, 120), pinned(150, 0, { ground: true })], links: [[0, 1], [1, 2], [2, 3]], elements: [on("drive", [3])] };
   expect(missing(line)).toMatch(/dead point/);
   expect(missing({ ...line, elements: [on("drive", [0])] })).toBe("");
-  // What a part of the ground drives does not drive the rest.
+  // A drive of one part of the ground does not drive the rest.
   const still: Sketch = { pins: [pinned(0, 0, { ground: true }), pinned(60, 0, { ground: true }), pinned(30, 40), pinned(60, 80)], links: [[0, 2], [1, 2], [2, 3]], elements: [on("drive", [0])] };
   expect(missing(still)).toBe("Pin A cannot drive it: what it joins does not move against each other.");
   expect(missing({ ...still, elements: [on("drive", [2], {}, 1)] })).toBe("");
@@ -70,7 +70,7 @@ test("gears take a freedom, and turn links that have one carrier", () => {
   const [first, second] = radiiOf(geared, geared.elements[1]);
   expect([first, second].map((r) => Math.round(r * 1e6) / 1e6)).toEqual([66.666667, 33.333333]);
   expect(studyOf(geared)).toContain('[[mechanism.joint]]\nname    = "gear 1"\ntype    = "gear"\nfirst   = "link 1"\nsecond  = "link 4"\ncarrier = "ground"\nratio   = -2\n');
-  // Where a second link turns on the pin, the same press once more makes it the wheel.
+  // The same press once more makes a second link on the pin the wheel.
   const two: Sketch = { pins: [...fiveBar.pins, pinned(-40, 60)], links: [...fiveBar.links, [0, 5]], elements: [] };
   let s = two;
   const wheels: string[] = [];

@@ -105,7 +105,7 @@ async function writeText(page, text) {
   await page.locator("#tab-text").click();
   await page.locator("textarea.study").fill(text);
 }
-/** What the program makes of a text. */
+/** The result of the program for a text. */
 function asTheProgram(text) {
   writeFileSync(join(scratch, "study.toml"), text);
   const run = spawnSync(program, ["run", "study.toml", "--json"], { cwd: scratch, encoding: "utf8", maxBuffer: 1 << 28 });
@@ -301,7 +301,7 @@ if (!served)
     await drag(page, await joint(page, "B"), { x: 30, y: -20 });
     await holds(page, async () => (await studyText(page)) !== text);
     assertSameTables(await resultOf(page), asTheProgram(await studyText(page)));
-    // What is too large for it is refused with the size, and nothing is lost.
+    // A mechanism that is too large for it is refused with the size, and nothing is lost.
     await choose(page, "andrews-squeezer");
     const huge = (await studyText(page)).replace(/^samples = 301/m, "samples = 1000000");
     await writeText(page, huge);
@@ -627,7 +627,7 @@ test("a number of a search is fixed and set free", async () => {
 test("the gallery opens with a picture of every machine, the well-known ones first", async () => {
   const { page, errors, close } = await open({});
   await page.evaluate(() => (globalThis.asked = 0));
-  // Whatever asks the engine for something counts.
+  // Every request to the engine counts.
   await page.evaluate(() => {
     const post = Worker.prototype.postMessage;
     Worker.prototype.postMessage = function (...words) {
@@ -647,7 +647,7 @@ test("the gallery opens with a picture of every machine, the well-known ones fir
   const known = cards.filter(({ group }) => group === cards[0].group).map(({ name }) => name);
   assert.ok(known.length >= 12 && known.length <= 15, known.join());
   for (const name of ["engine-slider-crank", "jansen-leg", "hoeken"]) assert.ok(known.includes(name), name);
-  // As `linkwright examples` lists them.
+  // The order is that of `linkwright examples`.
   assert.deepEqual(cards.map(({ name }) => name), JSON.parse(spawnSync(program, ["examples", "--json"], { encoding: "utf8" }).stdout).map(({ name }) => name));
   // A word of the group finds them, too.
   await page.locator(".gallery input").fill("balance machine");
@@ -662,7 +662,7 @@ test("the first mechanism is seen before the engine is there, and no other study
   const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: !hosted, bypassCSP: !hosted });
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
-  // As long as nothing can be compiled.
+  // Nothing can be compiled here.
   await page.addInitScript(() => (WebAssembly.compile = () => new Promise(() => {})));
   const before = async (hash = "") => {
     await page.goto("about:blank");
@@ -686,7 +686,7 @@ test("what is below the fold says nothing of the study before", async () => {
   assert.match(await below(), /yoke/);
   await choose(page, "bicycle-rear-linkage");
   assert.doesNotMatch(await page.locator(".bench").evaluate((e) => e.textContent), /yoke/i);
-  // Of the study as it is now, or nothing.
+  // The message is of the study as it is now, or nothing.
   assert.match(await below(), /seatstay/);
   await writeText(page, (await studyText(page)).replaceAll("seatstay", "swingarm"));
   await holds(page, async () => !/seatstay/.test(await below()));
@@ -733,7 +733,7 @@ test("the gallery is walked by keyboard alone", async () => {
   await close();
 });
 
-/** Where a place of the drawing board (mm) is on the screen. */
+/** The place on the screen of a place on the drawing board (mm). */
 const onBoard = (page, x, y) => page.locator("#board").evaluate((svg, [x, y]) => {
   const m = svg.getScreenCTM();
   return { x: m.a * x + m.e, y: -m.d * y + m.f };
@@ -744,7 +744,7 @@ async function pressBoard(page, x, y, modifier) {
   await page.mouse.click(at.x, at.y);
   if (modifier) await page.keyboard.up(modifier);
 }
-/** With one tool after the other, at places. */
+/** Presses one tool after the other, at places. */
 async function pressTools(page, ...presses) {
   for (const [tool, ...places] of presses) {
     await page.locator(`[data-tool="${tool}"]`).click();
@@ -784,7 +784,7 @@ test("a slider-crank with offset is drawn from nothing, and moves as computed", 
     const way = 0.05 * Math.cos(turn) + Math.sqrt(0.14 ** 2 + 0.03 ** 2 - (0.02 - 0.05 * Math.sin(turn)) ** 2);
     assert.ok(Math.abs(v - x[0] - (way - 0.14)) < 1e-12, `${i}: ${v}`);
   });
-  // What was drawn is dragged like any other linkage.
+  // A drawn linkage is dragged like any other.
   await drag(page, await joint(page, "B"), { x: 0, y: -20 });
   await holds(page, async () => (await resultOf(page)).study.mechanism.body[1].points_m.B[1] > 0.051);
   await page.locator("#undo").click();
@@ -872,7 +872,7 @@ test("a linkage is driven at a pin between its links", async () => {
   await close();
 });
 
-/** What has the focus: its id, or what it is for. */
+/** The element with the focus: its id, or what it is for. */
 const focused = (page) => page.evaluate(() => {
   const { id, dataset, tagName } = document.activeElement;
   return id || dataset.tool || dataset.copy || dataset.download || dataset.export || dataset.add || tagName.toLowerCase();
@@ -916,7 +916,7 @@ test("the drawing board is worked by keyboard alone", async () => {
   await press("Escape");
   await until(async () => !(await isOpen()));
   assert.equal(await focused(page), "draw");
-  // What has been drawn is there again.
+  // The drawing is there again.
   await press("Enter");
   await until(isOpen);
   await chooseTool("ground");
@@ -988,7 +988,7 @@ test("menus and tabs are worked by keyboard alone", async () => {
   await press("ArrowDown", "Enter");
   await until(async () => (await page.locator(".state").innerText()) === "Python copied");
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), /import linkwright/);
-  // What can be added to a table of the study.
+  // The tables that can be added to a study.
   await writeText(page, spawnSync(program, ["new", "analysis/planar.linkage", "-"], { encoding: "utf8" }).stdout);
   await settled(page);
   await page.locator("#tab-text").focus();
@@ -1070,7 +1070,7 @@ test("a finger on a phone means the pin beside it", async () => {
   await close();
 });
 
-/** Where a joint of a drawing in space is on the screen: about its name. */
+/** The place on the screen of a joint of a drawing in space: about its name. */
 async function jointInSpace(page, name) {
   await page.evaluate(() => scrollTo(0, 0));
   // Names of drawings with many joints are off until they are asked for.
@@ -1260,7 +1260,7 @@ test("a report opens in the workbench, and the workbench opens reports", async (
 test("diagrams out of sight follow when they come into sight", async () => {
   const { page, errors, close } = await open({ viewport: { width: 1366, height: 500 } });
   const last = page.locator(".plot:not([data-plot=convergence])").last();
-  // What is painted, as the browser would keep it.
+  // The painted picture, as the browser would keep it.
   const painted = () => last.locator("canvas").first().evaluate((e) => e.toDataURL());
   const before = await painted();
   const from = await joint(page, "W");
@@ -1349,7 +1349,7 @@ if (served)
     await one.locator("#save").click();
     await one.locator(".name.unsaved").waitFor({ state: "detached" });
     assert.equal(readFileSync(study, "utf8"), original.replace("A = [100, 0]", "A = [110, 0]"));
-    // What the other tab has was made from the text of before.
+    // The other tab has a text that was made from the one before.
     await writeText(other, original.replace("A = [100, 0]", "A = [120, 0]"));
     assert.equal(await download(other, "#save"), original.replace("A = [100, 0]", "A = [120, 0]"));
     assert.match(await other.locator("#took").innerText(), /^mine\.toml was changed by another program since it was opened here: saved as a download instead$/);

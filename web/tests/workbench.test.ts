@@ -71,7 +71,7 @@ test("lists of the tables of a result are made when they are asked for, and once
   const numbers = new Float64Array([1, 2, NaN, 4]);
   const read = withNumbers('{"result": {"tables": [{"name": "t", "data": [{"": [0, 2]}, ["done", "done"], {"": [2, 2]}]}]}}', numbers);
   const [table] = (read.result as JsonObject).tables as JsonObject[];
-  numbers[0] = 7; // what is read later than this has it
+  numbers[0] = 7;  // numbers read later than this have it
   expect(table.data).toEqual([[7, 2], ["done", "done"], [null, 4]]);
   expect(table.data).toBe(table.data);
   expect(Object.keys(table)).toEqual(["name", "data"]);
@@ -298,7 +298,7 @@ test("of files that are dropped the study is found, and the tables beside it", a
 test("the program in C++ is the example that the tests of the library build", () => {
   const text = /R"\(([^]*?)\)"/.exec(example)![1];
   expect(asCpp({ name: "hoeken.toml", text, files: {} })).toBe(example);
-  // What a text holds ends no literal.
+  // Texts do not end the literal.
   expect(asCpp({ name: "a", text: 'title = ")"', files: {} })).toContain('R"_(title = ")")_"');
   expect(asCpp({ name: "a", text: "", files: { "t.csv": "1,2" } })).toContain('std::ofstream("t.csv") << R"(1,2)";');
 });

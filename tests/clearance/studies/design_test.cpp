@@ -100,7 +100,7 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
   expect_plots_have_columns(r);
 }
 
-// What the tables say of the design is what a simulation of it needs: the same motion, by other equations.
+// A simulation of the design needs what its tables say: the same motion, by other equations.
 TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
   std::string text = replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1");
   text = replaced(text, "gravity_m_per_s2 = 0.0", "gravity_m_per_s2 = 9.81");
@@ -173,7 +173,7 @@ TEST(ClearanceDesignStudy, BothStagesInTurn) {
 TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   const study::Result r = run_text(kind_example(DesignTarget::both));
   ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
-  EXPECT_LT(objective(r, "path_error_rms_m"), 5e-6);  // of points with 5 um of rounding
+  EXPECT_LT(objective(r, "path_error_rms_m"), 5e-6);  // rounding of the points, 5 um
   EXPECT_GT(objective(r, "least_tension_N"), 0);
   EXPECT_THAT(r.diagnostics, IsEmpty());
   ASSERT_EQ(r.scenes.size(), 1u);

@@ -241,7 +241,7 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
   EXPECT_LT(largest(column(r, "motion", "energy_drift_J")), 1e-7);
   // Peaks of the table of contacts are in the map, too.
   EXPECT_EQ(largest(column(r, "contact_map", "A_force_N")), largest(column(r, "contacts", "force_N")));
-  // What a map draws has the unit of what it shows: newtons, and a share of the time.
+  // A map has the unit of the quantity that it draws: newtons, and a share of the time.
   for (const auto& [name, of, x_key, y_key] :
        {std::array{"contact-map", "A_force_N", "A_force_x_N", "A_force_y_N"},
         std::array{"contact-time-map", "A_time_share", "A_time_share_x", "A_time_share_y"}}) {
@@ -337,7 +337,7 @@ TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
   EXPECT_EQ(r.scenes.size(), 1u);
 }
 
-// Of design 1 continuous contact has no motion that keeps it: it goes over to real contact turn after turn.
+// Design 1 has no motion that keeps continuous contact: it goes over to real contact turn after turn.
 TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
   const study::Result r = run_text(regime_of(example_text("clearance-four-bar-automatic.toml"),
                                              "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));

@@ -82,8 +82,8 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_NEAR(squares, 1, 1e-12);
   EXPECT_NEAR(r.statistics.find("coupler_P_worst_m")->as_number(), parts, 1e-15);
-  // What the first one is said to be worth, tried: a tenth less clearance takes off 0.00655 mm, or
-  // nearly so: the worst direction turns a little.
+  // The first remedy, tried: a tenth less clearance takes off 0.00655 mm, or nearly so: the worst direction
+  // turns a little.
   EXPECT_THAT(
       fact(r, "tighten first for coupler.P"),
       HasSubstr("pin A (46 % of the worst case), pin B (28 %), length A-B of coupler (26 %); 0.005 mm "
@@ -191,7 +191,7 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
               HasSubstr("coupler.P: the errors of the random linkages differ from the linear theory at "));
   EXPECT_LT(column(r, "errors", "assembled").back(), 2000);
   EXPECT_EQ(column(r, "errors", "assembled").front(), 2000);
-  // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is reported.
+  // Linkages that do not assemble everywhere are beyond every limit, and no share of 99 % is reported.
   EXPECT_THAT(to_string(r.headline), ::testing::Not(HasSubstr("99 %")));
   EXPECT_EQ(r.statistics.find("coupler_P_99_percent_m"), nullptr);
   // Beyond it there is nothing, and the rest is kept.

@@ -21,7 +21,7 @@ TEST(Machine, SaysWhatItHas) {
 }
 
 TEST(Machine, CountsTheProcessorsThatAProcessIsLeft) {
-  std::thread bound([] {  // what a thread may use is its own
+  std::thread bound([] {  // the processors that a thread may use are its own
     cpu_set_t all, first;
     ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
     CPU_ZERO(&first);

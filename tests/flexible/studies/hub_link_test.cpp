@@ -108,7 +108,7 @@ TEST(HubLinkStudy, SwingsFreelyUnderGravity) {
           "0.01\ngravity_m_per_s2 = 9.80665\n"
           "[drive]\nlaw = \"none\"\nangle_deg = -80\n[simulation]\nend_s = 2\nstep_s = 0.002\n");
   ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
-  // As a rigid pendulum of m L^2/3 + J_H it takes 2 pi sqrt(I / (m g L / 2)) = 1.657 s for small swings.
+  // A rigid pendulum of m L^2/3 + J_H takes 2 pi sqrt(I / (m g L / 2)) = 1.657 s for small swings.
   const auto &angle = column(result, "hub_angle_rad"), &time = column(result, "time_s");
   double crossing = 0;
   for (std::size_t i = 1; i < time.size() && crossing == 0; ++i)

@@ -54,7 +54,7 @@ TEST(VibrationStudy, CampbellDiagramOfThePublishedBeam) {
     ++compared;
   }
   EXPECT_GE(compared, 7);
-  // Where a multiple of the speed meets a frequency, it is that frequency.
+  // A multiple of the speed that meets a frequency is that frequency.
   const auto &order = column(result, "crossings", "order"), &mode = column(result, "crossings", "mode"),
              &speed = column(result, "crossings", "speed_rad_per_s"),
              &rate = column(result, "crossings", "frequency_rad_per_s");
@@ -112,7 +112,7 @@ TEST(VibrationStudy, WarnsWhereTheChainLosesItsStability) {
                                    "modes = 2\ndivisions = 2\nkinematics = "
                                    "\"hub_axis\"") +
                           "[campbell]\nto_rad_per_s = 20\n");
-  // With the published tip mass of the case.
+  // The case has the published tip mass.
   const auto with_tip = run(replaced(replaced(bare, "modes = 2\ndivisions = 4",
                                               "modes = 2\ndivisions = 2\nkinematics = \"hub_axis\""),
                                      "elastic_modulus_Pa", "tip_mass_kg = 0.085\nelastic_modulus_Pa") +
@@ -135,7 +135,7 @@ TEST(VibrationStudy, LargeDeflection) {
   const auto result = run(bare + "[load]\nforce_N = [0, " +
                           fmt::format("{:.17g}", 2 * beam.bending_stiffness() / 64) + "]\n");
   const auto expected = figures("static-elastica", "PL2_EI_2.CC_n4");
-  // Of the same chain, found elsewhere.
+  // The equilibrium of the same chain, found elsewhere.
   EXPECT_NEAR(column(result, "deflection", "angle_rad").back(), expected[0], 1e-8);
   EXPECT_NEAR(-column(result, "deflection", "xi_m").back() / 8, expected[1], 1e-8);
   EXPECT_NEAR(column(result, "deflection", "eta_m").back() / 8, expected[2], 1e-8);

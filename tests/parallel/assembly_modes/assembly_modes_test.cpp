@@ -101,7 +101,7 @@ TEST(AssemblyModes, HoldThePoseThatTheAnglesCameFrom) {
       }
     }
   }
-  // Where some of the 40 are nearly at infinity the proof may fail; the modes are there all the same.
+  // The proof may fail if some of the 40 are nearly at infinity; the modes are there all the same.
   EXPECT_GE(complete, 45);
 }
 

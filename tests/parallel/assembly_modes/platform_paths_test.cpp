@@ -47,7 +47,7 @@ TEST(PlatformPaths, LeadFromOneSolvedPlatformToTheOther) {
 }
 
 TEST(PlatformPaths, StopShortOfASingularPlatform) {
-  // With equal joints and rods the level platform can move: not a simple solution.
+  // A level platform with equal joints and rods can move: not a simple solution.
   PlatformLegs end = placed_platform(1).legs;
   end.platform = end.base;
   end.square = {};

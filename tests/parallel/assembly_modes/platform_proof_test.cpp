@@ -46,7 +46,7 @@ TEST(PlatformProof, EnclosesAnExactSolution) {
       for (int k = 1; k < 8; ++k) near[k] += off;
       const PlatformProof proof = prove(exact.legs, near);
       ASSERT_TRUE(proof.unique);
-      EXPECT_GE(proof.radius, off);  // as far away as the solution is
+      EXPECT_GE(proof.radius, off);  // the distance of the solution
       EXPECT_LT(proof.radius, 2 * off + 1e-11);
       EXPECT_FALSE(apart(near, proof, exact.point, at));
     }

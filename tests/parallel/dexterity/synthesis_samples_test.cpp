@@ -59,7 +59,7 @@ struct Benchmark {
 };
 class Benchmarks : public ::testing::TestWithParam<Benchmark> {};
 
-// As good as the best known, with each of five seeds; feasible at all nodes.
+// Designs are as good as the best known, with each of five seeds; feasible at all nodes.
 TEST_P(Benchmarks, ReachesTheBestKnownWithEverySeed) {
   const auto& [goal, id, key] = GetParam();
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {

@@ -45,8 +45,8 @@ TEST(DexteritySynthesis, LooksBetweenTheNodes) {
   EXPECT_GT(assess(fine, between.best.x).worst, between.worst_between_nodes - 1e-8);
 }
 
-// With the transmission angle that the joint has when it is designed after the robot, both together find the
-// same: B3 and its Pi-joints of the reference. With less they find a smaller robot.
+// Robot and Pi-joints, designed together for the transmission angle that the joint has when it is designed
+// after the robot, are the same: B3 and its Pi-joints of the reference. With less they find a smaller robot.
 TEST(DexteritySynthesis, DesignsRobotAndPiJointsTogether) {
   const Value& joint = test::at(computed("synth-B3"), "pi_joint");
   const double sequential = computed_number("synth-B3", "best_La_plus_Lf_m");
@@ -90,7 +90,7 @@ TEST(DexteritySynthesis, MirroredPiJointsServeMirroredTravel) {
   EXPECT_EQ(drives_at(mirrored.best.robot, mirrored.best.drives, arms.angle).status, Status::done);
 }
 
-// What a program finds that leaves the constraint out: none of it can be built, and all of it is refused.
+// Designs of a program that leaves the constraint out: none of it can be built, and all of it is refused.
 TEST(DexteritySynthesis, RefusesDesignsWhosePlatformTurns) {
   for (const auto& [goal, id] : {std::pair{DexterityGoal::worst, "synth-B1"},
                                  {DexterityGoal::mean, "synth-B2"},

@@ -122,7 +122,7 @@ TEST(PiDesignSynthesis, DesignOfTheReference) {
   EXPECT_NEAR(searched.best.size, closed.size, 1e-6 * closed.size);
 }
 
-// What a limit is worth, against designs with that limit loosened by a hundredth of a per cent.
+// The price of a limit, against designs with that limit loosened by a hundredth of a per cent.
 TEST(PiDesignSynthesis, PricesTellWhatALimitCosts) {
   PiRequirements r = reference_requirements();
   const PiDesignReport before = designed(r);

@@ -141,7 +141,7 @@ TEST(PiJoint, FoldedRhombusTendsToItsLimits) {
   EXPECT_DOUBLE_EQ(motion.motion.acceleration, 0.5);
 }
 
-// Where the plain form (3)-(5) has lost three digits.
+// Angles at which the plain form (3)-(5) has lost three digits.
 TEST(PiJoint, AccurateNextToTheFoldedPosition) {
   const PiJoint joint{.arm = 1, .ratio = 0.99};
   const double at = radians(-89.999);

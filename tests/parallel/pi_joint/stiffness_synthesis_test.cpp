@@ -21,7 +21,7 @@ using test::number_at;
 
 const AngleRange whole{radians(-60), radians(60)};
 
-// What the published mean, 3.5e4 N m/rad, says of the diagonal depends on what else is assumed.
+// The diagonal by the published mean, 3.5e4 N m/rad, depends on what else is assumed.
 TEST(PiStiffnessSynthesis, DiagonalOfThePrototypeByItsPublishedMean) {
   const double mean = number_at(computed("pi-stiffness"), "mean_J2_m2");
   // The figures are by Simpson's rule, whose error is some 1e-10.
@@ -129,7 +129,7 @@ TEST(PiStiffnessSynthesis, ScrewThatYieldsWithItsLength) {
 }
 
 TEST(PiStiffnessSynthesis, SaysWhatSamplesCannotTell) {
-  // With the torque at A the coupler carries nothing.
+  // The coupler carries nothing when the torque acts at A.
   const auto samples = samples_of({.diagonal = 1e7}, 1);
   const PiStiffnessFit fit = fit_bars(pi_prototype(), samples, {.diagonal = true, .coupler = true});
   EXPECT_EQ(fit.status, Status::singular);

@@ -87,8 +87,8 @@ TEST(Constraint, WithTypeTwoItIsTheDeterminantOfTheSixRods) {
   }
 }
 
-// With the arms locked the six rods have a second assembly, tilted about the free axis, which goes through
-// the level one where the determinant is 0.
+// The six rods with locked arms have a second assembly, tilted about the free axis, which goes through the
+// level one where the determinant is 0.
 TEST(Constraint, TiltedAssembliesMeetTheLevelOne) {
   const Value& path = at(computed("delta-constraint-path"), "paths.clear");
   const Value& tilted = at(computed("delta-constraint-path"), "tilted_assembly");

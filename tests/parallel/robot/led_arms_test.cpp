@@ -22,7 +22,7 @@ LedPose led(const Robot& robot, const Vector6& angles) {
   return lead_arms(robot, home, inverse(robot, home).angle, angles, length);
 }
 
-// Where a free way of the platform leads, its arms lead, too.
+// The arms of a platform follow a free path of it.
 TEST(LedArms, ComeToThePoseThatTheirAnglesBelongTo) {
   const Robot robot = reference_hexa();
   const auto task = trouble_task(robot, home, all_positive, length);

@@ -17,11 +17,11 @@
 namespace linkwright::parallel {
 namespace {
 
-// What the plain functions say of a pose: the other route to everything that the kernel computes.
+// The plain functions' result for a pose: the other route to everything that the kernel computes.
 struct Plain {
   Criterion criterion = Criterion::none;
   std::array<double, pose_index_count> index;
-  double margin = 1;  // how far, relatively, the nearest limit is
+  double margin = 1;  // relative distance to the nearest limit
 };
 
 Plain plain(const PoseConditions& c, const Pose& pose) {
@@ -173,7 +173,7 @@ TEST(PoseCheck, AgreesWithThePlainFunctions) {
     for (std::size_t n = 0; n < poses.size(); ++n) {
       SCOPED_TRACE(n);
       const Plain expected = plain(conditions, poses[n]);
-      if (expected.margin < 1e-9) continue;  // where rounding decides
+      if (expected.margin < 1e-9) continue;  // rounding decides here
       EXPECT_EQ(name_of(found.criterion[n]), name_of(expected.criterion));
       ++count[static_cast<std::size_t>(expected.criterion)];
       // Both routes lose digits near singularities, as many as 1/sine and 1/condition say.

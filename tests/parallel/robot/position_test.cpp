@@ -73,7 +73,7 @@ struct Box {
   const char* name;
   Robot robot;
   Vec3 lower, upper;
-  double tilt;  // of random turns (rad)
+  double tilt;  // largest tilt of random turns (rad)
 };
 
 class RoundTrip : public ::testing::TestWithParam<Box> {};
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Box{"platform", reference_platform(), {-0.8, -0.8, 0}, {0.8, 0.8, 0}, 0}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// What rounding may do near a singularity: it is divided by the measure that vanishes there, and, at worst,
+// The effect of rounding near a singularity: it is divided by the measure that vanishes there, and, at worst,
 // at the meeting of two assemblies, only half of the digits are left.
 TEST(Position, NearSingularitiesLosesNoMoreThanItMust) {
   const Robot robot = reference_delta();

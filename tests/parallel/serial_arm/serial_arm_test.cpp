@@ -197,7 +197,7 @@ TEST(SerialPiArm, StepsAndSpringsOfTheDrives) {
   EXPECT_NEAR(steps.worst, std::max(std::hypot(one[0], one[1]), std::hypot(other[0], other[1])), 1e-9);
   for (int i = 0; i < 2; ++i)
     EXPECT_NEAR(steps.along[i], std::max(std::abs(one[i]), std::abs(other[i])), 1e-9);
-  // What the screws yield under the forces that hold a load moves the tool by the compliance.
+  // The screws yield under the forces that hold a load, and so move the tool by the compliance.
   const Vector2 force{7, -20};
   const SerialLoads loads = static_loads(arm, q, force);
   const Vector2 shift = moved(-loads.drive_effort[0] / 2e6, -loads.drive_effort[1] / 5e6);
@@ -245,7 +245,7 @@ struct Energies {
 Energies energies(const SerialPiArm& arm, const SerialArmMasses& masses, const Vector2& q,
                   const Vector2& speed) {
   Energies out;
-  Vector2 pivot{}, v{};  // of the frame of a joint
+  Vector2 pivot{}, v{};  // position of the frame of a joint
   const auto particle = [&](double mass, double x, double y, double vx, double vy) {
     out.kinetic += 0.5 * mass * (vx * vx + vy * vy);
     out.potential -= mass * (masses.gravity[0] * x + masses.gravity[1] * y);

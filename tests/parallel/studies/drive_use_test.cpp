@@ -48,7 +48,7 @@ TEST(DriveUseStudy, FindsThePeakAndWhereTheLimitIsFirstNotKept) {
       HasSubstr(
           "torque of drive 1 is 20 N m, the limit is 10 N m, 200 % of it is required (step 1 (line) at"));
   EXPECT_THAT(to_string(judge.failures()[0].text), HasSubstr("; it begins in step 1 (line) at 0.0689"));
-  // What comes after the end does not count.
+  // Instants after the end do not count.
   PathJudge before(motion, motors);
   judged(before, share, 0.05);
   EXPECT_TRUE(before.failures().empty());

@@ -48,8 +48,8 @@ TEST(MotionStudy, SaysThatItWorks) {
   EXPECT_EQ(test::table(result, "drive_limits").rows(), 6u);
 }
 
-// What the drives give is what the moving masses take: the energy of a whole path from rest to rest at one
-// height is nothing.
+// The work of the drives is the energy of the moving masses: the energy of a whole path from rest to rest at
+// one height is nothing.
 TEST(MotionStudy, WorkOfTheDrivesIsThatOfTheMasses) {
   const auto result = run_text(replaced(whole, "interval_s = 0.002", "interval_s = 0.0005"));
   const auto& time = column(result, "motion", "time_s");

@@ -29,7 +29,7 @@ TEST(PiJointStudy, ShowsTheCurves) {
 }
 
 TEST(PiJointStudy, CalibratesItsBars) {
-  // Of the reference truss at three angles: the diagonal of 1.2e7 N/m comes back.
+  // The reference truss at three angles: the diagonal of 1.2e7 N/m comes back.
   const auto truth = run_text(analysis);
   const auto &angle = column(truth, "curves", "angle_rad"),
              &stiffness = column(truth, "curves", "stiffness_N_m_per_rad");

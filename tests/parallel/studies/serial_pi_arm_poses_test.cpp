@@ -69,7 +69,7 @@ TEST(SerialPosesStudy, TellsStepsAndStiffness) {
     text = replaced(text, "lead_mm = 10\nforce",
                     "lead_mm = 10.0\nstep_mm = 0.01\nstiffness_N_per_m = 1e6\nforce");
   const auto result = run_text(text + pose);
-  // Of drives that are alike, work = force^2 / (2 k) of each screw.
+  // For equal drives, work = force^2 / (2 k) of each screw.
   const double first = column(result, "poses", "static_screw_force_1_N").at(0),
                second = column(result, "poses", "static_screw_force_2_N").at(0);
   const double work = (first * first + second * second) / 1e6;

@@ -57,9 +57,9 @@ void passes(const Setting& s, InscribedShape shape, const Inscribed& found, doub
 TEST(WorkspaceInscribed, CircleOfTheFiveBar) {
   const Inscribed found = five_bar().run({.shape = InscribedShape::ball});
   EXPECT_EQ(found.status, Status::done);
-  // As wide as the rings, 0.1 to 0.6 about the pivots, and touching all four circles: centre 0.35 from both
-  // pivots, which are 0.15 from the middle. Two thirds of a step of the search, 1e-4 grid steps, and the
-  // points on the circle, half a degree apart, are what is missing.
+  // The body is as wide as the rings, 0.1 to 0.6 about the pivots, and touching all four circles: centre 0.35
+  // from both pivots, which are 0.15 from the middle. Two thirds of a step of the search, 1e-4 grid steps,
+  // and the points on the circle, half a degree apart, are what is missing.
   EXPECT_NEAR(found.half.x, 0.25, 5e-6);
   EXPECT_NEAR(found.centre.x, 0, 2e-5);
   EXPECT_NEAR(std::abs(found.centre.y), std::sqrt(0.35 * 0.35 - 0.15 * 0.15), 2e-5);
@@ -139,7 +139,7 @@ TEST(WorkspaceInscribed, TheConstraintMakesCylindersSmaller) {
   EXPECT_TRUE(by_sign.proven);
   EXPECT_LT(2 * by_sign.half.x, diameter);
   EXPECT_NEAR(2 * by_sign.half.x, diameter, 1e-3);
-  // Where the index is 0 on the upper rim, in the direction of a leg.
+  // The index is 0 on the upper rim, in the direction of a leg.
   const auto index = [&](double radius) {
     const RegularAt there = regular_at(robot, {{radius, 0, top}}, all_positive, 1);
     return there.constraint * there.marks.constraint;

@@ -43,7 +43,7 @@ TEST(ProvenBody, SmallerCylindersOfItAreProven) {
   }
 }
 
-// What is proven holds at random places, for all shapes and robots.
+// The proof holds at random places, for all shapes and robots.
 TEST(ProvenBody, HoldsAtRandomPlaces) {
   RandomStream random({.seed = 6});
   int proven = 0;

@@ -187,7 +187,7 @@ TEST(Sweep, FilesOfStudiesAndOfTrials) {
   EXPECT_THAT(trials.columns[1].values, ElementsAre(0.09, 0.0955));
   EXPECT_THAT(trials.status, ElementsAre("done", "done"));
 
-  // What is written holds everything, and is the same study.
+  // The written study holds everything, and is the same study.
   Diagnostics diagnostics;
   const auto again = study::prepare(study->canonical, "s.json", {}, app::catalogue(), diagnostics);
   ASSERT_TRUE(again) << test::lines_of(diagnostics);

@@ -43,7 +43,7 @@ TEST(LinearForces, OfAFourBarSuperpose) {
       linear_forces({m.linkage, {}}, 9.81, {.value = angle, .rate = speed, .acceleration = acceleration});
   ASSERT_EQ(forces.status, Status::done);
   const std::vector<BaseParameters> links = bases({m.masses.crank, m.masses.coupler, m.masses.rocker});
-  const std::size_t order[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 11};  // of `quantities`
+  const std::size_t order[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 11};  // order of `quantities`
   for (std::size_t c = 0; c < forces.components.size(); ++c) {
     const std::vector<double> got = values(forces, forces.components[c].name, links);
     for (std::size_t i = 0; i < angle.size(); i += 7) {

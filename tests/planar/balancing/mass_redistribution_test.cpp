@@ -53,7 +53,7 @@ std::string column(const std::string& published) {
 
 struct Published {
   const char *problem, *mode;
-  double value;  // of the table of best-known values
+  double value;  // value in the table of best-known values
 };
 void PrintTo(const Published& p, std::ostream* out) { *out << p.problem << " " << p.mode; }
 
@@ -157,7 +157,7 @@ TEST(MassBalancing, EveryMeasureAndCombinationIsProved) {
       const BalancedMasses r = balance(b, context);
       SCOPED_TRACE(std::string(name_of(kind)) + (cost == ForceCost::sum ? " sum" : " largest"));
       ASSERT_EQ(r.status, Status::done);
-      EXPECT_LT(r.gap, 1e-8);  // of the cost of the masses themselves
+      EXPECT_LT(r.gap, 1e-8);  // relative to the cost of the masses themselves
       EXPECT_LT(r.cost, cost == ForceCost::sum ? 3 : 1);
       // No random masses within the bounds are below the lower bound.
       RandomStream random({.seed = 1});

@@ -140,7 +140,7 @@ TEST(BalancingSearch, FrontsByPopulationMethodsLieNearTheExactOne) {
   expect_near_front(run(task(), o), 0.2, 20);
   o.method = optimise::PopulationMethod<optimise::DifferentialEvolutionOptions,
                                         optimise::Constraints::feasibility_rules>();
-  expect_near_front(run(task(), o), 1, 4);  // what it met on its way
+  expect_near_front(run(task(), o), 1, 4);  // points met on its way
 }
 
 TEST(BalancingSearch, QuestionsThatAMethodCannotAnswerAreRefused) {

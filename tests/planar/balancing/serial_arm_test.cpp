@@ -103,7 +103,7 @@ TEST(SerialArmBalancing, BoundsOfTheSingleCoefficient) {
     EXPECT_NEAR(v.lower, box[0], 1e-12);
     EXPECT_NEAR(v.upper, box[1], 1e-12);
   }
-  // With more of them, a_3 ... a_5 are constraints.
+  // For higher degrees a_3 ... a_5 are constraints.
   const optimise::Problem more = arm_problem(published(true), {.degree = 7});
   EXPECT_THAT(more.explain(std::vector<double>{0, 0, 0, 0}), ::testing::IsEmpty());
   const std::vector<double> far = {40, 0, 0, 0};  // a_4 = -15 + 3 a_6 = 105
@@ -126,7 +126,7 @@ TEST(SerialArmBalancing, CounterweightsExactly) {
   EXPECT_NEAR(r.counterweights[1].mass.distance, 0.5, 1e-4);
   EXPECT_NEAR(r.after[0], 0, 1e-9);  // O1 is unloaded
   EXPECT_NEAR(0.5 * (r.before[0] + r.before[1]), 0.220270706547, 1e-11);
-  // What it rests on: the radius of the second.
+  // The active limit: the radius of the second.
   ASSERT_EQ(r.active.size(), 1U);
   EXPECT_EQ(r.active[0].name, "radius of second");
   EXPECT_LT(r.active[0].price, 0);
@@ -211,7 +211,7 @@ TEST(SerialArmBalancing, LawsAndCounterweightsTogether) {
     const BalancedMasses exact = balance(arm_counterweights(laws, published_counterweights()), context);
     EXPECT_TRUE(exact.global());
     EXPECT_NEAR(exact.cost, r.minima[0].cost, 1e-9);
-    // What it costs the motors: more than the arm had.
+    // The price to the motors: more than the arm had.
     EXPECT_GT(arm_peaks(best)[0].joint_torque, arm_peaks(published(false))[0].joint_torque);
   }
 }

@@ -119,7 +119,7 @@ TEST(FitPair, PointsAreMetAtAnyRotation) {
   std::vector<PoseDemand> demands(poses.size());
   for (std::size_t k = 1; k < poses.size(); k += 2) {
     demands[k].angle = false;
-    poses[k].angle += 0.2;  // where the search begins
+    poses[k].angle += 0.2;  // the search begins there
   }
   GuidingDyad a = crank, b = rocker;
   a.fixed += Complex(0.01, -0.02);

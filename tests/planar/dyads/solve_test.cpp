@@ -97,7 +97,7 @@ TEST(SolveDyads, DoNotDependOnPlaceTurnScaleOrOrder) {
   }
 }
 
-// What each row of the table of prescriptions has, over 300 cases.
+// The solutions in each row of the table of prescriptions, over 300 cases.
 struct Counts {
   std::map<int, int> links;  // number of RR dyads: cases
   int others = 0;            // dyads of another type

@@ -27,7 +27,7 @@ double distance_of(const math::Complex<math::DoubleDouble>& a, const ComplexNumb
   return std::sqrt(static_cast<double>(math::norm(off)));
 }
 
-// What is beside a root by a thousandth is refused, or the ball holds the root that twice the digits give;
+// A point beside a root by a thousandth is refused, or the ball holds the root that twice the digits give;
 // the same nearer by.
 TEST(Certificate, HoldsTheRootOrIsRefused) {
   const ExactNinePoints p = widened(known_classes().base);
@@ -45,7 +45,7 @@ TEST(Certificate, HoldsTheRootOrIsRefused) {
     polish(NinePoints(), p, exact, 1e-26);
     for (std::size_t i = 0; i < z.size(); ++i) EXPECT_LE(distance_of(exact[i], z[i]), ball->radius[i]);
   }
-  EXPECT_GT(certified, 2000);  // those by a billionth, nearly all
+  EXPECT_GT(certified, 2000);  // points beside it by a billionth, nearly all
   EXPECT_LT(certified, 7500);
 }
 

@@ -31,8 +31,8 @@ Points random_points(RandomStream& random, std::size_t count) {
   return out;
 }
 
-// How far the nearer of the two positions at the crank angle of each point is from it: kinematics know
-// nothing of the equations.
+// The miss at each point by the nearer of both positions at its crank angle: kinematics know nothing of the
+// equations.
 double farthest_miss(const PathProblem& problem, const PathDesign& design) {
   double worst = 0;
   for (std::size_t k = 0; k < problem.x.size(); ++k) {

@@ -219,7 +219,7 @@ TEST(MixedPoses, FindTheInvertedSliderCrankThatLedTheBody) {
   for (int k = 0; k < 7; ++k) {
     // The frame of the body has its x-axis along the guide, to the right of which the pivot is by the offset.
     const std::complex<double> at = crank_pivot + std::polar(crank, 0.2 + 0.8 * k), way = pivot - at;
-    const double height = -offset - pin.imag();  // of the pivot over the pin, across the guide
+    const double height = -offset - pin.imag();  // height of the pivot over the pin, across the guide
     const double angle = std::arg(way) - std::asin(height / std::abs(way));
     const std::complex<double> origin = at - pin * std::polar(1.0, angle);
     const bool pose = k == 2 || k == 5;
@@ -264,7 +264,7 @@ TEST(MixedPoses, TwoPosesMayBeAtOnePlace) {
   const MixedPoseSolutions found = solve_case(c, MixedPoseLinkage::four_bar);
   EXPECT_EQ(found.lost, 0);
   EXPECT_GT(found.finite, 0);
-  // What may be a whole family, with a pin at that origin, does not count.
+  // Solutions that may be a whole family, with a pin at that origin, does not count.
   EXPECT_LT(found.finite, found.whole);
   EXPECT_EQ(found.finite + found.infinite + found.singular, found.whole);
   for (const GuidedPair& pair : found.real) expect_met(c, pair);

@@ -94,7 +94,7 @@ TEST_F(NinePointStarts, ADamagedFileIsNoStartSet) {
     damaged[place] = static_cast<char>(damaged[place] ^ 0x15);
     EXPECT_FALSE(readable(damaged)) << place;
   }
-  // What cannot be read is written again.
+  // A file that cannot be read is written again.
   write_nine_point_starts(folder_, *shared_starts());
   EXPECT_TRUE(read_nine_point_starts(folder_));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);

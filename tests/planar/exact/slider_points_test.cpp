@@ -38,7 +38,7 @@ const SliderCrankMechanism inclined = {.parameters = {.crank = 0.3,
                                                       .rod_v = 0.35}};
 const std::vector<double> eight_angles = {0.2, 0.9, 1.7, 2.3, 3.1, 4.0, 4.8, 5.6};
 
-// How far the slider is from its guide when the tracing point is at each of the points: the crank pin is
+// The distance of the slider from its guide when the tracing point is at each of the points: the crank pin is
 // where two circles meet. Kinematics know nothing of the equations.
 double miss(const TracingSliderCrank& s, const Points& points) {
   const double crank = std::abs(s.crank_pin - s.crank_pivot);

@@ -121,7 +121,7 @@ TEST(FourBarAsLinkage, ForcesThatStayFiniteAreThere) {
   EXPECT_NEAR(heavy.motion.parts[3].speed, 10, 1e-6);
   EXPECT_EQ(heavy.forces.status, Status::singular);
   EXPECT_TRUE(std::isnan(heavy.forces.joints[3].force.x));
-  // What it takes to lift all of it, and to carry it, does not ask for that.
+  // The force that lifts and carries all of it does not ask for that.
   EXPECT_NEAR(heavy.forces.drives[0], -9.81 * (3 * 0.2 + 2 * 0.1), 1e-7);
   EXPECT_NEAR(heavy.forces.shaking_force.y, -5 * 9.81, 1e-6);
 }

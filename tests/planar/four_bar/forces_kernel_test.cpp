@@ -13,7 +13,7 @@ namespace {
 
 using namespace linkwright::planar::test;
 
-// With the crank at unit speed the derivative by the crank angle is that by time: speeds against exact
+// The derivative by the crank angle is that by time for a crank at unit speed: speeds against exact
 // derivatives of the directions, accelerations against those of the speeds.
 RC_GTEST_PROP(FourBarForcesKernelProperty, RatesAreTheExactDerivatives, ()) {
   using D = math::Dual<1>;

@@ -201,7 +201,7 @@ RC_GTEST_PROP(FourBarPosition, BranchesMirrorEachOther, ()) {
   RC_ASSERT(mirrored.coupler_point == std::conj(pose.coupler_point));
 }
 
-// Whatever the numbers: an answer or a ContractError, never a "done" without a position.
+// Any numbers give an answer or a ContractError, never a "done" without a position.
 RC_GTEST_PROP(FourBarPosition, AnswersAnyInput, ()) {
   const auto wild = rc::gen::oneOf(log_between(1e-300, 1e300), rc::gen::just(nan), rc::gen::just(0.0),
                                    log_between(1e-69, 1e69), between(-2, 2));

@@ -138,7 +138,7 @@ TEST(FourBarKernel, KeepsDigitsNearAToggle) {
     // Coupler and rocker 3 and 4, A and B0 apart by 7 - gap.
     const Closure<double> closure = close_loop(7 - gap, 0.0, 0.0, 0.0, 3.0, 4.0, 1.0);
     const double r = 7 - gap;
-    const double apart = 7 - r;  // what the rounded distance leaves
+    const double apart = 7 - r;  // rest of the rounded distance
     const double exact = apart * (14 - apart) * (r * r - 1);
     EXPECT_NEAR(closure.radicand / exact, 1, 1e-15 * 49 * 7 / apart);
   }

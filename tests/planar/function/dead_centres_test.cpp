@@ -47,7 +47,7 @@ TEST(DeadCentres, CrankRockersSwingAsAsked) {
           const auto swept = sweep_strokes(linkage_of({bar, {}}), 3, false);
           ASSERT_TRUE(swept) << swing << ' ' << imbalance << ' ' << share;
           EXPECT_NEAR(swept->swing, strokes.swing, near) << swing << ' ' << imbalance << ' ' << share;
-          // With a crank that turns counter-clockwise, the rocker rises for longer when it goes with it.
+          // The rocker rises for longer when it turns with a counter-clockwise crank.
           EXPECT_NEAR(swept->rise, pi - strokes.imbalance, near) << swing << ' ' << imbalance << ' ' << share;
           EXPECT_NEAR(swept->transmission_angle, l.transmission_angle, 1e-7) << swing << ' ' << imbalance;
           EXPECT_NEAR(transmission_angles(bar).minimum, l.transmission_angle, 1e-7);

@@ -86,7 +86,7 @@ TEST(LinkageAssembly, StandsAsDrawnAtTheInputOfTheDrawing) {
   const double drawn = std::hypot(0.07, 0.18);
   ASSERT_EQ(p.drawn_inputs.size(), 1u);
   EXPECT_NEAR(p.drawn_inputs[0], drawn, 1e-15);
-  // Whatever range is swept, and from where.
+  // The same for any range that is swept, and any start.
   for (const double from : {0.0, 0.15, 0.25, 0.5}) {
     LinkageAssembly assembly(p, {{std::min(from, drawn)}, {std::max(from, drawn)}});
     LinkageMotion m(p);
@@ -179,7 +179,7 @@ TEST(AssembledRange, EndsAtTheDeadPoints) {
   // An angle near a dead point is known to the root of the rounding of the lengths.
   EXPECT_NEAR(range->from.value, std::acos(0.8), 1e-7);
   EXPECT_NEAR(range->to.value, std::acos(-0.2), 1e-7);
-  // Of a pin whose linkage turns with it the range is whole, whatever is asked for.
+  // The range of a pin whose linkage turns with it is whole, whatever is asked for.
   const auto narrow = assembled_range(p, 0, 1);
   ASSERT_TRUE(narrow);
   EXPECT_NEAR(narrow->to.value, std::acos(-0.2), 1e-7);

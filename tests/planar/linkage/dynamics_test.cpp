@@ -47,7 +47,7 @@ TEST(LinkageDynamics, NeedsNoDriveAtFreeJoints) {
     LinkageForces forces;
     solve_forces(s.linkage, p, dynamics.motion, 0.1, inputs[0].value, forces);
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-      double scale = 0;  // what the largest joint force could do at the size of the linkage
+      double scale = 0;  // the scale of the largest joint force times the size of the linkage
       for (const JointReaction& j : forces.joints) scale = std::max(scale, norm(j.force));
       EXPECT_NEAR(forces.drives[k], 0, 1e-10 * scale * (p.rotary[k] ? p.size : 1)) << k;
     }

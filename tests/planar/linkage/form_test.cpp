@@ -63,7 +63,7 @@ TEST(LinkageForm, TakesTheModeFromADrawing) {
   const PlanResult planned = plan_linkage(l);
   ASSERT_THAT(planned.problems, IsEmpty());
   LinkageMotion motion(planned.plan);
-  solve_position(planned.plan, std::vector<InputMotion>{{0, 0, 0}}, motion);  // as drawn
+  solve_position(planned.plan, std::vector<InputMotion>{{0, 0, 0}}, motion);  // pose as drawn
   for (int body = 1; body < 4; ++body) {
     const PartState<double> s = body_state(planned.plan, motion, body);
     EXPECT_NEAR(norm(s.origin), 0, 1e-14) << body;

@@ -92,7 +92,7 @@ TEST(LinkageFriction, OfAGuideFeelsTheMoment) {
   ASSERT_EQ(r.forces.status, Status::done);
   // 50 N x 0.2 m on 0.4 m: 25 N at each end.
   EXPECT_NEAR(r.forces.drives[0], 50 + 0.1 * 50, 1e-12);
-  // With 80 N across in the middle 40 + 25 N and 40 - 25 N: as many as without the moment.
+  // Two guide forces, 80 N across in the middle: 40 + 25 N and 40 - 25 N, as many as without the moment.
   l.forces.push_back({.name = "across", .point = {1, 0}, .force = {0, 80}});
   EXPECT_NEAR(rub(l, 0.3, 1).forces.drives[0], 50 + 0.1 * 80, 1e-12);
   l.forces.pop_back();
@@ -155,7 +155,7 @@ struct FreeCrank {
     return (8 * (lever(angle + h) - lever(angle - h)) - (lever(angle + 2 * h) - lever(angle - 2 * h))) /
            (12 * h);
   }
-  /// Where the guide carries a side force of that sign; nothing where it would not.
+  /// The acceleration if the guide carries a side force of that sign; nothing where it would not.
   std::optional<double> acceleration(double angle, double speed, double side) const {
     const double s = sine(angle), c = std::sqrt(1 - s * s), q = lever(angle), sense = speed < 0 ? 1 : -1,
                  inertia = c + mass * q * q * c / flywheel - friction * side * sense * s,
@@ -269,7 +269,7 @@ TEST(LinkageFriction, JamsASimulation) {
   EXPECT_THAT(to_string(turn.report.message), ::testing::HasSubstr("friction locks the linkage at 0.0"));
   EXPECT_THAT(to_string(turn.report.message),
               ::testing::HasSubstr("it jams, for no finite joint forces go with motion in this sense"));
-  // Where the friction at hand is that which locks.
+  // The friction at hand is here that which locks.
   double low = 1.65, high = 2.2;
   for (int i = 0; i < 60; ++i)
     (crank.locking((low + high) / 2) < crank.friction ? low : high) = (low + high) / 2;

@@ -101,7 +101,7 @@ TEST(LinkageGeneral, DrivesACylinderBetweenMovingBodies) {
   const PartState<double> boom = body_state(p, m, 1);
   const Vec<double> b = boom.direction, c{0.4, -0.3};
   EXPECT_NEAR(norm(b - c), length, 1e-15);
-  const double lever = cross(b, (1 / length) * (b - c));  // of the cylinder's force about O
+  const double lever = cross(b, (1 / length) * (b - c));  // lever of the cylinder's force about O
   EXPECT_NEAR(boom.speed, 0.1 / lever, 1e-13);
   solve_forces(l, p, m, 0, 0, f);
   // Half of the boom's length is the lever of its weight; inertia m l^2 / 3.

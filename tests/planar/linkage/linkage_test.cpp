@@ -17,7 +17,7 @@ std::vector<std::string> told(const Linkage& l) {
   for (const Diagnostic& d : check(l)) out.push_back(to_string(d.key + ": " + d.message + "; " + d.hint));
   return out;
 }
-// What is reported of the four-bar sample after a change.
+// The messages for the four-bar sample after a change.
 template <class Change>
 std::vector<std::string> after(Change&& change) {
   Linkage l = four_bar_sample().linkage;

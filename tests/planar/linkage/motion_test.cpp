@@ -136,7 +136,7 @@ RC_GTEST_PROP(LinkageMotionOfAFourBar, AgreesWithItsClosedForm, ()) {
   const std::vector<InputMotion> in{{b.frame_angle + angle, speed, acceleration}};
   solve_motion(p, in, m);
   if (m.status == Status::no_assembly) {
-    // Where the links just meet, rounding may put either on the other side.
+    // Links that just meet may be on either side by rounding.
     RC_ASSERT(place.status != Status::done || place.transmission_angle < 1e-5);
     if (place.status == Status::no_assembly)
       RC_ASSERT(std::abs(m.gap - place.gap) <= 1e-12 * (b.ground + b.crank + b.coupler + b.rocker));

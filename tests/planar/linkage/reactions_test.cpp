@@ -83,7 +83,7 @@ TEST(LinkageReactions, GiveTheRatesOfEnergyAndMomentum) {
   for (const LinkageSample& s : linkage_samples()) {
     SCOPED_TRACE(s.name);
     Linkage l = s.linkage;
-    l.forces.clear();  // of nothing on the ground: they would be no part of the balance
+    l.forces.clear();  // without loads on the ground: they would be no part of the balance
     const LinkagePlan p = planned(l);
     LinkageMotion m(p), n(p);
     LinkageForces f;
@@ -364,7 +364,7 @@ TEST(LinkageReactions, OfAWeldToTheGroundCarryTheRest) {
     EXPECT_NEAR(f.joints[0].force.y, side * 70, 1e-12);
     EXPECT_NEAR(f.joints[0].moment, side * 20 * 0.3, 1e-12);
     EXPECT_LE(unbalance(l, p, m, f), 1e-12);
-    EXPECT_NEAR(f.shaking_force.y, -70, 1e-12);  // what the weld carries
+    EXPECT_NEAR(f.shaking_force.y, -70, 1e-12);  // load of the weld
   }
 }
 
@@ -451,7 +451,7 @@ TEST(LinkageReactions, TeethLoadTheBearings) {
     EXPECT_NEAR(std::abs(force("ring mesh").tangential), 500, 1e-11);
     EXPECT_NEAR(norm(force("sun mesh").force), 532.088886, 1e-6);  // 500 / cos 20 deg
     EXPECT_NEAR(norm(force("sun bearing").force), 532.088886, 1e-6);
-    EXPECT_NEAR(norm(force("C").force), 1000, 1e-11);  // what presses it outwards and inwards cancels
+    EXPECT_NEAR(norm(force("C").force), 1000, 1e-11);  // its outward and inward loads cancel
     EXPECT_LE(unbalance(l, p, m, f), 1e-11);
   }
   const Linkage l = epicyclic(0);
@@ -645,7 +645,7 @@ TEST(LinkageLoads, FollowTheirTables) {
   EXPECT_NEAR(drive_of(l, {pi / 3, 0, 0}), -4 * 0.5 * 0.25, 1e-14);
 }
 
-// What the ground feels is what its joints carry, of bodies that are welded to it as well.
+// The load on the ground is that of its joints, of bodies that are welded to it as well.
 TEST(LinkageReactions, ShakingForceIsThatOfTheGroundsJoints) {
   Linkage l = linkage_sample("four_bar").linkage;
   // The rocker's pivot stands on a bracket of 3 kg that is welded to the ground.

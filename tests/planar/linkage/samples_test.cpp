@@ -272,7 +272,7 @@ TEST(TogglePress, MultipliesTheForceNearTheEndOfItsStroke) {
     load = std::max(load, f.loads[0].force.y);
   }
   EXPECT_GT(load, 15e3);
-  EXPECT_LT(worst, 0.25 * load * 0.04);  // of what the crank alone would need
+  EXPECT_LT(worst, 0.25 * load * 0.04);  // relative to the force that the crank alone would need
 }
 
 TEST(FourBarChain, KeepsItsRockersParallel) {

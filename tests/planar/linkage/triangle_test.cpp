@@ -49,8 +49,8 @@ TEST(LinkageTriangle, AgreesWithAllJointsAtOnce) {
   }
 }
 
-// With the slide along the line of its pins the triangle has the sides b = |O G|, l = arm, and the drive's
-// way: its range is |b - l| to b + l, and the arm's angle that of the law of cosines.
+// A slide along the line of its pins makes a triangle with the sides b = |O G|, l = arm, and the drive's way:
+// its range is |b - l| to b + l, and the arm's angle that of the law of cosines.
 TEST(LinkageTriangle, ItsRangeIsThatOfTheTriangle) {
   for (int i = 0; i < 50; ++i) {
     const SweptLinkage s = raised_arm(i);

@@ -217,7 +217,7 @@ std::vector<ArmJointLoads> newton_euler(const SerialArm& arm, const std::vector<
   }
   std::vector<ArmJointLoads> loads(n);
   std::complex<double> force = 0;  // on the next link
-  double torque = 0;               // of the motor in the next joint, standing on this link
+  double torque = 0;               // torque of the motor in the next joint, standing on this link
   for (std::size_t k = n; k-- > 0;) {
     std::complex<double> own = force;
     for (const Particle& p : bodies[k]) own += p.mass * (p.acceleration + i * gravity);

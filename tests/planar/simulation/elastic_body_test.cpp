@@ -187,7 +187,7 @@ TEST(ElasticBody, CouplerHeldByItsDriveSoundsAsABeamOnTwoPins) {
     const double s2 = std::pow(std::sin(pi / (2 * n)), 2), cell = 0.4 / n;
     const double chain =
         std::sqrt(stiffness / (density * area) * 16 * s2 * s2 / (1 - 2 * s2 / 3)) / (cell * cell);
-    EXPECT_NEAR(frequency / chain, 1, 1e-6);  // of stiffnesses by differences
+    EXPECT_NEAR(frequency / chain, 1, 1e-6);  // error of stiffnesses by differences
     const double off = 1 - frequency / exact;
     if (n == 8) {  // fourth order; the next term of the series is 4 % of it here
       EXPECT_NEAR(off, std::pow(pi / 16, 4) / 90, 0.05 * off);
@@ -244,7 +244,7 @@ TEST(ElasticBody, GoesToTheRigidLinkageAsItGetsStiff) {
     EXPECT_NEAR(bent[i - 1] / bent[i], 4, 1);  // the vibration from the unbent start has another phase
     EXPECT_NEAR(apart[i - 1] / apart[i], 16, 6);
   }
-  EXPECT_LT(apart.back(), 1e-7 * 0.05);  // of the crank
+  EXPECT_LT(apart.back(), 1e-7 * 0.05);  // relative to the crank
 }
 
 // One spring in the middle is an oscillator with damping ratio w time / 2.
@@ -421,7 +421,7 @@ TEST(ElasticBody, KeepsWhatIsOnTheBodyInItsPlace) {
   EXPECT_NEAR(mass, density * area * 0.4, 1e-15);
   EXPECT_NEAR(moment, 0.2 * mass, 1e-15);
   EXPECT_NEAR(inertia, mass * 0.4 * 0.4 / 12, 1e-16);
-  // Where it starts, the tracer is where that of the rigid linkage is.
+  // The tracer begins at the position of the rigid linkage's.
   LinkageMotion bent(e.plan);
   std::vector<InputMotion> inputs{{0.7, 0, 0}};
   for (const InputDrive& c : e.free) inputs.push_back({c.value, c.rate, 0});

@@ -263,7 +263,7 @@ TEST(Simulate, NamesTheLimitOfAMotion) {
   EXPECT_THAT(to_string(run.report.message),
               ::testing::AllOf(::testing::HasSubstr("'coupler + right' reaches its dead point at "),
                                ::testing::HasSubstr("the linkage continues in the other assembly mode")));
-  // Where coupler and right bar are in line, |A C| = 0.4 + 0.8 (or their difference).
+  // Coupler and right bar are in line at |A C| = 0.4 + 0.8 (or their difference).
   const double limit = std::acos((1 + 0.64 - 1.44) / 1.6);
   ASSERT_FALSE(run.rows.empty());
   EXPECT_NEAR(run.rows.back().inputs[0].value, limit, 0.05);
@@ -347,7 +347,7 @@ TEST(Simulate, StaysAtRestWhereFrictionHolds) {
   ASSERT_TRUE(run.rows[0].held);
   EXPECT_NEAR(run.rows[0].held->joints[0].force.y, 2 * 9.81, 1e-12);
   EXPECT_NEAR(run.rows[0].held->loads[0].force.x, -4, 1e-12) << "friction bears the weight along the slide";
-  // With less it goes: 2 - 0.1 * 9.81.
+  // A smaller friction lets it go: 2 - 0.1 * 9.81.
   l.joints[0].friction = 0.1;
   run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 2, 21));
   EXPECT_EQ(run.report.status, Status::done);

@@ -141,7 +141,7 @@ TEST(SteadyCycle, SettlesWhereMotorAndBrakeAreEqual) {
   EXPECT_LT(c.cycles, 20);
 }
 
-// With the weight: as a long simulation settles.
+// The cycle with weight is that in which a long simulation settles.
 TEST(SteadyCycle, IsWhatASimulationSettlesIn) {
   Linkage l = wheel();
   l.torques.push_back({.name = "motor",

@@ -77,7 +77,7 @@ TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
     return c.quantity == "link1_torque_joint_N_m" && c.measure == "max_abs";
   });
   ASSERT_NE(torque, r.changes.end());
-  // With the mass 1 m behind the joint; the published 23 kg at 0.5 m weigh on the torque less.
+  // The mass is 1 m behind the joint; the published 23 kg at 0.5 m weigh on the torque less.
   EXPECT_GT(torque->percent(), 30);
   // The picture of the answer and that of the initial design.
   ASSERT_EQ(r.scenes.size(), 2u);
@@ -115,7 +115,7 @@ TEST(BalancingStudyRun, AFrontIsATableAPlotAndSolutions) {
   ASSERT_EQ(front.rows(), n);
   EXPECT_EQ(front.columns[0].key, "solution");
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)  // what is less in one objective is more in the other
+    for (std::size_t j = 0; j < n; ++j)  // less in one objective is more in the other
       if (front.columns[1].values[i] < front.columns[1].values[j]) {
         EXPECT_GT(front.columns[2].values[i], front.columns[2].values[j]);
       }
@@ -158,7 +158,7 @@ TEST(BalancingStudyRun, LengthsOfAFourBarGoThroughTheFastAndTheGeneralWay) {
 TEST(BalancingStudyRun, LooksBetweenCandidates) {
   const std::string text = replaced(test::four_bar_masses, "crank_m   = 0.1",
                                     "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }"),
-                    // With a constraint that never binds the general way is taken.
+                    // A constraint that never binds makes the general method be taken.
       general = "[[constraint]]\nquantity = \"O1_drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n";
   for (const std::string& way : {std::string(), general}) {
     const LooksAllowed looks(20);

@@ -231,7 +231,7 @@ TEST(LinkageElasticStudy, SettlesBeforeItsFirstRow) {
              &after = column(settled, "motion", "rod_middle_deflection_m");
   ASSERT_EQ(after.size(), before.size());
   EXPECT_EQ(column(settled, "motion", "time_s").front(), 0);
-  EXPECT_NEAR(after.front(), after.back(), 1e-4 * largest(after));  // of tolerances of 1e-7 a step
+  EXPECT_NEAR(after.front(), after.back(), 1e-4 * largest(after));  // rounding of tolerances of 1e-7 a step
   EXPECT_GT(std::abs(before.front() - before.back()), 0.01 * largest(before));
   EXPECT_THAT(fact(settled, "settled"), HasSubstr("0.5 s before the first row"));
   EXPECT_THAT(problems_of(replaced(slider_crank, "samples = 101", "samples = 101\nsettle_s = 0.5")),

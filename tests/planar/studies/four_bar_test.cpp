@@ -47,7 +47,7 @@ study::Result run(const std::map<std::string, std::string>& changed = {}) {
   return run_text(study_text(changed));
 }
 
-// Where the crank points away from the ground 450 mm of links are to span 700: in the unit of the study.
+// The crank points away from the ground where 450 mm of links are to span 700: in the unit of the study.
 TEST(FourBarStudyRun, TellsTheGapInTheUnitsOfTheStudy) {
   const study::Result r =
       run({{"3 parameters",
@@ -120,13 +120,13 @@ TEST(FourBarStudyRead, OfLengthsAloneShowsHowItMoves) {
   EXPECT_THAT(columns, ::testing::Contains("rocker_angle_rad"));
   EXPECT_THAT(columns, ::testing::Contains("coupler_rocker_transmission_angle_rad"));
   for (const std::string& key : columns) EXPECT_EQ(key.find("_per_s"), std::string::npos) << key;
-  // What was left out stays so when the study is run as it is kept.
+  // Quantities that were left out stay so when the study is run as it is kept.
   const auto again = prepare(study::to_toml(study->canonical), messages);
   ASSERT_TRUE(again) << messages;
   RunContext context;
   EXPECT_EQ(keys(study::run_study(*again, context).tables.at(0)), columns);
 
-  // With a speed, rates; with masses, all. Half of the masses are a mistake, and so are springs without any.
+  // A speed gives rates, masses give all. Half of the masses are a mistake, and so are springs without any.
   messages.clear();
   EXPECT_TRUE(prepare(study_text({{"4 mass", ""}}), messages));
   EXPECT_THAT(messages, HasSubstr("so forces and torques are left out; for them add [mechanism.mass]\n"));

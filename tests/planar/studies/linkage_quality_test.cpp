@@ -4,7 +4,7 @@
 
 #include "planar/studies.h"
 
-// What a study of a linkage asks for beyond its table.
+// The tables that a study of a linkage asks for beyond its own.
 namespace linkwright::planar {
 namespace {
 

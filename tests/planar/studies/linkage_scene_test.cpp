@@ -40,7 +40,7 @@ TEST(LinkageScene, DrawsBodiesJointsTracesAndArrows) {
     EXPECT_TRUE(v.x.size() == 37 || v.x.size() == 1);
     forces += v.quantity == study::Scene::Quantity::force;
   }
-  EXPECT_EQ(forces, 5u);  // of the joints, and the shaking force
+  EXPECT_EQ(forces, 5u);  // arrows of the joints, and of the shaking force
   ASSERT_EQ(s.moments.size(), 1u);
   // Bodies are rigid: the drawn coupler keeps its length.
   const auto& points = s.bodies[2].points;

@@ -229,7 +229,7 @@ TEST(LinkageStudy, AParallelogramHasAllItsRows) {
   const study::Result moved = run_text(text + "[output]\nquantities = [\"position\", \"rates\"]\n");
   EXPECT_EQ(moved.status, Status::done);
   EXPECT_THAT(moved.tables[0].status, Each("done"));
-  // With a kink the rates are not known there, but the position is.
+  // The rates are not known at a kink, but the position is.
   const study::Result kink =
       run_text(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
   EXPECT_NEAR(kink.tables[0].find("coupler_C_x_m")->values[180], 0.1, 1e-9);
@@ -358,7 +358,7 @@ TEST(LinkageStudy, AShockDrivesABicyclesRearLinkage) {
   ASSERT_EQ(stroke.status, Status::done);
   EXPECT_EQ(stroke.tables[0].rows(), 61u);
   rows_agree(stroke);
-  // With the shock at 1 m/s the axle's speed is the leverage ratio: differences of the route by hand.
+  // The shock at 1 m/s gives the axle the leverage ratio as speed: differences of the route by hand.
   const auto height = [&](double shock) { return by_hand.at(by_hand.rocker_at(shock)).axle.imag(); };
   for (const std::size_t i : {0u, 30u, 60u}) {
     const double shock = from + (to - from) * static_cast<double>(i) / 60;

@@ -118,7 +118,7 @@ samples = 11
 )";
 }
 
-// What is said while the study is read and when it has run.
+// The remarks while the study is read and when it has run.
 std::string remarks_of(const std::string& text) {
   std::string messages;
   const auto study = prepare(text, messages);

@@ -121,7 +121,7 @@ TEST(AxleCompliance, ParallelAndOpposing) {
   const WheelLoad load = unit_load(left, LoadCase::lateral);
   for (const JointForce& joint : respond(left, load).joints)
     if (!joint.at_carrier && joint.link == 2) on_rack -= 2 * dot(joint.force, guide.rack_direction);
-  EXPECT_NEAR(left.rack_stiffness, 0, 1e-4);  // of forces of 1e7 N for a metre
+  EXPECT_NEAR(left.rack_stiffness, 0, 1e-4);  // rounding of forces of 1e7 N for a metre
   EXPECT_NEAR(parallel.rack, on_rack / 4e6, 1e-9 * std::abs(parallel.rack));
   EXPECT_GT(std::abs(parallel.rack), 1e-9);
   // Braking both wheels, and drive against brake.

@@ -231,7 +231,7 @@ TEST(Compliance, TwoBushingsShareTheLoad) {
   const double first = dot(moved.joints[0].force, axis), second = dot(moved.joints[1].force, axis);
   EXPECT_GT(std::abs(first), 100);
   EXPECT_NEAR(first, 2 * second, 1e-8);
-  // With the links rigid against the same load the sums are the same: the suspension is determinate.
+  // The sums with rigid links against the same load are the same: the suspension is determinate.
   const GuideForces rigid_forces =
       solve_forces(guide, prepare_guide(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
   EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);

@@ -30,8 +30,8 @@ TEST(WheelRate, AgainstForcesOfOtherPositions) {
       const double step = 1e-4;
       const WheelRate found = at(travel), more = at(travel + step), less = at(travel - step);
       ASSERT_EQ(found.status, Status::done);
-      // Of some 1e4 N/m: truncation step^2 / 6 times a third derivative of some 1e5 N/m^3, rounding 1e-12 /
-      // step.
+      // The rate is some 1e4 N/m: truncation step^2 / 6 times a third derivative of some 1e5 N/m^3, rounding
+      // 1e-12 / step.
       EXPECT_NEAR(found.rate, (more.wheel_force - less.wheel_force) / (2 * step), 0.01);
       EXPECT_NEAR(found.motion_ratio_by_travel, (more.motion_ratio - less.motion_ratio) / (2 * step), 1e-6);
       const WheelParameters wheel = wheel_parameters(plan, here);

@@ -48,7 +48,7 @@ TEST(DirectSynthesis, FindsTheLeastSquaresOptimumOfExample5) {
   const Value& expected = at(published("ex5-least-squares-optimum"), "computed");
   EXPECT_NEAR(found.half_sum_of_squares, test::number_at(expected, "half_sum_of_squares"), 1e-6 * 3.98);
   const WheelGuide optimum = test::with_points(task, at(expected, "points_03_04_05_m"));
-  // Where the search ends: a ten thousandth of a millimetre in the weakest direction.
+  // The end of the search: a ten thousandth of a millimetre in the weakest direction.
   for (int i = 2; i < 5; ++i)
     EXPECT_LT(distance(found.guide.links[i].body[0], optimum.links[i].body[0]), 1e-6);
 }
@@ -67,7 +67,7 @@ TEST(DirectSynthesis, MinimisesOneObjectiveWithTheOthersWithinTolerance) {
     EXPECT_LT(found.objectives[k], best[k]) << k;
     for (int other = 0; other < 3; ++other) EXPECT_LT(found.objectives[other], 1 + 1e-6);
     const auto listed = numbers(at(computed, "f_toe_camber_track").as_array()[k]);
-    // What is listed exceeds the others' tolerances by up to 5e-5, and so may lie that much lower.
+    // The listed deviations exceed the others' tolerances by up to 5e-5, and so may lie that much lower.
     EXPECT_GT(found.objectives[k], listed[k] - 1e-3);
   }
 }
@@ -75,7 +75,7 @@ TEST(DirectSynthesis, MinimisesOneObjectiveWithTheOthersWithinTolerance) {
 TEST(DirectSynthesis, KeepsPrioritiesWhereNotAllCanBeMet) {
   DirectTask task = published_direct_task();
   place_published_boxes(task, 2);
-  // With a tenth of its tolerance for camber toe alone can be met.
+  // Toe alone can be met with a tenth of its tolerance for camber.
   for (TargetPoint& point : task.objectives[1].curves[0].points) point.tolerance /= 10;
   RunContext context;
   const DirectOptions by_priority{.goal = DirectGoal::priorities, .starts = 16};

@@ -106,7 +106,7 @@ TEST(Constructions, GeometricAxisIsTheOneWithTheSpringHeld) {
       }
 }
 
-// With a height held the lower ball joint gives way.
+// The lower ball joint yields with a height held.
 TEST(Constructions, GeometricAxisIsNotTheOneWithAHeightHeld) {
   const WheelParameters wheel = at(guide_sample("2RS-US").guide);
   EXPECT_GT(std::abs(wheel.axis_at_contact->caster - wheel.geometric_axis->caster), 1e-3);
@@ -144,8 +144,8 @@ TEST(Constructions, RodsThatShareAnEndAreAnArm) {
   EXPECT_FALSE(construction_of(rods).has_axis());
 }
 
-// Where the tie rod's line meets the axis in which the planes meet, the wheel turns about that axis as it
-// travels: the construction and the motion agree, and there is neither bump steer nor pitch.
+// The tie rod's line meets the axis in which the planes meet: the wheel turns about that axis as it travels:
+// the construction and the motion agree, and there is neither bump steer nor pitch.
 TEST(Constructions, AgreeWithTheMotionWhereTheTieRodAgrees) {
   for (const char* name : {"2RS-US", "RS-SP-US"}) {
     WheelGuide guide = guide_sample(name).guide;

@@ -122,7 +122,7 @@ TEST(Plausibility, EndsThatChangePlacesAreTold) {
   std::swap(guide.links[0].body[0], guide.links[0].carrier[0]);
   EXPECT_THAT(lines_of(implausible(guide)),
               HasSubstr("warning: link.lower wishbone: its end at the body lies"));
-  // As a link of the other type.
+  // The same for a link of the other type.
   guide = guide_sample("2RS-US").guide;
   std::swap(guide.links[0].body, guide.links[0].carrier);
   guide.links[0].type = LinkType::SR;

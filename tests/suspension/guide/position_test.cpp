@@ -81,7 +81,7 @@ TEST(GuidePosition, TravelLimitsAndWhatLiesBeyond) {
     const TravelLimits found = travel_limits(plan, Driver::wheel_centre_z, 0, reference_position(plan));
     for (int i : {0, 1}) {
       EXPECT_EQ(found.status[i], Status::no_assembly);
-      EXPECT_NEAR(found.value[i], limits[i], 2e-6);  // what the reference claims
+      EXPECT_NEAR(found.value[i], limits[i], 2e-6);  // accuracy that the reference claims
       const double outward = i == 0 ? -1 : 1;
       const GuidePosition inside = solve(plan, limits[i] - outward * 1e-3);
       EXPECT_EQ(inside.status, Status::done) << inside.reason;

@@ -204,7 +204,7 @@ TEST(IndirectSynthesisCarrierPitch, TheQuadraticIsWhatTheCarrierPitchesFollow) {
 }
 
 TEST(IndirectSynthesisCarrierPitch, DifferentialEvolutionWithBothTechniques) {
-  // As the source has it, over 33 and 30 unknowns; the first of its 50000 generations.
+  // The source has it so, over 33 and 30 unknowns; the first of its 50000 generations.
   const Case c = make_case("ex4-forward", 1, 0.15);
   for (const CarrierPitchTechnique technique :
        {CarrierPitchTechnique::quadratic, CarrierPitchTechnique::dyad}) {

@@ -164,7 +164,7 @@ TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
                   plan, solve_position(plan, Driver::wheel_centre_z, {0.08, 0}, reference_position(plan)))
                   .motion_ratio,
               1e-9);
-  // With an axis of its own it moves otherwise, and the canonical study keeps it.
+  // A suspension with an axis of its own moves otherwise, and the canonical study keeps it.
   const std::string other =
       replaced(text, "type = \"US\"\n", "type = \"US\"\ncross_axis = [1.0, 0.5, 0.2]\n");
   EXPECT_GT(std::abs(column(run_text(other), "motion_ratio").at(4) - column(result, "motion_ratio").at(4)),

@@ -94,7 +94,7 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
         count = 0;
         return apart(exact.by[j], by, values, count);
       };
-      // What curves more than the step was chosen for has a sixteenth of the truncation at half of it.
+      // A curve that bends more than the step was chosen for has a sixteenth of the truncation at half of it.
       double worst = off(step);
       if (!(worst < agreement)) worst = off(step / 2);
       EXPECT_LT(worst, agreement) << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", "

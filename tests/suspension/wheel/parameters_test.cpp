@@ -188,7 +188,7 @@ TEST(WheelParameters, RatesAreDifferencesOfValues) {
   }
 }
 
-// With the spring held the lower arm stands still, so that the wheel turns about the line through both ball
+// The lower arm is at rest with the spring held, so that the wheel turns about the line through both ball
 // joints.
 TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
   for (const char* name : {"2RS-US", "RS-SP-US"})
@@ -323,7 +323,7 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
   EXPECT_NEAR(found.anti_pitch_tangent, -0.4 / 0.5, 1e-15);
   EXPECT_GT(found.front_swing_arm, 1e12);
   EXPECT_NEAR(found.roll_centre_height, 0, 1e-15);
-  // With the hinge along x it is the front view that turns.
+  // The front view turns if the hinge lies along x.
   guide.links[0].body = {{-0.2, 0.2, 0.05}, {0.2, 0.2, 0.05}};
   const GuidePlan swing = prepare_guide(guide);
   const WheelParameters across = wheel_parameters(swing, reference_position(swing));

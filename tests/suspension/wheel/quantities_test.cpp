@@ -20,7 +20,7 @@ TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
   for (const auto& name : names(WheelQuantity{})) {
     const double value = value_of(parameters, name.value);
     EXPECT_TRUE(std::isfinite(value)) << name.name;
-    // With the spring held the screw has no pitch, and its axis is the line through both ball joints.
+    // The screw has no pitch with the spring held, and its axis is the line through both ball joints.
     if (name.value != WheelQuantity::axis_pitch_at_spring && !name.name.starts_with("geometric_")) {
       EXPECT_TRUE(values.insert(value).second) << name.name;
     }

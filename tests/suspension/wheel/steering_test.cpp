@@ -34,7 +34,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
         ASSERT_TRUE(axis);
         const double rate = dot(twist.turning, axis->direction) / found->toe_by_rack;
         const double outboard = guide.side == Side::left ? 1 : -1;
-        const double pitch = outboard * axis->pitch;  // that of a right wheel is given as in the mirror
+        const double pitch = outboard * axis->pitch;  // pitch of a right wheel is given as in the mirror
         const auto arm = [&](const Vec3& force, const Vec3& at) {
           return rate *
                  (dot(axis->direction, cross(at - axis->point, force)) + pitch * dot(axis->direction, force));

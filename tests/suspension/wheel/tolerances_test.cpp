@@ -64,7 +64,7 @@ TEST(Tolerances, AddUpBySizeAndBySquare) {
 }
 
 TEST(Tolerances, SmallOnesScatterAsTheRootSumOfSquaresSays) {
-  // With 0.01 mm the curves are linear: the standard deviation of n draws lies within 1 / sqrt(2 n) of its
+  // The curves are linear for 0.01 mm: the standard deviation of n draws lies within 1 / sqrt(2 n) of its
   // own, relative, the mean within the standard deviation / sqrt(n). Four times that for eighteen figures.
   const int n = 4000;
   for (const Scatter scatter : {Scatter::uniform, Scatter::normal}) {
@@ -122,8 +122,8 @@ TEST(Tolerances, KeepToWhatIsThere) {
   EXPECT_TRUE(std::isfinite(none.bands[0][0].worst_case));
 }
 
-// What a piece has drawn when it is cut short is not used; the pieces before it are kept, and the run that
-// goes on from them ends with the bits of one that was not interrupted.
+// Draws of a piece that is cut short are not used; the pieces before it are kept, and the run that goes on
+// from them ends with the bits of one that was not interrupted.
 TEST(Tolerances, InterruptedKeepThePiecesSoFar) {
   const ToleranceTask task = task_of("5US", 1e-4);
   const MonteCarlo options{.samples = 3000, .seed = 5};
