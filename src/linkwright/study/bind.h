@@ -21,12 +21,12 @@
 #include "linkwright/study/bind_traits.h"
 
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
-// single values by `reader(field::length(...), member)`. Members may be double, bool, whole numbers, std::string,
-// Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list or a form of its own
-// (HasOwnForm), std::optional of any
-// of these, std::vector of any of these but bool and optional, std::vector of std::pair<std::string, any of
-// these> for a table whose keys are names that the user gives, and a choice: std::variant of structs, each
-// with
+// single values by `reader(field::length(...), member)`. Members may be double, bool, whole numbers,
+// std::string, Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list or a form
+// of its own (HasOwnForm), std::optional of any of these, and std::vector of any of these but bool and
+// optional. A table whose keys are names that the user gives is a std::vector of std::pair<std::string, any
+// of these>.
+// A choice is a std::variant of structs, each with
 //
 //     constexpr Word choice_word(const GreyWolfOptions&) { return {"grey_wolf", "pack hunting of Mirjalili et
 //     al. 2014"}; }
