@@ -19,7 +19,7 @@ from pathlib import Path
 
 import repository
 
-# What has braces or parentheses without meaning: comments, texts, characters and lines of the preprocessor.
+# Comments, texts, characters and preprocessor lines, of which braces and parentheses have no meaning.
 OPAQUE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|(?<![\w])\'(?:[^\'\\\n]|\\.)+\'|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*',
                     re.S | re.M)
 SCOPE = re.compile(r"(?:^|\s)(?:namespace|class|struct|union|extern)\b[^()=]*$")
@@ -66,7 +66,7 @@ def functions_of_cpp(text):
                 first = begin + (label.end() if label else 0)
                 first += len(text[first:mark.start()]) - len(text[first:mark.start()].lstrip())
             else:
-                kind = "value"  # as in a list of members: the declaration goes on after it
+                kind = "value"  # a list of members, for example: the declaration continues after it
             open_braces.append(kind)
             if kind in ("scope", "function"):
                 begin = mark.end()

@@ -138,7 +138,7 @@ TEST(SentencesOfExamples, AreInTheUnitsOfTheOutputEverywhere) {
     const Value page = report::view_data(report_input(study, shown, {}, {}));
     for (const char* part : {"headline", "facts", "remarks", "solutions"}) texts_of(*page.find(part), texts);
     for (const Value& scene : page.find("scenes")->as_array())
-      if (scene.find("title")->as_string() != study::title_of(study))  // which is its author's
+      if (scene.find("title")->as_string() != study::title_of(study))  // the author chose that one
         texts.push_back(scene.find("title")->as_string());
     for (const std::string& text : texts) {
       EXPECT_FALSE(std::regex_search(text, others)) << t.example << ": " << text;
@@ -148,7 +148,7 @@ TEST(SentencesOfExamples, AreInTheUnitsOfTheOutputEverywhere) {
   EXPECT_GE(found, 100u);
 }
 
-// What a study says of its tables before it runs is what they are.
+// The tables that a study announces before it runs have the columns of the result.
 TEST(SentencesOfExamples, ColumnsAreKnownBeforeTheRun) {
   std::size_t known = 0;
   for (const Told& t : told())

@@ -66,6 +66,9 @@ TEST_F(RealLists, ColumnsAreListedWithoutARun) {
   EXPECT_EQ(run({"columns", "synthesis/planar.four_bar/path_points"}), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("known from a run alone"));
   EXPECT_EQ(run({"columns", "six-bar-car"}), 2);
+  EXPECT_THAT(err_, HasSubstr("there is no kind of study 'six-bar-car'"));
+  EXPECT_EQ(run({"columns", "absent.toml"}), 2);
+  EXPECT_THAT(err_, HasSubstr("absent.toml: error: there is no such file"));
 }
 
 TEST_F(Lists, NewWritesAStudyOnce) {

@@ -20,7 +20,7 @@ export function Sign({ look, points }: { look: { stroke: string; dash: number[] 
   );
 }
 
-/** Which curves of a bundle have a look and a name of their own. */
+/** The choice of the curves of a bundle that have a look and a name of their own. */
 export function Chooser({ names, choice, choose }: { names: string[]; choice: Choice; choose: (choice: Choice) => void }): JSX.Element {
   const all = () => names.reduce<Choice>((c, _, i) => chosen(c, i, true), new Map());
   return (

@@ -1,4 +1,4 @@
-// How a diagram looks: its axes, its curves and the bands between them, as uPlot wants them.
+// The appearance of a diagram: its axes, its curves and the bands between them, in the form of uPlot.
 import uPlot from "uplot";
 import type { Num } from "./data";
 import { logTicks } from "./logarithm";
@@ -18,7 +18,7 @@ export interface Curve {
 
 export interface Side {
   label: string;
-  symbol: string; // of its unit
+  symbol: string; // unit symbol
   log?: boolean; // the data are logarithms
 }
 
@@ -54,7 +54,7 @@ export interface Look {
   alpha: number;
 }
 
-/** How a curve is drawn while the group `now` is present; `pointed`: whether the pointer is at it. */
+/** The look of a curve while the group `now` is present; `pointed` is true if the pointer is at it. */
 export function drawn(curve: Curve, look: number | undefined, bundle: boolean, anyNamed: boolean, now: number, pointed: boolean): Look {
   const here = now < 0 || curve.group === now;
   if (curve.kind === "baseline") return { stroke: "--soft", dash: [5, 4], width: pointed ? 2.4 : 1.4, alpha: here || pointed ? 0.85 : bundle ? 0.12 : 0.35 };

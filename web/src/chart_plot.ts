@@ -12,13 +12,13 @@ import * as state from "./state";
 import { format } from "./units";
 import { between, nearer, shifted, type Peak, type Range } from "./zoom";
 
-/** How the x of a diagram and an input of the scene follow each other. */
+/** The link between the x of a diagram and an input of the scene, which follow each other. */
 export interface Link {
   now: () => number;
   go: (x: number) => void;
 }
 
-/** What a diagram shows. */
+/** The content of a diagram. */
 export interface Shown {
   data: uPlot.AlignedData;
   curves: Curve[]; // one for each list of the data after x
@@ -29,24 +29,24 @@ export interface Shown {
   presentName?: (group: number) => string;
   baseline?: string; // name of what is drawn behind
   pick?: (row: number) => void; // a click at a row of the data
-  range?: (low: number, high: number) => Range; // of y
+  range?: (low: number, high: number) => Range; // range of y
   upright?: boolean; // x points up
 }
 
-/** How much of it is shown. */
+/** The part of the content that is chosen. */
 export interface Chosen {
   choice: Choice; // curves with a look of their own
   own: number[]; // curves among which it chooses
-  peak: Peak | null; // that is left out
+  peak: Peak | null; // peak that is left out
   height: number; // px
 }
 
-/** What outlives a plot, which is made anew with the data and the choice. */
+/** State that outlives a plot, which is made again with new data or another choice. */
 export interface Kept {
   zoom: { x: Range | null; y: Range | null; of: string };
   mark: Signal<number | null>; // x of the fixed cursor
   values: Map<number, HTMLElement>; // in the legend, by curve
-  marked: { current: HTMLElement | null }; // where the fixed cursor is described
+  marked: { current: HTMLElement | null }; // description of the fixed cursor
   setZoomed: (on: boolean) => void;
 }
 
@@ -80,7 +80,7 @@ export class ChartPlot {
   private pressed = false;
   private inSight = true;
   private pointed: number | null = null; // series that is pointed at
-  private group: number; // that is shown in the scene
+  private group: number; // group that is shown in the scene
   private readonly xs: number[];
   private readonly whole: Record<"x" | "y", Range> = { x: [0, 1], y: [0, 1] };
   private readonly bundle: boolean;
@@ -261,7 +261,7 @@ export class ChartPlot {
       const at = u.over.getBoundingClientRect();
       const place = { left: event.clientX - at.left, top: event.clientY - at.top };
       link?.go(u.posToVal(upright ? place.top : place.left, "x"));
-      if (event.pointerType !== "mouse") u.setCursor(place); // which uPlot does for a mouse
+      if (event.pointerType !== "mouse") u.setCursor(place); // uPlot does it for a mouse
     }, { signal });
   }
 
@@ -336,7 +336,7 @@ export class ChartPlot {
   /** The value of a curve at a row. */
   private value = (i: number, row: number) => valueAt(this.shown.data[i + 1] as Num[], row);
 
-  /** Where the moving cursor is; null = nowhere. */
+  /** Position of the moving cursor on the x axis; null = there is none. */
   private here(): number | null {
     const { plot } = this;
     const { link, upright } = this.shown;
@@ -345,7 +345,7 @@ export class ChartPlot {
     return at < 0 ? null : plot!.posToVal(at, "x");
   }
 
-  /** How much a value is more than that of its curve at the fixed cursor. */
+  /** Difference of a value from that of its curve at the fixed cursor. */
   private difference(i: number, value: Num): string {
     const mark = this.kept.mark.peek();
     if (mark === null) return "";

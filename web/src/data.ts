@@ -157,7 +157,7 @@ export interface View {
   remarks: { message: string; hint?: string }[];
   parameters: Parameter[][]; // one list a solution
   solution_scenes: string[];
-  /** What the solutions of the result say, in their order. */
+  /** Labels and defects of the solutions, in the order of the result. */
   solutions: { label: string; defects: string[] }[];
   designs: Design[];
   scenes: Scene[];
@@ -242,7 +242,7 @@ export const readResult = (carried: Carried): Result => {
   const result = carried.result ?? {};
   return {
     checks: result.checks ?? [],
-    // What they say, as the program has typeset it.
+    // Labels and defects are taken as the program has typeset them.
     solutions: (result.solutions ?? []).map((s, i) => ({ ...s, ...carried.view.solutions[i] })),
     statistics: result.statistics ?? null,
     log: result.log ?? null,

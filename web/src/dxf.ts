@@ -51,7 +51,7 @@ class Drawing {
   written = () => this.out.join("\n") + "\n";
 }
 
-/** What is drawn: the scene at a sample, with symbols of this size (m). */
+/** The scene at a sample, with symbols of this size (m). */
 interface Subject {
   scene: Scene;
   sample: number;
@@ -75,7 +75,7 @@ export function dxf(scene: Scene, sample: number): string {
   return to.written();
 }
 
-/** What comes before the entities: units, types of lines and layers. */
+/** The part before the entities: units, types of lines and layers. */
 function header(to: Drawing, scene: Scene): void {
   to.put(999, "linkwright: units are millimetres, scale 1:1", 0, "SECTION", 2, "HEADER", 9, "$ACADVER", 1, "AC1009", 0, "ENDSEC");
   to.put(0, "SECTION", 2, "TABLES", 0, "TABLE", 2, "LTYPE", 70, 2);

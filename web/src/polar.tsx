@@ -117,7 +117,7 @@ function useZoom(svg: RefObject<SVGSVGElement>, all: Box | null, width: number, 
   return { frame, drag, reset: part && (() => setPart(null)) };
 }
 
-/** What is inside of the axes; nothing of it is seen outside. */
+/** The plane inside the axes; nothing of it is seen outside. */
 function planeOf(width: number) {
   const [w, h] = inner(width);
   return { x: margin.left, y: margin.top, width: w, height: h, viewBox: `${margin.left} ${margin.top} ${w} ${h}` };
@@ -192,7 +192,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   const all = useMemo(() => boxOf(curves, !path), [curves, path]);
   const { at, show, hold } = useRow(plot, table);
   const { frame, drag, reset } = useZoom(svg, all, width, (on) => setMark(on && at !== null ? Math.round(at) : null));
-  // What does not move is not written again as the mechanism moves.
+  // The part that does not move is not written again as the mechanism moves.
   const still = useMemo(() => frame && <Still frame={frame} curves={drawn} choice={choice} width={width} />, [frame, drawn, choice, width]);
   if (!frame) return <div ref={box}><p class="note">No values.</p></div>;
   const placeOf = (i: number, row: number | null) => {

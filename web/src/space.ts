@@ -141,9 +141,9 @@ export class SpaceView {
     return new Promise((resolve, reject) => this.screen.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made")))));
   }
 
-  /** What is on the screen, with the names: for pictures that move. */
+  /** The picture on the screen, with the names: for pictures that move. */
   frame(): HTMLCanvasElement {
-    cancelAnimationFrame(this.frameAsked); // what is asked for is drawn here
+    cancelAnimationFrame(this.frameAsked); // the frame is drawn here instead
     this.draw();
     const { canvas } = this.screen;
     const [out, scale] = [document.createElement("canvas"), canvas.width / Math.max(1, this.host.clientWidth)];

@@ -10,7 +10,7 @@ export class SpaceCamera {
   readonly controls: OrbitControls<PerspectiveCamera | OrthographicCamera>;
   private readonly perspective: PerspectiveCamera;
   private readonly flat: OrthographicCamera;
-  private halfHeight: number; // of what the flat camera sees at zoom 1
+  private halfHeight: number; // half the height that the flat camera sees at zoom 1
 
   /** `size` is the extent of what is seen. */
   constructor(canvas: HTMLCanvasElement, size: number) {

@@ -8,11 +8,11 @@ import { hullOf } from "./hull";
 type Coloured = Material & { color: Color; opacity: number; linewidth?: number };
 interface Item {
   depth: number; // away from the eye
-  over?: number; // where things are at one place, what has more of it is seen
+  over?: number; // the larger one is seen where two parts are at one place
   paint: (to: CanvasRenderingContext2D) => void;
 }
 
-/** Whether the browser has a graphics card for WebGL: what it computes itself is too slow to move. */
+/** True if the browser has a graphics card for WebGL: pictures that it computes itself are too slow to move. */
 export function hasFastWebgl(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) return false;
@@ -38,7 +38,7 @@ function cornersOf(shape: BufferGeometry): Vector3[] {
   return all;
 }
 
-const pieces = 4; // of a bar
+const pieces = 4; // pieces of a bar
 const shades = new Map<string, string>();
 function shade(colour: Color, by: number): string {
   const key = `${colour.getHex()} ${by}`;
@@ -47,7 +47,7 @@ function shade(colour: Color, by: number): string {
   return text;
 }
 
-/** How a camera sees places, on a canvas of so many pixels. */
+/** The projection of places by a camera on a canvas of so many pixels. */
 class Sight {
   private readonly view: Matrix4;
   private readonly whole: Matrix4;
@@ -64,7 +64,7 @@ class Sight {
     return -this.seen.copy(place).applyMatrix4(this.view).z;
   }
 
-  /** Where a place is on the canvas; null = behind the eye. */
+  /** The position of a place on the canvas; null = behind the eye. */
   spot(place: Vector3): Spot | null {
     const e = this.whole.elements;
     const w = e[3] * place.x + e[7] * place.y + e[11] * place.z + e[15];

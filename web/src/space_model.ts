@@ -1,4 +1,4 @@
-// What a spatial view shows: the bodies, joints, traces and arrows of a scene at one instant, and the ground below them.
+// The content of a spatial view: the bodies, joints, traces and arrows of a scene at one instant, and the ground below them.
 import { Group, Vector3, type Object3D, type Scene as Stage } from "three";
 import { arrowScale, quantities, valueNear } from "./arrows";
 import type { Quantity, Scene } from "./data";
@@ -7,7 +7,7 @@ import { arrowPart, bodyPart, discPart, jointPart, lines, type Palette, type Par
 import { lowestTyre, middleOf, sizeOf, type Box3, type V3 } from "./space_view";
 import { bodyColours, niceStep } from "./view";
 
-/** What is to be seen beside the mechanism itself. */
+/** The parts to be shown beside the mechanism itself. */
 export interface Shown {
   labels: boolean;
   traces: boolean;
@@ -21,7 +21,7 @@ const vector = (p: { x: number; y: number; z?: number } | null) => p && new Vect
 export class SpaceModel {
   readonly joints: ReturnType<typeof jointPart>[];
   readonly arrows: ReturnType<typeof arrowPart>[];
-  /** Where the arrows end. */
+  /** Ends of the arrows. */
   readonly tips: (Vector3 | null)[] = [];
   private readonly parts: Part[];
   private readonly trace: ReturnType<typeof lines>;
@@ -61,7 +61,7 @@ export class SpaceModel {
     this.trace.object.visible = shown.traces && scene.traces.length > 0;
   }
 
-  /** What can be seen and pointed at. */
+  /** The objects that can be seen and pointed at. */
   objects(): Object3D[] {
     return [...this.parts, ...this.arrows].map((part) => part.object).filter((object) => object.visible);
   }

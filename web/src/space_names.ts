@@ -1,4 +1,4 @@
-// What is written over a spatial view: the names of joints and arrows beside their places, and the directions of the axes.
+// Text over a spatial view: the names of joints and arrows beside their places, and the directions of the axes.
 import { Vector3 } from "three";
 import type { Scene } from "./data";
 import { placeLabels, symbolOf } from "./labels";

@@ -34,7 +34,7 @@ export class SpacePointer {
     this.ended.abort();
   }
 
-  /** What is held comes before the turning of the view. */
+  /** A joint that is held takes precedence over turning the view. */
   private listenForDrags(): void {
     const end = (event: PointerEvent) => this.drop(event);
     const options = { capture: true, signal: this.ended.signal };
@@ -58,7 +58,7 @@ export class SpacePointer {
     });
   }
 
-  /** What lies under the pointer: joints within a few pixels first, then whatever is hit. */
+  /** The name under the pointer: that of a joint within a few pixels first, then that of the object hit. */
   private pickAt(event: PointerEvent): string {
     const joint = this.jointAt(event);
     if (joint) return joint;

@@ -357,7 +357,8 @@ int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
 int list_columns(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics diagnostics;
   std::optional<study::Study> study;
-  const bool of_kind = !fs::path(arguments.kind).has_extension() || !fs::exists(arguments.kind);
+  const std::string extension = fs::path(arguments.kind).extension().string();
+  const bool of_kind = extension != ".toml" && extension != ".json" && !fs::is_regular_file(arguments.kind);
   if (!of_kind) {
     study = app::load_study(arguments.kind, {}, kinds, diagnostics);
   } else if (const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics)) {

@@ -6,7 +6,7 @@
 
 namespace linkwright {
 
-/// What the numbers of a column are. Its unit is that of the dimension, and stands in key and label.
+/// A physical quantity in a column of a table. The unit of its dimension is part of key and label.
 struct Quantity {
   std::string key;    ///< without unit: "crank_speed"
   std::string words;  ///< for people: "crank speed"

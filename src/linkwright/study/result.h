@@ -34,9 +34,9 @@ struct Fact {
   enum class Verdict { plain, good, bad } verdict = Verdict::plain;
   /// The label as an identifier, in whichever units people are shown it; empty = that of the label as it is.
   std::string key = {};
-  /// Of a fact whose text says its number in words: 360° of "assembles over the full turn".
-  std::optional<Measured> told = {};
-  std::optional<Measured> value() const { return told ? told : text.value(); }
+  /// The value of a fact whose text gives it in words: 360° for "assembles over the full turn".
+  std::optional<Measured> number = {};
+  std::optional<Measured> value() const { return number ? number : text.value(); }
 };
 constexpr std::array<EnumName<Fact::Verdict>, 3> names(Fact::Verdict) {
   using Verdict = Fact::Verdict;

@@ -38,7 +38,7 @@ Result in_units(Result result, const DisplayUnits& units) {
   for (Fact& fact : result.facts) {
     if (fact.key.empty()) fact.key = identifier(to_string(fact.label));
     fact.label = in_units(fact.label, units), fact.text = in_units(fact.text, units);
-    if (fact.told) fact.told = in_units(Sentence(*fact.told), units).value();
+    if (fact.number) fact.number = in_units(Sentence(*fact.number), units).value();
   }
   for (Diagnostic& d : result.diagnostics)
     d.message = in_units(d.message, units), d.hint = in_units(d.hint, units);

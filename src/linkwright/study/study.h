@@ -23,7 +23,8 @@ struct Study {
   Value canonical;  ///< the whole study with defaults filled in and in SI units: what result.json stores and
                     ///< what is hashed
   std::function<Result(RunContext&)> run;  ///< the domain's run; see run_study
-  std::vector<Table> tables = {};          ///< of its result, without rows, as far as they are known before
+  /// Tables of the result, without rows, as far as they are known before the run.
+  std::vector<Table> tables = {};
 };
 
 /// Finds the kind of a document among `kinds` (which must outlive the study), reads its common parts and lets

@@ -26,7 +26,7 @@ template <class M>
 class EveryPathMechanism : public ::testing::Test {
  protected:
   using Problem = typename M::Problem;
-  // What the mechanism of these numbers traces, at these crank angles; both senses, both branches.
+  // The path that the mechanism of these numbers traces at these crank angles; both senses and branches.
   static Problem traced() {
     Problem p;
     p.search_negative = true;

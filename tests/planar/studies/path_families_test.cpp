@@ -74,7 +74,7 @@ bool goes_with(const std::string& key, const std::set<std::string>& absent) {
   return false;
 }
 
-// What one path synthesis can, the other can, or says why not.
+// Every key of one path synthesis is one of the other, or has a reason why not.
 TEST(PathFamilies, DifferInNothingButWhatHasItsReason) {
   const std::set<std::string> four_bar = keys_of(path_kind()), slider = keys_of(slider_path_kind());
   ASSERT_THAT(four_bar,

@@ -50,7 +50,7 @@ InputLimits input_limits(const LinkagePlan& plan, std::span<const double> inputs
 /// closed); nullptr when it does not assemble there.
 const InputRange* range_at(const InputLimits& limits, std::span<const double> modes, double value);
 
-/// How much of the input assembles with the given modes (rad or m), a full turn at most.
+/// The part of the input range that assembles with the given modes (rad or m), a full turn at most.
 double assembly_range(const InputLimits& limits, std::span<const double> modes);
 
 /// For messages: "assembles from 12.3 to 147.9 deg", "assembles over the full turn", "assembles from 0 to 10

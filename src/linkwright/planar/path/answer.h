@@ -28,14 +28,14 @@ struct SearchPoint {
   friend bool operator==(const SearchPoint&, const SearchPoint&) = default;
 };
 
-/// What a seed came to, but for its designs.
+/// The outcome of a seed, but for its designs.
 struct SearchRecord {
   Status status = Status::done;  ///< done, infeasible, deadline or cancelled
   std::int64_t evaluations = 0;
   std::vector<SearchPoint> history;  ///< one entry for each better feasible design; none of a front
 };
 
-/// What one seed came to.
+/// The outcome of one seed.
 template <class Mechanism>
 struct PathAnswer : SearchRecord {
   /// Distinct, best first, feasible ones before infeasible ones; of a front by falling stroke.

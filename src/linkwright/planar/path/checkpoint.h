@@ -24,7 +24,8 @@ Value kept_record(const SearchRecord& record, const std::vector<std::vector<doub
 SearchRecord restored_record(const Value& value, std::string_view what,
                              const std::function<void(const std::vector<double>&)>& design);
 
-/// Whether a number of a kept design is 1 or -1, an angle (rad), or what a field of a linkage may hold.
+/// True if a number of a saved design is 1 or -1, an angle (rad), or a value that a field of a linkage
+/// allows.
 bool is_kept_sign(double x);
 bool is_kept_angle(double x);
 bool is_kept(const Field& field, double x);

@@ -71,7 +71,7 @@ class CurveOverlay {
 
   bool closed_, turns_ = false;
   double sense_ = 1;
-  std::vector<double> fraction_;       // of the path's length, one a target point
+  std::vector<double> fraction_;       // share of the path's length, one a target point
   std::vector<std::size_t> compared_;  // points that take part in the comparison
   std::vector<std::complex<double>> centred_;
   std::complex<double> mean_;

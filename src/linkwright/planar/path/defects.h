@@ -12,7 +12,7 @@
 
 namespace linkwright::planar {
 
-/// What keeps a linkage from tracing the points in one motion.
+/// The reason why a linkage does not trace the points in one motion.
 enum class DefectKind {
   assembly,  ///< it does not assemble at a point
   branch,    ///< it passes or touches a toggle at a point: the branch is not determined there
@@ -28,10 +28,10 @@ constexpr std::array<EnumName<DefectKind>, 4> names(DefectKind) {
 
 struct Defect {
   DefectKind kind;
-  Sentence text;  ///< with point numbers (from 1)
+  Sentence text;  ///< points are numbered from 1
 };
 
-/// What a design does along a path.
+/// The motion of a design along a path.
 struct PathMotion {
   const PathTask& task;
   const std::vector<double>& angles;

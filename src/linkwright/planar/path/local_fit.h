@@ -13,7 +13,7 @@ struct PathFitOptions {
   double penalty = 10;      ///< weight of squared constraint violations (dimensionless) in the first pass
 };
 
-/// What it comes to.
+/// The result of a local fit.
 template <class Linkage>
 struct PathFitOf {
   Linkage linkage;

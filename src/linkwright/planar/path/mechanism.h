@@ -22,7 +22,7 @@
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/path/task.h"
 
-// What the synthesis of paths asks of a mechanism, and what follows from that for each of them.
+// The properties that path synthesis needs of a mechanism, and the functions that follow from them.
 namespace linkwright::planar {
 
 /// The tracing point of a mechanism at a crank angle.
@@ -32,7 +32,7 @@ struct TracedPoint {
   std::complex<double> at;       ///< NaN without assembly
 };
 
-/// How far a crank is from a full turn.
+/// The margin of a crank to a full turn.
 struct CrankTurn {
   double margin = 0;  ///< m, least margin of the conditions of full rotation; negative = it does not turn
   double size = 0;    ///< m, sum of the lengths
@@ -40,17 +40,18 @@ struct CrankTurn {
   bool full() const { return margin >= -tolerance::feasibility * size; }
 };
 
-/// What messages say of a mechanism, as parts of sentences.
+/// Parts of sentences for messages about a mechanism.
 struct MechanismWords {
   std::string_view name;              ///< "four-bar"
   std::string_view missing[2];        ///< around the length by which links miss each other
   std::string_view singular;          ///< "at a toggle"
-  std::string_view without_assembly;  ///< what crank angles do between two circuits: "that do not assemble"
+  std::string_view without_assembly;  ///< crank angles between two circuits: "that do not assemble"
 };
 
 /// A mechanism whose tracing point follows a path as its crank turns. `Problem` is a PathTask with bounds of
 /// the parameters, of which the last one is the start angle; `Design` is a TracedPath of `Linkage`, whose
-/// member `branch` is an enumeration of two. A mechanism is one folder beside this file, that has this.
+/// member `branch` is an enumeration of two. A mechanism is one folder beside this file that satisfies this
+/// concept.
 template <class M>
 concept PathMechanism = requires(const typename M::Problem& problem, typename M::Design& design,
                                  const typename M::Linkage& linkage, typename M::Linkage& changed,
@@ -60,15 +61,15 @@ concept PathMechanism = requires(const typename M::Problem& problem, typename M:
   { name(typename M::Parameter{}) } -> std::convertible_to<std::string_view>;
   { is_angle(typename M::Parameter{}) } -> std::same_as<bool>;
   { M::words } -> std::convertible_to<MechanismWords>;
-  /// What has the numbers of a linkage, by its field list. A checkpoint keeps the branch, these numbers and
-  /// the sense, which stands at `kept_sense`.
+  /// The part of a linkage that has its numbers, in a field list. A checkpoint saves the branch, these
+  /// numbers and the sense, at the index `kept_sense`.
   {fields([](const Field&, double&) {}, M::form(changed))};
   { M::kept_sense } -> std::convertible_to<std::size_t>;
   /// The linkage of a branch with the parameters x; links of length zero become the shortest ones.
   { M::linkage(branch, x) } -> std::same_as<typename M::Linkage>;
   /// Its parameters; the start angle 0 where it is no variable.
   { M::values(problem, design)[0] } -> std::convertible_to<double>;
-  /// Whether a parameter has a meaning, as an angle has none at a distance of zero.
+  /// True if a parameter has a meaning; an angle has none at a distance of zero.
   { M::matters(typename M::Parameter{}, x) } -> std::same_as<bool>;
   { M::trace(linkage, angle) } -> std::same_as<TracedPoint>;
   { M::turn(linkage) } -> std::same_as<CrankTurn>;
@@ -91,7 +92,7 @@ struct CrankSearch {
   double sense;
 };
 
-/// Those of a problem, positive sense first.
+/// The branches and senses to search for a problem, positive sense first.
 template <class Problem>
 auto crank_searches(const Problem& problem) {
   using Branch = typename MechanismOf<Problem>::Branch;
@@ -144,7 +145,7 @@ auto measure_path(const Problem& problem, const typename MechanismOf<Problem>::L
     const double square = miss.x * miss.x + miss.y * miss.y;
     d.error += std::isnan(square) ? infinity : square;
   }
-  // Whatever the tolerance of the other constraints: an error that does not exist is never feasible.
+  // A design without an error is never feasible, whatever the tolerance of the other constraints.
   const CrankTurn turn = M::turn(linkage);
   if (!std::isfinite(d.error)) d.violations.push_back({"no_assembly", gap > 0 ? gap / turn.size : 1});
   if (problem.crank_rotates_fully) add_violation(d, "crank_rotates_fully", -turn.margin / turn.size);
@@ -188,7 +189,7 @@ void keep_distinct(std::vector<Design>& designs, Design design) {
   designs.push_back(std::move(design));
 }
 
-/// Where the tracing point of a design is at the targets, and how far off.
+/// The tracing point of a design at the targets, and its distances from them.
 template <class Problem>
 requires PathMechanism<MechanismOf<Problem>> PathErrors
 path_errors(const Problem& problem, const typename MechanismOf<Problem>::Design& design) {

@@ -16,7 +16,7 @@
 #include "linkwright/planar/path/local_fit.h"
 #include "linkwright/planar/path/mechanism.h"
 
-// What the searches of path synthesis share, whatever the mechanism.
+// The parts of the search that path syntheses of all mechanisms share.
 namespace linkwright::planar {
 
 /// Local searches by the separable form of a problem, in its few nonlinear unknowns.
@@ -149,8 +149,8 @@ class PathSearch {
     return taken;
   }
 
-  // Of prescribed timing those that meet everything are taken as they are. The others go through the
-  // constrained search, as does what the separable form has brought to points that are gates or have
+  // Designs of prescribed timing that meet everything are taken as they are. The others go through the
+  // constrained search, as do those that the separable form has brought to points that are gates or have
   // tolerances; settled(fit, sense) is the design that comes of that.
   template <class Fitter, class Settled>
   void finish_candidates(std::vector<Candidate> found, std::size_t most, double sense, Settled&& settled) {
@@ -187,7 +187,7 @@ class PathSearch {
   RunContext& context_;
   struct {
     double from = 0, width = 1;
-  } share_;                          // of the progress, that the search under way has
+  } share_;                          // share of the progress that belongs to the search under way
   double lowest_failed_ = infinity;  // error of a candidate beyond some limit
   PathAnswer<M> out_;
 };

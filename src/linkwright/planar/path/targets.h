@@ -7,10 +7,10 @@
 
 namespace linkwright::planar {
 
-/// What a path asks of whatever mechanism traces it.
+/// The targets of a path, for any mechanism that traces it.
 struct PathTargets {
-  std::vector<double> x,
-      y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
+  /// Target points (m), at least 3; a closed path does not repeat its first point at the end.
+  std::vector<double> x, y;
   /// Targets that are gates: half of the distance from one gate post to the other (m), so that target k is
   /// met anywhere on the segment from (x - gate_x, y - gate_y) to (x + gate_x, y + gate_y). Empty = points.
   std::vector<double> gate_x, gate_y;
@@ -25,7 +25,7 @@ void require_valid_targets(const PathTargets& targets);
 /// Diagonal of the bounding box of the target points (m): the characteristic length of a path.
 double path_size(const PathTargets& targets);
 
-/// Whether some target is more than a point: a gate, or a point with a tolerance.
+/// True if some target is more than a point: a gate, or a point with a tolerance.
 inline bool has_bands(const PathTargets& p) { return !p.gate_x.empty() || !p.tolerance.empty(); }
 
 /// Tracing point at each target (m), its distance to the point or gate (m), and how far that is beyond the
@@ -33,15 +33,15 @@ inline bool has_bands(const PathTargets& p) { return !p.gate_x.empty() || !p.tol
 struct PathErrors {
   std::vector<double> x, y, distance, excess;
 };
-/// Those of a tracing point that is at `reached` at the targets, in their order.
+/// The errors of a tracing point that is at `reached` at the targets, in their order.
 PathErrors path_errors(const PathTargets& targets, const std::vector<std::complex<double>>& reached);
 
 /// By how much crank angles (rad, one a target, unwrapped) run backwards in a sense of rotation or on beyond
 /// a turn: 0 = the targets are met one after the other within one turn.
 double out_of_order(const std::vector<double>& angles, double sense);
 
-/// How a tracing point misses a target: the vector (m) from the nearest place that counts as met, zero where
-/// it is met, and its symmetric derivative for the tracing point.
+/// The miss of a tracing point at a target: the vector (m) from the nearest place that counts as met, zero
+/// where it is met, and its symmetric derivative for the tracing point.
 struct TargetMiss {
   double x = 0, y = 0;
   double xx = 1, xy = 0, yy = 1;  ///< d x / d px, d x / d py = d y / d px, d y / d py

@@ -11,7 +11,7 @@
 
 namespace linkwright::planar {
 
-/// How the crank angle is tied to the target points.
+/// The relation of the crank angle to the target points.
 enum class Timing {
   free,         ///< each point is met at any crank angle, in the order of the points
   equal_steps,  ///< crank angle of point i = start angle + i step
@@ -25,10 +25,10 @@ constexpr std::array<EnumName<Timing>, 4> names(Timing) {
             "crank angle of a point = that of the one before + its increment, from the start angle"},
            {Timing::given, "given", "the crank angle of each point is given"}}};
 }
-/// Whether the crank angles are known but for the start angle, which is then a design variable.
+/// True if the crank angles are known but for the start angle, which is then a design variable.
 constexpr bool starts_anywhere(Timing t) { return t == Timing::equal_steps || t == Timing::increments; }
 
-/// What a path asks of whatever mechanism traces it: targets, timing and the motion of the crank.
+/// A path for any mechanism to trace: targets, timing and the motion of the crank.
 struct PathTask : PathTargets {
   Timing timing = Timing::free;
   double least_step = 1e-4;  ///< crank rotation that free timing keeps between two points (rad, > 0)
@@ -74,8 +74,9 @@ struct TracedPath {
   double error = 0;  ///< sum of squared distances (m2), Boskovic 2018, Eqs. (4.4), (4.13), from gates
                      ///< where targets are gates, and beyond the tolerances; infinite when the tracing
                      ///< point does not exist at a target
-  std::vector<optimise::Violation> violations;  ///< of the constraints of the problem; empty = feasible
-  std::vector<std::string> active_bounds;       ///< names of parameters at a bound
+  /// Constraints of the problem that are not met; empty = feasible.
+  std::vector<optimise::Violation> violations;
+  std::vector<std::string> active_bounds;  ///< names of parameters at a bound
 };
 
 /// Sum of its violations; 0 = feasible.

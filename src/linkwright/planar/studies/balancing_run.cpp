@@ -426,7 +426,7 @@ class Report {
     for (std::size_t i = 0; i < std::min(limits.size(), told_limits); ++i)
       text += (i ? ", " : "") + limits[i].substr(0, limits[i].find(" ("));
     if (limits.size() > told_limits) text += say(" and {} more", limits.size() - told_limits);
-    fact("active bounds", text.empty() ? Sentence("none") : text).told =
+    fact("active bounds", text.empty() ? Sentence("none") : text).number =
         count_of(static_cast<double>(limits.size()));
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));

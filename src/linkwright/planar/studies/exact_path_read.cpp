@@ -28,7 +28,7 @@ std::array<const std::optional<Range>*, 4> pivot_numbers(const PathParameters& p
           &p.rocker_pivot_x, &p.rocker_pivot_y};
 }
 
-// Whether a pivot is given by two numbers, by two of which one or both are ranges, by none, or by one alone.
+// A pivot is given by two numbers, by two of which one or both are ranges, by none, or by one alone.
 enum class GivenPivot { none, place, region, other };
 GivenPivot given_pivot(const std::optional<Range>& x, const std::optional<Range>& y) {
   if (!x && !y) return GivenPivot::none;
@@ -36,8 +36,8 @@ GivenPivot given_pivot(const std::optional<Range>& x, const std::optional<Range>
   return x->fixed() && y->fixed() ? GivenPivot::place : GivenPivot::region;
 }
 
-// How many fixed pivots are given, unless what is given of one is not a place, which is reported, as is what
-// else stands among the parameters.
+// The number of fixed pivots that are given as places. A pivot that is no place is reported, and so are other
+// parameters.
 std::optional<int> read_pivots(study::ObjectReader& document, const PathStudy& s) {
   auto mechanism = document.table("mechanism");
   if (!mechanism) return 0;
@@ -93,7 +93,7 @@ constexpr std::array<std::size_t, 3> exact_points = {9, 7, 5};
 void check_count(study::ObjectReader& target, const PathStudy& s, int pivots) {
   if (s.problem.timing != Timing::free) return check_timed_count(target, s, pivots > 0);
   const std::size_t n = s.problem.x.size(), wanted = exact_points[at(pivots)];
-  if (n < 3 || n == wanted) return;  // what is wrong with less has been reported
+  if (n < 3 || n == wanted) return;  // fewer have been reported already
   const char* how = pivots == 2   ? "with both pivots given"
                     : pivots == 1 ? "with a given pivot"
                                   : "with free pivots";

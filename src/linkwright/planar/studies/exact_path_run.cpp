@@ -251,7 +251,7 @@ class ExactReport {
     result_.tables.push_back(std::move(table));
   }
 
-  // Those that the study rules out by branch and sense go; those that meet its limits come first.
+  // Removes designs that the study rules out by branch and sense; those that meet its limits come first.
   void count_designs() {
     std::erase_if(designs_, [&](const ExactDesign& d) {
       const bool open = d.design.linkage.branch == Branch::open, positive = d.design.sense > 0;
@@ -438,8 +438,8 @@ class ExactReport {
   ExactFindings found_;
   std::vector<ExactDesign> designs_;
   bool timed_ = false, swept_ = false, dependent_ = false;
-  int cranks_ = 0, slides_ = 0;               // of points with timing
-  int places_ = 0, places_with_answers_ = 0;  // of pivots that may choose
+  int cranks_ = 0, slides_ = 0;               // solutions for points with timing
+  int places_ = 0, places_with_answers_ = 0;  // places of pivots that may be chosen
   std::string outcome_;
 };
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t exact_slider_points = 8;
 constexpr const char* search_sliders = "fit = \"least_squares\" searches for the nearest slider-cranks";
-// Where there are no answers, so many of the nearest to one are drawn.
+// Number of the nearest candidates that are drawn if there are no answers.
 constexpr std::size_t least_sliders_drawn = 6;
 
 bool is_answer(const ExactSliderDesign& d) { return d.defects.empty() && d.design.violations.empty(); }

@@ -124,7 +124,7 @@ void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
   table.add(identifier(s.quality.output_joint) + (slide ? "_displacement_m" : "_angle_rad"),
             s.quality.output_joint + (slide ? " displacement (m)" : " angle (rad)"), std::move(coordinate));
   const study::AddFact fact{result.facts};
-  fact("dead centres of " + s.quality.output_joint, text.empty() ? Sentence("none") : text).told =
+  fact("dead centres of " + s.quality.output_joint, text.empty() ? Sentence("none") : text).number =
       count_of(static_cast<double>(centres.size()));
   result.tables.push_back(std::move(table));
 }

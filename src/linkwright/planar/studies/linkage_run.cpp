@@ -289,7 +289,7 @@ class Runner {
                            traits_of(g).has_modes ? g.mode > 0 ? ", plus" : ", minus" : "");
     fact("solved in this order", order);
     if (limits_) {
-      fact("range of the input", assembly_range_text(*limits_, modes_)).told =
+      fact("range of the input", assembly_range_text(*limits_, modes_)).number =
           study::angle_or_length(assembly_range(*limits_, modes_), limits_->rotary, 6);
       if (s_.plan.closed_form()) fact("circuits", say("{} over all assembly modes", limits_->circuits));
     }

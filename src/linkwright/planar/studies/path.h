@@ -15,7 +15,7 @@
 // The path synthesis study: what its file holds (field lists), how it is read, run and reported.
 namespace linkwright::planar {
 
-/// Which assembly branches, and which senses of crank rotation along the points, are searched.
+/// The assembly branches, and below the senses of crank rotation along the points, that are searched.
 enum class BranchChoice { any, open, crossed };
 constexpr std::array<EnumName<BranchChoice>, 3> names(BranchChoice) {
   return {{{BranchChoice::any, "any", "both branches"},
@@ -34,7 +34,8 @@ constexpr std::array<EnumName<SenseChoice>, 4> names(SenseChoice) {
 /// `[mechanism.parameters]`: what is left out gets bounds from the path.
 struct PathParameters {
   std::array<std::optional<Range>, four_bar_parameter_count> ranges;
-  std::optional<Range> rocker_pivot_x, rocker_pivot_y;  ///< of B0, which follows from the others
+  /// Coordinates of B0, which follow from the other parameters.
+  std::optional<Range> rocker_pivot_x, rocker_pivot_y;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathParameters& p) {
@@ -72,7 +73,7 @@ void fields(Visitor&& visit, FourBarPathForm& m) {
   visit(field::entry("parameters", "fixed numbers, or { min, max } for design variables"), m.parameters);
 }
 
-/// How points are met.
+/// The criterion by which points are met.
 enum class PathFit { least_squares, exact };
 constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
   return {{{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
@@ -98,7 +99,7 @@ void fields(Visitor&& visit, PathTarget& t) {
   fields(visit, static_cast<PathTargetForm&>(t));
 }
 
-/// What is minimised.
+/// The quantity that is minimised.
 enum class PathObjectiveType { sum_squared_distance };
 constexpr std::array<EnumName<PathObjectiveType>, 1> names(PathObjectiveType) {
   return {{{PathObjectiveType::sum_squared_distance, "path.sum_squared_distance",
@@ -170,7 +171,7 @@ void fields(Visitor&& visit, PathConstraint& c) {
   visit(field::entry("enabled", "false leaves it out"), c.enabled);
 }
 
-/// Whether a constraint of a path holds; the order of the points is one that no study can give up.
+/// True if a constraint of a path is enabled; the order of the points is one that no study can give up.
 template <class Constraint>
 bool is_enabled(study::ObjectReader& document, const Constraint& c) {
   if (!c.enabled && std::holds_alternative<InOrder>(c.limit))
@@ -210,7 +211,7 @@ struct PathStudy {
   std::vector<PathConstraint> constraints;
   PathOptimiser optimiser;
 
-  PathProblem problem;      ///< what follows from the above
+  PathProblem problem;      ///< the problem that follows from the above
   bool no_defects = false;  ///< designs with defects are no answers
 };
 

@@ -8,7 +8,7 @@
 // here, with the reason: messages, schema and reference say it, and a test compares both schemas.
 namespace linkwright::planar {
 
-/// What studies of slider-cranks have and those of four-bars have not.
+/// The keys and words of slider-crank studies that those of four-bars lack, with the reasons.
 std::span<const study::Absent> absent_from_four_bar_paths();
 
 /// The other way round.

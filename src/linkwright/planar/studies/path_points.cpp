@@ -29,7 +29,7 @@ class LengthColumns {
 
   bool has(std::string_view base) const { return find(base) != nullptr; }
 
-  // Whether all columns are there; reports what there is instead.
+  // True if all columns are present; else reports the columns of the file.
   bool complete(std::span<const char* const> bases) {
     if (std::all_of(bases.begin(), bases.end(), [&](const char* base) { return has(base); })) return true;
     std::vector<std::string> found;
@@ -256,7 +256,7 @@ void leave_out_closing_angle(PathTiming& t) {
   if (t.mode == Timing::given) t.angles->pop_back();
 }
 
-// Whether a crank rotation is one turn, in either sense, to rounding (rad).
+// True if a crank rotation is one turn, in either sense, to rounding (rad).
 bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }
 
 // Leaves out the last target where it is the first one again and the path is closed, or is to be: then the

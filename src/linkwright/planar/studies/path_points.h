@@ -95,12 +95,12 @@ void write_path_targets(const PathTargets& targets, PathTargetForm& form);
 /// The key that the targets stand at.
 const char* key_of(const PathTargetForm& form);
 
-/// What the timing says of so many points (rad): given angles, else the crank rotation from the first point
-/// to each. Empty for free timing, and where a problem was reported, at the timing of the target.
+/// The crank angles of so many points by the timing (rad): given angles, else the crank rotation from the
+/// first point to each. Empty for free timing, and where a problem was reported, at the timing of the target.
 std::vector<double> timed_angles(study::ObjectReader& target, const study::DisplayUnits& units,
                                  const PathTiming& timing, std::size_t points);
 
-/// Whether the last point of a path is the first one again, to rounding.
+/// True if the last point of a path is the first one again, to rounding.
 bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace linkwright::planar

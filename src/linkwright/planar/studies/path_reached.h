@@ -9,7 +9,7 @@
 #include "linkwright/study/result.h"
 #include "linkwright/study/scene.h"
 
-// What reports say of the targets of a path and of how near a tracing point comes, whatever the mechanism.
+// Reports of the targets of a path and of the deviations of a tracing point, for any mechanism.
 namespace linkwright::planar {
 
 /// Distances below this share of the size of the path are rounding.

@@ -161,7 +161,8 @@ std::string_view short_name(DrawbackKind kind) {
   return {};
 }
 
-// Why the best design is of little use, and which one is better in use; empty = it is usable.
+// The reason why the best design is of little use, and the design that is better in use; empty = it is
+// usable.
 Sentence caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
   Sentence out;
   for (const Drawback& drawback : drawbacks(p, designs[0]))

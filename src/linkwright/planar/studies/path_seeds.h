@@ -18,7 +18,7 @@
 // a history and evaluations, and kept() and restored() take it to a checkpoint and back.
 namespace linkwright::planar {
 
-/// What the seeds came to, and the name of the method that they ran.
+/// The outcome of the seeds, and the name of the method that they ran.
 template <class Answer>
 struct PathRuns : study::SeedRuns<Answer> {
   std::string method;
@@ -43,7 +43,7 @@ inline double success_threshold(double best, double size) {
   return best + std::max(share_of_best * best, of_size * size * size);
 }
 
-/// How the least error of a feasible design fell in a population method.
+/// The decrease of the least error of a feasible design in a population method.
 inline std::vector<SearchPoint> improvements(const std::vector<optimise::GenerationLog>& log) {
   std::vector<SearchPoint> out;
   for (const optimise::GenerationLog& generation : log)

@@ -7,7 +7,7 @@
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/study/result.h"
 
-// What reports of path synthesis say of a four-bar.
+// Four-bars in reports of path synthesis.
 namespace linkwright::planar {
 
 /// A design as an answer of a study, the `number`-th from 1: numbers with their bounds, errors,

@@ -18,7 +18,7 @@
 // What is the same as for the four-bar is taken from there.
 namespace linkwright::planar {
 
-/// Where the slider is searched.
+/// The side of the crank pin on which the slider is searched.
 enum class SliderSideChoice { any, forward, backward };
 constexpr std::array<EnumName<SliderSideChoice>, 3> names(SliderSideChoice) {
   return {{{SliderSideChoice::any, "any", "on both sides"},
@@ -69,7 +69,7 @@ constexpr std::array<EnumName<SliderTracingPoint>, 1> names(SliderTracingPoint) 
   return {{{SliderTracingPoint::rod, "rod", "point C of the rod, at point_distance and point_angle from A"}}};
 }
 
-/// How points are met.
+/// The criterion by which points are met.
 enum class SliderPathFit { least_squares, exact };
 constexpr std::array<EnumName<SliderPathFit>, 2> names(SliderPathFit) {
   return {{{SliderPathFit::least_squares, "least_squares",
@@ -88,7 +88,7 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
   fields(visit, static_cast<PathTargetForm&>(t));
 }
 
-/// What is minimised; both together give a front.
+/// The quantity that is minimised; both together give a front.
 enum class SliderObjectiveType { sum_squared_distance, stroke };
 constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
   return {{{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
@@ -190,7 +190,7 @@ struct SliderPathStudy {
   std::vector<SliderPathConstraint> constraints;
   SliderPathOptimiser optimiser;
 
-  SliderPathProblem problem;  ///< what follows from the above
+  SliderPathProblem problem;  ///< the problem that follows from the above
   bool front = false;         ///< path and stroke
   bool no_defects = false;    ///< designs with defects are no answers
 };
@@ -201,7 +201,7 @@ study::Kind slider_path_kind();
 /// Reads the tables of the study; problems go to the reader.
 SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common);
 
-/// What the seeds of a study came to.
+/// The outcome of the seeds of a study.
 using SliderPathRuns = PathRuns<SliderPathSynthesis>;
 SliderPathRuns run_slider_path_seeds(const SliderPathStudy& study, const study::Common& common,
                                      RunContext& context);

@@ -59,8 +59,8 @@ class Report {
     return std::sqrt(d.error / static_cast<double>(p_.x.size()));
   }
 
-  // Of a front: the share of what the front of all seeds dominates that a seed misses. The worst of both
-  // objectives on that front, a tenth further, is the point from which it is counted.
+  // Shortfall of a front: the share of the area dominated by the front of all seeds that a seed misses. The
+  // worst of both objectives on that front, a tenth further, is the point from which it is counted.
   std::vector<double> shortfalls() const {
     std::vector<double> out(runs_.answers.size(), 1);
     if (!feasible_) return out;
@@ -275,7 +275,7 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
     out.parameters.push_back({std::string(name(parameter)) + (is_angle(parameter) ? "_rad" : "_m"),
                               std::string(labels[j]), value, range.lower, range.upper});
   }
-  // As the analysis of the same mechanism takes it.
+  // The tracing point as the analysis of the same mechanism takes it.
   const SliderCrankForm& f = d.linkage.parameters;
   out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
   out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});

@@ -28,7 +28,7 @@ SliderPathScales scales_of(const SliderPathStudy& s) {
   return scales;
 }
 
-// What the population of a branch and sense is called in the checkpoint.
+// Name of the population of a branch and sense in the checkpoint.
 std::string population_name(std::uint64_t seed, const CrankSearch<SliderSide>& search) {
   return optimise::seed_name(seed) + (search.branch == SliderSide::forward ? "/" : "/backward ") +
          (search.sense > 0 ? "positive" : "negative");
@@ -162,7 +162,7 @@ std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& s, cons
     return all;
   }
   if (s.front) {
-    // What two seeds find for one stroke differs by rounding.
+    // Designs of two seeds for one stroke differ by rounding.
     std::vector<SliderPathDesign> front;
     for (SliderPathDesign& d : slider_front_of(std::move(all)))
       if (front.empty() || front.back().stroke - d.stroke > tolerance::same_design * d.stroke ||

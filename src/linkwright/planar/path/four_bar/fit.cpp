@@ -21,7 +21,7 @@ using P = FourBarParameter;
 constexpr std::size_t crank_rows = 0, transmission_rows = 3, packaging_rows = 7, region_rows = 11,
                       order_rows = 15;
 
-// How often a step is made anew because a variable would pass its bound.
+// Largest number of times that a step is repeated because a variable would pass its bound.
 constexpr int most_stops_at_bounds = 4;
 
 // Longest step: crank and frame angles in rad, lengths as a share of the length.
@@ -136,7 +136,7 @@ void PathFitter::evaluate_constraints(const std::array<double, shared>& q, const
     // crank and ground in line, else those of the arc from the first point to the last.
     const double limit = std::cos(problem_.min_transmission_angle), product = 2 * l3 * l4;
     struct Extreme {
-      double cosine, sine;  // of the crank angle
+      double cosine, sine;  // functions of the crank angle
       std::size_t point;
     };
     std::array<Extreme, 2> extremes = {{{1, 0, 0}, {-1, 0, 0}}};
@@ -367,7 +367,7 @@ bool PathFitter::solve_step(double lambda) {
     a -= Eigen::Map<const Block>(along_.data()) / (1 + lambda);
     b += Eigen::Map<const Eigen::Matrix<double, shared, 1>>(along_gradient_.data()) / (1 + lambda);
   }
-  // What keeps the matrix regular has the units of its entry.
+  // The term that keeps the matrix regular has the units of its entry.
   for (std::size_t i = 0; i < shared; ++i)
     a(i, i) += lambda * scale[i] + (i < index(P::frame_angle) ? 1e-14 / (size_ * size_) : 1e-14);
   for (std::size_t i = 0; i < shared; ++i)

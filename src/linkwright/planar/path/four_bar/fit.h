@@ -63,7 +63,7 @@ class PathFitter {
   std::array<double, shared> gradient_{}, along_gradient_{};
   std::array<bool, shared> held_{};
   std::array<double, shared>
-      held_step_{};  // of variables that do not take part: 0, or the way to their bound
+      held_step_{};  // steps of variables that do not take part: 0, or up to their bound
   std::vector<double> coupling_, diagonal_, neighbour_, angle_gradient_, elimination_, eliminated_;
   // Augmented Lagrangian.
   double penalty_ = 1, error_ = 0;

@@ -25,9 +25,9 @@ using Complex = std::complex<double>;
 
 constexpr int usual_starts = 40;           // local searches per kind, branch and sense
 constexpr int linkages_per_start = 48;     // random curves of which the best match starts a search
-constexpr std::size_t coarse_points = 28;  // of a path with more, so many take part in the starts
+constexpr std::size_t coarse_points = 28;  // most points that take part in the starts
 constexpr std::size_t continued = 24;      // starts per kind, branch and sense that go on to their end
-constexpr std::size_t chains = 4;          // of those, how many of each sense the search hops from
+constexpr std::size_t chains = 4;          // number of those in each sense that the search hops from
 constexpr int hops_per_start = 2;          // hops of a chain, for each start per kind, branch and sense
 constexpr std::size_t finished = 16;       // answers that go on to all points
 
@@ -255,7 +255,7 @@ class LadderOfLimits {
   PathSynthesis run() { return answer(problem_.crank_rotates_fully, false); }
 
  private:
-  // With the full turn of the crank and the usual transmission angle as limits, or as the problem has them.
+  // The answer with or without the full turn of the crank; `transmits` adds the usual transmission angle.
   PathSynthesis& answer(bool turns, bool transmits) {
     const auto [entry, fresh] = answers_.try_emplace({turns, transmits});
     PathSynthesis& out = entry->second;

@@ -7,7 +7,7 @@
 
 namespace linkwright::planar {
 
-/// Of the designs that a search under limits finds, so many go on without the limits, the best first.
+/// Number of designs of a search under limits that are continued without the limits, the best first.
 inline constexpr std::size_t carried_beyond_limits = 2;
 
 /// The transmission angle that is usually asked for (rad, 30 degrees).

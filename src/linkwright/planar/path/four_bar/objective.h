@@ -26,7 +26,7 @@ struct PathObjective : TargetLayout {
   PackagingBox box;
   bool rocker_pivot_limited = false;
   PackagingBox rocker_pivot;  ///< sides without a limit are at +-1e300
-  double size = 1;            ///< of the path (m)
+  double size = 1;            ///< size of the path (m)
 };
 
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense);

@@ -49,9 +49,9 @@ struct PathProblem : PathTask {
   bool search_open = true, search_crossed = true;  ///< branches to search
 
   double min_transmission_angle = 0;      ///< rad; 0 = no limit
-  std::optional<PackagingBox> packaging;  ///< of both fixed pivots
-  std::optional<PackagingBox>
-      rocker_pivot;  ///< of the rocker pivot B0; sides may be infinite or fall together
+  std::optional<PackagingBox> packaging;  ///< box of both fixed pivots
+  /// Box of the rocker pivot B0; sides may be infinite or fall together.
+  std::optional<PackagingBox> rocker_pivot;
 };
 
 /// Throws ContractError unless the task is valid, the bounds are ordered and finite, lengths may be positive,
@@ -95,7 +95,7 @@ struct FourBarPath {
 PathDesign measure(const PathProblem& problem, const FourBar& linkage, double sense,
                    std::vector<double> angles);
 
-/// Whether two linkages are the same within tolerance::same_design of their size; angles follow from the
+/// True if two linkages are the same within tolerance::same_design of their size; angles follow from the
 /// lengths and are not compared.
 bool same_linkage(const FourBar& a, const FourBar& b);
 

@@ -10,7 +10,7 @@
 
 namespace linkwright::planar {
 
-/// Which linkages the ratios stand for.
+/// The linkages that the ratios describe.
 enum class RatioKind { crank_rocker, double_crank, any };
 
 /// Link ratios r1, r3, r4 = L1/L2, L3/L2, L4/L2 of a kind at q (three logarithms), see PathProjection; not
@@ -31,7 +31,7 @@ std::vector<double> random_ratios(RatioKind kind, std::size_t variables, RandomS
 /// Bounds of the problem are not seen. Holds its scratch memory: one per thread.
 class PathProjection {
  public:
-  /// Whether the linear unknowns of a problem are free as this form needs: both pivot coordinates or none
+  /// True if the linear unknowns of a problem are free as this form needs: both pivot coordinates or none
   /// fixed, link lengths and coupler point free; timing not free.
   static bool applies(const PathProblem& problem);
 

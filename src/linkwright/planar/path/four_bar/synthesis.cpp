@@ -21,8 +21,8 @@ namespace {
 
 // Local searches per kind, branch and sense when the options leave it open; free timing has its own.
 constexpr int separable_starts = 20;
-constexpr std::size_t finished_starts =
-    24;  // of the searched ones, how many get their constraints met exactly
+// Searched starts that get their constraints met exactly.
+constexpr std::size_t finished_starts = 24;
 
 class Search : PathSearch<FourBarPath> {
  public:
@@ -42,7 +42,7 @@ class Search : PathSearch<FourBarPath> {
     if (!problem_.crank_rotates_fully) kinds = {RatioKind::any};
     std::uint32_t combination = 0;
     for (const auto& [branch, sense] : crank_searches(problem_)) {
-      // With prescribed timing the cognate on the other branch has the same error, so one branch is enough,
+      // The cognate on the other branch has the same error for prescribed timing, so one branch is enough,
       // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
       if (branch == Branch::crossed && problem_.search_open && lowest_feasible() <= lowest_failed_) continue;
       for (RatioKind kind : kinds) {
@@ -100,7 +100,7 @@ class Search : PathSearch<FourBarPath> {
   const PathProblem relaxed_;
 };
 
-// Whether the best design, or the best one whose crank turns fully, has no drawbacks: then no search under
+// True if the best design, or the best one whose crank turns fully, has no drawbacks: then no search under
 // limits has anything to add.
 bool best_turning_is_usable(const PathProblem& problem, const std::vector<PathDesign>& ranked) {
   if (drawbacks(problem, ranked[0]).empty()) return true;

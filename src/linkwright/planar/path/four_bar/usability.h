@@ -15,7 +15,7 @@ struct PathTransmission {
 };
 PathTransmission path_transmission(const PathProblem& problem, const PathDesign& design);
 
-/// What makes a linkage that meets its problem hard to build or to drive.
+/// The reason why a linkage that meets its problem is hard to build or to drive.
 enum class DrawbackKind {
   transmission,  ///< the transmission angle falls below least_usable_transmission on the path
   crowded,       ///< two neighbouring points lie within least_usable_step of crank rotation (free timing)

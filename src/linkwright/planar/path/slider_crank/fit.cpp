@@ -88,9 +88,9 @@ void SliderPathFitter::limit_rod(const Shared& q, const std::vector<double>& ang
     }
     return;
   }
-  if (problem_.max_pressure_angle >= pi / 2) return;  // that it assembles at the points is seen to there
+  if (problem_.max_pressure_angle >= pi / 2) return;  // constraints of assembly at the points are met there
   struct Extreme {
-    double sine, cosine;  // of the phase
+    double sine, cosine;  // functions of the phase
     std::size_t point;
   };
   Extreme highest{-infinity, 0, 0}, lowest{infinity, 0, 0};

@@ -22,7 +22,7 @@ struct SliderPathObjective : TargetLayout {
   bool crank_rotates_fully = true;
   double max_pressure_sine = 1;  ///< 1 = no limit
   double least_stroke = 0, greatest_stroke = infinity;
-  double size = 1;           ///< of the path (m)
+  double size = 1;           ///< size of the path (m)
   bool with_stroke = false;  ///< two costs a candidate: error and stroke over their scales
   SliderPathScales scales{};
 };

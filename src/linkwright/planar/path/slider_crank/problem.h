@@ -67,7 +67,7 @@ void require_valid(const SliderPathProblem& problem);
 std::array<Range, slider_parameter_count> derive_slider_bounds(const std::vector<double>& x,
                                                                const std::vector<double>& y);
 
-/// Where a slider-crank stands. Boskovic 2018, Eqs. (4.7)-(4.11).
+/// The position of a slider-crank. Boskovic 2018, Eqs. (4.7)-(4.11).
 struct SliderCrankPose {
   Status status = Status::done;                   ///< done, singular (rod square to the guide) or no_assembly
   double gap = 0;                                 ///< m, by how much the rod is too short to reach the guide
@@ -133,7 +133,7 @@ SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMech
 /// opposite offset and the other mode.
 SliderCrankMechanism forward_form(SliderCrankMechanism mechanism);
 
-/// Whether two mechanisms are the same within tolerance::same_design of their size, whichever way their
+/// True if two mechanisms are the same within tolerance::same_design of their size, whichever way their
 /// guides are given.
 bool same_linkage(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
 
@@ -147,7 +147,7 @@ void rank(std::vector<SliderPathDesign>& designs);
 /// ContractError when the tracing point is the crank pin, which leaves no cognate.
 SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& mechanism, double crank_angle);
 
-/// What the two objectives are divided by when they stand side by side: squared size and size of the path.
+/// Divisors of the two objectives where they are compared: squared size and size of the path.
 struct SliderPathScales {
   double error = 1, stroke = 1;
 };

@@ -248,7 +248,7 @@ bool SliderPathProjection::evaluate(std::span<const double> q, std::span<double>
       jacobian[i * m + n + k] = -d.imag();
     }
     if (phase_fixed_) continue;
-    // With given crank angles the guide turns back as the phase goes on: the crank pins stay.
+    // The guide turns back as the phase advances where crank angles are given: the crank pins stay.
     Complex d = -ux_[k] * inverse * by_sine * turned;
     if (!start_fixed_) d += Complex(0, 1) * a_ * u;
     jacobian[2 * m + k] = -d.real();

@@ -28,7 +28,7 @@ namespace linkwright::planar {
 /// memory: one per thread; nothing is allocated after construction but by `design`.
 class SliderPathProjection {
  public:
-  /// Whether the unknowns of a problem are free as this form needs: timing prescribed, rod, offset and
+  /// True if the unknowns of a problem are free as this form needs: timing prescribed, rod, offset and
   /// tracing point not fixed, both pivot coordinates or none, and start angle or guide angle free or fixed as
   /// a whole.
   static bool applies(const SliderPathProblem& problem);
@@ -87,7 +87,7 @@ class SliderPathProjection {
   std::vector<double> qux_, quy_, qvx_, qvy_;  // orthonormal: v without its mean, u without mean and v
   std::vector<double> rest_;
   std::complex<double> a_, b_, p_, ray_;
-  enum class Along { plane, ray, circle, none } along_ = Along::plane;  // where a is free to go
+  enum class Along { plane, ray, circle, none } along_ = Along::plane;  // locus on which a is free
   Length active_;                                                       // the end of the interval a lies at
 };
 

@@ -21,10 +21,9 @@ using P = SliderParameter;
 
 // Local searches per side and sense when the options leave it open.
 constexpr int slider_separable_starts = 30, slider_joint_starts = 160;
-constexpr int mechanisms_per_joint_start = 48;  // random curves of which the best match starts a search
-constexpr std::size_t slider_finished_starts =
-    48;                                     // of the searched ones, how many get their constraints met
-constexpr std::size_t followed_starts = 6;  // ... and how many are followed along a front
+constexpr int mechanisms_per_joint_start = 48;      // random curves of which the best match starts a search
+constexpr std::size_t slider_finished_starts = 48;  // searched starts that get their constraints met
+constexpr std::size_t followed_starts = 6;          // starts that are followed along a front
 
 using SliderCandidate = PathCandidate<SliderCrankMechanism>;
 

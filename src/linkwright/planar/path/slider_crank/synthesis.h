@@ -26,7 +26,7 @@ SliderPathSynthesis synthesise_slider_path(const SliderPathProblem& problem,
 SliderPathSynthesis synthesise_slider_front(const SliderPathProblem& problem, std::span<const double> strokes,
                                             const PathSynthesisOptions& options, RunContext& context);
 
-/// Those of the feasible designs that no other one dominates in error and stroke, by falling stroke.
+/// The feasible designs that no other one dominates in error and stroke, by falling stroke.
 std::vector<SliderPathDesign> slider_front_of(std::vector<SliderPathDesign> designs);
 
 }  // namespace linkwright::planar

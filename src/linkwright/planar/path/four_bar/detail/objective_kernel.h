@@ -155,7 +155,7 @@ LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, co
   violation = S::choose(exists & (excess < T(1e300)), excess, T(10.0));
 }
 
-/// As many candidates at once as a T holds; `load_row(variable)` gives one variable of all of them.
+/// Evaluates as many candidates at once as a T holds; `load_row(variable)` gives one variable of all of them.
 ///
 /// Points four apart share a division, and there are four partial sums: so points can as well be taken four
 /// at a time (evaluate_candidate), with the same bits.

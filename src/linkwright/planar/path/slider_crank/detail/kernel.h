@@ -13,7 +13,7 @@ namespace linkwright::planar {
 /// The rod A-B of a slider-crank for one place of the crank pin.
 template <class T>
 struct RodClosure {
-  T sine;      ///< of the rod's angle from the guide: the pressure angle has its magnitude
+  T sine;      ///< sine of the rod's angle from the guide: the pressure angle has its magnitude
   T radicand;  ///< 1 - sine^2: negative = no assembly, zero = rod square to the guide, where the modes meet
 };
 
@@ -34,7 +34,7 @@ LINKWRIGHT_KERNEL Vec<T> rod_direction(const RodClosure<T>& closure, const T& si
   return {side * sqrt(math::Scalar<T>::positive_part(closure.radicand)), closure.sine};
 }
 
-/// How far the slider goes from the pin-in-line position away from the crank pivot to the one towards it,
+/// The travel of the slider from the pin-in-line position away from the crank pivot to the one towards it,
 /// over a full turn of the crank: 4 L2 L3 / (s1 + s2) with s1,2 = sqrt((L2 +- L3)^2 - offset^2), which loses
 /// no digits of a short crank.
 template <class T>
