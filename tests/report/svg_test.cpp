@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -45,6 +46,23 @@ TEST(Svg, OptionsLeaveThingsOut) {
   EXPECT_THAT(bare, Not(HasSubstr("<text")));
   options.ghosts = 4;
   EXPECT_EQ(count(svg(result.scenes[0], options), "class=\"body\""), 20u);
+}
+
+TEST(Svg, GridLinesAreAtRoundNumbersOfTheUnitShown) {
+  const auto result = test::sample_result();
+  SvgOptions options;
+  options.length = LengthUnit{1 / 0.0254, "in"};
+  const std::string picture = svg(result.scenes[0], options);
+  const std::string grid = picture.substr(picture.find("<g class=\"grid\""));
+  const std::regex label("<text[^>]*>([^<]*)</text>");
+  std::vector<double> shown;
+  for (std::sregex_iterator at(grid.begin(), grid.begin() + static_cast<long>(grid.find("</g>")), label), end;
+       at != end; ++at)
+    if ((*at)[1] != "in") shown.push_back(std::stod((*at)[1].str()));
+  ASSERT_GT(shown.size(), 6u);
+  const double step = shown[1] - shown[0];
+  EXPECT_THAT(step, ::testing::AnyOf(1, 2, 5, 10, 20, 50));
+  for (const double number : shown) EXPECT_EQ(std::remainder(number, step), 0) << number;
 }
 
 TEST(Svg, RolesHaveTheColoursOfThePage) {

@@ -28,10 +28,11 @@ export const whiskerFactor = computed(() => {
 function Grid() {
   const { width, height } = size.value;
   const cam = camera.value;
-  const step = niceStep(110 / cam.scale);
+  const unit = lengthUnit(extent.value);
+  // The lines are at round numbers of the unit that is shown.
+  const step = niceStep((110 / cam.scale) * unit.factor) / unit.factor;
   const low = toWorld(cam, size.value, { x: 0, y: height });
   const high = toWorld(cam, size.value, { x: width, y: 0 });
-  const unit = lengthUnit(extent.value);
   const label = (v: number) => format(Math.abs(v) < step * 1e-6 ? 0 : v * unit.factor, 6);
   const xs = ticks(low.x, high.x, step);
   const ys = ticks(low.y, high.y, step);

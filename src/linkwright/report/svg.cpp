@@ -54,8 +54,9 @@ void draw_grid(std::string& out, const Canvas& canvas, const SvgOptions& options
                const Mirrored* mirrored = nullptr) {
   const double sheet = mirrored ? mirrored->sheet : std::max(canvas.width(), canvas.height());
   const double across = mirrored ? -1 : 1;
-  const double step = nice_step(sheet / canvas.scale(), 9);
   const LengthUnit unit = options.length.value_or(length_unit(sheet / canvas.scale() / 2));
+  // The lines are at round numbers of the unit that is shown.
+  const double step = nice_step(sheet / canvas.scale() * unit.per_metre, 9) / unit.per_metre;
   out += "<g class=\"grid\" stroke=\"#dfe5ea\" stroke-width=\"1\" fill=\"#64727f\" font-size=\"11\">\n";
   const auto from = [step](double w) { return static_cast<long long>(std::ceil(w / step)); };
   for (long long i = from(canvas.world_x(0)); canvas.x(static_cast<double>(i) * step) <= canvas.width();
