@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/four_bar/reactions.h"

@@ -1,13 +1,22 @@
-# Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...) and
-# Linkwright::linkwright, which is all of them without the extras (Linkwright::pagmo_adapters); add_subdirectory gives the same names.
+# Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...), Linkwright::linkwright, which is the
+# mechanics, and Linkwright::studies, which is study files and reports; add_subdirectory gives the same names. Each of both is a
+# component, so that who computes a four-bar needs nothing of the other. Installed are the headers straight under src/linkwright, and
+# what they include, which are the public ones.
 
-get_property(modules GLOBAL PROPERTY LINKWRIGHT_MODULES)
-list(REMOVE_ITEM modules linkwright_cli linkwright_serve)
-get_property(extras GLOBAL PROPERTY LINKWRIGHT_EXTRAS)
+get_property(mechanics GLOBAL PROPERTY LINKWRIGHT_MODULES)
+list(REMOVE_ITEM mechanics linkwright_cli linkwright_serve)
+set(studies ${mechanics})
+list(FILTER studies INCLUDE REGEX "_(study|report|app|[a-z_]+_studies)$")
+list(REMOVE_ITEM studies linkwright_parameter_study)
+list(REMOVE_ITEM mechanics ${studies})
 add_library(linkwright_all INTERFACE)
-target_link_libraries(linkwright_all INTERFACE ${modules})
+target_link_libraries(linkwright_all INTERFACE ${mechanics})
 set_target_properties(linkwright_all PROPERTIES EXPORT_NAME linkwright)
 add_library(Linkwright::linkwright ALIAS linkwright_all)
+add_library(linkwright_all_studies INTERFACE)
+target_link_libraries(linkwright_all_studies INTERFACE ${studies})
+set_target_properties(linkwright_all_studies PROPERTIES EXPORT_NAME studies)
+add_library(Linkwright::studies ALIAS linkwright_all_studies)
 
 option(LINKWRIGHT_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
 if(NOT LINKWRIGHT_INSTALL)
@@ -35,12 +44,31 @@ endif()
 if(TARGET linkwright_mpi)
   install(TARGETS linkwright_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/linkwright COMPONENT mpi)
 endif()
-install(TARGETS ${modules} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE COMPONENT development)
-install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
-install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir} COMPONENT development)
+# linkwright_install(<component> <export> TARGETS <libraries> HEADERS <headers>): libraries, and headers with what they include.
+function(linkwright_install component export)
+  cmake_parse_arguments(arg "" "" "TARGETS;HEADERS" ${ARGN})
+  install(TARGETS ${arg_TARGETS} EXPORT ${export} ARCHIVE COMPONENT ${component})
+  install(EXPORT ${export} NAMESPACE Linkwright:: DESTINATION ${package_dir} COMPONENT ${component})
+  foreach(entry IN LISTS arg_HEADERS)
+    file(STRINGS ${entry} lines REGEX "^#include \"linkwright/.*/")
+    list(TRANSFORM lines REPLACE "^#include \"(.*)\".*" "${PROJECT_SOURCE_DIR}/src/\\1")
+    foreach(header IN LISTS entry lines)
+      cmake_path(GET header PARENT_PATH folder)
+      cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src)
+      install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT ${component})
+    endforeach()
+  endforeach()
+endfunction()
+file(GLOB entry_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/linkwright/*.h)
+set(header_of_studies ${PROJECT_SOURCE_DIR}/src/linkwright/studies.h)
+list(REMOVE_ITEM entry_headers ${header_of_studies})
+linkwright_install(development LinkwrightTargets TARGETS ${mechanics} linkwright_all HEADERS ${entry_headers})
+linkwright_install(studies-development LinkwrightStudiesTargets TARGETS ${studies} linkwright_all_studies HEADERS ${header_of_studies})
 
 get_property(requirements GLOBAL PROPERTY LINKWRIGHT_REQUIREMENTS)
 list(REMOVE_DUPLICATES requirements)
+# Reports are packed; the mechanics do without.
+list(REMOVE_ITEM requirements ZLIB)
 list(TRANSFORM requirements PREPEND "find_dependency(")
 list(TRANSFORM requirements APPEND ")")
 list(JOIN requirements "\n" LINKWRIGHT_FIND_DEPENDENCIES)

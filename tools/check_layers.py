@@ -147,12 +147,15 @@ def check_calls(path, where):
             yield f"{where}:{number}: {call}() is a function of the operating system: what it is asked for goes to {PLATFORM}"
 
 
+# The headers beside the modules, for users: the version, all mechanics, and of which modules the others include headers.
+TOP = {"version.h": (), "linkwright.h": (), "studies.h": ("app", "study"), **{f"{module}.h": (module,) for module in LAYER}}
+
+
 def check_top(path, where, name):
-    """Headers beside the modules: the version, and one a module that includes all its headers, for users only."""
+    """linkwright.h includes the other headers of its kind; each of these includes headers of its modules."""
     for number, _, used in repository.includes(path):
         of = used.removeprefix("linkwright/")
-        if name == "linkwright.h" and "/" in of or name not in ("linkwright.h", "version.h") and not of.startswith(
-                name.removesuffix(".h") + "/") or name == "version.h":
+        if "/" in of if name == "linkwright.h" else not of.startswith(tuple(f"{module}/" for module in TOP[name])):
             yield f"{where}:{number}: {name} may not include {used}"
 
 
@@ -164,8 +167,7 @@ def check(root):
             continue
         where = str(path.relative_to(root))
         module = path.relative_to(source).parts[0]
-        if module == "version.h" or module == "linkwright.h" or module.removesuffix(".h") in LAYER and path.suffix == ".h" and (
-                path.parent == source):
+        if path.parent == source and module in TOP:
             findings += check_top(path, where, module)
         elif module not in LAYER:
             findings.append(f"{where}: {arrow(module, module)}")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that every unit has all its files: src/linkwright/<module>/[<folder>/]x.h has
-tests/<module>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its module, and the header of a
-module for its users, src/linkwright/<module>.h, includes all its headers but those of detail/ and studies.
+tests/<module>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its module, and what
+src/linkwright/<name>.h includes, the public headers, includes nothing else of the library.
 
     tools/check_mirror.py [ROOT]
 """
@@ -23,6 +23,7 @@ NO_TEST = {
     "suspension/guide/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/dexterity/detail/kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
     "parallel/dexterity/detail/synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
+    "planar/linkage/state.h": "plain data; every test of motion fills and reads it",
     "planar/path/answer.h": "plain data; tested with the syntheses that give it",
     "planar/path/local_fit.h": "plain data; tested with the fitters that give it",
     "planar/path/search.h": "part of the syntheses of four-bars and slider-cranks, tested in both",
@@ -46,6 +47,8 @@ NO_TEST = {
     "serve/page.h": "the bytes of a page, asked for in server_test.cpp and opened by web/tests/workbench.mjs",
     "report/detail/canvas.h": "part of svg, tested in svg_test.cpp",
     "report/detail/svg_arrows.h": "part of svg, tested in svg_test.cpp",
+    "study/absent.h": "plain data; tested with the kinds that have it",
+    "study/bind_output_units.h": "part of display_units, tested in display_units_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",
     "study/reproduction.h": "plain data; every table is computed in planar/reproductions_test.cpp",
     "study/result.h": "plain data; written by the tests of results and reports",
@@ -93,31 +96,20 @@ def listed(cmake_lists):
     return set(re.findall(r"[\w./-]+\.(?:cpp|h)\b", text))
 
 
-# Modules whose headers are for users, and headers that they include one by one: they show a heavy library, or the machine.
-FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance", "parameter_study"]
-ONE_BY_ONE = {"math/lanes.h", "math/path_tracker.h", "math/simd.h", "optimise/pagmo_adapters.h"}
-NOT_FOR_USERS = {"detail", "studies", "platform"}
-
-
-def public_headers(root, module):
-    """'module/folder/x.h' of every header of a module that its users may include."""
-    folder = root / "src" / "linkwright" / module
-    return sorted(where for path in folder.rglob("*.h")
-                  if (where := path.relative_to(folder.parent).as_posix()) not in ONE_BY_ONE
-                  and not NOT_FOR_USERS & set(path.relative_to(folder).parts)
-                  and path.name not in ("studies.h", "reproductions.h"))
-
-
-def check_users_headers(root):
-    for module in FOR_USERS:
-        header = root / "src" / "linkwright" / f"{module}.h"
-        if not (root / "src" / "linkwright" / module).is_dir() or not header.is_file():
+def check_public_headers(root):
+    """The headers straight under src/linkwright are the entry headers: what they include is public and installed."""
+    folder = root / "src" / "linkwright"
+    entries = sorted(folder.glob("*.h"))
+    listed = {name: entry for entry in entries for _, _, name in repository.includes(entry) if name.count("/") > 1}
+    public = {f"linkwright/{entry.name}" for entry in entries} | set(listed)
+    for name in sorted(public):
+        path = root / "src" / name
+        if not path.is_file():
+            yield f"src/linkwright/{listed[name].name}: includes {name}, which is gone"
             continue
-        there = [name.removeprefix("linkwright/") for _, _, name in repository.includes(header)]
-        wanted = public_headers(root, module)
-        for name in sorted(set(wanted) ^ set(there)):
-            yield (f"src/linkwright/{module}.h: " + (f"does not include {name}" if name in wanted else f"includes {name}, "
-                   "which is gone or not for users"))
+        for _, _, other in repository.includes(path):
+            if other.startswith("linkwright/") and other not in public:
+                yield f"src/{name}: is public and includes {other}, which no header straight under src/linkwright includes"
 
 
 def check(root, no_test=None):
@@ -144,7 +136,7 @@ def check(root, no_test=None):
                 findings.append(f"{where}: {module} has no CMakeLists.txt")
             elif str(where.relative_to(module)) not in names:
                 findings.append(f"{where}: is not listed in {module}/CMakeLists.txt, so it is not built")
-    findings += check_users_headers(root)
+    findings += check_public_headers(root)
     for key in sorted(set(no_test) - excused):
         findings.append(f"tools/check_mirror.py: '{key}' needs no exception (it has a test, or is gone)")
     return findings

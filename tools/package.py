@@ -3,14 +3,15 @@
 
     tools/package.py BUILD OUT
 
-    linkwright_VERSION_ARCH.deb          program, completions, page of the manual
-    linkwright-mpi_VERSION_ARCH.deb      its plug-in by which the ranks of mpirun share a study, if the build has it
-    linkwright-dev_VERSION_ARCH.deb      headers, libraries, packages of CMake and pkg-config
-    python3-linkwright_VERSION_ARCH.deb  Python module
-    linkwright-VERSION-linux-ARCH.tar.xz the program with all libraries that it needs, to be unpacked anywhere; no root
-    linkwright-VERSION-*.whl             Python module for pip, with its libraries
-    workbench.html                       the workbench in one page, if build/wasm has it
-    sbom.cdx.json                        what is in them, with versions and licences (CycloneDX 1.5)
+    linkwright_VERSION_ARCH.deb              program, completions, page of the manual
+    linkwright-mpi_VERSION_ARCH.deb          its plug-in by which the ranks of mpirun share a study, if the build has it
+    linkwright-dev_VERSION_ARCH.deb          headers, libraries, packages of CMake and pkg-config: mechanics
+    linkwright-studies-dev_VERSION_ARCH.deb  the same for study files and reports
+    python3-linkwright_VERSION_ARCH.deb      Python module
+    linkwright-VERSION-linux-ARCH.tar.xz     the program with all libraries that it needs, to be unpacked anywhere; no root
+    linkwright-VERSION-*.whl                 Python module for pip, with its libraries
+    workbench.html                           the workbench in one page, if build/wasm has it
+    sbom.cdx.json                            what is in them, with versions and licences (CycloneDX 1.5)
     SHA256SUMS
 
 The same build gives the same bytes: files are sorted, owned by root, and as old as the commit.
@@ -126,13 +127,24 @@ def mpi_deb(build, out, work):
     return deb(out, "linkwright-mpi", stage, depends, "science", SUMMARY + " (on many machines)")
 
 
-def development_deb(build, out, work):
-    stage = work / "development"
-    install(build, "development", stage / "usr")
+# What CMake looks for when a program links the mechanics.
+NEEDED_BY_MECHANICS = ("libfmt-dev", "libeigen3-dev", "libtbb-dev", "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libpagmo-dev", "libboost1.74-dev")
+
+
+def development_deb(build, out, work, component, name, needs, summary):
+    """Headers, libraries and their packages of CMake and pkg-config: of the mechanics, or of study files and reports."""
+    stage = work / component
+    install(build, component, stage / "usr")
     for library in (stage / "usr").rglob("*.a"):
         run("strip", "--strip-debug", "--enable-deterministic-archives", library)
-    libraries = [p for p in build_packages() if p.startswith("lib") or p in ("nlohmann-json3-dev", "zlib1g-dev")]
-    return deb(out, "linkwright-dev", stage, libraries, "libdevel", SUMMARY + " (C++ library)")
+    return deb(out, name, stage, needs, "libdevel", f"{SUMMARY} (C++ library{summary})")
+
+
+def development_debs(build, out, work):
+    mechanics = [p for p in build_packages() if p in NEEDED_BY_MECHANICS]
+    return [development_deb(build, out, work, "development", "linkwright-dev", mechanics, ""),
+            development_deb(build, out, work, "studies-development", "linkwright-studies-dev", [f"linkwright-dev (= {VERSION})", "zlib1g-dev"],
+                            " for study files and reports")]
 
 
 def python_deb(build, out, work):
@@ -235,7 +247,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         python = python_deb(given.build, given.out, work)
-        made = [program_deb(given.build, given.out, work), mpi_deb(given.build, given.out, work), development_deb(given.build, given.out, work),
+        made = [program_deb(given.build, given.out, work), mpi_deb(given.build, given.out, work), *development_debs(given.build, given.out, work),
                 python, tarball(given.build, given.out, work, bundled, bill)]
     if python:
         os.environ["LINKWRIGHT_BUILD"] = str(given.build)

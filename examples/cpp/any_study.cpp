@@ -1,9 +1,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "linkwright/app/catalogue.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
+#include "linkwright/studies.h"
 
 constexpr const char* text = R"(schema = 1
 kind   = "analysis"

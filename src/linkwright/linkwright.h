@@ -1,6 +1,6 @@
 #pragma once
 
-// Everything but study files and reports.
+// All mechanics: everything but study files and reports (linkwright/studies.h).
 
 #include "linkwright/clearance.h"
 #include "linkwright/core.h"

@@ -1,29 +1,12 @@
 #pragma once
 
-// Vectors, derivatives, equations, least squares, differential equations, motion laws, splines.
+// Vectors, poses, splines, motion laws and the options of differential equations.
 
 #include "linkwright/math/angles.h"
-#include "linkwright/math/ball.h"
-#include "linkwright/math/band_solve.h"
-#include "linkwright/math/complex.h"
-#include "linkwright/math/dense.h"
-#include "linkwright/math/differences.h"
-#include "linkwright/math/double_double.h"
-#include "linkwright/math/dual.h"
 #include "linkwright/math/function_ref.h"
-#include "linkwright/math/least_squares.h"
-#include "linkwright/math/minimum.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
-#include "linkwright/math/ode_events.h"
-#include "linkwright/math/ode_stepper.h"
 #include "linkwright/math/pose.h"
 #include "linkwright/math/scalar.h"
-#include "linkwright/math/sincos.h"
-#include "linkwright/math/singular_values.h"
-#include "linkwright/math/small_inverse.h"
-#include "linkwright/math/small_lu.h"
-#include "linkwright/math/spectrum.h"
 #include "linkwright/math/spline.h"
 #include "linkwright/math/vector3.h"
-#include "linkwright/math/zero.h"

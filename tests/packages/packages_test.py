@@ -105,7 +105,7 @@ def main():
 
         # 2: Debian's packages.
         root.call("apt-get", "-q", "update")
-        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(("linkwright-dev", "linkwright-mpi"))]
+        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(("linkwright-dev", "linkwright-studies-dev", "linkwright-mpi"))]
         root.call("apt-get", "-q", "-y", "install", "--no-install-recommends", *debs)
         same(root.result(*command), expected, "linkwright.deb")
         root.result(*by_pagmo)
@@ -126,6 +126,11 @@ def main():
         # The requirements of a library are listed; compilers are no part of it.
         listed = run("dpkg-deb", "-c", next(out.glob("linkwright-dev_*.deb")))
         for file in ("usr/include/linkwright/planar.h", "cmake/Linkwright/LinkwrightConfig.cmake", "pkgconfig/linkwright.pc", "liblinkwright_planar.a"):
+            assert file in listed, file
+        for file in ("liblinkwright_study.a", "linkwright/studies.h", "linkage/kernel.h"):
+            assert file not in listed, file
+        listed = run("dpkg-deb", "-c", next(out.glob("linkwright-studies-dev_*.deb")))
+        for file in ("usr/include/linkwright/studies.h", "cmake/Linkwright/LinkwrightStudiesTargets.cmake", "liblinkwright_app.a"):
             assert file in listed, file
 
 

@@ -11,6 +11,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/modes.h"
+#include "linkwright/planar/linkage/scan.h"
 
 // Random drawn linkages whose modes have no names, swept beyond the range of the mode that the drawing shows,
 // and what another way of following finds.

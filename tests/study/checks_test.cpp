@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/read.h"
 #include "support/message.h"
 

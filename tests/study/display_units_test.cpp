@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_output_units.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "support/message.h"

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/sentence.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/kind.h"
 

@@ -5,6 +5,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/memory.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "support/message.h"

@@ -59,6 +59,14 @@ class CheckMirror(ScratchCase):
         self.write("src/linkwright/math/angles.cpp")
         self.assertEqual(self.findings(), ["src/linkwright/math/angles.cpp: src/linkwright/math has no CMakeLists.txt"])
 
+    def test_public_headers_include_public_headers_only(self):
+        self.write("src/linkwright/core.h", '#include "linkwright/core/table.h"\n#include "linkwright/core/gone.h"\n')
+        self.write("src/linkwright/core/table.h", '#include "linkwright/core/detail/rows.h"\n')
+        self.assertEqual(self.findings(), [
+            "src/linkwright/core.h: includes linkwright/core/gone.h, which is gone",
+            "src/linkwright/core/table.h: is public and includes linkwright/core/detail/rows.h, which no header straight under "
+            "src/linkwright includes"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,8 @@
 #include <complex>
 #include <span>
 
+#include "linkwright/clearance/mass_synthesis.h"
+#include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "linkwright/clearance/four_bar_clearance_motion.h"
-#include "linkwright/clearance/mass_synthesis.h"
-#include "linkwright/clearance/path_synthesis.h"
 
 // The example of Varedi, Daniali, Dardel and Fathi 2014 (Sharif Journal of Mechanical Engineering 30-3, 2/2).
 // Neither the clearance nor speed, weight, start or target path are printed; the clearance of 1 mm was
 // inferred: with it the second design comes closest to the path of the first one.
 namespace linkwright::clearance {
+
+struct ClearancePathProblem;  // clearance/path_synthesis.h
+struct ClearanceMassProblem;  // clearance/mass_synthesis.h
 
 /// Table 1, made without clearance, with the masses of Table 2 (mass centres read as metres), no weight.
 ClearanceFourBar published_design_1();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/clearance/published_clearance.h"
 #include "linkwright/core/numbers.h"
 

@@ -18,6 +18,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
+#include "linkwright/study/absent.h"
 #include "linkwright/study/bind_traits.h"
 
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
@@ -36,13 +37,6 @@
 namespace linkwright::study {
 
 class ObjectReader;
-
-/// A key, or one of its words, that a study of a related kind has and this kind has not.
-struct Absent {
-  std::string_view key;     ///< key with its tables and without unit: "target.gates", "constraint.type"
-  std::string_view word;    ///< the word of that key that is not here; empty = the key itself
-  std::string_view reason;  ///< says why it is absent, and what comes nearest
-};
 
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
 /// report the unknown ones. Values that cannot be read keep what the member held before.

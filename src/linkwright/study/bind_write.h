@@ -50,7 +50,7 @@ class ObjectWriter {
     } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
       return Value(static_cast<std::int64_t>(member));
     } else if constexpr (HasNames<T>) {
-      return Value(name_of(member));
+      return Value(linkwright::name_of(member));
     } else if constexpr (is_named<T>) {
       Value object = Value::object();
       for (const auto& [name, element] : member) object[name] = to_value(element);

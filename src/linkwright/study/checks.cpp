@@ -10,6 +10,7 @@
 #include "linkwright/core/closing_row.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::study {

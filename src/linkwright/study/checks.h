@@ -6,10 +6,11 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/bind.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
+
+class ObjectReader;  // study/bind.h
 
 /// One `[[check]]` of a study. The limits are in the unit that the quantity's name ends in.
 struct CheckRequest {

@@ -10,6 +10,8 @@
 #include <variant>
 
 #include "linkwright/core/check.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_output_units.h"
 #include "linkwright/study/bind_schema.h"
 
 namespace linkwright::study {

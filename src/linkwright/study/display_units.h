@@ -10,7 +10,6 @@
 #include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/bind.h"
 
 // In which units numbers are shown to people and, on request, written to files.
 namespace linkwright::study {
@@ -67,10 +66,6 @@ struct OutputUnits {
   enum class Choice { si, study, list } choice = Choice::si;
   std::vector<std::string> list;
 };
-bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Field& field,
-                OutputUnits& member);
-Value write_value(const OutputUnits& member);
-Value schema_value(const Field& field, const OutputUnits& member);
 
 /// The units that a choice gives for a study whose own units are `study`.
 DisplayUnits chosen_units(const OutputUnits& choice, const DisplayUnits& study);

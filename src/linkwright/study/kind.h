@@ -11,13 +11,15 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/bind.h"
-#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/absent.h"
 #include "linkwright/study/checks.h"
 #include "linkwright/study/display_units.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
+
+class ObjectReader;  // study/bind.h
+class SchemaWriter;  // study/bind_schema.h
 
 enum class Format { json, csv, html, svg, dxf };
 constexpr std::array<EnumName<Format>, 5> names(Format) {

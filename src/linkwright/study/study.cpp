@@ -11,6 +11,8 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/bind_output_units.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/memory.h"

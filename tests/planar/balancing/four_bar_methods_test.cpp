@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "linkwright/optimise/combine.h"
+#include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
 #include "planar/balancing_cases.h"

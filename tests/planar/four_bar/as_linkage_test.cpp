@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 
 namespace linkwright::planar {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "planar/linkage_changes.h"
 #include "planar/linkages.h"
 #include "support/message.h"

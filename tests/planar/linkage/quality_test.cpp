@@ -5,6 +5,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"

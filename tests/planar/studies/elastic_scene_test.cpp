@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linkwright/planar/linkage/kernel.h"
 #include "planar/elastic_bodies.h"
 
 namespace linkwright::planar {

@@ -10,6 +10,7 @@
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/templates.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::clearance {

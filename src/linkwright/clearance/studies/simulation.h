@@ -14,6 +14,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/kind.h"
 

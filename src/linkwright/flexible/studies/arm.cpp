@@ -7,6 +7,8 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/studies/templates.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {

@@ -8,6 +8,7 @@
 #include "linkwright/flexible/links.h"
 #include "linkwright/flexible/studies/chain.h"
 #include "linkwright/flexible/studies/drive.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // The simulation of an arm of elastic links in series: what its file holds, how it is read, run and reported.

@@ -9,6 +9,7 @@
 #include "linkwright/flexible/beam_form.h"
 #include "linkwright/flexible/drive.h"
 #include "linkwright/flexible/input_shaping.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 

@@ -9,6 +9,8 @@
 #include "linkwright/flexible/reference_beam.h"
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/studies/templates.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

@@ -5,6 +5,7 @@
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/studies/templates.h"
 #include "linkwright/flexible/studies/vibration.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::flexible {

@@ -43,12 +43,6 @@ RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mo
 /// `rods` of a pose with any arm angles.
 double least_rods(const Robot& robot, const Jacobians& at, double length);
 
-/// A displacement of a platform: by at most so much.
-struct Displaced {
-  double shift = 0;  ///< displacement of its point (m)
-  double turn = 0;   ///< rad; of robots that turn
-};
-
 /// The largest change of `rods` and `constraint` within a displacement of the pose, on the path no arm and
 /// rod aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r
 /// the displacement of its platform joint,

@@ -50,6 +50,12 @@ struct Pose {
   Mat3 rotation{};
 };
 
+/// A displacement of a platform: by at most so much.
+struct Displaced {
+  double shift = 0;  ///< displacement of its point (m)
+  double turn = 0;   ///< rad; of robots that turn
+};
+
 /// Symmetric DELTA. Legs are at `azimuth` (rad, counter-clockwise from x, seen from above); arm angles are
 /// positive downwards, the platform hangs below. Only base_radius - platform_radius matters.
 struct DeltaDimensions {

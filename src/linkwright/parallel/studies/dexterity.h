@@ -7,6 +7,7 @@
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/parallel/dexterity/synthesis.h"
 #include "linkwright/parallel/studies/pi_joint.h"
+#include "linkwright/study/bind.h"
 
 // The synthesis of a robot's dimensions for a region: what its file holds, how it is read, run and reported.
 namespace linkwright::parallel {

@@ -8,6 +8,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/parallel/studies/dexterity.h"
 #include "linkwright/parallel/studies/templates.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
 

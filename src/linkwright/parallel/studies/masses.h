@@ -4,6 +4,8 @@
 
 #include "linkwright/parallel/robot/dynamics.h"
 #include "linkwright/parallel/studies/robot.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 
 // `[masses]` of studies of parallel robots.
 namespace linkwright::parallel {

@@ -15,6 +15,7 @@
 #include "linkwright/parallel/studies/robot_scene.h"
 #include "linkwright/parallel/tool/table.h"
 #include "linkwright/study/beside.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

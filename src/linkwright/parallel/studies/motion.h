@@ -8,6 +8,8 @@
 #include "linkwright/parallel/studies/robot.h"
 #include "linkwright/parallel/studies/workspace.h"
 #include "linkwright/parallel/tool/motion.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 
 // A tool path in studies of parallel robots: whether the robot can do it, and what its drives have to give.
 namespace linkwright::parallel {

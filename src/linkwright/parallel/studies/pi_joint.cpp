@@ -10,6 +10,8 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/singularities.h"
 #include "linkwright/parallel/studies/templates.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

@@ -12,6 +12,8 @@
 #include "linkwright/parallel/robot/pose_check.h"
 #include "linkwright/parallel/robot/statics.h"
 #include "linkwright/parallel/studies/robot_scene.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

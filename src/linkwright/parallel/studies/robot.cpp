@@ -7,6 +7,8 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {

@@ -11,6 +11,8 @@
 #include "linkwright/parallel/pi_joint/screw.h"
 #include "linkwright/parallel/robot/drives.h"
 #include "linkwright/parallel/tool/path.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/kind.h"
 
 // `[mechanism]` of studies of parallel robots: what their files hold, and how it is read.

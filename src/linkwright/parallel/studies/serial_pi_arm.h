@@ -10,6 +10,7 @@
 #include "linkwright/parallel/serial_arm/workspace.h"
 #include "linkwright/parallel/studies/motion.h"
 #include "linkwright/parallel/studies/poses.h"
+#include "linkwright/study/bind.h"
 
 // The analysis of a serial arm of two Pi-joints: poses, a tool path, the workspace.
 namespace linkwright::parallel {

@@ -14,6 +14,8 @@
 #include "linkwright/parallel/workspace/aspects.h"
 #include "linkwright/parallel/workspace/rays.h"
 #include "linkwright/parallel/workspace/survey.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

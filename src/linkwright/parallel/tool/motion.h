@@ -7,7 +7,6 @@
 
 #include "linkwright/core/sentence.h"
 #include "linkwright/math/spline.h"
-#include "linkwright/parallel/robot/regular_ball.h"
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/tool/curve.h"
 #include "linkwright/parallel/tool/path.h"

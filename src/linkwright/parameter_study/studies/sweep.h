@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linkwright/parameter_study/sampling.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/checks.h"
 #include "linkwright/study/kind.h"
 

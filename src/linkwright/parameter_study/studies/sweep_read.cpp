@@ -13,6 +13,7 @@
 #include "linkwright/parameter_study/studies/sweep.h"
 #include "linkwright/parameter_study/studies/templates.h"
 #include "linkwright/study/beside.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/overrides.h"

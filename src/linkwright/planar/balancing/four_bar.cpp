@@ -5,6 +5,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/optimise/smooth_problem.h"
 
 namespace linkwright::planar {
 namespace {

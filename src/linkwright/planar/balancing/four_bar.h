@@ -10,9 +10,12 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/four_bar/sweep.h"
+
+namespace linkwright::optimise {
+struct SmoothProblem;
+}
 
 namespace linkwright::planar {
 

@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/detail/joint_rows.h"
 #include "linkwright/planar/linkage/modes.h"
+#include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {
 namespace {

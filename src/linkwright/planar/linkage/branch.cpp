@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/quality.h"
+#include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {
 namespace {

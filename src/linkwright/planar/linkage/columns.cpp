@@ -10,6 +10,7 @@
 #include "linkwright/core/quantity.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 std::string group_key(std::string name) {

@@ -7,6 +7,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/band_solve.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {

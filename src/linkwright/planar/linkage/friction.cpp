@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {

@@ -5,6 +5,7 @@
 #include "linkwright/math/scalar.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/linkage/state.h"
 #include "linkwright/planar/plane.h"
 
 // Position, velocity, acceleration and joint forces of drivers and dyads, each formula once for `double` and
@@ -14,31 +15,6 @@
 // are planar screws. About a point R where one of its pins sits, that pin moves nothing, so the two others
 // obey 2 x 2 equations; the same matrix serves velocities, accelerations and, transposed, the joint forces.
 namespace linkwright::planar {
-
-/// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.
-template <class T>
-struct PartState {
-  Vec<T> origin, direction;
-  Vec<T> velocity;
-  T speed;
-  Vec<T> acceleration;
-  T angular_acceleration;
-};
-
-/// The state of a group's closure.
-template <class T>
-struct GroupState {
-  /// Radicand of a dyad with two modes, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot be assembled, zero
-  /// = the modes meet.
-  T radicand;
-  /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
-  /// transmission angle of an RRR dyad. Zero = dead point.
-  T sine;
-  Vec<T> reference;             ///< R, global
-  Vec<T> column_x, column_y;    ///< displacements of R by a unit of each of the two joints
-  T inverse;                    ///< 1 / cross(column_x, column_y)
-  T rate_x, rate_y, rate_zero;  ///< rates of the joints
-};
 
 /// The joints of a dyad by its type: which are slides, and which one, counted from 0, is the pin at R
 /// (`zero`) and which are the other two.
@@ -423,12 +399,6 @@ LINKWRIGHT_KERNEL void dyad_acceleration(DyadTag<type>, const Group& g, PartStat
 // ---- forces
 // -------------------------------------------------------------------------------------------------
 
-/// Force and its moment about a point that is named beside it.
-template <class T>
-struct Wrench {
-  Vec<T> force;
-  T moment;
-};
 template <class T>
 LINKWRIGHT_KERNEL Wrench<T> operator+(const Wrench<T>& a, const Wrench<T>& b) {
   return {a.force + b.force, a.moment + b.moment};

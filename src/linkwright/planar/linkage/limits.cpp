@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {
 namespace {

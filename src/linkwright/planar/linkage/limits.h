@@ -1,13 +1,29 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/sentence.h"
-#include "linkwright/planar/linkage/scan.h"
+#include "linkwright/core/status.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
+
+/// The event at the end of a range of an input.
+enum class EndKind {
+  bound,         ///< nothing: the stretch that was asked for ends
+  limit,         ///< a group reaches its limit: dead point of the input, both modes meet and turn back
+  change_point,  ///< both modes meet and continue: which way is a choice
+  singular,  ///< two slides become parallel: the group runs away to infinity, or its place is undetermined
+};
+constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
+  return {{{EndKind::bound, "bound", "end of the interval that was asked for"},
+           {EndKind::limit, "limit", "limit of motion"},
+           {EndKind::change_point, "change_point", "the assembly modes coincide"},
+           {EndKind::singular, "singular", "slides become parallel"}}};
+}
 
 /// End of a range of an input.
 struct RangeEnd {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/linkage/state.h"
 
 namespace linkwright::planar {
 

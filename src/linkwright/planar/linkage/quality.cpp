@@ -9,6 +9,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/minimum.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {

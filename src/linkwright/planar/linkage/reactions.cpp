@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {

@@ -14,6 +14,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {

@@ -15,6 +15,7 @@
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {
 namespace {

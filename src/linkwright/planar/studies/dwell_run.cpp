@@ -16,6 +16,7 @@
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
 

@@ -12,6 +12,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/elastic.h"
 

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/study/drawn_scale.h"
 
 namespace linkwright::planar {

@@ -9,6 +9,7 @@
 #include "linkwright/core/table.h"
 #include "linkwright/planar/exact/nine_points.h"
 #include "linkwright/planar/studies/path_points.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/result.h"

@@ -18,6 +18,7 @@
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/exact/slider_designs.h"
 #include "linkwright/planar/studies/exact_findings.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {

@@ -12,6 +12,8 @@
 #include "linkwright/math/spline.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {

@@ -15,6 +15,7 @@
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/slider_crank.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 
 namespace linkwright::planar {

@@ -11,6 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/open_pose.h"
 
 namespace linkwright::planar {

@@ -10,6 +10,7 @@
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/planar/path/four_bar/synthesis.h"
 #include "linkwright/planar/studies/path_points.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // The path synthesis study: what its file holds (field lists), how it is read, run and reported.

@@ -8,6 +8,7 @@
 
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/path/targets.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // The targets of a path as studies give them, in the file or beside it.

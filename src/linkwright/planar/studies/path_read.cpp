@@ -10,6 +10,7 @@
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_families.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {

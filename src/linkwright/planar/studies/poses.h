@@ -7,6 +7,7 @@
 
 #include "linkwright/planar/dyads/designs.h"
 #include "linkwright/planar/exact/mixed_poses.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // Linkages that lead a body through poses: what their file holds, how it is read, run and reported.

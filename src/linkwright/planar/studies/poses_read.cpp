@@ -16,6 +16,7 @@
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/beside.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {

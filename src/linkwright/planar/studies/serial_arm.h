@@ -8,6 +8,7 @@
 
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/planar/studies/environment.h"
+#include "linkwright/study/bind.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 

@@ -9,6 +9,7 @@
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/arm_links.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {

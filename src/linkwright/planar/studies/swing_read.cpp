@@ -13,6 +13,8 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/swing.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/axle.h"

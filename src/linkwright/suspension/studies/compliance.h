@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/compliance/coefficients.h"
 #include "linkwright/suspension/compliance/compliance.h"

@@ -13,6 +13,7 @@
 #include "linkwright/core/quantity_columns.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/design_variables.h"
 #include "linkwright/suspension/studies/direct.h"

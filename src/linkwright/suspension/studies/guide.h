@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/compliance/springs.h"
 #include "linkwright/suspension/guide/hard_points.h"

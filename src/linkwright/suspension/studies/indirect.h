@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/study/bind.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 #include "linkwright/suspension/studies/guide.h"
 

@@ -7,6 +7,7 @@
 
 #include "linkwright/core/csv.h"
 #include "linkwright/study/beside.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/guide/plausibility.h"
 #include "linkwright/suspension/studies/indirect.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/wheel/guide_columns.h"
 #include "linkwright/suspension/wheel/tolerances.h"

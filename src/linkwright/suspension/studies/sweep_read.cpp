@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/read.h"

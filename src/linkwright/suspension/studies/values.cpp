@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/extremes.h"
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // Values of an input as studies of wheel suspensions list them.
