@@ -67,7 +67,7 @@ GIVEN_UP = [
     words(r"how far (?:the|they|it)\b.*\boff", "deviation"),
 ]
 # Files that quote the old words.
-QUOTED = {"CHANGELOG.md", "src/linkwright/study/renamed.cpp"}
+QUOTED = {"CHANGELOG.md", "docs/changes-in-detail.md", "src/linkwright/study/renamed.cpp"}
 # Written by tools, not by people.
 RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.S)
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
