@@ -38,7 +38,8 @@ def main():
     print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, changes, unit in STUDIES:
-            command = [program, "run", str(next(pathlib.Path(examples).glob(f"{name}.toml"))), "--out", f"{folder}/{name}", "--threads", "1", "--quiet"]
+            command = [program, "run", str(next(pathlib.Path(examples).glob(f"{name}.toml"))), "--out", f"{folder}/{name}", "--threads", "1",
+                       "--quiet"]
             for change in changes:
                 command += ["--set", change]
             whole = seconds(command)

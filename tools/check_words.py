@@ -29,6 +29,7 @@ PATTERNS = [
     (re.compile(r"\b(?:sub-?ag" r"ents?|chat" r"bots?|language mod" r"els?)\b", re.I), "talks about how it was written"),
 ]
 
+
 def words(pattern, instead):
     return re.compile(rf"\b(?:{pattern})\b", re.I), f"say {instead}"
 

@@ -85,9 +85,13 @@ def picture(root):
         x, tallest = x + width + 20, max(tallest, height)
         wide = max(wide, x - 20)
     return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-10 -10 {wide + 20:g} {y + tallest + 20:g}" role="img" aria-label="Which folders of each domain include which" font-family="\'Source Sans 3\',\'Segoe UI\',Helvetica,Arial,sans-serif" font-size="14">',
-        '<defs><marker id="tip" viewBox="0 0 8 8" refX="4" refY="4" markerWidth="7" markerHeight="7" orient="auto"><path d="M0 0 8 4 0 8Z" fill="#5b6b7b"/></marker></defs>',
-        "<style>.card{fill:#f6f8fa;stroke:#d0d7de}.box{fill:#fff;stroke:#0b5cad;stroke-width:1.4}.arrow{fill:none;stroke:#5b6b7b;stroke-width:1.2}.title{font-weight:700;font-size:16px}text{fill:#1b2733}</style>",
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-10 -10 {wide + 20:g} {y + tallest + 20:g}" role="img" '
+        'aria-label="Which folders of each domain include which" '
+        'font-family="\'Source Sans 3\',\'Segoe UI\',Helvetica,Arial,sans-serif" font-size="14">',
+        '<defs><marker id="tip" viewBox="0 0 8 8" refX="4" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
+        '<path d="M0 0 8 4 0 8Z" fill="#5b6b7b"/></marker></defs>',
+        "<style>.card{fill:#f6f8fa;stroke:#d0d7de}.box{fill:#fff;stroke:#0b5cad;stroke-width:1.4}"
+        ".arrow{fill:none;stroke:#5b6b7b;stroke-width:1.2}.title{font-weight:700;font-size:16px}text{fill:#1b2733}</style>",
         *cards, "</svg>", ""])
 
 

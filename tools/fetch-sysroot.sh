@@ -30,6 +30,7 @@ find "$folder" -type l -lname '/*' | while read -r link; do
   target=$(readlink "$link")
   ln -sfn "$(realpath -ms --relative-to="$(dirname "$link")" "$folder$target")" "$link"
 done
+# shellcheck disable=SC2016  # CMake expands the variable
 # pagmo's file for CMake says where the library is on a machine of that kind.
 sed -i 's#"/usr/lib/#"${LINKWRIGHT_SYSROOT}/usr/lib/#' "$folder"/usr/lib/*/cmake/pagmo/*.cmake
 rm -rf "$work"

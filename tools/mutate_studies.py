@@ -17,7 +17,6 @@ import collections
 import concurrent.futures
 import difflib
 import json
-import os
 import random
 import re
 import resource

@@ -30,7 +30,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
-import wheel_backend  # pylint: disable=wrong-import-position
+import wheel_backend  # noqa: E402  # of the folder before
 
 VERSION = re.search(r'LINKWRIGHT_VERSION "(.*)"', (ROOT / "src/linkwright/version.h").read_text(encoding="utf-8"))[1]
 MAINTAINER = "The Linkwright developers <developers@linkwright.invalid>"
@@ -222,8 +222,11 @@ def bill_of_materials(bundled):
         if not path or entry.get("dev") or entry.get("optional"):
             continue
         name = path.removeprefix("node_modules/")
-        components.append({"type": "library", "name": name, "version": entry["version"], "purl": f"pkg:npm/{name.replace('@', '%40')}@{entry['version']}",
-                           "description": "in reports and the workbench", **({"licenses": [{"license": {"id": entry["license"]}}]} if "license" in entry else {})})
+        component = {"type": "library", "name": name, "version": entry["version"],
+                     "purl": f"pkg:npm/{name.replace('@', '%40')}@{entry['version']}", "description": "in reports and the workbench"}
+        if "license" in entry:
+            component["licenses"] = [{"license": {"id": entry["license"]}}]
+        components.append(component)
         licences += [f for f in sorted((ROOT / "web" / path).glob("LICEN[CS]E*"))[:1] if f.is_file()]
     document = {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
                 "metadata": {"component": {"type": "application", "name": "linkwright", "version": VERSION,

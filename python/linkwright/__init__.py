@@ -11,7 +11,7 @@ results are those of the files. See docs/python.md.
 """
 
 from . import parallel, planar, suspension
-from ._linkwright import Diagnostic, version as __version__
+from ._linkwright import Diagnostic, version as __version__  # noqa: F401  # part of the module for users
 from .errors import StudyError
 from .optimise import Minimum, methods, minimise
 from .studies import (Check, Example, Fact, Kind, Result, Sample, Solution, Study, Table, catalogue, example, examples, read,

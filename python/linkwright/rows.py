@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 
 import numpy
 
-from . import _linkwright
-
 
 class Rows(Mapping[str, numpy.ndarray]):
     """rows["drive_torque"] is a read-only array that shows the numbers where the program keeps them. What is not determined is

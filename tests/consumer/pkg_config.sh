@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # pkg_config.sh FOLDER COMPILER SOURCE PROGRAM: builds an example by what pkg-config says of the installed package, and runs it.
 PKG_CONFIG_PATH=$1
 export PKG_CONFIG_PATH

@@ -32,14 +32,16 @@ class Root:
     def __init__(self, folder, suite, mirror):
         self.folder = pathlib.Path(folder)
         words = [] if "debian" in mirror else ["--no-check-gpg"]
-        made = subprocess.run(["debootstrap", "--variant=minbase", *words, suite, self.folder, mirror], capture_output=True, text=True, check=False)
+        made = subprocess.run(["debootstrap", "--variant=minbase", *words, suite, self.folder, mirror],
+                              capture_output=True, text=True, check=False)
         if made.returncode:
             print(f"no root could be made, nothing was installed: {made.stdout[-2000:]}{made.stderr[-2000:]}")
             sys.exit(77)
 
     def call(self, *command):
         # Libraries beside a program are found through /proc, which every running system has; the mount ends with the command.
-        return run("unshare", "--mount", "sh", "-euc", 'mount --bind /proc "$0/proc" && exec chroot "$0" "$@"', self.folder, "/usr/bin/env", "-i", "PATH=/usr/sbin:/usr/bin:/sbin:/bin", "HOME=/root", "LC_ALL=C.UTF-8",
+        return run("unshare", "--mount", "sh", "-euc", 'mount --bind /proc "$0/proc" && exec chroot "$0" "$@"', self.folder,
+                   "/usr/bin/env", "-i", "PATH=/usr/sbin:/usr/bin:/sbin:/bin", "HOME=/root", "LC_ALL=C.UTF-8",
                    "DEBIAN_FRONTEND=noninteractive", *command)
 
     def put(self, file):
@@ -125,7 +127,8 @@ def main():
             same(root.result("/opt/venv/bin/python", "-c", f"'{script}'"), expected, wheel.name)
         # The requirements of a library are listed; compilers are no part of it.
         listed = run("dpkg-deb", "-c", next(out.glob("linkwright-dev_*.deb")))
-        for file in ("usr/include/linkwright/planar.h", "cmake/Linkwright/LinkwrightConfig.cmake", "pkgconfig/linkwright.pc", "liblinkwright_planar.a"):
+        for file in ("usr/include/linkwright/planar.h", "cmake/Linkwright/LinkwrightConfig.cmake",
+                     "pkgconfig/linkwright.pc", "liblinkwright_planar.a"):
             assert file in listed, file
         for file in ("liblinkwright_study.a", "linkwright/studies.h", "linkage/kernel.h"):
             assert file not in listed, file

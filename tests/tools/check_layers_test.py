@@ -94,7 +94,8 @@ class CheckLayers(ScratchCase):
         text = "#include <unistd.h>\n\nint id() { return ::getpid(); }  // not ::getppid()\n"
         self.assertEqual(self.findings("core/platform/processes.cpp", text), [])
         self.assertEqual(self.findings("app/run.cpp", text),
-                         ["src/linkwright/app/run.cpp:1: <unistd.h> belongs to the operating system: what it is asked for goes to core/platform/",
+                         ["src/linkwright/app/run.cpp:1: <unistd.h> belongs to the operating system: "
+                          "what it is asked for goes to core/platform/",
                           "src/linkwright/app/run.cpp:3: ::getpid() is a function of the operating system: what it is asked for goes to "
                           "core/platform/"])
 

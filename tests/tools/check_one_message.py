@@ -60,7 +60,8 @@ def misspelt(text):
         if match := re.match(r"^(\s*\[+(?:[a-z_]+\.)*)([a-z_]{4,})(\]+.*)$", line):
             name = match.group(2)
             yield f"table {line.strip()}", but(match.group(1) + name[:2] + name[3:] + match.group(3))
-        # A name or a folder may be any, and every reference to it is then a mistake of its own; what a check asks for is looked up in the result.
+        # A name or a folder may be any, and every reference to it is then a mistake of its own; the result is searched for what a
+        # check asks for.
         if match := re.match(r'^(\s*(?!name|title|source|quantity|dir)[a-z_]+\s*=\s*)"([^"]+)"(.*)$', line):
             yield f"word {line.strip()}", but(f'{match.group(1)}"{match.group(2)}x"{match.group(3)}')
 

@@ -7,7 +7,6 @@ import json
 import pathlib
 import subprocess
 import sys
-import tempfile
 import tomllib
 
 from jsonschema import Draft202012Validator

@@ -1,4 +1,5 @@
 // Search, and the live mechanism beside a text. Plain script: pages open from disk.
+/* global manual */
 "use strict";
 (() => {
   const root = document.body.dataset.root;

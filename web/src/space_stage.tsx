@@ -12,7 +12,6 @@ import { format, lengthUnit } from "./units";
 import { onceOf } from "./view";
 
 declare global {
-  // eslint-disable-next-line no-var
   var linkwrightSpace: typeof import("./space") | undefined;
 }
 

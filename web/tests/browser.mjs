@@ -1,5 +1,6 @@
 // Opens the sample reports from disk in a headless browser without network and uses them as a reader would.
 // node browser.mjs SAMPLES CHROMIUM PYTHON CHECK_DXF [SCREENSHOTS]; ONLY=WORDS in the environment picks tests by their names
+/* global linkwright */
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";

@@ -37,7 +37,7 @@ describe("grids of samples", () => {
     expect(analyse(rowOf(scene, 0)).ok).toEqual([true, true, true]);
     expect(placeNear(row, 1, 0.5)).toEqual({ x: 0.5, y: 2, z: expect.closeTo(-0.05, 12) });
     expect(rowOf(scene, 9).points[1].y).toEqual([2, 2, 2]);
-    const { second: _, ...single } = scene;
+    const single = { ...scene, second: undefined };
     expect(rowOf({ ...single, input: [1] }, 3).input).toEqual([1]);
   });
 
