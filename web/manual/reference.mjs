@@ -156,7 +156,7 @@ function pythonPage(root) {
   const part = (file) => {
     const text = readFileSync(join(folder, file), "utf8");
     const name = file.replace(".py", "");
-    const [, about = ""] = /^"""([^]*?)"""/.exec(text) ?? [];
+    const [, about = ""] = /^"""([^]*?)"""/m.exec(text) ?? [];
     const items = pythonItems(text).map(({ code, said }) => `<pre tabindex="0"><code>${escaped(code)}</code></pre>${paragraphs(said)}`);
     return `<h2 id="${name}"><a href="#${name}">${name}</a></h2>${paragraphs(about)}${items.join("")}`;
   };
