@@ -87,26 +87,41 @@ function(linkwright_templates domain)
   target_include_directories(linkwright_${domain}_studies PRIVATE ${folder})
 endfunction()
 
-# linkwright_kernels(<module> BASELINE <files> AVX2 <files> [AVX512 <files>] [FLAGS <flags>]): kernels, once per instruction
-# set and each in a compilation of its own; core/kernels.h chooses at run time. Each is one huge function: with sanitizers
-# a single file takes many minutes to compile, so they are left out; what the kernels read and write is tested against the
-# plain formulas.
+# linkwright_kernels(<module> SOURCES <files> [WIDEST avx2] [FLAGS <flags>]): kernels, compiled once for each instruction set,
+# which is LINKWRIGHT_INSTRUCTION_SET there, and each in a compilation of its own; core/kernels.h chooses at run time. Each is
+# one huge function: with sanitizers a single file takes many minutes to compile, so they are left out; what the kernels read
+# and write is tested against the plain formulas.
 function(linkwright_kernels module)
-  cmake_parse_arguments(arg "" "" "BASELINE;AVX2;AVX512;FLAGS" ${ARGN})
+  cmake_parse_arguments(arg "" "WIDEST" "SOURCES;FLAGS" ${ARGN})
   if(LINKWRIGHT_SANITIZE)
     list(APPEND arg_FLAGS -fno-sanitize=all)
   endif()
+  set(sets baseline)
+  set(baseline)
   set(avx2 -mavx2 -mfma)
   # g++ 12's own AVX-512 header trips -Wmaybe-uninitialized.
   set(avx512 -mavx512f -mavx512dq -mfma -mprefer-vector-width=512 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_sources(linkwright_${module} PRIVATE ${arg_BASELINE})
-  set_source_files_properties(${arg_BASELINE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS "${arg_FLAGS}")
   if(LINKWRIGHT_X86_KERNELS)
     target_compile_definitions(linkwright_${module} PRIVATE LINKWRIGHT_X86_KERNELS)
-    target_sources(linkwright_${module} PRIVATE ${arg_AVX2} ${arg_AVX512})
-    set_source_files_properties(${arg_AVX2} PROPERTIES COMPILE_OPTIONS "${avx2};${arg_FLAGS}")
-    set_source_files_properties(${arg_AVX512} PROPERTIES COMPILE_OPTIONS "${avx512};${arg_FLAGS}")
+    list(APPEND sets avx2)
+    if(NOT arg_WIDEST STREQUAL "avx2")
+      list(APPEND sets avx512)
+    endif()
   endif()
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src OUTPUT_VARIABLE folder)
+  foreach(source IN LISTS arg_SOURCES)
+    foreach(set IN LISTS sets)
+      set(compiled ${source})
+      if(NOT set STREQUAL "baseline")  # a target compiles a file once, so that the others include it
+        cmake_path(REMOVE_EXTENSION source OUTPUT_VARIABLE name)
+        set(compiled ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name}_${set}.cpp)
+        file(CONFIGURE OUTPUT ${compiled} CONTENT "#include \"${folder}/${source}\"\n")
+      endif()
+      target_sources(linkwright_${module} PRIVATE ${compiled})
+      set_source_files_properties(${compiled} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+        COMPILE_DEFINITIONS LINKWRIGHT_INSTRUCTION_SET=${set} COMPILE_OPTIONS "${${set}};${arg_FLAGS}")
+    endforeach()
+  endforeach()
 endfunction()
 
 # linkwright_require(<package> [options]): find_package(... REQUIRED) for a library that modules link; the installed

@@ -5,7 +5,7 @@
 namespace linkwright {
 namespace {
 
-using Kernel = int (*)();
+using Kernel = int();
 int plain() { return 1; }
 int wide() { return 2; }
 int widest_of_all() { return 3; }

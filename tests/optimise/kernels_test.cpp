@@ -22,13 +22,6 @@ struct Case {
 };
 constexpr Case cases[] = {{10, 30}, {1, 4}, {7, 5}, {9, 17}, {4, 1001}};
 
-std::vector<const Kernels*> available() {
-  std::vector<const Kernels*> all;
-  for (const auto set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
-    if (const Kernels* k = kernels(set)) all.push_back(k);
-  return all;
-}
-
 RandomStream stream(std::size_t individual) {
   return RandomStream({key.seed, key.run, key.generation, static_cast<std::uint32_t>(individual)});
 }
@@ -81,8 +74,8 @@ void plain_differential_evolution(const DifferentialEvolutionStep& s, Population
 }
 
 TEST(Kernels, BaselineIsAlwaysThereAndTheBestIsOneOfThem) {
-  EXPECT_NE(kernels(InstructionSet::baseline), nullptr);
-  EXPECT_EQ(&kernels(), available().back());
+  EXPECT_NE(kernel_set().baseline, nullptr);
+  EXPECT_EQ(&kernels(), runnable(kernel_set()).back().run);
 }
 
 TEST(Kernels, DifferentialEvolutionIsTheSameBitsAsItsDefinition) {
@@ -101,13 +94,13 @@ TEST(Kernels, DifferentialEvolutionIsTheSameBitsAsItsDefinition) {
           shape_of(population), key,          population.row(0), nullptr, lower.data(),
           upper.data(),         scale.data(), crossover.data(),  word};
       plain_differential_evolution(step, expected);
-      for (const Kernels* k : available()) {
+      for (const auto& [k, name] : runnable(kernel_set())) {
         Population trial(c.dimension, c.size);
         step.trial = trial.row(0);
         k->differential_evolution(step);
         for (std::size_t j = 0; j < c.dimension; ++j)
           for (std::size_t i = 0; i < c.size; ++i) {
-            ASSERT_EQ(trial(j, i), expected(j, i)) << k->name << " variable " << j << " candidate " << i;
+            ASSERT_EQ(trial(j, i), expected(j, i)) << name << " variable " << j << " candidate " << i;
             ASSERT_TRUE(trial(j, i) >= -1 && trial(j, i) <= 2);
           }
       }
@@ -117,7 +110,7 @@ TEST(Kernels, DifferentialEvolutionIsTheSameBitsAsItsDefinition) {
 TEST(Kernels, SelfAdaptationIsTheSameBitsAsItsDefinition) {
   const std::size_t size = 1001, stride = 1008;
   const std::vector<double> scale(stride, 0.5), crossover(stride, 0.9);
-  for (const Kernels* k : available()) {
+  for (const auto& [k, name] : runnable(kernel_set())) {
     std::vector<double> new_scale(stride), new_crossover(stride);
     k->self_adaptation({size, key, scale.data(), crossover.data(), new_scale.data(), new_crossover.data(),
                         0.1, 0.9, 0.25, 0.5});
@@ -127,8 +120,8 @@ TEST(Kernels, SelfAdaptationIsTheSameBitsAsItsDefinition) {
       for (int skipped = 0; skipped < 4; ++skipped) random.bits();
       const double u0 = random.bits() * 0x1p-32, u1 = random.bits() * 0x1p-32, u2 = random.bits() * 0x1p-32,
                    u3 = random.bits() * 0x1p-32;
-      ASSERT_EQ(new_scale[i], u1 < 0.25 ? 0.1 + 0.9 * u0 : 0.5) << k->name << " " << i;
-      ASSERT_EQ(new_crossover[i], u3 < 0.5 ? u2 : 0.9) << k->name << " " << i;
+      ASSERT_EQ(new_scale[i], u1 < 0.25 ? 0.1 + 0.9 * u0 : 0.5) << name << " " << i;
+      ASSERT_EQ(new_crossover[i], u3 < 0.5 ? u2 : 0.9) << name << " " << i;
       scales += u1 < 0.25;
       crossovers += u3 < 0.5;
     }
@@ -147,7 +140,7 @@ TEST(Kernels, GreyWolfIsTheSameBitsAsItsDefinition) {
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t j = 0; j < c.dimension; ++j) leaders[k].push_back(pack(j, k));
       const double a = 1.3;
-      for (const Kernels* kernel : available()) {
+      for (const auto& [kernel, name] : runnable(kernel_set())) {
         Population moved(c.dimension, c.size);
         std::memcpy(moved.row(0), pack.row(0), c.dimension * pack.view().stride * sizeof(double));
         kernel->grey_wolf({shape_of(pack),
@@ -168,7 +161,7 @@ TEST(Kernels, GreyWolfIsTheSameBitsAsItsDefinition) {
               sum += printed ? std::abs(x) : x;
             }
             ASSERT_EQ(moved(j, i), std::clamp(sum / 3, -4.0, 3.0))
-                << kernel->name << " variable " << j << " wolf " << i;
+                << name << " variable " << j << " wolf " << i;
           }
         }
       }
@@ -194,7 +187,7 @@ TEST(Kernels, SelectFollowsTheFeasibilityRules) {
                                    {infinity, 5, 1, 0, false},
                                    {infinity, 5, infinity, 5, true}};
   const std::size_t size = duels.size(), stride = 16;
-  for (const Kernels* k : available()) {
+  for (const auto& [k, name] : runnable(kernel_set())) {
     std::vector<double> trial_cost(stride), trial_violation(stride), cost(stride), violation(stride);
     std::vector<std::uint64_t> chosen(stride);
     for (std::size_t i = 0; i < size; ++i) {
@@ -209,7 +202,7 @@ TEST(Kernels, SelectFollowsTheFeasibilityRules) {
     k->copy_chosen(shape_of(from), chosen.data(), from.row(0), to.row(0));
     for (std::size_t i = 0; i < size; ++i) {
       const Duel& d = duels[i];
-      EXPECT_EQ(chosen[i], d.taken ? ~std::uint64_t{0} : 0) << k->name << " duel " << i;
+      EXPECT_EQ(chosen[i], d.taken ? ~std::uint64_t{0} : 0) << name << " duel " << i;
       EXPECT_EQ(cost[i], d.taken ? d.trial_cost : d.cost) << i;
       EXPECT_EQ(violation[i], d.taken ? d.trial_violation : d.violation) << i;
       EXPECT_EQ(to(1, i), d.taken ? 1 + static_cast<double>(i) : 0) << i;

@@ -6,16 +6,17 @@
 // wide registers of newer ones; the program takes the widest that its processor has.
 namespace linkwright {
 
-/// A kernel, once an instruction set; null where it was not compiled for one.
+/// A kernel, which is a function or a table of functions, once an instruction set; null where it was not
+/// compiled for one.
 template <class Kernel>
 struct KernelSet {
-  Kernel baseline = nullptr, avx2 = nullptr, avx512 = nullptr;
+  Kernel *baseline = nullptr, *avx2 = nullptr, *avx512 = nullptr;
 };
 
 /// A kernel and its instruction set: "avx512", "avx2" or "baseline".
 template <class Kernel>
 struct NamedKernel {
-  Kernel run = nullptr;
+  Kernel* run = nullptr;
   const char* name = "";
 };
 
@@ -49,8 +50,14 @@ std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
 /// The set of `name`_baseline, `name`_avx2 and `name`_avx512.
 #ifdef LINKWRIGHT_X86_KERNELS
 #define LINKWRIGHT_KERNEL_SET(name) \
-  { name##_baseline, name##_avx2, name##_avx512 }
+  { &name##_baseline, &name##_avx2, &name##_avx512 }
 #else
 #define LINKWRIGHT_KERNEL_SET(name) \
-  { name##_baseline }
+  { &name##_baseline }
 #endif
+
+/// The name of a kernel in a source of linkwright_kernels(), which is compiled once for each instruction set:
+/// LINKWRIGHT_COMPILED(sweep) is sweep_baseline, sweep_avx2 and sweep_avx512 in turn.
+#define LINKWRIGHT_COMPILED(name) LINKWRIGHT_COMPILED_FOR(name, LINKWRIGHT_INSTRUCTION_SET)
+#define LINKWRIGHT_COMPILED_FOR(name, set) LINKWRIGHT_JOINED(name, set)
+#define LINKWRIGHT_JOINED(name, set) name##_##set

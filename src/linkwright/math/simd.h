@@ -17,6 +17,17 @@ using BaselineBatch = xsimd::batch<double, xsimd::neon64>;
 using BaselineBatch = xsimd::batch<double, xsimd::sse2>;
 #endif
 
+/// The registers of each instruction set of core/kernels.h.
+namespace registers {
+using baseline = BaselineBatch;
+using avx2 = xsimd::batch<double, xsimd::fma3<xsimd::avx2>>;
+using avx512 = xsimd::batch<double, xsimd::avx512f>;
+}  // namespace registers
+#ifdef LINKWRIGHT_INSTRUCTION_SET
+/// The registers for which this source of linkwright_kernels() is compiled.
+using KernelBatch = registers::LINKWRIGHT_INSTRUCTION_SET;
+#endif
+
 template <class Arch>
 struct Scalar<xsimd::batch<double, Arch>> {
   using T = xsimd::batch<double, Arch>;

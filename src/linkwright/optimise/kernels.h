@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "linkwright/core/kernels.h"
+
 /// The inner loops of the population methods, compiled once for each instruction set and chosen at run time.
 /// All versions give the same bits: the random numbers are integers, and the rest is IEEE arithmetic without
 /// contraction.
@@ -55,8 +57,6 @@ struct GreyWolfStep {
 };
 
 struct Kernels {
-  const char* name;
-
   /// Trial vectors of rand/1/bin (Storn and Price 1997). Words 0 to 2 choose three members, distinct and not
   /// the target, word 3 the variable that is crossed in any case.
   void (*differential_evolution)(const DifferentialEvolutionStep&);
@@ -77,11 +77,9 @@ struct Kernels {
   void (*copy_chosen)(const KernelShape& shape, const std::uint64_t* chosen, const double* from, double* to);
 };
 
-enum class InstructionSet { baseline, avx2, avx512 };
-
-/// Best version that this processor runs.
+extern const Kernels loops_baseline, loops_avx2, loops_avx512;
+KernelSet<const Kernels> kernel_set();
+/// The widest that this processor can run.
 const Kernels& kernels();
-/// A certain version, nullptr when this build or this processor has it not.
-const Kernels* kernels(InstructionSet set);
 
 }  // namespace linkwright::optimise

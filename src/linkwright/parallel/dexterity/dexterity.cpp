@@ -41,12 +41,11 @@ PreparedRobot prepare(const DesignedRobot& designed, const WorkingMode& mode, co
   return out;
 }
 
-using Kernel = void (*)(const PreparedRobot&, int, const PoseSet&, bool, SetDexterity&);
 // Wider registers do not pay here.
 #ifdef LINKWRIGHT_X86_KERNELS
-constexpr KernelSet<Kernel> measures{measure_set_baseline, measure_set_avx2};
+constexpr KernelSet<MeasureKernel> measures{measure_set_baseline, measure_set_avx2};
 #else
-constexpr KernelSet<Kernel> measures{measure_set_baseline};
+constexpr KernelSet<MeasureKernel> measures{measure_set_baseline};
 #endif
 
 void enlarge(std::vector<double>& values, std::size_t size) {
@@ -70,7 +69,7 @@ void measure(const DesignedRobot& designed, const WorkingMode& mode, const Dexte
 
 void measure(const DesignedRobot& designed, const WorkingMode& mode, const DexterityMeasures& what,
              const PoseSet& poses, bool derivatives, SetDexterity& out) {
-  static const Kernel kernel = widest(measures).run;
+  static MeasureKernel* const kernel = widest(measures).run;
   const std::size_t size = poses.size();
   const int legs = designed.robot.legs();
   enlarge(out.conditioning, size);

@@ -163,11 +163,9 @@ struct PoseCheckTask {
   std::array<double*, pose_index_count> index{};  ///< values of the wanted indices
 };
 
-/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
-using PoseCheckKernel = void (*)(const PoseCheckTask&);
-void pose_check_baseline(const PoseCheckTask& task);
-void pose_check_avx2(const PoseCheckTask& task);
-void pose_check_avx512(const PoseCheckTask& task);
+/// Compiled once for each instruction set; all but the baseline need the machine to have the instructions.
+using PoseCheckKernel = void(const PoseCheckTask&);
+PoseCheckKernel pose_check_baseline, pose_check_avx2, pose_check_avx512;
 KernelSet<PoseCheckKernel> pose_check_kernels();
 
 }  // namespace linkwright::parallel

@@ -19,7 +19,7 @@ constexpr std::size_t paths_at_once = std::is_same_v<T, double> ? 96 : 1;
 }  // namespace
 
 template <class System>
-FollowKernels<System> follow_kernels() {
+KernelSet<FollowKernel<System>> follow_kernels() {
   return LINKWRIGHT_KERNEL_SET(follow);
 }
 template <class System, class T>
@@ -48,7 +48,7 @@ Paths<System, T> follow(const System& system, const SystemData<System>& from, co
 }
 
 #define LINKWRIGHT_FOLLOW(System)                                                                    \
-  template FollowKernels<System> follow_kernels();                                                   \
+  template KernelSet<FollowKernel<System>> follow_kernels();                                         \
   template Paths<System> follow(const System&, const SystemData<System>&, const SystemData<System>&, \
                                 const Paths<System>&, const math::TrackerOptions&, RunContext&,      \
                                 std::string_view);                                                   \

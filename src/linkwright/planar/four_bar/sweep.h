@@ -111,12 +111,10 @@ struct FourBarSweepTask {
   double* good = nullptr;  ///< `lanes` numbers an angle: 1 where the result holds, else 0
 };
 
-/// Fill the rows; true when all samples are good. Implementations, one a translation unit; all but the
+/// Fills the rows; true when all samples are good. Compiled once for each instruction set; all but the
 /// baseline need the machine to have the instructions.
-using FourBarSweepKernel = bool (*)(const FourBarSweepTask&);
-bool four_bar_sweep_baseline(const FourBarSweepTask& task);
-bool four_bar_sweep_avx2(const FourBarSweepTask& task);
-bool four_bar_sweep_avx512(const FourBarSweepTask& task);
+using FourBarSweepKernel = bool(const FourBarSweepTask&);
+FourBarSweepKernel four_bar_sweep_baseline, four_bar_sweep_avx2, four_bar_sweep_avx512;
 KernelSet<FourBarSweepKernel> four_bar_sweep_kernels();
 
 }  // namespace linkwright::planar

@@ -106,12 +106,10 @@ struct SweepTask {
 /// Linkages with more parts or groups go sample by sample.
 inline constexpr std::size_t most_sweep_parts = 32;
 
-/// Fill the rows; true when all samples are good. Implementations, one a translation unit; all but the
+/// Fills the rows; true when all samples are good. Compiled once for each instruction set; all but the
 /// baseline need the machine to have the instructions.
-using SweepKernel = bool (*)(const SweepTask&);
-bool sweep_baseline(const SweepTask& task);
-bool sweep_avx2(const SweepTask& task);
-bool sweep_avx512(const SweepTask& task);
+using SweepKernel = bool(const SweepTask&);
+SweepKernel sweep_baseline, sweep_avx2, sweep_avx512;
 KernelSet<SweepKernel> sweep_kernels();
 
 }  // namespace linkwright::planar

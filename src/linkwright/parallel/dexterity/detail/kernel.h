@@ -341,7 +341,7 @@ LINKWRIGHT_KERNEL void measure_set(const PreparedRobot& robot, int order, const 
     derivatives ? measure_set<6, true, T>(robot, poses, out) : measure_set<6, false, T>(robot, poses, out);
 }
 
-void measure_set_baseline(const PreparedRobot&, int order, const PoseSet&, bool derivatives, SetDexterity&);
-void measure_set_avx2(const PreparedRobot&, int order, const PoseSet&, bool derivatives, SetDexterity&);
+using MeasureKernel = void(const PreparedRobot&, int order, const PoseSet&, bool derivatives, SetDexterity&);
+MeasureKernel measure_set_baseline, measure_set_avx2;
 
 }  // namespace linkwright::parallel

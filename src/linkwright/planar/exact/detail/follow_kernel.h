@@ -19,21 +19,13 @@ struct FollowJob {
 };
 
 template <class System>
-using FollowKernels = KernelSet<void (*)(const FollowJob<System>&)>;
+using FollowKernel = void(const FollowJob<System>&);
 /// One for each instruction set; defined in follow.cpp.
 template <class System>
-FollowKernels<System> follow_kernels();
+KernelSet<FollowKernel<System>> follow_kernels();
 
-#define LINKWRIGHT_DECLARE_FOLLOW(System)             \
-  void follow_baseline(const FollowJob<System>& job); \
-  void follow_avx2(const FollowJob<System>& job);     \
-  void follow_avx512(const FollowJob<System>& job);
+#define LINKWRIGHT_DECLARE_FOLLOW(System) FollowKernel<System> follow_baseline, follow_avx2, follow_avx512;
 LINKWRIGHT_FOR_EACH_PATH_SYSTEM(LINKWRIGHT_DECLARE_FOLLOW)
 #undef LINKWRIGHT_DECLARE_FOLLOW
-
-template <class Batch, class System>
-LINKWRIGHT_KERNEL void follow_by(const FollowJob<System>& job) {
-  math::track_paths<Batch>(job.system, job.from, job.to, job.starts, job.options, job.ends);
-}
 
 }  // namespace linkwright::planar

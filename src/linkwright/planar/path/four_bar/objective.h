@@ -39,15 +39,10 @@ void evaluate(const PathObjective& objective, const optimise::PopulationView& ca
 /// Name of the instruction set in use: "avx512", "avx2" or "baseline".
 const char* kernel_name();
 
-/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
-using PathKernel = void (*)(const PathObjective&, const optimise::PopulationView&, double* cost,
-                            double* violation);
-void evaluate_path_baseline(const PathObjective&, const optimise::PopulationView&, double* cost,
-                            double* violation);
-void evaluate_path_avx2(const PathObjective&, const optimise::PopulationView&, double* cost,
+/// Compiled once for each instruction set; all but the baseline need the machine to have the instructions.
+using PathKernel = void(const PathObjective&, const optimise::PopulationView&, double* cost,
                         double* violation);
-void evaluate_path_avx512(const PathObjective&, const optimise::PopulationView&, double* cost,
-                          double* violation);
+PathKernel evaluate_path_baseline, evaluate_path_avx2, evaluate_path_avx512;
 KernelSet<PathKernel> path_kernels();
 
 }  // namespace linkwright::planar

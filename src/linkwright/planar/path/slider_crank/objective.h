@@ -38,15 +38,10 @@ void evaluate(const SliderPathObjective& objective, const optimise::PopulationVi
 /// Name of the instruction set in use: "avx512", "avx2" or "baseline".
 const char* slider_path_kernel_name();
 
-/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
-using SliderPathKernel = void (*)(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
-                                  double* violation);
-void evaluate_slider_path_baseline(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
-                                   double* violation);
-void evaluate_slider_path_avx2(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
-                               double* violation);
-void evaluate_slider_path_avx512(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
-                                 double* violation);
+/// Compiled once for each instruction set; all but the baseline need the machine to have the instructions.
+using SliderPathKernel = void(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
+                              double* violation);
+SliderPathKernel evaluate_slider_path_baseline, evaluate_slider_path_avx2, evaluate_slider_path_avx512;
 KernelSet<SliderPathKernel> slider_path_kernels();
 
 }  // namespace linkwright::planar

@@ -1,8 +1,6 @@
-// The kernels for one instruction set: included by one source file each, which defines
-//   LINKWRIGHT_KERNELS  name of the namespace and of the version
-//   LINKWRIGHT_LANES    doubles in a register (2, 4 or 8)
-// It must not use inline functions of other headers: compiled here for a newer processor, the linker could
-// keep this copy for everybody. Hence no standard algorithms below, and an anonymous namespace.
+// The loops of kernels.h for one instruction set. This source must not use inline functions of other headers:
+// where it is compiled for a newer processor, the linker could keep that copy for everybody. Hence it has no
+// standard algorithms, and an unnamed namespace.
 #include <cstddef>
 #include <cstdint>
 
@@ -10,11 +8,17 @@
 #include <immintrin.h>
 #endif
 
+#include "linkwright/core/kernels.h"
 #include "linkwright/optimise/kernels.h"
 
-namespace linkwright::optimise::LINKWRIGHT_KERNELS {
+namespace linkwright::optimise {
 namespace {
 
+// Doubles in a register.
+#define LINKWRIGHT_LANES_OF_baseline 2
+#define LINKWRIGHT_LANES_OF_avx2 4
+#define LINKWRIGHT_LANES_OF_avx512 8
+#define LINKWRIGHT_LANES LINKWRIGHT_COMPILED(LINKWRIGHT_LANES_OF)
 constexpr std::size_t lanes = LINKWRIGHT_LANES;
 using Real __attribute__((vector_size(8 * lanes))) = double;
 using Word __attribute__((vector_size(8 * lanes))) = std::uint64_t;
@@ -216,15 +220,7 @@ void copy_chosen(const KernelShape& shape, const std::uint64_t* chosen, const do
 
 }  // namespace
 
-#define LINKWRIGHT_TEXT_OF(x) #x
-#define LINKWRIGHT_TEXT(x) LINKWRIGHT_TEXT_OF(x)
-extern const Kernels table;
-// NOLINTNEXTLINE(misc-definitions-in-headers): compiled once per instruction set
-const Kernels table = {LINKWRIGHT_TEXT(LINKWRIGHT_KERNELS),
-                       differential_evolution,
-                       self_adaptation,
-                       grey_wolf,
-                       select,
-                       copy_chosen};
+const Kernels LINKWRIGHT_COMPILED(loops) = {differential_evolution, self_adaptation, grey_wolf, select,
+                                            copy_chosen};
 
-}  // namespace linkwright::optimise::LINKWRIGHT_KERNELS
+}  // namespace linkwright::optimise

@@ -1,5 +1,3 @@
-#pragma once
-
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
@@ -127,6 +125,10 @@ LINKWRIGHT_KERNEL bool four_bar_sweep_with(const FourBarSweepTask& task) {
   for (const double lane : lanes)
     if (lane == 0) return false;
   return true;
+}
+
+bool LINKWRIGHT_COMPILED(four_bar_sweep)(const FourBarSweepTask& task) {
+  return four_bar_sweep_with<math::KernelBatch>(task);
 }
 
 }  // namespace linkwright::planar

@@ -1,5 +1,3 @@
-#pragma once
-
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/planar/linkage/kernel.h"
@@ -216,5 +214,7 @@ LINKWRIGHT_KERNEL bool sweep_with(const SweepTask& task) {
   if (task.rates) return sweep_all<Batch, true, false>(task);
   return sweep_all<Batch, false, false>(task);
 }
+
+bool LINKWRIGHT_COMPILED(sweep)(const SweepTask& task) { return sweep_with<math::KernelBatch>(task); }
 
 }  // namespace linkwright::planar

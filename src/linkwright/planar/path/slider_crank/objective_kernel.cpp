@@ -1,5 +1,3 @@
-#pragma once
-
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -149,6 +147,15 @@ LINKWRIGHT_KERNEL void evaluate_slider_path(const SliderPathObjective& o, const 
     cost[2 * i] = error * by_error;
     cost[2 * i + 1] = stroke * by_stroke;
   }
+}
+
+void LINKWRIGHT_COMPILED(evaluate_slider_path)(const SliderPathObjective& objective,
+                                               const optimise::PopulationView& candidates, double* cost,
+                                               double* violation) {
+  if (objective.free_timing)
+    evaluate_slider_path<math::KernelBatch, true>(objective, candidates, cost, violation);
+  else
+    evaluate_slider_path<math::KernelBatch, false>(objective, candidates, cost, violation);
 }
 
 }  // namespace linkwright::planar

@@ -1,5 +1,3 @@
-#pragma once
-
 #include <array>
 
 #include "linkwright/core/numbers.h"
@@ -259,5 +257,7 @@ LINKWRIGHT_KERNEL void pose_check_with(const PoseCheckTask& task) {
       return;
   }
 }
+
+void LINKWRIGHT_COMPILED(pose_check)(const PoseCheckTask& task) { pose_check_with<math::KernelBatch>(task); }
 
 }  // namespace linkwright::parallel

@@ -1,5 +1,3 @@
-#pragma once
-
 #include <cmath>
 #include <type_traits>
 #include <vector>
@@ -284,6 +282,17 @@ LINKWRIGHT_KERNEL void evaluate_path(const PathObjective& o, const optimise::Pop
     else
       evaluate_candidate<Four>(o, load, cost[i], violation[i]);
   }
+}
+
+void LINKWRIGHT_COMPILED(evaluate_path)(const PathObjective& objective,
+                                        const optimise::PopulationView& candidates, double* cost,
+                                        double* violation) {
+  using Batch = math::KernelBatch;
+  using Four = std::conditional_t<std::is_same_v<Batch, math::BaselineBatch>, void, math::registers::avx2>;
+  if (objective.free_timing)
+    evaluate_path<Batch, Four, true>(objective, candidates, cost, violation);
+  else
+    evaluate_path<Batch, Four, false>(objective, candidates, cost, violation);
 }
 
 }  // namespace linkwright::planar
