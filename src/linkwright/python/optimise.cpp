@@ -117,6 +117,7 @@ py::tuple minimise(const py::object& objective, const Array& lower, const Array&
   RunContext context;
   context.set_threads(1);  // Python's lock is here
   if (seconds) context.set_time_limit(std::chrono::duration<double>(*seconds));
+  const UnderWay under_way([&] { context.cancel(); });
   const optimise::Report report = std::visit(
       [&](const auto& m) {
         auto optimiser = make_optimiser(problem.variables, m.options, {.seed = seed});
@@ -133,6 +134,7 @@ py::tuple minimise(const py::object& objective, const Array& lower, const Array&
                                   m.minimise, context);
       },
       chosen.method);
+  throw_if_python_ends();
   std::vector<double> evaluations, best;
   for (const optimise::GenerationLog& g : report.log) {
     evaluations.push_back(static_cast<double>(g.evaluations));

@@ -114,7 +114,7 @@ class FourBarSweeps {
                                    samples(acceleration, "crank_acceleration")};
     auto sweep = reused_.take([&] { return std::make_shared<planar::FourBarSweep>(wanted_); });
     {
-      const py::gil_scoped_release unlocked;
+      const Unlocked unlocked;
       sweep->run(four_bar, m, gravity, crank);
     }
     Rows out{sweep, {}, sweep->status()};
@@ -138,7 +138,7 @@ py::array_t<double> coupler_points(const py::object& linkage, const Array& angle
   const std::span<const double> angles = samples(angle, "crank_angle");
   py::array_t<double> out = new_samples(angles.size(), 2);
   double* at = out.mutable_data();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   planar::FourBarSweep sweep({.directions = true, .rates = false, .forces = false, .shaking = false});
   // A stretch at a time, so that the rows stay in the cache.
   constexpr std::size_t stretch = 4096;
@@ -246,7 +246,7 @@ class LinkageSweeps {
                         samples(accelerations[i], "acceleration")});
     auto sweep = reused_.take([&] { return make(); });
     {
-      const py::gil_scoped_release unlocked;
+      const Unlocked unlocked;
       sweep->run(inputs);
     }
     LinkageRows out{{sweep, {}, sweep->status()}, study_, sweep};

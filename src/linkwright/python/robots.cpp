@@ -15,6 +15,7 @@
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/python/arrays.h"
 #include "linkwright/python/bindings.h"
+#include "linkwright/python/values.h"
 
 namespace linkwright::python {
 namespace py = pybind11;
@@ -47,7 +48,7 @@ py::array_t<double> inverse(const parallel::Robot& robot, const Array& positions
   py::array_t<double> out = new_samples(n, legs(robot));
   double* to = out.mutable_data();
   const double* r = rotations.data();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   for (std::size_t i = 0; i < n; ++i) {
     parallel::Pose pose{{p[3 * i], p[3 * i + 1], p[3 * i + 2]}};
     for (std::size_t k = 0; turns != 0 && k < 3; ++k) {
@@ -65,7 +66,7 @@ py::array_t<double> direct(const parallel::Robot& robot, const Array& angles, in
   const std::size_t n = a.size() / legs(robot);
   py::array_t<double> out = new_samples(n, 3);
   double* to = out.mutable_data();
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   for (std::size_t i = 0; i < n; ++i, to += 3) {
     const parallel::Placed placed =
         parallel::direct(robot, a.subspan(i * legs(robot), legs(robot)), assembly);

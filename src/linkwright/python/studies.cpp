@@ -236,7 +236,7 @@ std::string report_of(const FinishedRun& run) { return app::report_text(run.stud
 void write_report(const FinishedRun& run, const fs::path& file) {
   std::string problem;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     problem = app::write_whole(file, report_of(run));
   }
   if (!problem.empty()) raise_os_error(fmt::format("{}: cannot be written: {}", file.string(), problem));
@@ -246,7 +246,7 @@ std::vector<std::string> save(const FinishedRun& run, const fs::path& folder, st
   Diagnostics problems;
   std::vector<std::string> out;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     app::RunOutcome outcome = run.outcome;
     outcome.most_rows = longest_table;
     if (app::prepare_folder(folder, problems))
@@ -403,8 +403,8 @@ void bind_results(py::module_& module) {
              for (const Table& table : r->shown.tables) out.push_back({r, &table});
              return out;
            })
-      .def("json", &json_of, py::call_guard<py::gil_scoped_release>())
-      .def("report", &report_of, py::call_guard<py::gil_scoped_release>())
+      .def("json", &json_of, py::call_guard<Unlocked>())
+      .def("report", &report_of, py::call_guard<Unlocked>())
       .def("write_report", &write_report)
       .def("save", &save);
 

@@ -8,10 +8,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace linkwright::python {
 namespace py = pybind11;
@@ -51,6 +53,11 @@ Value table(const py::handle& object, std::string_view path) {
   }
   return out;
 }
+
+/// All work that is under way, and whether Python is at its end. They are read and changed with the lock
+/// only.
+std::vector<const UnderWay*> under_way;
+bool python_ends = false;
 
 PyObject* study_error() {
   // Made once and never freed, as the interpreter may end before the library is unloaded.
@@ -109,10 +116,46 @@ void raise_study_error(const Diagnostics& diagnostics) {
   throw py::error_already_set();
 }
 
+UnderWay::UnderWay(std::function<void()> end) : stop(std::move(end)) {
+  throw_if_python_ends();
+  under_way.push_back(this);
+}
+
+UnderWay::~UnderWay() { std::erase(under_way, this); }
+
+void end_work() {
+  python_ends = true;
+  for (const UnderWay* work : under_way) work->stop();
+  while (!under_way.empty()) {
+    {
+      const py::gil_scoped_release unlocked;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+void forget_work() { under_way.clear(); }
+
+void throw_if_python_ends() {
+  if (!python_ends) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
+Unlocked::Unlocked() {
+  if (python_ends) return;
+  work_ = std::make_unique<UnderWay>([] {});
+  unlocked_ = std::make_unique<py::gil_scoped_release>();
+}
+
+Unlocked::~Unlocked() = default;
+
 void work_beside_python(const std::function<void()>& work, const std::function<void()>& look,
                         const std::function<void()>& stop) {
   constexpr auto often = std::chrono::milliseconds(50);
   std::exception_ptr failed, raised;
+  const UnderWay under_way(stop);
   {
     const py::gil_scoped_release unlocked;
     std::mutex mutex;
@@ -147,6 +190,7 @@ void work_beside_python(const std::function<void()>& work, const std::function<v
     lock.unlock();
     worker.join();
   }
+  throw_if_python_ends();
   if (raised) std::rethrow_exception(raised);
   if (failed) std::rethrow_exception(failed);
 }
