@@ -181,6 +181,33 @@ class Sources(WithFolder):
             with self.assertRaises((TypeError, ValueError)):
                 study.set("target.points_m", wrong)
 
+    def test_nesting_has_a_limit(self):
+        class Deep:
+            def tolist(self):
+                return self
+
+        def nested(levels):
+            value = 1
+            for _ in range(levels):
+                value = [value]
+            return value
+
+        circle, ring = {}, []
+        circle["a"] = {"b": circle}
+        ring.append(ring)
+        study = linkwright.example("hoeken")
+        for wrong in (circle, {"a": ring}, {"a": nested(50000)}, {"a": nested(65)}, {"a": Deep()}):
+            for take in (linkwright.Study, lambda value: study.set("a", value)):
+                with self.assertRaisesRegex(ValueError, "a: tables and arrays are nested more than 64 deep"):
+                    take(wrong)
+        with self.assertRaisesRegex(ValueError, "a: tables and arrays are nested more than 64 deep"):
+            linkwright.minimise(lambda x: x.sum(axis=1), [0], [1], a=ring)
+        study.set("a", nested(63))
+        self.assertEqual(nested(63), linkwright.Study({"a": nested(63)}).get("a"))
+        # No way around it by what is put into what is there already.
+        with self.assertRaisesRegex(linkwright.StudyError, "is not the path of a key"):
+            study.set("a" + "[0]" * 64, nested(63))
+
     def test_templates_of_all_kinds_are_without_errors(self):
         for kind in linkwright.catalogue():
             study = linkwright.template(kind.name)

@@ -76,7 +76,7 @@ void change(StudySource& source, const std::string& key, const py::object& value
   study::Override change{{}, key, to_value(value, key)};
   change.origin = fmt::format("set(\"{}\", {})", key, study::to_json(change.value));
   const auto steps = study::parse_path(key);
-  if (!steps || steps->size() > study::deepest_nesting)
+  if (!steps)
     diagnostics.push_back({Diagnostic::Severity::error,
                            change.origin,
                            {},

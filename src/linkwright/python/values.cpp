@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/study/read.h"
+
 namespace linkwright::python {
 namespace py = pybind11;
 namespace {
@@ -33,15 +35,15 @@ Value integer(const py::handle& object, std::string_view path) {
   return Value(static_cast<std::int64_t>(number));
 }
 
-Value list(const py::handle& object, std::string_view path) {
+Value list(const py::handle& object, std::string_view path, int depth) {
   Value out = Value::array();
   std::size_t i = 0;
   for (const py::handle item : py::reinterpret_borrow<py::iterable>(object))
-    out.push_back(to_value(item, fmt::format("{}[{}]", path, i++)));
+    out.push_back(to_value(item, fmt::format("{}[{}]", path, i++), depth));
   return out;
 }
 
-Value table(const py::handle& object, std::string_view path) {
+Value table(const py::handle& object, std::string_view path, int depth) {
   Value out = Value::object();
   for (const py::handle item : object.attr("items")()) {
     const auto pair = py::reinterpret_borrow<py::sequence>(item);
@@ -49,7 +51,7 @@ Value table(const py::handle& object, std::string_view path) {
       throw py::type_error(fmt::format("{}: keys are str, not {}", path.empty() ? "the study" : path,
                                        Py_TYPE(pair[0].cast<py::object>().ptr())->tp_name));
     const auto key = pair[0].cast<std::string>();
-    out[key] = to_value(pair[1].cast<py::object>(), below(path, key));
+    out[key] = to_value(pair[1].cast<py::object>(), below(path, key), depth);
   }
   return out;
 }
@@ -68,16 +70,21 @@ PyObject* study_error() {
 
 }  // namespace
 
-Value to_value(const py::handle& object, std::string_view path) {
+Value to_value(const py::handle& object, std::string_view path, int depth) {
+  if (depth > study::deepest_nesting)
+    throw py::value_error(fmt::format(
+        "{}: {}", path.empty() || path[0] == '[' ? "the study" : path.substr(0, path.find_first_of(".[")),
+        study::nested_too_deep()));
   if (object.is_none()) return {};
   if (py::isinstance<py::bool_>(object)) return Value(object.cast<bool>());
   if (py::isinstance<py::str>(object)) return Value(object.cast<std::string>());
   if (py::isinstance<py::float_>(object)) return Value(object.cast<double>());
   // Arrays and numbers of NumPy say what they are in Python's own types.
-  if (py::hasattr(object, "tolist")) return to_value(py::object(object.attr("tolist")()), path);
+  if (py::hasattr(object, "tolist")) return to_value(py::object(object.attr("tolist")()), path, depth + 1);
   if (PyIndex_Check(object.ptr())) return integer(object, path);
-  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) return list(object, path);
-  if (py::hasattr(object, "items")) return table(object, path);
+  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
+    return list(object, path, depth + 1);
+  if (py::hasattr(object, "items")) return table(object, path, depth + 1);
   throw py::type_error(fmt::format("{}: a study holds numbers, texts, lists and tables, not {}",
                                    path.empty() ? "the study" : path, Py_TYPE(object.ptr())->tp_name));
 }

@@ -19,8 +19,9 @@ class gil_scoped_release;
 namespace linkwright::python {
 
 /// None, bool, int, float, str, lists and tuples, mappings with names as keys, and numbers and arrays of
-/// NumPy. Throws pybind11::type_error, with the path of the key, for anything else.
-Value to_value(const pybind11::handle& object, std::string_view path = {});
+/// NumPy. Throws pybind11::type_error, with the path of the key, for anything else, and
+/// pybind11::value_error where it is nested deeper than a study may be, as what contains itself is.
+Value to_value(const pybind11::handle& object, std::string_view path = {}, int depth = 0);
 /// The same back: dicts keep the order of their members, null is None.
 pybind11::object to_python(const Value& value);
 

@@ -29,6 +29,8 @@ Value converted(Value value, const Unit& from, const Unit& to) {
 
 std::optional<std::vector<KeyStep>> parse_path(std::string_view text) {
   std::vector<KeyStep> steps;
+  if (std::count_if(text.begin(), text.end(), [](char c) { return c == '.' || c == '['; }) >= deepest_nesting)
+    return std::nullopt;
   while (true) {
     const std::size_t end = std::min(text.find('.'), text.size());
     std::string_view part = text.substr(0, end);
@@ -65,7 +67,7 @@ bool parse_override(std::string_view text, Override& result, Diagnostics& diagno
   };
   result.key = trimmed(text.substr(0, equals));
   const auto steps = parse_path(result.key);
-  if (!steps || steps->size() > deepest_nesting) {
+  if (!steps) {
     problem(diagnostics, result, fmt::format("'{}' is not the path of a key", result.key),
             "write it like mechanism.link[0].name");
     return false;

@@ -16,7 +16,7 @@ struct KeyStep {
   std::vector<std::size_t> indices;
 };
 
-/// "link[0].body_m" as steps; nothing when it is malformed.
+/// "link[0].body_m" as steps; nothing when it is malformed or deeper than a study may be nested.
 std::optional<std::vector<KeyStep>> parse_path(std::string_view text);
 
 /// A change of a document before it is validated: `--set mechanism.link[0].name=front`.

@@ -14,6 +14,8 @@ namespace linkwright::study {
 inline constexpr std::size_t largest_document = std::size_t{16} << 20;
 /// Tables and arrays may be nested this deep.
 inline constexpr int deepest_nesting = 64;
+/// The message about tables and arrays that are nested deeper.
+std::string nested_too_deep();
 
 enum class Syntax { toml, json };
 

@@ -130,8 +130,7 @@ class Scanner {
       ++dots_;
     else if (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{')
       dots_ = 0;
-    if (open_.size() > deepest_nesting || dots_ > deepest_nesting)
-      problem(fmt::format("tables and arrays are nested more than {} deep", deepest_nesting), {});
+    if (open_.size() > deepest_nesting || dots_ > deepest_nesting) problem(nested_too_deep(), {});
   }
 
   /// Keeps track of whether a key or a value is due, and so whether a string may begin. It needs to be right
@@ -169,6 +168,10 @@ class Scanner {
 };
 
 }  // namespace
+
+std::string nested_too_deep() {
+  return fmt::format("tables and arrays are nested more than {} deep", deepest_nesting);
+}
 
 Diagnostics check_characters(std::string_view text, Syntax syntax) { return Scanner(text, syntax).run(); }
 

@@ -30,8 +30,7 @@ class Converter {
   Value convert(const toml::node& node, int depth) {
     const Position position = to_position(node.source().begin);
     if (depth > deepest_nesting) {
-      if (!has_errors(diagnostics_))
-        problem(position, fmt::format("tables and arrays are nested more than {} deep", deepest_nesting));
+      if (!has_errors(diagnostics_)) problem(position, nested_too_deep());
       return {};
     }
     Value value;
