@@ -7,3 +7,6 @@ class StudyError(ValueError):
     def __init__(self, diagnostics):
         self.diagnostics = list(diagnostics)
         super().__init__("\n".join(map(str, self.diagnostics)))
+
+    def __reduce__(self):
+        return type(self), (self.diagnostics,)

@@ -8,6 +8,7 @@ import os
 import pathlib
 import shutil
 import tempfile
+import types
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, Optional, Union
@@ -77,9 +78,15 @@ class Sample(NamedTuple):
 class _Scratch:
     """A folder for what an example reads; it lives as long as the study, its copies and its results."""
 
-    def __init__(self):
+    def __init__(self, files: Mapping[str, str]):
         self.name = tempfile.mkdtemp(prefix="linkwright-")
         weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+
+        for file, content in files.items():
+            pathlib.Path(self.name, file).write_text(content, encoding="utf-8")
+
+    def __reduce__(self):
+        return _Scratch, ({file.name: file.read_text(encoding="utf-8") for file in pathlib.Path(self.name).iterdir()},)
 
 
 class Study:
@@ -170,11 +177,21 @@ class Study:
         """Writes the study file; `linkwright run FILE` runs it."""
         pathlib.Path(file).write_text(self.to_toml(), encoding="utf-8")
 
+    def __reduce__(self):
+        return _study_beside, (self._source, self._kept)
+
     def __repr__(self):
         document = self.to_dict()
         mechanism = document.get("mechanism")
         type_ = mechanism.get("type", "?") if isinstance(mechanism, dict) else "?"
         return f"<linkwright.Study {document.get('kind', '?')}/{type_}: {document.get('title', self._source.file)}>"
+
+
+def _study_beside(source, kept):
+    """A study whose files are in a folder of our own, if in any."""
+    study = Study(source.in_folder(kept.name) if kept else source)
+    study._kept = kept
+    return study
 
 
 class Table(Mapping[str, numpy.ndarray]):
@@ -246,8 +263,14 @@ class Table(Mapping[str, numpy.ndarray]):
         return f"<linkwright.Table {self.name}: {self.rows} rows of {some}>"
 
 
+# What a pickle keeps of a run: all but what reports and drawings are made from.
+_PICKLED = ("checks", "diagnostics", "exit_code", "facts", "headline", "json", "reasons", "seconds", "solutions", "statistics",
+            "status", "tables", "title", "verdict")
+
+
 class Result:
-    """What a study gave. Numbers are in the units that its `[output]` asks for, SI by default, as in result.json and CSV."""
+    """What a study gave. Numbers are in the units that its `[output]` asks for, SI by default, as in result.json and CSV. It can
+    be pickled, for workers of multiprocessing; `report` and `save` are then left to the process that ran the study."""
 
     def __init__(self, run, study):
         self._run, self._study, self._cache = run, Study(study), {}
@@ -300,38 +323,36 @@ class Result:
     @property
     def facts(self) -> list[Fact]:
         """list of Fact"""
-        return self._once("facts", lambda: [Fact(*row) for row in self._run.facts()])
+        return self._once("facts", lambda: [Fact(*row) for row in self._run.facts])
 
     @property
     def checks(self) -> list[Check]:
         """list of Check"""
-        return self._once("checks", lambda: [Check(*row) for row in self._run.checks()])
+        return self._once("checks", lambda: [Check(*row) for row in self._run.checks])
 
     @property
     def tables(self) -> dict[str, Table]:
         """{name: Table}"""
-        return self._once("tables", lambda: {table.name: Table(table) for table in self._run.tables()})
+        return self._once("tables", lambda: {table.name: Table(table) for table in self._run.tables})
 
     @property
     def solutions(self) -> list[Solution]:
         """list of Solution, best first; empty for an analysis"""
-        return self._once("solutions", lambda: [Solution(*row[:5], self._study_of(row[5])) for row in self._run.solutions()])
+        return self._once("solutions", lambda: [Solution(*row[:5], self._study_of(row[5])) for row in self._run.solutions])
 
     @property
     def statistics(self) -> dict:
         """dict: evaluations, best, median, success_rate, ...; empty when there are none"""
-        return self._once("statistics", self._run.statistics)
+        return self._once("statistics", lambda: self._run.statistics)
 
     def _study_of(self, source):
         if source is None:
             return None
-        study = Study(source)
-        study._kept = self._study._kept
-        return study
+        return _study_beside(source, self._study._kept)
 
     def to_json(self) -> str:
         """The text of result.json, described by `linkwright schema result`."""
-        return self._run.json()
+        return self._run.json
 
     def to_dict(self) -> dict:
         """The document of result.json."""
@@ -339,15 +360,31 @@ class Result:
 
     def report(self, file: Union[str, os.PathLike]) -> None:
         """Writes the report: one HTML file that needs no network. Raises OSError when it cannot be written."""
-        self._run.write_report(os.fspath(file))
+        self._run_here().write_report(os.fspath(file))
 
     def save(self, folder: Union[str, os.PathLike], *, longest_table: int = 1_000_000) -> list[pathlib.Path]:
         """Writes into a folder what the command line writes: report, result.json, CSV, drawings, designs. Returns the files.
         Tables of more than `longest_table` rows go to files of NumPy, which `read_tables` opens. Raises OSError for what cannot
         be written."""
-        return [pathlib.Path(name) for name in self._run.save(os.fspath(folder), longest_table)]
+        return [pathlib.Path(name) for name in self._run_here().save(os.fspath(folder), longest_table)]
 
-    def _repr_html_(self) -> str:
+    def _run_here(self):
+        if not isinstance(self._run, _linkwright.Run):
+            raise RuntimeError("a Result that was pickled has no report and no files; make them where the study was run")
+        return self._run
+
+    def __copy__(self):
+        return Result(self._run, self._study)
+
+    def __deepcopy__(self, memo):
+        return Result(self._run, self._study)  # a result does not change
+
+    def __reduce__(self):
+        return Result, (types.SimpleNamespace(**{name: getattr(self._run, name) for name in _PICKLED}), self._study)
+
+    def _repr_html_(self) -> Optional[str]:
+        if not isinstance(self._run, _linkwright.Run):
+            return None
         return (f'<iframe title="{html.escape(self._run.title)}" srcdoc="{html.escape(self._run.report())}" '
                 'style="width: 100%; height: 640px; border: 1px solid #ccc" allowfullscreen></iframe>')
 
@@ -403,12 +440,8 @@ def example(name: str) -> Study:
     name, _, _, text, beside = found[0]
     if not beside:
         return Study(text, name=name + ".toml")
-    kept = _Scratch()
-    for file, content in beside.items():
-        pathlib.Path(kept.name, file).write_text(content, encoding="utf-8")
-    study = Study(text, folder=kept.name, name=name + ".toml")
-    study._kept = kept
-    return study
+    kept = _Scratch(beside)
+    return _study_beside(_linkwright.read_text(text, name + ".toml", kept.name), kept)
 
 
 def template(kind: str) -> Study:

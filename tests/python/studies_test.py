@@ -1,9 +1,13 @@
 """Studies in Python give what the command line gives: bits, messages, files."""
 
+import concurrent.futures
+import copy
 import gc
 import json
 import math
+import multiprocessing
 import pathlib
+import pickle
 import tempfile
 import threading
 import unittest
@@ -286,6 +290,64 @@ class Errors(WithFolder):
             with self.assertRaises(linkwright.StudyError) as caught:
                 study.changed({path: value}).run()
             self.assertIn(said, str(caught.exception))
+
+
+def crossing(study):
+    """Run in another process: the result, or what was raised."""
+    return study.run()
+
+
+class Pickles(WithFolder):
+    def again(self, what):
+        return pickle.loads(pickle.dumps(what))
+
+    def test_studies_are_the_same_with_their_messages(self):
+        file = self.folder / "wrong.toml"
+        file.write_text(FOUR_BAR.read_text().replace("crank_", "crnk_"))
+        study = linkwright.read(file)
+        study.set("sweep.crank_angle.samples", "many")
+        same = self.again(study)
+        self.assertEqual(study.to_dict(), same.to_dict())
+        self.assertEqual([str(d) for d in study.check()], [str(d) for d in same.check()])
+        self.assertTrue(any(":" in str(d).split(" ")[0] for d in same.check()))
+
+    def test_files_of_examples_go_with_them(self):
+        study = linkwright.example("bump-steer")
+        text = pickle.dumps(study)
+        headline = study.run().headline
+        del study
+        gc.collect()
+        result = self.again(pickle.loads(text).run())
+        self.assertEqual(headline, result.headline)
+        self.assertEqual("passed", result.solutions[0].study.run().verdict)
+
+    def test_results_have_all_numbers(self):
+        result = linkwright.example("fourbar-18-points").run()
+        same = self.again(self.again(result))
+        for name in ("headline", "status", "verdict", "reasons", "exit_code", "seconds", "facts", "checks", "statistics"):
+            self.assertEqual(getattr(result, name), getattr(same, name), name)
+        self.assertEqual(result.to_json(), same.to_json())
+        self.assertEqual(list(result.tables), list(same.tables))
+        for name, table in result.tables.items():
+            self.assertEqual(table.to_csv(), same.tables[name].to_csv())
+            self.assertEqual((table.units, table.labels), (same.tables[name].units, same.tables[name].labels))
+        self.assertEqual(result.solutions[0].parameters, same.solutions[0].parameters)
+        self.assertIn("<linkwright.Result", repr(same))
+        with self.assertRaisesRegex(RuntimeError, "where the study was run"):
+            same.save(self.folder)
+        copy.deepcopy(result).report(self.folder / "r.html")
+
+    def test_workers_give_results_and_messages(self):
+        good = linkwright.read(FOUR_BAR)
+        wrong = good.changed({"mechanism.branch": "opn"})
+        with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+            self.assertEqual(good.run().tables["sweep"].to_csv(), pool.submit(crossing, good).result().tables["sweep"].to_csv())
+            with self.assertRaises(linkwright.StudyError) as here:
+                wrong.run()
+            with self.assertRaises(linkwright.StudyError) as there:
+                pool.submit(crossing, wrong).result()
+        self.assertEqual(str(here.exception), str(there.exception))
+        self.assertEqual([d.key for d in here.exception.diagnostics], [d.key for d in there.exception.diagnostics])
 
 
 class Many(unittest.TestCase):

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "linkwright/app/view.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/core/units.h"
+#include "linkwright/python/arrays.h"
 #include "linkwright/python/bindings.h"
 #include "linkwright/python/study_source.h"
 #include "linkwright/python/values.h"
@@ -41,7 +43,7 @@ using RunPtr = std::shared_ptr<const FinishedRun>;
 
 /// A table of a result, which it keeps alive.
 struct ShownTable {
-  RunPtr run;
+  std::shared_ptr<const void> owner;
   const Table* table = nullptr;
 
   const Column& column(const std::string& key) const {
@@ -306,7 +308,87 @@ py::list checks_of(const FinishedRun& run) {
   return out;
 }
 
-// 4. What there is to begin with
+// 4. State that is pickled
+
+/// Calls `visit` with every position in a document, in the order of its values.
+void visit_positions(Value& value, const std::function<void(Position&)>& visit) {
+  visit(value.position);
+  if (value.is_array()) {
+    for (Value& element : value.as_array()) visit_positions(element, visit);
+  } else if (value.is_object()) {
+    for (Value::Member& member : value.as_object()) {
+      visit(member.key_position);
+      visit_positions(member.value, visit);
+    }
+  }
+}
+
+py::tuple state_of(const StudySource& source) {
+  std::vector<int> positions;  // so that messages name the same lines
+  Value document = source.document;
+  visit_positions(document, [&](Position& p) { positions.insert(positions.end(), {p.line, p.column}); });
+  py::list changes;
+  for (const study::Override& change : source.changes)
+    changes.append(py::make_tuple(change.origin, change.key, to_python(change.value)));
+  return py::make_tuple(to_python(document), positions, source.file, source.folder.string(), source.from_file,
+                        changes);
+}
+
+StudySource source_of(const py::tuple& state) {
+  StudySource source{to_value(state[0].cast<py::object>()), state[2].cast<std::string>(),
+                     state[3].cast<std::string>(), state[4].cast<bool>()};
+  const auto positions = state[1].cast<std::vector<int>>();
+  std::size_t next = 0;
+  visit_positions(source.document, [&](Position& p) {
+    p = {positions.at(next), positions.at(next + 1)};
+    next += 2;
+  });
+  for (const py::handle change : state[5].cast<py::list>()) {
+    const auto row = change.cast<py::tuple>();
+    source.changes.push_back(
+        {row[0].cast<std::string>(), row[1].cast<std::string>(), to_value(row[2].cast<py::object>())});
+  }
+  return source;
+}
+
+py::tuple state_of(const Diagnostic& d) {
+  return py::make_tuple(d.severity == Diagnostic::Severity::error, d.file, d.position.line, d.position.column,
+                        d.key, to_string(d.message), to_string(d.hint));
+}
+
+Diagnostic diagnostic_of(const py::tuple& state) {
+  return {state[0].cast<bool>() ? Diagnostic::Severity::error : Diagnostic::Severity::warning,
+          state[1].cast<std::string>(),
+          {state[2].cast<int>(), state[3].cast<int>()},
+          state[4].cast<std::string>(),
+          state[5].cast<std::string>(),
+          state[6].cast<std::string>()};
+}
+
+py::tuple state_of(const ShownTable& shown_table) {
+  const Table& table = *shown_table.table;
+  py::list columns;
+  for (const Column& column : table.columns)
+    columns.append(py::make_tuple(column.key, column.label, shown(column.values, shown_table.owner)));
+  return py::make_tuple(table.name, table.names, columns, table.status);
+}
+
+ShownTable table_of(const py::tuple& state) {
+  auto table = std::make_shared<Table>(Table{state[0].cast<std::string>(),
+                                             state[1].cast<std::vector<std::string>>(),
+                                             {},
+                                             state[3].cast<std::vector<std::string>>()});
+  for (const py::handle column : state[2].cast<py::list>()) {
+    const auto row = column.cast<py::tuple>();
+    const auto array = row[2].cast<Array>();
+    const std::span<const double> values = samples(array, "values");
+    table->add(row[0].cast<std::string>(), row[1].cast<std::string>(), {values.begin(), values.end()});
+  }
+  const Table* at = table.get();
+  return {std::move(table), at};
+}
+
+// 5. What there is to begin with
 
 py::list examples_like(const std::string& text) {
   py::list out;
@@ -344,11 +426,18 @@ void bind_sources(py::module_& module) {
       .def_property_readonly(
           "hint", [](const Diagnostic& d) { return to_string(d.hint); }, "how to fix it; may be empty")
       .def("__str__", [](const Diagnostic& d) { return to_string(d); })
-      .def("__repr__", [](const Diagnostic& d) { return "<" + to_string(d) + ">"; });
+      .def("__repr__", [](const Diagnostic& d) { return "<" + to_string(d) + ">"; })
+      .def(py::pickle([](const Diagnostic& d) { return state_of(d); }, &diagnostic_of));
 
   py::class_<StudySource>(module, "Source")
       .def_readonly("file", &StudySource::file)
       .def("copy", [](const StudySource& s) { return s; })
+      .def("in_folder",
+           [](const StudySource& s, const fs::path& folder) {
+             StudySource out = s;
+             out.folder = folder;
+             return out;
+           })
       .def("set", &change)
       .def("get", [](const StudySource& s, const std::string& key) { return value_at(s.document, key); })
       .def("check",
@@ -369,7 +458,8 @@ void bind_sources(py::module_& module) {
              return study::name_of(*ready(s, diagnostics).kind);
            })
       .def("toml", [](const StudySource& s) { return study::to_toml(s.document); })
-      .def("run", &run);
+      .def("run", &run)
+      .def(py::pickle([](const StudySource& s) { return state_of(s); }, &source_of));
   module.def("read_text", &read_source);
   module.def("read_file", &read_source_file);
   module.def("from_dict", [](const py::object& document, const std::string& name, const fs::path& folder) {
@@ -390,20 +480,21 @@ void bind_results(py::module_& module) {
       .def_property_readonly("seconds", [](const FinishedRun& r) { return r.outcome.record.seconds; })
       .def_property_readonly("title", [](const FinishedRun& r) { return study::title_of(r.study); })
       .def_property_readonly("diagnostics", [](const FinishedRun& r) { return r.shown.diagnostics; })
-      .def("facts", &facts_of)
-      .def("checks", &checks_of)
-      .def("solutions", &solutions_of)
-      .def("statistics",
-           [](const FinishedRun& r) {
-             return r.shown.statistics.is_null() ? py::object(py::dict()) : to_python(r.shown.statistics);
-           })
-      .def("tables",
-           [](const std::shared_ptr<FinishedRun>& r) {
-             std::vector<ShownTable> out;
-             for (const Table& table : r->shown.tables) out.push_back({r, &table});
-             return out;
-           })
-      .def("json", &json_of, py::call_guard<Unlocked>())
+      .def_property_readonly("facts", &facts_of)
+      .def_property_readonly("checks", &checks_of)
+      .def_property_readonly("solutions", &solutions_of)
+      .def_property_readonly("statistics",
+                             [](const FinishedRun& r) {
+                               return r.shown.statistics.is_null() ? py::object(py::dict())
+                                                                   : to_python(r.shown.statistics);
+                             })
+      .def_property_readonly("tables",
+                             [](const std::shared_ptr<FinishedRun>& r) {
+                               std::vector<ShownTable> out;
+                               for (const Table& table : r->shown.tables) out.push_back({r, &table});
+                               return out;
+                             })
+      .def_property_readonly("json", py::cpp_function(&json_of, py::call_guard<Unlocked>()))
       .def("report", &report_of, py::call_guard<Unlocked>())
       .def("write_report", &write_report)
       .def("save", &save);
@@ -427,8 +518,9 @@ void bind_results(py::module_& module) {
       .def("unit", [](const ShownTable& t, const std::string& key) { return unit_of(t.column(key)); })
       .def("label", [](const ShownTable& t, const std::string& key) { return t.column(key).label; })
       .def("column",
-           [](const ShownTable& t, const std::string& key) { return shown(t.column(key).values, t.run); })
-      .def("csv", [](const ShownTable& t) { return to_csv(*t.table); });
+           [](const ShownTable& t, const std::string& key) { return shown(t.column(key).values, t.owner); })
+      .def("csv", [](const ShownTable& t) { return to_csv(*t.table); })
+      .def(py::pickle([](const ShownTable& t) { return state_of(t); }, &table_of));
 }
 
 }  // namespace
