@@ -128,7 +128,8 @@ def mpi_deb(build, out, work):
 
 
 # What CMake looks for when a program links the mechanics.
-NEEDED_BY_MECHANICS = ("libfmt-dev", "libeigen3-dev", "libtbb-dev", "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libpagmo-dev", "libboost1.74-dev")
+NEEDED_BY_MECHANICS = ("libfmt-dev", "libeigen3-dev", "libtbb-dev", "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev",
+                       "libpagmo-dev", "libboost1.74-dev")
 
 
 def development_deb(build, out, work, component, name, needs, summary):
@@ -250,7 +251,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         python = python_deb(given.build, given.out, work)
-        made = [program_deb(given.build, given.out, work), mpi_deb(given.build, given.out, work), *development_debs(given.build, given.out, work),
+        made = [program_deb(given.build, given.out, work), mpi_deb(given.build, given.out, work),
+                *development_debs(given.build, given.out, work),
                 python, tarball(given.build, given.out, work, bundled, bill)]
     if python:
         os.environ["LINKWRIGHT_BUILD"] = str(given.build)

@@ -107,7 +107,8 @@ def main():
 
         # 2: Debian's packages.
         root.call("apt-get", "-q", "update")
-        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(("linkwright-dev", "linkwright-studies-dev", "linkwright-mpi"))]
+        left_out = ("linkwright-dev", "linkwright-studies-dev", "linkwright-mpi")
+        debs = [root.put(file) for file in out.glob("*.deb") if not file.name.startswith(left_out)]
         root.call("apt-get", "-q", "-y", "install", "--no-install-recommends", *debs)
         same(root.result(*command), expected, "linkwright.deb")
         root.result(*by_pagmo)
