@@ -100,6 +100,20 @@ TEST_F(Merge, WhatHasNotEndedOrIsDamagedIsNamed) {
   EXPECT_THAT(said_, HasSubstr("run shard 1/2 again"));
 }
 
+TEST_F(Merge, AShardThatAnotherWasCopiedOverIsNamed) {
+  shard("a", 1, 2);
+  shard("a", 2, 2);
+  fs::copy_file(folder_ / "a/shard-1-of-2.jsonl", folder_ / "a/shard-2-of-2.jsonl",
+                fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(read({"a"}));
+  EXPECT_THAT(
+      said_,
+      HasSubstr("/a/shard-2-of-2.jsonl: error: holds another shard than its name says; run shard 2/2 again"));
+  shard("again", 2, 2);
+  fs::remove(folder_ / "a/shard-2-of-2.jsonl");
+  EXPECT_TRUE(read({"a", "again"})) << said_;
+}
+
 TEST_F(Merge, OnlyShardsOfOneStudyAndDivisionGoTogether) {
   shard("a", 1, 2);
   shard("b", 2, 3);

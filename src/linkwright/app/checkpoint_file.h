@@ -78,6 +78,7 @@ class CheckpointFile final : public Checkpoint {
   bool load(Diagnostics& diagnostics);
   /// Number of saved lines.
   std::size_t size() const;
+  const Shard& shard() const { return shard_; }
   /// The names of the lines, in order.
   std::vector<std::string> names() const;
 

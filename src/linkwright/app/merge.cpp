@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* study_name = "study.json";
-constexpr const char* end_name = "shard";  // name under which a shard saves that its part is done
+constexpr const char* end_name = "shard";  // a shard that is done saves its name under this one
 constexpr std::size_t most_named = 10;     // missing shards in a message
 
 void refuse_shards(Diagnostics& diagnostics, const fs::path& file, std::string message, std::string hint) {
@@ -136,7 +136,7 @@ bool write_shard_study(const Value& as_written, const fs::path& study, const fs:
   return problem.empty();
 }
 
-void end_shard(Checkpoint& shard) { shard.keep(end_name, Value(true)); }
+void end_shard(CheckpointFile& shard) { shard.keep(end_name, Value(shard_name(shard.shard()))); }
 
 std::optional<Merged> read_shards(std::span<const fs::path> folders, std::span<const study::Kind> kinds,
                                   Diagnostics& diagnostics) {
@@ -164,10 +164,16 @@ std::optional<Merged> read_shards(std::span<const fs::path> folders, std::span<c
       diagnostics.back().hint = fmt::format("run shard {}/{} again", file.shard.index + 1, file.shard.count);
       continue;
     }
-    if (shard.find(end_name).is_null())
+    const Value end = shard.find(end_name);
+    if (end.is_null()) {
       open.emplace(file.shard.index, file.path);
-    else
+    } else if (end == Value(shard_name(file.shard))) {
       ended.insert(file.shard.index);
+    } else {
+      refuse_shards(diagnostics, file.path, "holds another shard than its name says",
+                    fmt::format("run shard {}/{} again", file.shard.index + 1, file.shard.count));
+      continue;
+    }
     for (const std::string& piece : shard.names()) merged.kept->keep(piece, shard.find(piece));
   }
   for (const auto& [index, path] : open)

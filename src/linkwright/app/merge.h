@@ -24,8 +24,8 @@ std::string shard_name(const Shard& shard);
 bool write_shard_study(const Value& as_written, const std::filesystem::path& study,
                        const std::filesystem::path& folder, Diagnostics& diagnostics);
 
-/// Notes in a shard that its part is done.
-void end_shard(Checkpoint& shard);
+/// Notes in a shard that its part is done, and which one it is.
+void end_shard(CheckpointFile& shard);
 
 /// The shards of a study, put together: a run with `kept` as its checkpoint ends with the bits of one that
 /// was not shared.
@@ -35,7 +35,7 @@ struct Merged {
 };
 
 /// Reads all shards in the folders. Nothing, with diagnostics that name them, if shards are missing, damaged,
-/// have not ended, or are not of one study and one number of shards.
+/// copies of others, have not ended, or are not of one study and one number of shards.
 std::optional<Merged> read_shards(std::span<const std::filesystem::path> folders,
                                   std::span<const study::Kind> kinds, Diagnostics& diagnostics);
 
