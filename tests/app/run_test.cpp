@@ -1,6 +1,8 @@
 #include "linkwright/app/run.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -121,6 +123,22 @@ TEST_F(Run, WritesWhatTheStudyAsksFor) {
             "0.4,done\r\n");
   // Nothing is left of the temporary files.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep/out"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Run, WhatAKilledRunHasLeftIsRemoved) {
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(dead, nullptr, 0), dead);
+  const auto study = load({});
+  ASSERT_TRUE(study) << message();
+  RunContext context;
+  ASSERT_TRUE(prepare_folder(folder_ / "out", diagnostics_));
+  const auto written = write_results(*study, run_and_record(*study, context), folder_ / "out", diagnostics_);
+  ASSERT_FALSE(written.empty());
+  for (const fs::path& file : written) std::ofstream(fmt::format("{}.{}.part", file.string(), dead)) << "x";
+  write_results(*study, run_and_record(*study, context), folder_ / "out", diagnostics_);
+  for (const fs::path& file : written)
+    EXPECT_FALSE(fs::exists(fmt::format("{}.{}.part", file.string(), dead))) << file;
 }
 
 TEST_F(Run, LongTablesStandBesideTheResult) {

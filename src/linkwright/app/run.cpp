@@ -190,6 +190,7 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
   std::vector<fs::path> written;
   const auto write = [&](const std::string& name, const auto& text) {
     const fs::path file = folder / name;
+    remove_leftovers(file);
     if (const std::string problem = write_whole(file, text); problem.empty())
       written.push_back(file);
     else

@@ -91,8 +91,9 @@ inline constexpr const char* about =
     "Linkwright analyses, balances and synthesises mechanisms from study files.";
 
 inline constexpr int bad_input = 2;
-inline constexpr int not_written = 3;
+inline constexpr int numeric_failure = 3;
 inline constexpr int cancelled = 4;
+inline constexpr int system_limit = 5;
 inline constexpr int internal_error = 70;
 /// An exit code of the program, with its meaning.
 struct ExitCode {
@@ -103,8 +104,9 @@ inline constexpr ExitCode exit_codes[] = {
     {0, "done"},
     {1, "a check failed"},
     {bad_input, "bad input or usage"},
-    {not_written, "numeric failure, too little memory, or a file that cannot be written"},
+    {numeric_failure, "numeric failure"},
     {cancelled, "cancelled"},
+    {system_limit, "a file that cannot be written, too little memory, or no more threads"},
     {internal_error, "internal error"}};
 
 }  // namespace linkwright::cli

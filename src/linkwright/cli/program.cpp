@@ -40,7 +40,7 @@ namespace {
 /// The exit code where results cannot go: a folder that is none was asked for, another one cannot be written.
 int unusable(const fs::path& folder) {
   std::error_code error;
-  return fs::is_directory(folder, error) ? not_written : bad_input;
+  return fs::is_directory(folder, error) ? system_limit : bad_input;
 }
 
 /// The command line, without what does not change the result.
@@ -196,7 +196,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   if (const std::string problem = app::note_owner(folder, arguments.study, options, *study);
       !problem.empty()) {
     print_diagnostics({unwritten(folder.string(), problem)});
-    return not_written;
+    return system_limit;
   }
   const bool whole = arguments.shards == 0;
   const app::Shard shard = whole ? app::Shard{}
@@ -235,7 +235,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
   print_outcome(arguments, *study, outcome, written, problems);
   if (!arguments.quiet) offer_to_resume(outcome.result, checkpoint, folder);
-  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
+  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
 }
 
 /// The checkpoint that a result computed again finds in its folder; nothing is saved there.
@@ -317,7 +317,7 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const study::Study study = app::comparison_study(all);
   const std::vector<fs::path> written = app::write_results(study, outcome, folder, problems);
   print_outcome(arguments, study, outcome, written, problems);
-  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
+  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
 }
 
 /// The result of a study from the checkpoints of its shards.
@@ -349,7 +349,7 @@ int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics problems;
   const std::vector<fs::path> written = app::write_results(merged->study, outcome, folder, problems);
   print_outcome(arguments, merged->study, outcome, written, problems);
-  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
+  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
 }
 
 int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
@@ -436,26 +436,33 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
   const std::string problem = output_problem();
   if (problem.empty()) return code;
   print_diagnostics({unwritten("standard output", problem)});
-  return not_written;
+  return system_limit;
 } catch (const PartMissing& error) {
   fmt::print(stderr, "linkwright: {}\nInstall the program again; the study is not to blame.\n", error.what());
   return internal_error;
 } catch (const fs::filesystem_error& error) {
   print_diagnostics({unreachable(error)});
-  return not_written;
+  return system_limit;
 } catch (const std::system_error& error) {
   // Printing throws where a stream takes no more.
-  if (std::ferror(stderr) != 0) return not_written;
-  if (std::ferror(stdout) == 0) return failed(error);
+  if (std::ferror(stderr) != 0) return system_limit;
+  if (std::ferror(stdout) == 0) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return failed(error);
+    std::fputs(
+        "linkwright: error: the system gives no more threads; end other programs, or raise the limit of "
+        "memory or of threads\n",
+        stderr);
+    return system_limit;
+  }
   print_diagnostics({unwritten("standard output", error.code().message())});
-  return not_written;
+  return system_limit;
 } catch (const std::bad_alloc&) {
   std::fputs(
       "linkwright: error: the memory that may be used is not enough for this study; ask it for less: a "
       "shorter "
       "time, fewer samples, points, runs or candidates\n",
       stderr);
-  return not_written;
+  return system_limit;
 } catch (const std::exception& error) {
   return failed(error);
 }

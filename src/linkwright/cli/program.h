@@ -9,7 +9,7 @@ namespace linkwright::cli {
 
 /// The whole program for a catalogue of studies and of published tables: reads the command line, runs the
 /// command, prints. Returns the exit code: 0 done, 1 a check failed, 2 bad input or usage, 3 numeric failure,
-/// 4 cancelled, 70 internal error.
+/// 4 cancelled, 5 a limit of the system, 70 internal error.
 int program(int argc, const char* const* argv, std::span<const study::Kind> kinds,
             std::span<const study::Reproduction> reproductions = {});
 
