@@ -75,6 +75,7 @@ NO_TEST = {
     "planar/exact/detail/follow_kernel.h": "part of follow, compiled once per instruction set and compared by its test",
     "planar/exact/detail/monodromy.h": "finds the start sets; tested by nine_point_starts_test.cpp and five_points_test.cpp",
     "planar/path/curve_overlay.h": "shared part of both kinds of starts, tested with them",
+    "planar/studies/path.h": "the study of any path mechanism, tested with those of four-bars and slider-cranks",
     "planar/studies/linkage_rows.h": "part of linkage studies, tested in linkage_test.cpp",
     "suspension/studies/seven_pose_tables.h": "part of indirect studies, tested in indirect_test.cpp",
     "planar/studies/path_seeds.h": "shared part of path studies, run by the tests of both mechanisms",

@@ -4,7 +4,7 @@
 #include "linkwright/planar/studies/dwell.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/simulation.h"
@@ -15,7 +15,7 @@
 namespace linkwright::planar {
 
 std::vector<study::Kind> studies() {
-  std::vector<study::Kind> kinds = {path_kind(),
+  std::vector<study::Kind> kinds = {four_bar_path_kind(),
                                     slider_path_kind(),
                                     pose_kind(),
                                     rocker_function_kind(),

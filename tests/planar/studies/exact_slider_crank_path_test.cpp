@@ -1,11 +1,10 @@
-#include "linkwright/planar/studies/exact_slider_crank_path.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "linkwright/planar/studies/slider_crank_path.h"
 #include "planar/studies.h"
 
 namespace linkwright::planar {

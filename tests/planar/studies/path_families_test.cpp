@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/study/study.h"
 #include "planar/studies.h"
@@ -76,7 +76,7 @@ bool goes_with(const std::string& key, const std::set<std::string>& absent) {
 
 // Every key of one path synthesis is one of the other, or has a reason why not.
 TEST(PathFamilies, DifferInNothingButWhatHasItsReason) {
-  const std::set<std::string> four_bar = keys_of(path_kind()), slider = keys_of(slider_path_kind());
+  const std::set<std::string> four_bar = keys_of(four_bar_path_kind()), slider = keys_of(slider_path_kind());
   ASSERT_THAT(four_bar,
               IsSupersetOf({"target.gates", "target.timing.increments", "constraint.type = \"order\"",
                             "optimiser.method = \"recommended\"", "mechanism.parameters.ground"}));
@@ -98,7 +98,7 @@ TEST(PathFamilies, DifferInNothingButWhatHasItsReason) {
 
 // The schema, from which the reference is made, holds every reason.
 TEST(PathFamilies, TheSchemaTellsTheReasons) {
-  for (const study::Kind& kind : {path_kind(), slider_path_kind()}) {
+  for (const study::Kind& kind : {four_bar_path_kind(), slider_path_kind()}) {
     const Value schema = study::schema_of(kind);
     ASSERT_TRUE(schema.find("absent"));
     const auto& told = schema.find("absent")->as_array();

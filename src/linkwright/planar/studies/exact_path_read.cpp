@@ -14,7 +14,7 @@
 #include "linkwright/planar/exact/nine_points.h"
 #include "linkwright/planar/exact/timed_points.h"
 #include "linkwright/planar/studies/exact_findings.h"
-#include "linkwright/planar/studies/exact_path.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 
 namespace linkwright::planar {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::size_t timed_with_pivots = 3;
 constexpr const char* search_instead = "fit = \"least_squares\" searches for the nearest four-bars";
 
 // The four numbers that place both pivots, in the order of their keys.
-std::array<const std::optional<Range>*, 4> pivot_numbers(const PathParameters& p) {
+std::array<const std::optional<Range>*, 4> pivot_numbers(const FourBarPathParameters& p) {
   return {&p.ranges[index(FourBarParameter::pivot_x)], &p.ranges[index(FourBarParameter::pivot_y)],
           &p.rocker_pivot_x, &p.rocker_pivot_y};
 }
@@ -38,10 +38,10 @@ GivenPivot given_pivot(const std::optional<Range>& x, const std::optional<Range>
 
 // The number of fixed pivots that are given as places. A pivot that is no place is reported, and so are other
 // parameters.
-std::optional<int> read_pivots(study::ObjectReader& document, const PathStudy& s) {
+std::optional<int> read_pivots(study::ObjectReader& document, const FourBarPathStudy& s) {
   auto mechanism = document.table("mechanism");
   if (!mechanism) return 0;
-  const PathParameters& parameters = s.mechanism.parameters;
+  const FourBarPathParameters& parameters = s.mechanism.parameters;
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
     if (j == index(FourBarParameter::pivot_x) || j == index(FourBarParameter::pivot_y)) continue;
     if (parameters.ranges[j])
@@ -75,7 +75,7 @@ std::optional<int> read_pivots(study::ObjectReader& document, const PathStudy& s
 }
 
 // Points with crank angles: three to five, three beside a pivot.
-void check_timed_count(study::ObjectReader& target, const PathStudy& s, bool with_pivots) {
+void check_timed_count(study::ObjectReader& target, const FourBarPathStudy& s, bool with_pivots) {
   const std::size_t n = s.problem.x.size();
   if (n < least_timed_points || n == timed_with_pivots || (n <= most_timed_points && !with_pivots)) return;
   target.error(
@@ -90,7 +90,7 @@ void check_timed_count(study::ObjectReader& target, const PathStudy& s, bool wit
 // So many points fit so many given pivots.
 constexpr std::array<std::size_t, 3> exact_points = {9, 7, 5};
 
-void check_count(study::ObjectReader& target, const PathStudy& s, int pivots) {
+void check_count(study::ObjectReader& target, const FourBarPathStudy& s, int pivots) {
   if (s.problem.timing != Timing::free) return check_timed_count(target, s, pivots > 0);
   const std::size_t n = s.problem.x.size(), wanted = exact_points[at(pivots)];
   if (n < 3 || n == wanted) return;  // fewer have been reported already
@@ -125,7 +125,8 @@ void check_rotations(study::ObjectReader& target, const PathProblem& p) {
 
 }  // namespace
 
-void read_exact_path(study::ObjectReader& document, study::ObjectReader& target, PathStudy& s) {
+void FourBarPathKind::read_exact(study::ObjectReader& document, study::ObjectReader& target,
+                                 FourBarPathStudy& s) {
   PathProblem& p = s.problem;
   if (!check_exact_targets(target, s.target, p, search_instead)) return;
   if (!std::holds_alternative<Recommended>(s.optimiser.method))

@@ -17,7 +17,7 @@
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/four_bar/usability.h"
 #include "linkwright/planar/studies/exact_findings.h"
-#include "linkwright/planar/studies/exact_path.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/planar/studies/path_solution.h"
 #include "linkwright/study/remarks.h"
@@ -37,7 +37,7 @@ std::complex<double> pivot_place(const std::optional<Range>& x, const std::optio
 
 class ExactReport {
  public:
-  ExactReport(const PathStudy& s, const study::Common& common)
+  ExactReport(const FourBarPathStudy& s, const study::Common& common)
       : p_(s.problem), parameters_(s.mechanism.parameters), common_(common) {}
 
   study::Result make(RunContext& context) {
@@ -432,7 +432,7 @@ class ExactReport {
   }
 
   const PathProblem& p_;
-  const PathParameters& parameters_;
+  const FourBarPathParameters& parameters_;
   const study::Common& common_;
   study::Result result_;
   ExactFindings found_;
@@ -445,7 +445,8 @@ class ExactReport {
 
 }  // namespace
 
-study::Result run_exact_path_study(const PathStudy& s, const study::Common& common, RunContext& context) {
+study::Result FourBarPathKind::run_exact(const FourBarPathStudy& s, const study::Common& common,
+                                         RunContext& context) {
   return ExactReport(s, common).make(context);
 }
 

@@ -1,5 +1,3 @@
-#include "linkwright/planar/studies/exact_slider_crank_path.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/exact/slider_designs.h"
 #include "linkwright/planar/studies/exact_findings.h"
+#include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/remarks.h"
 
@@ -66,7 +65,8 @@ Table slider_design_table(const std::vector<ExactSliderDesign>& designs) {
 
 }  // namespace
 
-void read_exact_slider_path(study::ObjectReader& document, study::ObjectReader& target, SliderPathStudy& s) {
+void SliderPathKind::read_exact(study::ObjectReader& document, study::ObjectReader& target,
+                                SliderPathStudy& s) {
   SliderPathProblem& p = s.problem;
   const char* key = key_of(s.target);
   if (!check_exact_targets(target, s.target, p, search_sliders)) return;
@@ -106,8 +106,8 @@ void read_exact_slider_path(study::ObjectReader& document, study::ObjectReader& 
     p.bounds[j] = is_angle(SliderParameter(j)) ? Range{-pi, pi} : Range{-1e12 * far, 1e12 * far};
 }
 
-study::Result run_exact_slider_path_study(const SliderPathStudy& s, const study::Common& common,
-                                          RunContext& context) {
+study::Result SliderPathKind::run_exact(const SliderPathStudy& s, const study::Common& common,
+                                        RunContext& context) {
   const SliderPathProblem& p = s.problem;
   std::vector<std::complex<double>> points;
   for (std::size_t k = 0; k < p.x.size(); ++k) points.emplace_back(p.x[k], p.y[k]);

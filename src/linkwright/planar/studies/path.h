@@ -1,29 +1,32 @@
 #pragma once
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "linkwright/optimise/population_methods.h"
-#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/answer.h"
+#include "linkwright/planar/path/mechanism.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
 #include "linkwright/study/kind.h"
 
-// The path synthesis study: what its file holds (field lists), how it is read, run and reported.
+// The path synthesis study of any mechanism: what its file holds (field lists) and how it is read. A
+// description D says what is peculiar to a mechanism: a path mechanism with its choices, limits and words,
+// beside it in this folder.
 namespace linkwright::planar {
 
-/// The assembly branches, and below the senses of crank rotation along the points, that are searched.
-enum class BranchChoice { any, open, crossed };
-constexpr std::array<EnumName<BranchChoice>, 3> names(BranchChoice) {
-  return {{{BranchChoice::any, "any", "both branches"},
-           {BranchChoice::open, "open",
-            "coupler-rocker pin to the left of the line from crank pin to rocker pivot"},
-           {BranchChoice::crossed, "crossed", "... to the right"}}};
-}
+/// The senses of crank rotation along the points that are searched.
 enum class SenseChoice { automatic, any, positive, negative };
 constexpr std::array<EnumName<SenseChoice>, 4> names(SenseChoice) {
   return {{{SenseChoice::automatic, "automatic", "positive when crank angles are prescribed, else any"},
@@ -32,88 +35,67 @@ constexpr std::array<EnumName<SenseChoice>, 4> names(SenseChoice) {
            {SenseChoice::negative, "negative", "clockwise, or against the prescribed angles"}}};
 }
 
-/// `[mechanism.parameters]`: what is left out gets bounds from the path.
-struct PathParameters {
-  std::array<std::optional<Range>, four_bar_parameter_count> ranges;
-  /// Coordinates of B0, which follow from the other parameters.
-  std::optional<Range> rocker_pivot_x, rocker_pivot_y;
+/// A parameter of a mechanism in a study file and in the tables of a result.
+struct ParameterWords {
+  std::string_view summary, label;
 };
-template <class Visitor>
-void fields(Visitor&& visit, PathParameters& p) {
-  constexpr std::array<std::string_view, four_bar_parameter_count> summaries = {
-      "length of the ground link O-B0",
-      "length of the crank O-A",
-      "length of the coupler A-B",
-      "length of the rocker B0-B",
-      "tracing point along A->B",
-      "tracing point along the left normal of A->B",
-      "crank pivot O, x",
-      "crank pivot O, y",
-      "direction of O->B0",
-      "crank angle at the first point, from O->B0 (equal steps)"};
-  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
-    const bool angle = j >= index(FourBarParameter::frame_angle), link = j <= index(FourBarParameter::rocker);
-    Field field =
-        field::of(angle ? Dimension::angle : Dimension::length, name(FourBarParameter(j)), summaries[j]);
-    if (link) field.minimum = 0;
+
+/// `[mechanism.parameters]`: what is left out gets bounds from the path.
+template <class Parameter, std::size_t count>
+struct PathParameters {
+  std::array<std::optional<Range>, count> ranges;
+};
+template <class Visitor, class Parameter, std::size_t count>
+void fields(Visitor&& visit, PathParameters<Parameter, count>& p) {
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto parameter = Parameter(j);
+    Field field = field::of(is_angle(parameter) ? Dimension::angle : Dimension::length, name(parameter),
+                            words(parameter)[j].summary);
+    if (is_length(parameter)) field.minimum = 0;
     visit(field, p.ranges[j]);
   }
-  visit(field::length("rocker_pivot_x", "where the rocker pivot B0 may be, x"), p.rocker_pivot_x);
-  visit(field::length("rocker_pivot_y", "where the rocker pivot B0 may be, y"), p.rocker_pivot_y);
 }
 
-struct FourBarPathForm {
-  BranchChoice branch = BranchChoice::any;
+template <class D>
+struct PathMechanismForm {
+  typename D::BranchChoice branch{};
   SenseChoice sense = SenseChoice::automatic;
-  PathParameters parameters;
+  typename D::Parameters parameters;
 };
-template <class Visitor>
-void fields(Visitor&& visit, FourBarPathForm& m) {
-  visit(field::entry("branch", "assembly branch to search"), m.branch);
+template <class Visitor, class D>
+void fields(Visitor&& visit, PathMechanismForm<D>& m) {
+  visit(field::entry("branch", D::branch_summary), m.branch);
   visit(field::entry("sense", "sense of crank rotation to search"), m.sense);
   visit(field::entry("parameters", "fixed numbers, or { min, max } for design variables"), m.parameters);
 }
 
-/// The criterion by which points are met.
-enum class PathFit { least_squares, exact };
-constexpr std::array<EnumName<PathFit>, 2> names(PathFit) {
-  return {{{PathFit::least_squares, "least_squares", "as near as the four-bars that a search finds come"},
-           {PathFit::exact, "exact",
-            "exactly, by all four-bars that pass them: nine points, seven with one fixed pivot as numbers, "
-            "five with both, as numbers or ranges to choose from, or three to five with crank angles"}}};
-}
-
-/// The point that traces.
-enum class TracingPoint { coupler };
-constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
-  return {{{TracingPoint::coupler, "coupler", "point (coupler_u, coupler_v) of the coupler"}}};
-}
-
+/// `[target]`: the point that traces, the criterion by which points are met, and the path.
+template <class D>
 struct PathTarget : PathTargetForm {
-  TracingPoint point = TracingPoint::coupler;
-  PathFit fit = PathFit::least_squares;
+  typename D::TracingPoint point{};
+  typename D::Fit fit{};
 };
-template <class Visitor>
-void fields(Visitor&& visit, PathTarget& t) {
+template <class Visitor, class D>
+void fields(Visitor&& visit, PathTarget<D>& t) {
   visit(field::entry("point", "point that traces the path"), t.point);
   visit(field::entry("fit", "how the points are met"), t.fit);
   fields(visit, static_cast<PathTargetForm&>(t));
 }
 
-/// The quantity that is minimised.
-enum class PathObjectiveType { sum_squared_distance };
-constexpr std::array<EnumName<PathObjectiveType>, 1> names(PathObjectiveType) {
-  return {{{PathObjectiveType::sum_squared_distance, "path.sum_squared_distance",
-            "sum over the points of the squared distance (Boskovic 2018 Eq. (4.4))"}}};
-}
+/// `[[objective]]`; several give a front.
+template <class Type>
 struct PathObjectiveEntry {
-  PathObjectiveType type = PathObjectiveType::sum_squared_distance;
+  Type type{};
   double weight = 1;
 };
-template <class Visitor>
-void fields(Visitor&& visit, PathObjectiveEntry& o) {
+template <class Visitor, class Type>
+void fields(Visitor&& visit, PathObjectiveEntry<Type>& o) {
   visit(field::entry("type", "what is minimised").required(), o.type);
-  visit(field::entry("weight", "factor").positive(), o.weight);
+  visit(field::entry("weight", names(Type{}).size() > 1
+                                   ? "factor, where a method of one objective minimises the sum of both"
+                                   : "factor")
+            .positive(),
+        o.weight);
 }
 
 struct CrankRotatesFully {};
@@ -122,30 +104,6 @@ void fields(Visitor&&, CrankRotatesFully&) {}
 constexpr Word choice_word(const CrankRotatesFully&) {
   return {"crank_rotates_fully", "the crank rotates fully"};
 }
-
-struct TransmissionLimit {
-  double min = 0;
-};
-template <class Visitor>
-void fields(Visitor&& visit, TransmissionLimit& t) {
-  visit(field::angle("min", "least angle between coupler and rocker, folded to 0..90 deg")
-            .between(0, 1.5707963267948966)
-            .required(),
-        t.min);
-}
-constexpr Word choice_word(const TransmissionLimit&) {
-  return {"transmission_angle", "minimum transmission angle"};
-}
-
-struct PackagingLimit {
-  Range x, y;
-};
-template <class Visitor>
-void fields(Visitor&& visit, PackagingLimit& p) {
-  visit(field::length("x", "{ min, max } of both fixed pivots").required(), p.x);
-  visit(field::length("y", "{ min, max } of both fixed pivots").required(), p.y);
-}
-constexpr Word choice_word(const PackagingLimit&) { return {"packaging", "both fixed pivots inside a box"}; }
 
 /// Always holds for an answer; a study may say so.
 struct InOrder {};
@@ -162,23 +120,16 @@ constexpr Word choice_word(const NoDefects&) {
   return {"no_defects", "leave out designs with branch, circuit or order defects"};
 }
 
+/// `[[constraint]]`: those of every mechanism and the limits of one.
+template <class... Limits>
 struct PathConstraint {
-  std::variant<CrankRotatesFully, InOrder, TransmissionLimit, PackagingLimit, NoDefects> limit;
+  std::variant<CrankRotatesFully, InOrder, Limits..., NoDefects> limit;
   bool enabled = true;
 };
-template <class Visitor>
-void fields(Visitor&& visit, PathConstraint& c) {
+template <class Visitor, class... Limits>
+void fields(Visitor&& visit, PathConstraint<Limits...>& c) {
   visit(field::entry("type", "what is limited").required(), c.limit);
   visit(field::entry("enabled", "false leaves it out"), c.enabled);
-}
-
-/// True if a constraint of a path is enabled; the order of the points is one that no study can give up.
-template <class Constraint>
-bool is_enabled(study::ObjectReader& document, const Constraint& c) {
-  if (!c.enabled && std::holds_alternative<InOrder>(c.limit))
-    document.error("constraint", "the order of the points cannot be given up",
-                   "remove the constraint, or enabled = false");
-  return c.enabled;
 }
 
 /// `[optimiser]`: the recommended method or a published one.
@@ -193,36 +144,139 @@ constexpr Word choice_word(const Recommended&) {
   return {"recommended", "separable form, global search, exact-gradient polish"};
 }
 
-/// The population methods work on the ten-unknown problem. Violated constraints cost a constant, as Boskovic
-/// 2018 Eq. (4.4) has it, unless the study says otherwise.
-using PathMethod = optimise::MethodChoice<optimise::Constraints::penalty, Recommended>;
-struct PathOptimiser {
-  PathMethod method;
+/// A study as read.
+template <class D>
+struct PathStudy {
+  PathMechanismForm<D> mechanism;
+  PathTarget<D> target;
+  std::vector<PathObjectiveEntry<typename D::Objective>> objectives;
+  std::vector<typename D::Constraint> constraints;
+  typename D::Optimiser optimiser;
+
+  typename D::Problem problem;  ///< the problem that follows from the above
+  bool front = false;           ///< several objectives
+  bool no_defects = false;      ///< designs with defects are no answers
 };
-template <class Visitor>
-void fields(Visitor&& visit, PathOptimiser& o) {
-  visit(field::entry("method", "how designs are searched"), o.method);
+
+template <class D>
+void set_bounds(study::ObjectReader& document, PathStudy<D>& s) {
+  auto mechanism = document.table("mechanism");
+  if (!mechanism || s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
+  s.problem.bounds = D::bounds(s.problem.x, s.problem.y);
+  const auto& ranges = s.mechanism.parameters.ranges;
+  for (std::size_t j = 0; j < ranges.size(); ++j) {
+    const auto parameter = typename D::Parameter(j);
+    if (!ranges[j]) continue;
+    s.problem.bounds[j] = *ranges[j];
+    if (is_link(parameter) && ranges[j]->upper <= 0)
+      mechanism->error("parameters", fmt::format("{} must be able to be longer than 0", name(parameter)));
+  }
+  if (const Timing mode = s.target.timing.mode; ranges.back() && !starts_anywhere(mode))
+    mechanism->warning("parameters", fmt::format("start_angle is ignored: the timing is {}", name_of(mode)));
 }
 
-/// A path synthesis study as read.
-struct PathStudy {
-  FourBarPathForm mechanism;
-  PathTarget target;
-  std::vector<PathObjectiveEntry> objectives;
-  std::vector<PathConstraint> constraints;
-  PathOptimiser optimiser;
+template <class D>
+void set_constraints(study::ObjectReader& document, PathStudy<D>& s) {
+  s.problem.crank_rotates_fully = false;
+  for (const auto& constraint : s.constraints) {
+    const auto set = [&](const auto& limit) {
+      using Limit = std::decay_t<decltype(limit)>;
+      if constexpr (std::is_same_v<Limit, CrankRotatesFully>)
+        s.problem.crank_rotates_fully = true;
+      else if constexpr (std::is_same_v<Limit, NoDefects>)
+        s.no_defects = true;
+      else if constexpr (!std::is_same_v<Limit, InOrder>)
+        D::set_limit(document, limit, s.problem);
+    };
+    if (constraint.enabled)
+      std::visit(set, constraint.limit);
+    else if (std::holds_alternative<InOrder>(constraint.limit))
+      document.error("constraint", "the order of the points cannot be given up",
+                     "remove the constraint, or enabled = false");
+  }
+  // A closed path is traced by a crank that rotates fully.
+  if (s.problem.closed) s.problem.crank_rotates_fully = true;
+}
 
-  PathProblem problem;      ///< the problem that follows from the above
-  bool no_defects = false;  ///< designs with defects are no answers
-};
+/// Reads the tables of a study; problems go to the reader.
+template <class D>
+PathStudy<D> read_path_study(study::ObjectReader& document, const study::Common& common) {
+  PathStudy<D> s;
+  auto& p = s.problem;
+  if (auto mechanism = document.table(field::entry("mechanism").required())) mechanism->read(s.mechanism);
+  auto target = document.table(field::entry("target").required());
+  if (target) {
+    target->read(s.target);
+    static_cast<PathTargets&>(p) = read_path_targets(*target, common, s.target);
+    const PathTiming& timing = s.target.timing;
+    p.timing = timing.mode == Timing::equal_steps ? Timing::increments : timing.mode;
+    p.angles = timed_angles(*target, common.units, timing, p.x.size());
+  }
+  document(field::entry("objective", "what is minimised"), s.objectives);
+  document(field::entry("constraint", "what must hold"), s.constraints);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  set_bounds(document, s);
+  SenseChoice sense = s.mechanism.sense;
+  if (sense == SenseChoice::automatic) sense = p.free_timing() ? SenseChoice::any : SenseChoice::positive;
+  p.search_positive = sense != SenseChoice::negative;
+  p.search_negative = sense != SenseChoice::positive;
+  set_constraints(document, s);
+  D::complete(document, common.units, s);
+  if (target && s.target.fit == D::Fit::exact) D::read_exact(document, *target, s);
+  return s;
+}
 
-/// "synthesis" of "planar.four_bar" for "path_points".
-study::Kind path_kind();
+/// The study with all that was left out, as tables.
+template <class D>
+Value canonical(PathStudy<D> s) {
+  if (s.target.fit != D::Fit::exact) {
+    auto& ranges = s.mechanism.parameters.ranges;
+    for (std::size_t j = 0; j < ranges.size(); ++j)
+      if (j + 1 < ranges.size() || starts_anywhere(s.target.timing.mode)) ranges[j] = s.problem.bounds[j];
+  }
+  write_path_targets(s.problem, s.target);
+  if (s.objectives.empty()) s.objectives.emplace_back();
+  Value out;
+  out["mechanism"] = study::write_fields(s.mechanism);
+  out["target"] = study::write_fields(s.target);
+  out["objective"] = study::ObjectWriter::to_value(s.objectives);
+  out["constraint"] = study::ObjectWriter::to_value(s.constraints);
+  out["optimiser"] = study::write_fields(s.optimiser);
+  return out;
+}
 
-/// Reads the tables of the study; problems go to the reader.
-PathStudy read_path_study(study::ObjectReader& document, const study::Common& common);
-
-/// Runs it over the seeds and reports.
-study::Result run_path_study(const PathStudy& study, const study::Common& common, RunContext& context);
+/// "synthesis" of a mechanism for "path_points".
+template <class D>
+study::Kind path_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = D::key;
+  kind.target = "path_points";
+  kind.summary = D::summary;
+  kind.seeded = true;
+  kind.example = D::example();
+  kind.absent = D::absent();
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(field::entry("mechanism", D::the_mechanism),
+                      study::schema_fields<PathMechanismForm<D>>());
+    document.property(field::entry("target", "the path"), study::schema_fields<PathTarget<D>>());
+    document.property(field::entry("objective", "what is minimised"),
+                      study::schema_array(study::schema_fields<PathObjectiveEntry<typename D::Objective>>()));
+    document.property(field::entry("constraint", "what must hold"),
+                      study::schema_array(study::schema_fields<typename D::Constraint>()));
+    document.property(field::entry("optimiser", "how designs are searched"),
+                      study::schema_fields<typename D::Optimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const PathStudy<D> s = read_path_study<D>(document, common);
+    study::Prepared prepared;
+    prepared.canonical = canonical(s);
+    prepared.run = [s, common](RunContext& context) {
+      return s.target.fit == D::Fit::exact ? D::run_exact(s, common, context) : D::run(s, common, context);
+    };
+    return prepared;
+  };
+  return kind;
+}
 
 }  // namespace linkwright::planar

@@ -19,8 +19,8 @@
 #include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "linkwright/planar/path/four_bar/usability.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_reached.h"
 #include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/planar/studies/path_seeds.h"
@@ -34,8 +34,8 @@ namespace {
 
 using Runs = PathRuns<PathSynthesis>;
 
-PathSynthesis run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
-                       RunContext& context) {
+PathSynthesis run_seed(const Recommended& method, const FourBarPathStudy& s, std::uint64_t seed,
+                       bool only_seed, RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
   options.progress = only_seed;  // several at once are reported by the loop over them
@@ -44,7 +44,7 @@ PathSynthesis run_seed(const Recommended& method, const PathStudy& s, std::uint6
 
 template <class Options>
 PathSynthesis run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
-                       const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
+                       const FourBarPathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
   PathSynthesis out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
@@ -73,7 +73,7 @@ PathSynthesis run_seed(const optimise::PopulationMethod<Options, optimise::Const
 }
 
 // Distinct designs of all seeds, best first.
-std::vector<PathDesign> distinct_designs(const PathStudy& s, const Runs& runs) {
+std::vector<PathDesign> distinct_designs(const FourBarPathStudy& s, const Runs& runs) {
   std::vector<PathDesign> all;
   for (const PathSynthesis& seed : runs.answers)
     all.insert(all.end(), seed.designs.begin(), seed.designs.end());
@@ -121,14 +121,16 @@ void add_statistics(study::Result& result, const Runs& runs, double best, double
   study::write_statistics(out, st);
 }
 
-bool is_eighteen_points(const PathProblem& p) {
+bool is_eighteen_points(const FourBarPathStudy& s) {
   const PathProblem known = eighteen_points();
-  return p.x == known.x && p.y == known.y && p.timing == Timing::equal_steps &&
-         std::abs(p.step - known.step) < 1e-12;
+  const PathTiming& timing = s.target.timing;
+  return s.problem.x == known.x && s.problem.y == known.y && timing.mode == Timing::equal_steps &&
+         std::abs(*timing.step - known.step) < 1e-12;
 }
 
-void add_published(study::Result& result, const PathProblem& p, double best) {
-  if (!is_eighteen_points(p)) return;
+void add_published(study::Result& result, const FourBarPathStudy& s, double best) {
+  if (!is_eighteen_points(s)) return;
+  const PathProblem& p = s.problem;
   const std::string source = "Boskovic 2018, Table 4.1";
   for (const PublishedPathDesign& published : eighteen_point_designs()) {
     std::vector<double> angles;
@@ -212,7 +214,8 @@ void add_cognates(study::Result& result, const PathDesign& best) {
 
 }  // namespace
 
-study::Result run_path_study(const PathStudy& s, const study::Common& common, RunContext& context) {
+study::Result FourBarPathKind::run(const FourBarPathStudy& s, const study::Common& common,
+                                   RunContext& context) {
   study::Result result;
   const Runs runs =
       run_path_seeds(s, common, context, [&](const auto& method, std::uint64_t seed, bool only_seed) {
@@ -238,7 +241,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   add_design_tables(result, s.problem, designs, common.output.samples);
   result.tables.push_back(path_seed_table(runs, {}));
   add_cognates(result, best);
-  add_published(result, s.problem, feasible ? best.error : infinity);
+  add_published(result, s, feasible ? best.error : infinity);
 
   const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
   const PathErrors errors = path_errors(s.problem, best);

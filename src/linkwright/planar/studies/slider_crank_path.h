@@ -2,20 +2,18 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "linkwright/optimise/pagmo_bridge.h"
 #include "linkwright/planar/path/slider_crank/synthesis.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/path_seeds.h"
-#include "linkwright/study/kind.h"
 #include "linkwright/study/remarks.h"
 
-// Path synthesis of the slider-crank: what its file holds (field lists), how it is read, run and reported.
-// What is the same as for the four-bar is taken from there.
+// Path synthesis of the slider-crank.
 namespace linkwright::planar {
 
 /// The side of the crank pin on which the slider is searched.
@@ -26,41 +24,16 @@ constexpr std::array<EnumName<SliderSideChoice>, 3> names(SliderSideChoice) {
            {SliderSideChoice::backward, "backward", "behind the crank pin"}}};
 }
 
-/// `[mechanism.parameters]`: what is left out gets bounds from the path.
-struct SliderPathParameters {
-  std::array<std::optional<Range>, slider_parameter_count> ranges;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderPathParameters& p) {
-  constexpr std::array<std::string_view, slider_parameter_count> summaries = {
-      "length of the crank O-A",
-      "length of the rod A-B",
-      "distance of the tracing point C from the crank pin A",
-      "direction of A->C from the rod A->B",
-      "direction of the guide",
-      "of the guide line from O, along the left normal of its direction",
-      "crank pivot O, x",
-      "crank pivot O, y",
-      "crank angle at the first point, from the x axis (equal_steps, increments)"};
-  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
-    const auto parameter = SliderParameter(j);
-    Field field =
-        field::of(is_angle(parameter) ? Dimension::angle : Dimension::length, name(parameter), summaries[j]);
-    if (j <= index(SliderParameter::point_distance)) field.minimum = 0;
-    visit(field, p.ranges[j]);
-  }
-}
-
-struct SliderPathMechanism {
-  SliderSideChoice branch = SliderSideChoice::any;
-  SenseChoice sense = SenseChoice::automatic;
-  SliderPathParameters parameters;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderPathMechanism& m) {
-  visit(field::entry("branch", "where the slider is searched"), m.branch);
-  visit(field::entry("sense", "sense of crank rotation to search"), m.sense);
-  visit(field::entry("parameters", "fixed numbers, or { min, max } for design variables"), m.parameters);
+constexpr std::array<ParameterWords, slider_parameter_count> words(SliderParameter) {
+  return {{{"length of the crank O-A", "crank length"},
+           {"length of the rod A-B", "rod length"},
+           {"distance of the tracing point C from the crank pin A", "tracing point, distance from crank pin"},
+           {"direction of A->C from the rod A->B", "tracing point, angle from rod"},
+           {"direction of the guide", "guide direction"},
+           {"of the guide line from O, along the left normal of its direction", "offset of the guide"},
+           {"crank pivot O, x", "crank pivot x"},
+           {"crank pivot O, y", "crank pivot y"},
+           {"crank angle at the first point, from the x axis (equal_steps, increments)", "start angle"}}};
 }
 
 /// The point that traces.
@@ -77,17 +50,6 @@ constexpr std::array<EnumName<SliderPathFit>, 2> names(SliderPathFit) {
            {SliderPathFit::exact, "exact", "exactly, by all slider-cranks that pass them: eight points"}}};
 }
 
-struct SliderPathTarget : PathTargetForm {
-  SliderTracingPoint point = SliderTracingPoint::rod;
-  SliderPathFit fit = SliderPathFit::least_squares;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderPathTarget& t) {
-  visit(field::entry("point", "point that traces the path"), t.point);
-  visit(field::entry("fit", "how the points are met"), t.fit);
-  fields(visit, static_cast<PathTargetForm&>(t));
-}
-
 /// The quantity that is minimised; both together give a front.
 enum class SliderObjectiveType { sum_squared_distance, stroke };
 constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
@@ -96,17 +58,6 @@ constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType
            {SliderObjectiveType::stroke, "slider.stroke",
             "stroke of the slider over a full turn, in addition to the path: a front (Boskovic 2018, Eqs. "
             "(4.17)-(4.19))"}}};
-}
-struct SliderObjectiveEntry {
-  SliderObjectiveType type = SliderObjectiveType::sum_squared_distance;
-  double weight = 1;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderObjectiveEntry& o) {
-  visit(field::entry("type", "what is minimised").required(), o.type);
-  visit(
-      field::entry("weight", "factor, where a method of one objective minimises the sum of both").positive(),
-      o.weight);
 }
 
 struct PressureLimit {
@@ -136,16 +87,6 @@ constexpr Word choice_word(const StrokeLimit&) {
   return {"stroke",
           "difference of the slider's extreme positions over a full turn; with both objectives the range of "
           "the front"};
-}
-
-struct SliderPathConstraint {
-  std::variant<CrankRotatesFully, InOrder, PressureLimit, StrokeLimit, NoDefects> limit;
-  bool enabled = true;
-};
-template <class Visitor>
-void fields(Visitor&& visit, SliderPathConstraint& c) {
-  visit(field::entry("type", "what is limited").required(), c.limit);
-  visit(field::entry("enabled", "false leaves it out"), c.enabled);
 }
 
 /// `method = "nsga2"` and `"moead"`: fronts by methods of pagmo.
@@ -182,24 +123,41 @@ void fields(Visitor&& visit, SliderPathOptimiser& o) {
   visit(field::entry("method", "how designs are searched"), o.method);
 }
 
-/// A study as read.
-struct SliderPathStudy {
-  SliderPathMechanism mechanism;
-  SliderPathTarget target;
-  std::vector<SliderObjectiveEntry> objectives;
-  std::vector<SliderPathConstraint> constraints;
-  SliderPathOptimiser optimiser;
+struct SliderPathKind;
+using SliderPathStudy = PathStudy<SliderPathKind>;
 
-  SliderPathProblem problem;  ///< the problem that follows from the above
-  bool front = false;         ///< path and stroke
-  bool no_defects = false;    ///< designs with defects are no answers
+/// What is peculiar to the path synthesis of slider-cranks.
+struct SliderPathKind : SliderCrankPath {
+  using BranchChoice = SliderSideChoice;
+  using Parameters = PathParameters<SliderParameter, slider_parameter_count>;
+  using TracingPoint = SliderTracingPoint;
+  using Fit = SliderPathFit;
+  using Objective = SliderObjectiveType;
+  using Constraint = PathConstraint<PressureLimit, StrokeLimit>;
+  using Optimiser = SliderPathOptimiser;
+  static constexpr std::string_view key = "planar.slider_crank", the_mechanism = "the slider-crank",
+                                    summary =
+                                        "slider-crank with an inclined, offset guide whose rod point traces "
+                                        "a path, also with a short stroke",
+                                    branch_summary = "where the slider is searched";
+  static std::string_view example();
+  static std::span<const study::Absent> absent();
+  static auto bounds(const std::vector<double>& x, const std::vector<double>& y) {
+    return derive_slider_bounds(x, y);
+  }
+  static void set_limit(study::ObjectReader& document, const PressureLimit& limit,
+                        SliderPathProblem& problem);
+  static void set_limit(study::ObjectReader& document, const StrokeLimit& limit, SliderPathProblem& problem);
+  /// Checks and sets up what follows from all tables.
+  static void complete(study::ObjectReader& document, const study::DisplayUnits& units,
+                       SliderPathStudy& study);
+  static void read_exact(study::ObjectReader& document, study::ObjectReader& target, SliderPathStudy& study);
+  static study::Result run_exact(const SliderPathStudy& study, const study::Common& common,
+                                 RunContext& context);
+  static study::Result run(const SliderPathStudy& study, const study::Common& common, RunContext& context);
 };
 
-/// "synthesis" of "planar.slider_crank" for "path_points".
 study::Kind slider_path_kind();
-
-/// Reads the tables of the study; problems go to the reader.
-SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common);
 
 /// The outcome of the seeds of a study.
 using SliderPathRuns = PathRuns<SliderPathSynthesis>;
@@ -226,9 +184,5 @@ void warn_of_pressure(const study::AddWarning& warn, double pressure);
 
 study::Result report_slider_path(const SliderPathStudy& study, const study::Common& common,
                                  const SliderPathRuns& runs);
-
-/// Runs it over the seeds and reports.
-study::Result run_slider_path_study(const SliderPathStudy& study, const study::Common& common,
-                                    RunContext& context);
 
 }  // namespace linkwright::planar

@@ -23,7 +23,7 @@ constexpr double shortest_stroke = 0.4;
 SliderPathScales scales_of(const SliderPathStudy& s) {
   const double size = path_size(s.problem);
   SliderPathScales scales{size * size, size};
-  for (const SliderObjectiveEntry& o : s.objectives)
+  for (const auto& o : s.objectives)
     (o.type == SliderObjectiveType::stroke ? scales.stroke : scales.error) /= o.weight;
   return scales;
 }
@@ -183,8 +183,8 @@ std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& s, cons
   return out;
 }
 
-study::Result run_slider_path_study(const SliderPathStudy& s, const study::Common& common,
-                                    RunContext& context) {
+study::Result SliderPathKind::run(const SliderPathStudy& s, const study::Common& common,
+                                  RunContext& context) {
   return report_slider_path(s, common, run_slider_path_seeds(s, common, context));
 }
 

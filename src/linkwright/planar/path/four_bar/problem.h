@@ -30,6 +30,8 @@ constexpr std::size_t index(FourBarParameter parameter) { return static_cast<std
 /// Key without unit: "ground", ..., "start_angle".
 std::string_view name(FourBarParameter parameter);
 constexpr bool is_link(FourBarParameter p) { return p <= FourBarParameter::rocker; }
+/// True if it cannot be negative.
+constexpr bool is_length(FourBarParameter p) { return is_link(p); }
 constexpr bool is_angle(FourBarParameter p) { return p >= FourBarParameter::frame_angle; }
 
 /// Rectangle that must hold both fixed pivots, or one of them (metres).

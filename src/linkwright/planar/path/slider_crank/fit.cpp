@@ -48,8 +48,7 @@ SliderPathFitter::SliderPathFitter(const SliderPathProblem& problem, double sens
       lower_[j] = -infinity;
       upper_[j] = infinity;
     }
-    const bool length = P(j) == P::crank || P(j) == P::rod || P(j) == P::point_distance;
-    if (length) lower_[j] = std::min(upper_[j], std::max(lower_[j], 1e-9 * size_));
+    if (is_length(P(j))) lower_[j] = std::min(upper_[j], std::max(lower_[j], 1e-9 * size_));
   }
   angles_.resize(problem.x.size());
   trial_angles_ = angles_;

@@ -33,6 +33,8 @@ constexpr std::size_t index(SliderParameter parameter) { return static_cast<std:
 /// Key without unit: "crank", ..., "start_angle".
 std::string_view name(SliderParameter parameter);
 constexpr bool is_link(SliderParameter p) { return p <= SliderParameter::rod; }
+/// True if it cannot be negative.
+constexpr bool is_length(SliderParameter p) { return p <= SliderParameter::point_distance; }
 constexpr bool is_angle(SliderParameter p) {
   return p == SliderParameter::point_angle || p == SliderParameter::guide_angle ||
          p == SliderParameter::start_angle;

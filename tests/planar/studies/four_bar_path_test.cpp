@@ -1,4 +1,4 @@
-#include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 
 #include <gmock/gmock.h>
 
@@ -158,7 +158,7 @@ TEST(PathStudyRead, DerivesBoundsFromThePath) {
 
 TEST(PathStudyRead, ItsExampleReads) {
   std::string messages;
-  EXPECT_TRUE(prepare(path_kind().example, messages)) << messages;
+  EXPECT_TRUE(prepare(four_bar_path_kind().example, messages)) << messages;
 }
 
 TEST(PathStudyRun, AnswersWithEvidence) {
