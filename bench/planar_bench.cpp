@@ -66,7 +66,7 @@ BENCHMARK(eighteen_point_objective)->Arg(1)->Arg(32)->Arg(1024);
 void eighteen_point_slider_objective(benchmark::State& state) {
   const auto size = static_cast<std::size_t>(state.range(0));
   const SliderPathProblem p = eighteen_slider_points();
-  const optimise::Problem problem = slider_path_population_problem(p, SliderSide::forward, 1);
+  const optimise::Problem problem = path_population_problem(p, SliderSide::forward, 1);
   optimise::Population population(slider_parameter_count, size);
   for (std::size_t i = 0; i < size; ++i) {
     RandomStream s({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
@@ -105,7 +105,7 @@ void eighteen_point_slider_synthesis(benchmark::State& state) {
   for (auto _ : state) {
     RunContext context;
     benchmark::DoNotOptimize(strokes.empty()
-                                 ? synthesise_slider_path(p, {.progress = false}, context)
+                                 ? synthesise_path(p, {.progress = false}, context)
                                  : synthesise_slider_front(p, strokes, {.progress = false}, context));
   }
 }

@@ -78,7 +78,6 @@ NO_TEST = {
     "planar/studies/path.h": "the study of any path mechanism, tested with those of four-bars and slider-cranks",
     "planar/studies/linkage_rows.h": "part of linkage studies, tested in linkage_test.cpp",
     "suspension/studies/seven_pose_tables.h": "part of indirect studies, tested in indirect_test.cpp",
-    "planar/studies/path_seeds.h": "shared part of path studies, run by the tests of both mechanisms",
     "planar/simulation/detail/simulation_run.h": "part of simulation, tested in simulation_test.cpp",
 }
 

@@ -92,13 +92,13 @@ study::Comparisons slider_cranks(std::span<const PublishedSliderCrank> designs, 
          fmt::format("least distance from not turning: {:.4g} m", rotation_margin(d.linkage.parameters))});
   }
   if (!with_front) {
-    const SliderPathSynthesis found = synthesise_slider_path(p, {.seed = 1, .progress = false}, context);
+    const SliderPathSynthesis found = synthesise_path(p, {.seed = 1, .progress = false}, context);
     if (!found.designs.empty() && found.designs[0].violations.empty())
       rows.push_back({"least path error, recommended method, seed 1, m2", source, designs[0].published_error,
                       found.designs[0].error,
                       found.designs[0].error < designs[0].published_error ? "improved" : "not reached",
                       fmt::format("stroke {:.6f} m", found.designs[0].stroke)});
-    add_grey_wolf(rows, slider_path_population_problem(p, SliderSide::forward, 1), designs[0].published_error,
+    add_grey_wolf(rows, path_population_problem(p, SliderSide::forward, 1), designs[0].published_error,
                   source, context);
     return rows;
   }

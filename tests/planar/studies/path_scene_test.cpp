@@ -1,11 +1,11 @@
-#include "linkwright/planar/studies/path_scene.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/studies/four_bar_path.h"
+#include "linkwright/planar/studies/path_run.h"
 
 namespace linkwright::planar {
 namespace {
@@ -21,7 +21,7 @@ PathDesign boskovic() {
 
 TEST(PathScene, KeepsTheLinksTheirLengths) {
   const PathDesign design = boskovic();
-  const study::Scene scene = path_scene(eighteen_points(), design, "solution-1", "best", 73);
+  const study::Scene scene = path_scene<FourBarPathKind>(eighteen_points(), design, "solution-1", "best", 73);
   ASSERT_EQ(scene.samples(), 73u);
   const auto distance = [&](int a, int b, std::size_t i) {
     const auto &p = scene.points[static_cast<std::size_t>(a)], &q = scene.points[static_cast<std::size_t>(b)];
@@ -42,7 +42,7 @@ TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
   design.linkage = {.ground = 2.5, .crank = 1, .coupler = 1.2, .rocker = 1.4};
   design.angles = {0.3 + 2 * pi, 0.2 + 2 * pi};
   design.sense = -1;
-  const std::vector<double> angles = shown_angles(design, 11);
+  const std::vector<double> angles = shown_angles<FourBarPath>(design, 11);
   EXPECT_GT(angles.front(), angles.back());
   for (double angle : angles) {
     EXPECT_NE(position(design.linkage, 2 * pi + (angle - 2 * pi) * (1 - 1e-9)).status, Status::no_assembly)
@@ -52,7 +52,7 @@ TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
 }
 
 TEST(MotionTable, AnglesRunOnWithoutJumps) {
-  const Table table = motion_table(boskovic(), "motion", 181);
+  const Table table = path_motion<FourBarPathKind>(boskovic(), "motion", 181);
   EXPECT_EQ(table.rows(), 181u);
   for (const char* key : {"coupler_angle_rad", "rocker_angle_rad"}) {
     const auto& values = table.find(key)->values;

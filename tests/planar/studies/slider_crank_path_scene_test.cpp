@@ -1,10 +1,10 @@
-#include "linkwright/planar/studies/slider_crank_path_scene.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/path_run.h"
+#include "linkwright/planar/studies/slider_crank_path.h"
 #include "planar/slider_crank_path_cases.h"
 
 namespace linkwright::planar {
@@ -20,8 +20,8 @@ SliderPathDesign published(const SliderPathProblem& p) {
 TEST(SliderPathScene, DrawsTheCurveThatTheTableLists) {
   const SliderPathProblem p = printed_eighteen_slider_points();
   const SliderPathDesign d = published(p);
-  const study::Scene scene = slider_path_scene(p, d, "solution-1", "1", 181);
-  const Table motion = slider_motion_table(d, "motion", 181);
+  const study::Scene scene = path_scene<SliderPathKind>(p, d, "solution-1", "1", 181);
+  const Table motion = path_motion<SliderPathKind>(d, "motion", 181);
   ASSERT_EQ(scene.traces.size(), 1u);
   const auto& curve = scene.points[static_cast<std::size_t>(scene.traces[0].point)];
   ASSERT_EQ(curve.x.size(), 181u);
@@ -47,7 +47,7 @@ TEST(SliderPathScene, ACrankThatRocksIsShownOverWhatItReaches) {
   std::vector<double> angles;
   for (int k = 0; k < 18; ++k) angles.push_back(-0.3 + 0.03 * k);
   for (const double sense : {1.0, -1.0}) {
-    std::vector<double> shown = shown_angles(measure(p, m, sense, angles), 11);
+    std::vector<double> shown = shown_angles<SliderCrankPath>(measure(p, m, sense, angles), 11);
     EXPECT_NEAR(shown.front(), -sense * pi / 6, 1e-12);
     EXPECT_NEAR(shown.back(), sense * pi / 6, 1e-12);
   }

@@ -189,6 +189,12 @@ void keep_distinct(std::vector<Design>& designs, Design design) {
   designs.push_back(std::move(design));
 }
 
+/// Leaves the first `most` designs.
+template <class Problem, class Design>
+void keep_first(const Problem&, std::vector<Design>& designs, std::size_t most) {
+  if (designs.size() > most) designs.resize(most);
+}
+
 /// The tracing point of a design at the targets, and its distances from them.
 template <class Problem>
 requires PathMechanism<MechanismOf<Problem>> PathErrors

@@ -18,8 +18,7 @@
 #include "linkwright/planar/path/four_bar/usability.h"
 #include "linkwright/planar/studies/exact_findings.h"
 #include "linkwright/planar/studies/four_bar_path.h"
-#include "linkwright/planar/studies/path_scene.h"
-#include "linkwright/planar/studies/path_solution.h"
+#include "linkwright/planar/studies/path_run.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
@@ -346,21 +345,11 @@ class ExactReport {
     for (std::size_t i = 0; i < shown; ++i) {
       const ExactDesign& d = designs_[i];
       drawn.push_back(d.design);
-      study::Solution solution = path_solution(p_, d.design, i + 1, common_.output.samples);
-      for (study::Parameter& parameter : solution.parameters)
-        parameter.lower = -infinity, parameter.upper = infinity;
-      solution.classification["class"] = d.curve + 1;
-      solution.defects.clear();
-      for (const Defect& defect : d.defects)
-        solution.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
-      if (d.defects.empty())
-        for (const auto& violation : d.design.violations)
-          solution.defects.push_back(violation_text(violation));
-      result_.scenes.push_back(path_scene(p_, d.design, solution.scene, say("{}: {}", i + 1, solution.label),
-                                          common_.output.samples));
-      result_.solutions.push_back(std::move(solution));
+      add_exact_solution<FourBarPathKind>(result_, p_, d, FourBarPathKind::label(p_, d.design),
+                                          common_.output.samples);
+      result_.solutions.back().classification["class"] = d.curve + 1;
     }
-    add_design_tables(result_, p_, drawn, common_.output.samples);
+    add_design_tables<FourBarPathKind>(result_, p_, drawn, common_.output.samples);
   }
 
   void finish() {

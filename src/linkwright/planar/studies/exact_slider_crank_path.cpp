@@ -16,6 +16,7 @@
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/exact/slider_designs.h"
 #include "linkwright/planar/studies/exact_findings.h"
+#include "linkwright/planar/studies/path_run.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/remarks.h"
@@ -162,24 +163,18 @@ study::Result SliderPathKind::run_exact(const SliderPathStudy& s, const study::C
   // The answers, and where they are few those that another order of the points would make one; without either
   // the nearest.
   std::vector<SliderPathDesign> drawn;
-  for (std::size_t i = 0; i < designs.size() && i < most_drawn_sliders; ++i) {
+  for (std::size_t i = 0; i < designs.size() && i < SliderPathKind::most_drawn; ++i) {
     const ExactSliderDesign& d = designs[i];
     if (i >= found.answers && (i >= least_sliders_drawn || (severity(d.defects) > 1 && found.answers > 0)))
       break;
     drawn.push_back(d.design);
-    add_slider_solution(result, p, d.design, common,
-                        std::isnan(d.design.stroke) ? Sentence("the crank rocks")
-                                                    : say("stroke {}", length_by_size(d.design.stroke)));
-    study::Solution& solution = result.solutions.back();
-    for (study::Parameter& parameter : solution.parameters)
-      parameter.lower = -infinity, parameter.upper = infinity;
-    solution.defects.clear();
-    for (const Defect& defect : d.defects)
-      solution.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
-    if (d.defects.empty())
-      for (const auto& violation : d.design.violations) solution.defects.push_back(violation_text(violation));
+    add_exact_solution<SliderPathKind>(result, p, d,
+                                       std::isnan(d.design.stroke)
+                                           ? Sentence("the crank rocks")
+                                           : say("stroke {}", length_by_size(d.design.stroke)),
+                                       common.output.samples);
   }
-  add_slider_design_tables(result, p, drawn, common.output.samples);
+  add_design_tables<SliderPathKind>(result, p, drawn, common.output.samples);
 
   result.statistics["method"] = "exact";
   result.statistics["outcome"] = verdict.outcome;
@@ -193,8 +188,7 @@ study::Result SliderPathKind::run_exact(const SliderPathStudy& s, const study::C
   const study::AddWarning warn{result.diagnostics};
   if (found.answers > 0) {
     const double pressure = designs[0].pressure_angle;
-    fact("greatest pressure angle", degrees_of(pressure).fixed(1),
-         pressure > steep_pressure ? study::Fact::Verdict::bad : study::Fact::Verdict::plain);
+    result.facts.push_back(pressure_fact(pressure));
     warn_of_pressure(warn, pressure);
   }
   add_path_facts(fact, found);

@@ -131,9 +131,45 @@ struct FourBarPathKind : FourBarPath {
   static void read_exact(study::ObjectReader& document, study::ObjectReader& target, FourBarPathStudy& study);
   static study::Result run_exact(const FourBarPathStudy& study, const study::Common& common,
                                  RunContext& context);
-  static study::Result run(const FourBarPathStudy& study, const study::Common& common, RunContext& context);
+
+  /// The cognate on the other branch has the same crank angles and the same error.
+  static constexpr bool one_branch_is_enough = true;
+  static constexpr std::size_t most_drawn = 100;
+  static bool shows_start(const PathProblem& problem) { return starts_anywhere(problem.timing); }
+
+  static optimise::Problem population_problem(const FourBarPathStudy& study,
+                                              const CrankSearch<planar::Branch>& search, bool several,
+                                              optimise::MinimiseOptions& minimise);
+  static Value analysis_form(const FourBar& linkage);
+  static study::Scene scene(const FourBar& linkage, std::vector<double> crank_angles);
+  static Table motion(const FourBar& linkage, const std::vector<double>& crank_angles);
+  static std::vector<MotionPlot> motion_plots();
+  static Sentence label(const PathProblem& problem, const PathDesign& design);
+  /// Its objectives and classification, beside what every mechanism has.
+  static void classify_design(const PathProblem& problem, const PathDesign& design, Value active_bounds,
+                              study::Solution& out);
+  static void add_cognates(study::Result& result, const PathDesign& best);
+  static void add_published(study::Result& result, const FourBarPathStudy& study,
+                            const std::vector<PathDesign>& designs);
+  static Sentence headline(const FourBarPathStudy& study, const std::vector<PathDesign>& designs,
+                           const PathErrors& errors);
+  static void add_facts(study::Result& result, const FourBarPathStudy& study,
+                        const std::vector<PathDesign>& designs);
+  static void add_warnings(study::Result& result, const PathProblem& problem, const PathDesign& best);
+  /// The reason why the best design is of little use, and the design that is better in use; empty = it is
+  /// usable.
+  static Sentence caution(const PathProblem& problem, const std::vector<PathDesign>& designs);
 };
 
+extern template study::Result run_path_study(const FourBarPathStudy&, const study::Common&, RunContext&);
 study::Kind four_bar_path_kind();
+
+/// "crank-rocker (open branch)"
+std::string called(const PathDesign& design);
+
+/// Least transmission angle (rad) that a design is judged by: over the whole motion where the crank has to
+/// rotate fully, else over what the path uses.
+double judged_transmission(const PathProblem& problem, const PathDesign& design);
+study::Fact transmission_fact(const PathProblem& problem, const PathDesign& design);
 
 }  // namespace linkwright::planar

@@ -158,6 +158,11 @@ struct PathStudy {
   bool no_defects = false;      ///< designs with defects are no answers
 };
 
+/// The seeds of a study that was run, and a diagram of a motion; see path_run.h.
+template <class D>
+struct PathRuns;
+struct MotionPlot;
+
 template <class D>
 void set_bounds(study::ObjectReader& document, PathStudy<D>& s) {
   auto mechanism = document.table("mechanism");
@@ -245,6 +250,10 @@ Value canonical(PathStudy<D> s) {
   return out;
 }
 
+/// Runs a study over its seeds and reports.
+template <class D>
+study::Result run_path_study(const PathStudy<D>& study, const study::Common& common, RunContext& context);
+
 /// "synthesis" of a mechanism for "path_points".
 template <class D>
 study::Kind path_kind() {
@@ -272,7 +281,8 @@ study::Kind path_kind() {
     study::Prepared prepared;
     prepared.canonical = canonical(s);
     prepared.run = [s, common](RunContext& context) {
-      return s.target.fit == D::Fit::exact ? D::run_exact(s, common, context) : D::run(s, common, context);
+      return s.target.fit == D::Fit::exact ? D::run_exact(s, common, context)
+                                           : run_path_study(s, common, context);
     };
     return prepared;
   };

@@ -10,7 +10,6 @@
 #include "linkwright/optimise/pagmo_bridge.h"
 #include "linkwright/planar/path/slider_crank/synthesis.h"
 #include "linkwright/planar/studies/path.h"
-#include "linkwright/planar/studies/path_seeds.h"
 #include "linkwright/study/remarks.h"
 
 // Path synthesis of the slider-crank.
@@ -154,35 +153,54 @@ struct SliderPathKind : SliderCrankPath {
   static void read_exact(study::ObjectReader& document, study::ObjectReader& target, SliderPathStudy& study);
   static study::Result run_exact(const SliderPathStudy& study, const study::Common& common,
                                  RunContext& context);
-  static study::Result run(const SliderPathStudy& study, const study::Common& common, RunContext& context);
+
+  static constexpr bool one_branch_is_enough = false;
+  static constexpr std::size_t most_drawn = 15;
+  static bool shows_start(const SliderPathProblem& problem);
+
+  static optimise::Problem population_problem(const SliderPathStudy& study,
+                                              const CrankSearch<SliderSide>& search, bool several,
+                                              optimise::MinimiseOptions& minimise);
+  static Value analysis_form(const SliderCrankMechanism& linkage);
+  static study::Scene scene(SliderCrankMechanism mechanism, const std::vector<double>& crank_angles);
+  static Table motion(const SliderCrankMechanism& linkage, const std::vector<double>& crank_angles);
+  static std::vector<MotionPlot> motion_plots();
+  static Sentence label(const SliderPathProblem& problem, const SliderPathDesign& design);
+  /// Its objectives and classification, beside what every mechanism has.
+  static void classify_design(const SliderPathProblem& problem, const SliderPathDesign& design,
+                              Value active_bounds, study::Solution& out);
+  static void add_cognates(study::Result& result, const SliderPathDesign& best);
+  static void add_published(study::Result& result, const SliderPathStudy& study,
+                            const std::vector<SliderPathDesign>& designs);
+  static Sentence headline(const SliderPathStudy& study, const std::vector<SliderPathDesign>& designs,
+                           const PathErrors& errors);
+  static void add_facts(study::Result& result, const SliderPathStudy& study,
+                        const std::vector<SliderPathDesign>& designs);
+  static void add_warnings(study::Result& result, const SliderPathProblem& problem,
+                           const SliderPathDesign& best);
+  static Sentence caution(const SliderPathProblem&, const std::vector<SliderPathDesign>&) { return {}; }
+
+  // Fronts of path and stroke.
+  static std::vector<SliderPathDesign> front_of(std::vector<SliderPathDesign> designs);
+  static std::vector<SliderPathDesign> front_of_seeds(std::vector<SliderPathDesign> designs);
+  /// The front that begins with the best design of the path alone.
+  static SliderPathSynthesis follow_front(const SliderPathStudy& study, SliderPathSynthesis best,
+                                          const PathSynthesisOptions& options, RunContext& context);
+  /// Shortfall of the front of each seed: the share of the area dominated by the front of all seeds that it
+  /// misses. The worst of both objectives on that front, a tenth further, is the point from which it is
+  /// counted.
+  static std::vector<double> shortfalls(const PathRuns<SliderPathKind>& runs,
+                                        const std::vector<SliderPathDesign>& designs);
+  static void add_front(study::Result& result, const SliderPathProblem& problem,
+                        const std::vector<SliderPathDesign>& designs);
 };
 
+extern template study::Result run_path_study(const SliderPathStudy&, const study::Common&, RunContext&);
 study::Kind slider_path_kind();
 
-/// The outcome of the seeds of a study.
-using SliderPathRuns = PathRuns<SliderPathSynthesis>;
-SliderPathRuns run_slider_path_seeds(const SliderPathStudy& study, const study::Common& common,
-                                     RunContext& context);
-
-/// The answers of all seeds: distinct designs, best first, or the front of all by falling stroke. One
-/// infeasible design when there is no other.
-std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& study, const SliderPathRuns& runs);
-
-/// Solutions with a drawing and tables of their own.
-inline constexpr std::size_t most_drawn_sliders = 15;
 /// A pressure angle (rad) beyond this, 75 degrees, moves the slider badly.
 inline constexpr double steep_pressure = 75 * pi / 180;
-
-/// A design as the next solution of a result, called `label`; the first ones have a drawing.
-void add_slider_solution(study::Result& result, const SliderPathProblem& problem,
-                         const SliderPathDesign& design, const study::Common& common, Sentence label);
-/// Tables and diagrams of those with a drawing; plain names for the best design, the number of the solution
-/// in those of the others.
-void add_slider_design_tables(study::Result& result, const SliderPathProblem& problem,
-                              const std::vector<SliderPathDesign>& designs, int samples);
+study::Fact pressure_fact(double pressure);
 void warn_of_pressure(const study::AddWarning& warn, double pressure);
-
-study::Result report_slider_path(const SliderPathStudy& study, const study::Common& common,
-                                 const SliderPathRuns& runs);
 
 }  // namespace linkwright::planar

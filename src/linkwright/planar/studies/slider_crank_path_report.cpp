@@ -1,288 +1,213 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/path/defects.h"
+#include "linkwright/optimise/combine.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/path/slider_crank/samples.h"
-#include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/path_reached.h"
+#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/path_run.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
-#include "linkwright/planar/studies/slider_crank_path_scene.h"
-#include "linkwright/study/bind_write.h"
-#include "linkwright/study/remarks.h"
-#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
 
-// A seed of a front succeeds when so little of what the front of all seeds dominates is missing.
-constexpr double success_of_front = 1e-3;
+// A front goes down to this share of the stroke of the design with the least error, unless limits say more.
+constexpr double shortest_stroke = 0.4;
 
-class Report {
- public:
-  Report(const SliderPathStudy& s, const study::Common& common, const SliderPathRuns& runs)
-      : s_(s), p_(s.problem), common_(common), runs_(runs), designs_(slider_path_answers(s, runs)) {}
+SliderPathScales scales_of(const SliderPathStudy& s) {
+  const double size = path_size(s.problem);
+  SliderPathScales scales{size * size, size};
+  for (const auto& o : s.objectives)
+    (o.type == SliderObjectiveType::stroke ? scales.stroke : scales.error) /= o.weight;
+  return scales;
+}
 
-  study::Result make() {
-    const bool stopped = runs_.status != Status::done;
-    if (designs_.empty()) {
-      result_.status = stopped ? runs_.status : Status::infeasible;
-      result_.headline = "No slider-crank found: no start of the search assembles at every point.";
-      return std::move(result_);
-    }
-    feasible_ = designs_[0].violations.empty();
-    result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
-    for (const SliderPathDesign& d : designs_)
-      add_slider_solution(result_, p_, d, common_,
-                          std::isnan(d.stroke)
-                              ? Sentence(name_of(d.linkage.branch))
-                              : say("stroke {}, {} rms", length_by_size(d.stroke), length_by_size(rms(d))));
-    statistics();
-    tables();
-    if (feasible_) comparisons();
-    facts();
-    return std::move(result_);
-  }
-
- private:
-  using Verdict = study::Fact::Verdict;
-  double rms(const SliderPathDesign& d) const {
-    return std::sqrt(d.error / static_cast<double>(p_.x.size()));
-  }
-
-  // Shortfall of a front: the share of the area dominated by the front of all seeds that a seed misses. The
-  // worst of both objectives on that front, a tenth further, is the point from which it is counted.
-  std::vector<double> shortfalls() const {
-    std::vector<double> out(runs_.answers.size(), 1);
-    if (!feasible_) return out;
-    const double most_error = 1.1 * designs_.back().error, most_stroke = 1.1 * designs_.front().stroke;
-    const auto area = [&](const std::vector<SliderPathDesign>& front) {
-      double sum = 0, above = most_stroke;
-      // By rising error: each point adds the strip between its stroke and the one before it.
-      for (const SliderPathDesign& d : front) {
-        if (!d.violations.empty() || d.error >= most_error || d.stroke >= above) continue;
-        sum += (most_error - d.error) * (above - d.stroke);
-        above = d.stroke;
-      }
-      return sum;
-    };
-    const double whole = area(designs_);
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = std::max(0.0, 1 - area(runs_.answers[i].designs) / whole);
-    return out;
-  }
-
-  void statistics() {
-    std::vector<optimise::SeedOutcome> outcomes;
-    if (s_.front) missing_ = shortfalls();
-    result_.log = Value::array();
-    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
-      const SliderPathSynthesis& run = runs_.answers[i];
-      const double violation = run.designs.empty() ? infinity : total_violation(run.designs[0]);
-      const double error = run.designs.empty() ? infinity : run.designs[0].error;
-      outcomes.push_back({s_.front ? missing_[i] : error, violation, run.evaluations});
-      Value entry = study::seed_entry(runs_.seeds[i], run.status, violation > 0 ? nan : error,
-                                      run.evaluations);  // sum of squared distances (m2)
-      entry["violation"] = violation;
-      study::write_history(entry, run.history, run.evaluations);
-      result_.log.push_back(std::move(entry));
-    }
-    const double size = path_size(p_), best = feasible_ ? designs_[0].error : infinity;
-    const double threshold = s_.front ? success_of_front : success_threshold(best, size);
-    const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
-    result_.statistics["method"] = runs_.method;
-    result_.statistics["measure"] = s_.front ? "share of the common front that is missing" : "path error, m2";
-    study::write_statistics(result_.statistics, st);
-  }
-
-  void tables() {
-    add_slider_design_tables(result_, p_, designs_, common_.output.samples);
-    if (s_.front && feasible_) front_table();
-    result_.tables.push_back(path_seed_table(runs_, missing_));
-    cognates();
-  }
-
-  void front_table() {
-    Table front{.name = "front", .columns{}, .status{}};
-    std::vector<double> number, error, way, distance, pressure;
-    for (std::size_t i = 0; i < designs_.size(); ++i) {
-      number.push_back(static_cast<double>(i + 1));
-      error.push_back(designs_[i].error);
-      way.push_back(designs_[i].stroke);
-      distance.push_back(rms(designs_[i]));
-      pressure.push_back(greatest_pressure_angle(designs_[i].linkage.parameters));
-    }
-    front.add("solution", "solution", std::move(number));
-    front.add("stroke_m", "stroke (m)", std::move(way));
-    front.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", std::move(error));
-    front.add("path_error_rms_m", "path error, root mean square (m)", std::move(distance));
-    front.add("max_pressure_angle_rad", "greatest pressure angle (rad)", std::move(pressure));
-    result_.tables.push_back(std::move(front));
-    result_.plots.insert(result_.plots.begin(), {.name = "front",
-                                                 .title = "Front: path error against stroke",
-                                                 .table = "front",
-                                                 .x = "stroke_m",
-                                                 .y = {"path_error_sum_sq_m2"},
-                                                 .style = study::Plot::Style::points});
-  }
-
-  // The best mechanism and the other one with the same curve.
-  void cognates() {
-    const SliderPathDesign& best = designs_[0];
-    Table table{.name = "cognates", .columns{}, .status{}};
-    constexpr std::string_view keys[] = {
-        "crank_m",   "rod_m",   "offset_m", "guide_angle_rad", "pivot_x_m",
-        "pivot_y_m", "rod_u_m", "rod_v_m",  "same_timing",     "crank_rotates_fully"};
-    for (std::string_view key : keys) table.add(std::string(key), std::string(key));
-    const auto row = [&](const SliderCrankForm& f, bool same) {
-      const double values[] = {
-          f.crank,   f.rod,   f.offset, f.guide_angle,    f.pivot_x,
-          f.pivot_y, f.rod_u, f.rod_v,  same ? 1.0 : 0.0, std::isnan(stroke(f)) ? 0.0 : 1.0};
-      for (std::size_t j = 0; j < std::size(values); ++j) table.columns[j].values.push_back(values[j]);
-    };
-    const SliderCrankForm& f = best.linkage.parameters;
-    row(f, true);
-    // A tracing point on the crank pin leaves none, nor does one that lies there but for rounding.
-    if (std::hypot(f.rod_u, f.rod_v) > 1e-9 * f.rod)
-      row(slider_crank_cognate(best.linkage, best.angles[0]).parameters, false);
-    result_.tables.push_back(std::move(table));
-  }
-
-  void comparisons() {
-    const SliderPathProblem known = eighteen_slider_points();
-    if (p_.free_timing() || p_.x != known.x || p_.y != known.y || p_.angles.size() != known.angles.size())
-      return;
-    for (std::size_t k = 0; k < known.angles.size(); ++k)
-      if (std::abs(p_.angles[k] - known.angles[k]) > 1e-12) return;
-    const std::string source = "Boskovic 2018, ";
-    for (const PublishedSliderCrank& published : published_slider_cranks()) {
-      if (!s_.front && published.label != "Table 4.2") continue;
-      std::vector<double> angles;
-      for (const double offset : known.angles) angles.push_back(published.start_angle + offset);
-      const SliderPathDesign d = measure(known, published.linkage, 1, angles);
-      result_.comparisons.push_back({published.label + ", design re-evaluated: path error, m2",
-                                     source + published.label, published.published_error, d.error,
-                                     "not reproduced",
-                                     "agrees to 0.3 to 0.6 %, which rounding does not explain"});
-      result_.comparisons.push_back({published.label + ": stroke, m", source + published.label,
-                                     published.published_stroke, d.stroke, "corrected",
-                                     "the number printed is the abscissa of the tracing point at the start"});
-      double least = infinity;
-      for (const SliderPathDesign& own : designs_)
-        if (!s_.front || own.stroke <= d.stroke * (1 + 1e-9)) least = std::min(least, own.error);
-      if (std::isfinite(least))
-        result_.comparisons.push_back(
-            {published.label + (s_.front ? ": path error of this study at no longer a stroke, m2"
-                                         : ": path error of this study, m2"),
-             source + published.label, published.published_error, least,
-             least < published.published_error ? "improved" : "not reached", ""});
-    }
-  }
-
-  void facts() {
-    const SliderPathDesign& best = designs_[0];
-    const PathErrors errors = path_errors(p_, best);
-    const double pressure = greatest_pressure_angle(best.linkage.parameters);
-    const study::AddFact fact{result_.facts};
-    if (!feasible_) {
-      std::string reasons;
-      for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
-      result_.headline = say("No design meets every constraint; the nearest one violates {}.", reasons);
-    } else if (s_.front) {
-      const SliderPathDesign& shortest = designs_.back();
-      result_.headline =
-          designs_.size() > 1
-              ? say("A front of {} slider-cranks: from a stroke of {} at {} root mean square to {} at {}.",
-                    designs_.size(), length_by_size(best.stroke), length_by_size(rms(best)),
-                    length_by_size(shortest.stroke), length_by_size(rms(shortest)))
-              : say("One slider-crank is the best in path error and stroke: {} root mean square, {}.",
-                    length_by_size(rms(best)), length_by_size(best.stroke));
-    } else {
-      result_.headline =
-          say("A slider-crank {}{}.", how_near(p_, errors, best.error),
-              std::isnan(best.stroke) ? Sentence() : say(", stroke {}", length_by_size(best.stroke)));
-    }
-    fact(s_.front ? "least path error (sum of squares)" : "path error (sum of squares)",
-         path_error(best.error), feasible_ ? Verdict::good : Verdict::bad);
-    fact("root mean square distance",
-         rms(best) <= exact_share * path_size(p_) ? millimetres(0) : length_by_size(rms(best)));
-    result_.facts.push_back(worst_fact(p_, errors));
-    if (!std::isnan(best.stroke)) {
-      fact("stroke of the slider",
-           s_.front && feasible_ && designs_.size() > 1
-               ? say("{}, down to {}", length_by_size(best.stroke), length_by_size(designs_.back().stroke))
-               : length_by_size(best.stroke));
-      fact("greatest pressure angle", degrees_of(pressure).fixed(1),
-           pressure > steep_pressure ? Verdict::bad : Verdict::plain);
-    }
-    fact("method", runs_.method);
-    study::add_seed_facts(
-        result_, s_.front ? "runs that reached the common front" : "runs that reached the best solution",
-        runs_.answers.size());
-    const study::AddWarning warn{result_.diagnostics};
-    study::warn_of_missing_seeds(result_, runs_.answers.size(), common_.seeds);
-    warn_of_pressure(warn, pressure);
-  }
-
-  const SliderPathStudy& s_;
-  const SliderPathProblem& p_;
-  const study::Common& common_;
-  const SliderPathRuns& runs_;
-  const std::vector<SliderPathDesign> designs_;
-  bool feasible_ = false;
-  std::vector<double> missing_;
-  study::Result result_;
-};
+optimise::PagmoOptions pagmo(const optimise::Nsga2Options& o) {
+  return {.method = optimise::PagmoMethod::nsga2, .nsga2 = o};
+}
+optimise::PagmoOptions pagmo(const optimise::MoeadOptions& o) {
+  return {.method = optimise::PagmoMethod::moead, .moead = o};
+}
 
 }  // namespace
 
-void add_slider_solution(study::Result& result, const SliderPathProblem& p, const SliderPathDesign& d,
-                         const study::Common& common, Sentence label) {
-  const std::size_t number = result.solutions.size() + 1;
-  const bool with_start = !p.free_timing() && !p.bounds[index(SliderParameter::start_angle)].fixed();
-  const double rms = std::sqrt(d.error / static_cast<double>(p.x.size()));
-  constexpr std::array<std::string_view, slider_parameter_count> labels = {
-      "crank length",
-      "rod length",
-      "tracing point, distance from crank pin",
-      "tracing point, angle from rod",
-      "guide direction",
-      "offset of the guide",
-      "crank pivot x",
-      "crank pivot y",
-      "start angle"};
-  study::Solution out;
-  out.label = std::move(label);
-  const auto values = SliderCrankPath::values(p, d);
-  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
-    const auto parameter = SliderParameter(j);
-    if (parameter == SliderParameter::start_angle && !with_start) continue;
-    const Range& range = p.bounds[j];
-    double value = values[j];
-    if (is_angle(parameter)) {
-      const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
-      if (turned <= range.upper) value = turned;
+template <class D, class Options>
+SliderPathSynthesis run_seed(const FrontMethod<Options>& method, const PathStudy<D>& s, std::uint64_t seed,
+                             bool only_seed, RunContext& context) {
+  return search_each<D>(s, seed, [&](const auto& search, const optimise::Seed& key, const std::string& name) {
+    optimise::FrontOptions options = method.front;
+    options.progress = only_seed;
+    options.checkpoint = name;
+    return optimise::minimise_with_pagmo(
+        slider_path_front_problem(s.problem, search.branch, search.sense, scales_of(s)),
+        pagmo(method.options), options, key, context);
+  });
+}
+
+optimise::Problem SliderPathKind::population_problem(const SliderPathStudy& s,
+                                                     const CrankSearch<SliderSide>& search, bool several,
+                                                     optimise::MinimiseOptions& minimise) {
+  if (!s.front) return path_population_problem(s.problem, search.branch, search.sense);
+  minimise.front = std::max<std::size_t>(4, static_cast<std::size_t>(s.optimiser.front));
+  const optimise::Problem problem =
+      slider_path_front_problem(s.problem, search.branch, search.sense, scales_of(s));
+  // The front of a method of one objective is what it met on its search to the least sum.
+  const std::vector<double> both = {1, 1};  // weights are in the scales
+  return several ? problem : optimise::weighted_sum(problem, both);
+}
+
+SliderPathSynthesis SliderPathKind::follow_front(const SliderPathStudy& s, SliderPathSynthesis best,
+                                                 const PathSynthesisOptions& options, RunContext& context) {
+  const double longest = best.designs[0].stroke;
+  const double shortest =
+      s.problem.stroke.lower > 0 ? std::min(longest, s.problem.stroke.lower) : shortest_stroke * longest;
+  std::vector<double> strokes;
+  for (int i = 1; i < s.optimiser.front; ++i)
+    strokes.push_back(longest + (shortest - longest) * i / (s.optimiser.front - 1));
+  SliderPathSynthesis front = synthesise_slider_front(s.problem, strokes, options, context);
+  front.designs.push_back(std::move(best.designs[0]));
+  front.evaluations += best.evaluations;
+  conclude<SliderPathKind>(front, true);
+  return front;
+}
+
+std::vector<SliderPathDesign> SliderPathKind::front_of(std::vector<SliderPathDesign> designs) {
+  return slider_front_of(std::move(designs));
+}
+
+std::vector<SliderPathDesign> SliderPathKind::front_of_seeds(std::vector<SliderPathDesign> designs) {
+  // Designs of two seeds for one stroke differ by rounding.
+  std::vector<SliderPathDesign> front;
+  for (SliderPathDesign& d : front_of(std::move(designs)))
+    if (front.empty() || front.back().stroke - d.stroke > tolerance::same_design * d.stroke ||
+        d.error - front.back().error > tolerance::same_design * d.error)
+      front.push_back(std::move(d));
+  return front;
+}
+
+std::vector<double> SliderPathKind::shortfalls(const PathRuns<SliderPathKind>& runs,
+                                               const std::vector<SliderPathDesign>& designs) {
+  std::vector<double> out(runs.answers.size(), 1);
+  if (!designs[0].violations.empty()) return out;
+  const double most_error = 1.1 * designs.back().error, most_stroke = 1.1 * designs.front().stroke;
+  const auto area = [&](const std::vector<SliderPathDesign>& front) {
+    double sum = 0, above = most_stroke;
+    // By rising error: each point adds the strip between its stroke and the one before it.
+    for (const SliderPathDesign& d : front) {
+      if (!d.violations.empty() || d.error >= most_error || d.stroke >= above) continue;
+      sum += (most_error - d.error) * (above - d.stroke);
+      above = d.stroke;
     }
-    out.parameters.push_back({std::string(name(parameter)) + (is_angle(parameter) ? "_rad" : "_m"),
-                              std::string(labels[j]), value, range.lower, range.upper});
+    return sum;
+  };
+  const double whole = area(designs);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::max(0.0, 1 - area(runs.answers[i].designs) / whole);
+  return out;
+}
+
+void SliderPathKind::add_front(study::Result& result, const SliderPathProblem& p,
+                               const std::vector<SliderPathDesign>& designs) {
+  Table front{.name = "front"};
+  std::vector<double> number, error, way, distance, pressure;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    number.push_back(static_cast<double>(i + 1));
+    error.push_back(designs[i].error);
+    way.push_back(designs[i].stroke);
+    distance.push_back(rms<SliderPathKind>(p, designs[i]));
+    pressure.push_back(greatest_pressure_angle(designs[i].linkage.parameters));
   }
+  front.add("solution", "solution", std::move(number));
+  front.add("stroke_m", "stroke (m)", std::move(way));
+  front.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", std::move(error));
+  front.add("path_error_rms_m", "path error, root mean square (m)", std::move(distance));
+  front.add("max_pressure_angle_rad", "greatest pressure angle (rad)", std::move(pressure));
+  result.tables.push_back(std::move(front));
+  result.plots.insert(result.plots.begin(), {.name = "front",
+                                             .title = "Front: path error against stroke",
+                                             .table = "front",
+                                             .x = "stroke_m",
+                                             .y = {"path_error_sum_sq_m2"},
+                                             .style = study::Plot::Style::points});
+}
+
+study::Scene SliderPathKind::scene(SliderCrankMechanism mechanism, const std::vector<double>& angles) {
+  // A crank that a search has shrunk to nothing leaves its pins apart by what nobody sees.
+  constexpr double visible = 1e-6;
+  mechanism.parameters.crank = std::max(mechanism.parameters.crank, visible * mechanism.parameters.rod);
+  const planar::Linkage linkage = slider_crank(mechanism);
+  const PlanResult planned = plan_linkage(linkage);
+  LINKWRIGHT_REQUIRE(planned.problems.empty(), "a slider-crank of crank {} and rod {} has no plan",
+                     mechanism.parameters.crank, mechanism.parameters.rod);
+  LinkageMotion motion(planned.plan);
+  std::vector<LinkageRecord> records;
+  for (const double angle : angles) {
+    const InputMotion input{angle, 0, 0};
+    solve_motion(planned.plan, std::span(&input, 1), motion);
+    records.push_back(record_of(linkage, planned.plan, motion, nullptr, angle));
+  }
+  // The tracing point is the last one of the rod; on the crank pin it is the first.
+  const int rod = 2, points = static_cast<int>(linkage.bodies[rod].points.size());
+  const BodyPoint tracing{rod, points > 2 ? 2 : 0};
+  return linkage_scene(linkage, planned.plan, records, {tracing}, "crank_angle_rad", "crank angle");
+}
+
+Table SliderPathKind::motion(const SliderCrankMechanism& mechanism, const std::vector<double>& angles) {
+  Table table;
+  std::vector<double> rod, way, pressure, x, y;
+  for (const double angle : angles) {
+    const SliderCrankPose pose = slider_crank_pose(mechanism, angle);
+    rod.push_back(pose.rod_angle);
+    way.push_back(pose.displacement);
+    pressure.push_back(pose.pressure_angle);
+    x.push_back(pose.point.real());
+    y.push_back(pose.point.imag());
+    table.status.emplace_back(to_string(pose.status));
+  }
+  math::unwrap_angles(rod);
+  table.add("crank_angle_rad", "crank angle (rad)", angles);
+  table.add("rod_angle_rad", "rod angle (rad)", std::move(rod));
+  table.add("slider_m", "displacement of the slider along the guide (m)", std::move(way));
+  table.add("pressure_angle_rad", "pressure angle between rod and guide (rad)", std::move(pressure));
+  table.add("point_x_m", "tracing point x (m)", std::move(x));
+  table.add("point_y_m", "tracing point y (m)", std::move(y));
+  return table;
+}
+
+std::vector<MotionPlot> SliderPathKind::motion_plots() {
+  return {{"displacement", "Displacement of the slider", {"slider_m"}},
+          {"pressure", "Pressure angle between rod and guide", {"pressure_angle_rad"}}};
+}
+
+Value SliderPathKind::analysis_form(const SliderCrankMechanism& mechanism) {
+  return study::write_fields(mechanism);
+}
+
+Sentence SliderPathKind::label(const SliderPathProblem& p, const SliderPathDesign& d) {
+  if (std::isnan(d.stroke)) return Sentence(name_of(d.linkage.branch));
+  return say("stroke {}, {} rms", length_by_size(d.stroke), length_by_size(rms<SliderPathKind>(p, d)));
+}
+
+bool SliderPathKind::shows_start(const SliderPathProblem& p) {
+  return !p.free_timing() && !p.bounds[index(Parameter::start_angle)].fixed();
+}
+
+void SliderPathKind::classify_design(const SliderPathProblem&, const SliderPathDesign& d, Value active_bounds,
+                                     study::Solution& out) {
   // The tracing point as the analysis of the same mechanism takes it.
   const SliderCrankForm& f = d.linkage.parameters;
   out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
   out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
-  const PathErrors errors = path_errors(p, d);
-  out.objectives["path_error_sum_sq_m2"] = d.error;
-  out.objectives["path_error_rms_m"] = rms;
-  out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
   out.objectives["stroke_m"] = d.stroke;
   const double size = f.crank + f.rod + std::abs(f.offset);
   out.classification["branch"] = name_of(d.linkage.branch);
@@ -290,36 +215,98 @@ void add_slider_solution(study::Result& result, const SliderPathProblem& p, cons
   out.classification["crank_rotates_fully"] = rotation_margin(f) >= -tolerance::feasibility * size;
   out.classification["rotation_margin_m"] = rotation_margin(f);
   out.classification["max_pressure_angle_rad"] = greatest_pressure_angle(f);
-  out.classification["active_bounds"] = Value::array();
-  for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
-  for (const auto& violation : d.violations) out.defects.push_back(violation_text(violation));
-  for (const Defect& defect : defects(p, d))
-    out.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
-  if (number <= most_drawn_sliders) {
-    out.scene = fmt::format("solution-{}", number);
-    result.scenes.push_back(
-        slider_path_scene(p, d, out.scene, say("{}: {}", number, out.label), common.output.samples));
-    out.study = motion_study("planar.slider_crank", study::write_fields(d.linkage),
-                             shown_angles(d, common.output.samples), d.angles);
-  }
-  result.solutions.push_back(std::move(out));
+  out.classification["active_bounds"] = std::move(active_bounds);
 }
 
-void add_slider_design_tables(study::Result& result, const SliderPathProblem& p,
-                              const std::vector<SliderPathDesign>& designs, int samples) {
-  using Style = study::Plot::Style;
-  for (std::size_t i = 0; i < std::min(designs.size(), most_drawn_sliders); ++i) {
-    // The best design's tables have plain names, those of the others carry the number of the solution.
-    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
-    result.tables.push_back(point_table(p, designs[i].angles, path_errors(p, designs[i]), "points" + suffix));
-    result.tables.push_back(slider_motion_table(designs[i], "motion" + suffix, samples));
-    const study::AddPlot of_points{
-        result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
-        of_motion{result, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
-    of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
-    of_motion("displacement" + suffix, "Displacement of the slider", {"slider_m"});
-    of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
+void SliderPathKind::add_cognates(study::Result& result, const SliderPathDesign& best) {
+  Table table{.name = "cognates"};
+  constexpr std::string_view keys[] = {
+      "crank_m",   "rod_m",   "offset_m", "guide_angle_rad", "pivot_x_m",
+      "pivot_y_m", "rod_u_m", "rod_v_m",  "same_timing",     "crank_rotates_fully"};
+  for (std::string_view key : keys) table.add(std::string(key), std::string(key));
+  const auto row = [&](const SliderCrankForm& f, bool same) {
+    const double values[] = {
+        f.crank,   f.rod,   f.offset, f.guide_angle,    f.pivot_x,
+        f.pivot_y, f.rod_u, f.rod_v,  same ? 1.0 : 0.0, std::isnan(stroke(f)) ? 0.0 : 1.0};
+    for (std::size_t j = 0; j < std::size(values); ++j) table.columns[j].values.push_back(values[j]);
+  };
+  const SliderCrankForm& f = best.linkage.parameters;
+  row(f, true);
+  // A tracing point on the crank pin leaves none, nor does one that lies there but for rounding.
+  if (std::hypot(f.rod_u, f.rod_v) > 1e-9 * f.rod)
+    row(slider_crank_cognate(best.linkage, best.angles[0]).parameters, false);
+  result.tables.push_back(std::move(table));
+}
+
+void SliderPathKind::add_published(study::Result& result, const SliderPathStudy& s,
+                                   const std::vector<SliderPathDesign>& designs) {
+  if (!designs[0].violations.empty()) return;
+  const SliderPathProblem& p = s.problem;
+  const SliderPathProblem known = eighteen_slider_points();
+  if (p.free_timing() || p.x != known.x || p.y != known.y || p.angles.size() != known.angles.size()) return;
+  for (std::size_t k = 0; k < known.angles.size(); ++k)
+    if (std::abs(p.angles[k] - known.angles[k]) > 1e-12) return;
+  const std::string source = "Boskovic 2018, ";
+  for (const PublishedSliderCrank& published : published_slider_cranks()) {
+    if (!s.front && published.label != "Table 4.2") continue;
+    std::vector<double> angles;
+    for (const double offset : known.angles) angles.push_back(published.start_angle + offset);
+    const SliderPathDesign d = measure(known, published.linkage, 1, angles);
+    result.comparisons.push_back({published.label + ", design re-evaluated: path error, m2",
+                                  source + published.label, published.published_error, d.error,
+                                  "not reproduced",
+                                  "agrees to 0.3 to 0.6 %, which rounding does not explain"});
+    result.comparisons.push_back({published.label + ": stroke, m", source + published.label,
+                                  published.published_stroke, d.stroke, "corrected",
+                                  "the number printed is the abscissa of the tracing point at the start"});
+    double least = infinity;
+    for (const SliderPathDesign& own : designs)
+      if (!s.front || own.stroke <= d.stroke * (1 + 1e-9)) least = std::min(least, own.error);
+    if (std::isfinite(least))
+      result.comparisons.push_back(
+          {published.label + (s.front ? ": path error of this study at no longer a stroke, m2"
+                                      : ": path error of this study, m2"),
+           source + published.label, published.published_error, least,
+           least < published.published_error ? "improved" : "not reached", ""});
   }
+}
+
+Sentence SliderPathKind::headline(const SliderPathStudy& s, const std::vector<SliderPathDesign>& designs,
+                                  const PathErrors& errors) {
+  const SliderPathProblem& p = s.problem;
+  const SliderPathDesign &best = designs[0], &shortest = designs.back();
+  const auto distance = [&](const SliderPathDesign& d) { return length_by_size(rms<SliderPathKind>(p, d)); };
+  if (!s.front)
+    return say("A slider-crank {}{}.", how_near(p, errors, best.error),
+               std::isnan(best.stroke) ? Sentence() : say(", stroke {}", length_by_size(best.stroke)));
+  return designs.size() > 1
+             ? say("A front of {} slider-cranks: from a stroke of {} at {} root mean square to {} at {}.",
+                   designs.size(), length_by_size(best.stroke), distance(best),
+                   length_by_size(shortest.stroke), distance(shortest))
+             : say("One slider-crank is the best in path error and stroke: {} root mean square, {}.",
+                   distance(best), length_by_size(best.stroke));
+}
+
+study::Fact pressure_fact(double pressure) {
+  using Verdict = study::Fact::Verdict;
+  return {"greatest pressure angle", degrees_of(pressure).fixed(1),
+          pressure > steep_pressure ? Verdict::bad : Verdict::plain};
+}
+
+void SliderPathKind::add_facts(study::Result& result, const SliderPathStudy& s,
+                               const std::vector<SliderPathDesign>& designs) {
+  const SliderPathDesign& best = designs[0];
+  if (std::isnan(best.stroke)) return;
+  const bool front = s.front && best.violations.empty() && designs.size() > 1;
+  result.facts.push_back({"stroke of the slider", front ? say("{}, down to {}", length_by_size(best.stroke),
+                                                              length_by_size(designs.back().stroke))
+                                                        : length_by_size(best.stroke)});
+  result.facts.push_back(pressure_fact(greatest_pressure_angle(best.linkage.parameters)));
+}
+
+void SliderPathKind::add_warnings(study::Result& result, const SliderPathProblem&,
+                                  const SliderPathDesign& d) {
+  warn_of_pressure({result.diagnostics}, greatest_pressure_angle(d.linkage.parameters));
 }
 
 void warn_of_pressure(const study::AddWarning& warn, double pressure) {
@@ -329,9 +316,6 @@ void warn_of_pressure(const study::AddWarning& warn, double pressure) {
          "limit it: [[constraint]] type = \"pressure_angle\", max_deg = 60");
 }
 
-study::Result report_slider_path(const SliderPathStudy& s, const study::Common& common,
-                                 const SliderPathRuns& runs) {
-  return Report(s, common, runs).make();
-}
+template study::Result run_path_study(const SliderPathStudy&, const study::Common&, RunContext&);
 
 }  // namespace linkwright::planar

@@ -120,7 +120,7 @@ TEST(PathObjective, MeetsWhatMeasureSays) {
           kernel.run(objective, x.view(), cost.data(), violation.data());
           for (std::size_t i = 0; i < count; ++i) {
             x.get(i, one);
-            const PathDesign design = path_design(p, branch, sense, one);
+            const PathDesign design = design_of(p, branch, sense, one);
             const std::string what =
                 std::string(kernel.name) + ", " + describe(c) + ", candidate " + std::to_string(i);
             // Between zero and the tolerance of measure() both answers are right.

@@ -422,7 +422,7 @@ TEST(PathDesign, IsWhatMeasureSays) {
         }
       }
       if (starts_anywhere(timing)) x.push_back(0.2);
-      const PathDesign design = path_design(problem, Branch::open, sense, x);
+      const PathDesign design = design_of(problem, Branch::open, sense, x);
       const PathDesign expected = measure(problem, traced, sense, angles);
       EXPECT_NEAR(design.error, expected.error, 1e-12);
       EXPECT_EQ(reasons(design), reasons(expected));
@@ -433,14 +433,14 @@ TEST(PathDesign, IsWhatMeasureSays) {
 
 TEST(PathDesign, ALinkOfLengthZeroBecomesTheShortest) {
   const std::vector<double> x = {0, 0.75, 1.9, 1.6, 1.35, -1.05, 1, 2, 0.3};
-  const PathDesign design = path_design(traced_problem(Timing::given), Branch::open, 1, x);
+  const PathDesign design = design_of(traced_problem(Timing::given), Branch::open, 1, x);
   EXPECT_EQ(design.linkage.ground, shortest_link);
   EXPECT_FALSE(std::isnan(design.error));
 }
 
 TEST(PathDesign, RejectsAnotherNumberOfValues) {
   const std::vector<double> x(9);
-  EXPECT_THAT([&] { path_design(traced_problem(Timing::equal_steps), Branch::open, 1, x); },
+  EXPECT_THAT([&] { design_of(traced_problem(Timing::equal_steps), Branch::open, 1, x); },
               ThrowsMessage<ContractError>(HasSubstr("9 values for 10 variables")));
 }
 

@@ -19,7 +19,7 @@ SliderPathSynthesis searched(const SliderPathProblem& problem, bool front) {
   RunContext context;
   const std::vector<double> strokes = {0.7, 0.5};
   return front ? synthesise_slider_front(problem, strokes, {.seed = 3, .starts = 4}, context)
-               : synthesise_slider_path(problem, {.seed = 3, .starts = 4}, context);
+               : synthesise_path(problem, {.seed = 3, .starts = 4}, context);
 }
 
 // Bits, not tolerances: a resumed run is to end like an uninterrupted one.

@@ -111,7 +111,7 @@ TEST(SliderPathObjective, MeetsWhatMeasureSays) {
           kernel.run(objective, x.view(), cost.data(), violation.data());
           for (std::size_t i = 0; i < count; ++i) {
             x.get(i, one);
-            const SliderPathDesign design = slider_path_design(p, side, sense, one);
+            const SliderPathDesign design = design_of(p, side, sense, one);
             const std::string what =
                 std::string(kernel.name) + ", " + describe(c) + ", candidate " + std::to_string(i);
             // Between zero and the tolerance of measure() both answers are right.
@@ -222,7 +222,7 @@ TEST(SliderPathObjective, UsesAKernelOfThisMachineAndIsTheProblemOfTheMethods) {
   const Population x = candidates(p, 1, 20, 1);
   std::vector<double> cost(20), violation(20), expected(20), front(40);
   evaluate(slider_path_objective(p, SliderSide::forward, 1), x.view(), cost, violation);
-  slider_path_population_problem(p, SliderSide::forward, 1).evaluate(x.view(), expected, violation);
+  path_population_problem(p, SliderSide::forward, 1).evaluate(x.view(), expected, violation);
   EXPECT_EQ(cost, expected);
   const auto both = slider_path_front_problem(p, SliderSide::forward, 1, {2, 4});
   EXPECT_EQ(both.objectives, 2u);

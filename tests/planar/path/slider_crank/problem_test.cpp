@@ -209,10 +209,10 @@ TEST(SliderPathProblem, CandidatesAreUnwrapped) {
   p.timing = Timing::free;
   std::vector<double> x = {0.3, 0.6, 0.4, 1, 0.5, 0.1, 0, 0};
   for (std::size_t k = 0; k < 18; ++k) x.push_back(std::fmod(5 + 0.3 * static_cast<double>(k), 2 * pi));
-  const SliderPathDesign d = slider_path_design(p, SliderSide::forward, 1, x);
+  const SliderPathDesign d = design_of(p, SliderSide::forward, 1, x);
   EXPECT_NEAR(d.angles.back(), 5 + 0.3 * 17, 1e-12);
   EXPECT_THAT(d.violations, IsEmpty());
-  const auto variables = slider_path_population_problem(p, SliderSide::forward, 1).variables;
+  const auto variables = path_population_problem(p, SliderSide::forward, 1).variables;
   EXPECT_EQ(variables.size(), 26u);
   EXPECT_EQ(variables[2].name, "point_distance_m");
   EXPECT_EQ(variables[8].name, "crank_angle_1_rad");

@@ -20,7 +20,7 @@ using S = SliderParameter;
 
 SliderPathSynthesis solve(const SliderPathProblem& p, std::uint64_t seed = 1, int starts = 0) {
   RunContext context;
-  return synthesise_slider_path(p, {.seed = seed, .starts = starts}, context);
+  return synthesise_path(p, {.seed = seed, .starts = starts}, context);
 }
 double stored(const char* id) {
   return number_at(at(path_case(id), "computed.designs").as_array()[0], "sse_m2");
@@ -209,12 +209,12 @@ TEST(SliderPathSynthesis, StopsWhenToldTo) {
   SliderPathProblem p = printed_eighteen_slider_points();
   RunContext never;
   never.cancel();
-  EXPECT_EQ(synthesise_slider_path(p, {}, never).status, Status::cancelled);
+  EXPECT_EQ(synthesise_path(p, {}, never).status, Status::cancelled);
   EXPECT_EQ(synthesise_slider_front(p, std::vector<double>{0.5}, {}, never).status, Status::cancelled);
   p.timing = Timing::free;
   RunContext context;
   context.set_progress([&](const Progress&) { context.cancel(); });
-  const SliderPathSynthesis answer = synthesise_slider_path(p, {.starts = 100000}, context);
+  const SliderPathSynthesis answer = synthesise_path(p, {.starts = 100000}, context);
   EXPECT_EQ(answer.status, Status::cancelled);
   EXPECT_FALSE(answer.designs.empty());
 }
@@ -233,7 +233,7 @@ TEST(SliderPathSynthesis, TellsWhenNothingMeetsTheLimits) {
 TEST(SliderPathSynthesis, RejectsQuestionsWithoutMeaning) {
   RunContext context;
   SliderPathProblem p = printed_eighteen_slider_points();
-  EXPECT_THAT([&] { synthesise_slider_path(p, {.max_solutions = 0}, context); },
+  EXPECT_THAT([&] { synthesise_path(p, {.max_solutions = 0}, context); },
               ThrowsMessage<ContractError>(HasSubstr("starts 0, max_solutions 0")));
   EXPECT_THAT([&] { synthesise_slider_front(p, std::vector<double>{-1.0}, {}, context); },
               ThrowsMessage<ContractError>(HasSubstr("a stroke of -1")));

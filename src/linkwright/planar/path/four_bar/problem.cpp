@@ -157,8 +157,4 @@ optimise::Problem path_population_problem(const PathProblem& problem, Branch bra
   return population_problem(problem, branch, sense, path_objective(problem, branch, sense));
 }
 
-PathDesign path_design(const PathProblem& problem, Branch branch, double sense, std::span<const double> x) {
-  return design_of(problem, branch, sense, x);
-}
-
 }  // namespace linkwright::planar

@@ -108,7 +108,5 @@ void rank(std::vector<PathDesign>& designs);
 /// angle is an unknown) on one branch and sense, for population methods; cost = sum of squared distances
 /// (m2), evaluated by SIMD kernels. Boskovic 2018, Eqs. (4.2)-(4.4).
 optimise::Problem path_population_problem(const PathProblem& problem, Branch branch, double sense);
-/// Turns a candidate of that problem into a design.
-PathDesign path_design(const PathProblem& problem, Branch branch, double sense, std::span<const double> x);
 
 }  // namespace linkwright::planar

@@ -232,8 +232,7 @@ SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& m, double 
   return out;
 }
 
-optimise::Problem slider_path_population_problem(const SliderPathProblem& problem, SliderSide side,
-                                                 double sense) {
+optimise::Problem path_population_problem(const SliderPathProblem& problem, SliderSide side, double sense) {
   require_valid(problem);
   return population_problem(problem, side, sense, slider_path_objective(problem, side, sense));
 }
@@ -250,11 +249,6 @@ optimise::Problem slider_path_front_problem(const SliderPathProblem& problem, Sl
   optimise::Problem out = population_problem(problem, side, sense, std::move(objective));
   out.objectives = 2;
   return out;
-}
-
-SliderPathDesign slider_path_design(const SliderPathProblem& problem, SliderSide side, double sense,
-                                    std::span<const double> x) {
-  return design_of(problem, side, sense, x);
 }
 
 }  // namespace linkwright::planar

@@ -158,13 +158,9 @@ struct SliderPathScales {
 /// population methods; evaluated by SIMD kernels. One objective: sum of squared distances (m2), Boskovic
 /// 2018, Eq. (4.14). Two: that and the stroke, Eqs. (4.17)-(4.19) with a stroke that is one, each over its
 /// scale.
-optimise::Problem slider_path_population_problem(const SliderPathProblem& problem, SliderSide side,
-                                                 double sense);
+optimise::Problem path_population_problem(const SliderPathProblem& problem, SliderSide side, double sense);
 optimise::Problem slider_path_front_problem(const SliderPathProblem& problem, SliderSide side, double sense,
                                             const SliderPathScales& scales);
-/// Turns a candidate of those problems into a design.
-SliderPathDesign slider_path_design(const SliderPathProblem& problem, SliderSide side, double sense,
-                                    std::span<const double> x);
 
 constexpr double sign(SliderSide side) { return side == SliderSide::forward ? 1 : -1; }
 

@@ -250,8 +250,7 @@ class SliderSearch : PathSearch<SliderCrankPath> {
   SliderPathSynthesis finish() {
     if (spare_ && !any_feasible()) out_.designs.push_back(std::move(*spare_));
     SliderPathSynthesis out = PathSearch::finish();
-    if (out.designs.size() > static_cast<std::size_t>(options_.max_solutions))
-      out.designs.resize(static_cast<std::size_t>(options_.max_solutions));
+    keep_first(problem_, out.designs, static_cast<std::size_t>(options_.max_solutions));
     return out;
   }
 
@@ -261,8 +260,8 @@ class SliderSearch : PathSearch<SliderCrankPath> {
 
 }  // namespace
 
-SliderPathSynthesis synthesise_slider_path(const SliderPathProblem& problem,
-                                           const PathSynthesisOptions& options, RunContext& context) {
+SliderPathSynthesis synthesise_path(const SliderPathProblem& problem, const PathSynthesisOptions& options,
+                                    RunContext& context) {
   require_valid(problem);
   LINKWRIGHT_REQUIRE(options.starts >= 0 && options.max_solutions >= 1, "starts {}, max_solutions {}",
                      options.starts, options.max_solutions);

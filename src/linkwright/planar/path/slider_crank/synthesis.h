@@ -16,8 +16,8 @@ using SliderPathSynthesis = PathAnswer<SliderCrankPath>;
 /// and Levenberg-Marquardt with the exact Jacobian runs in three unknowns from many starts. Free timing:
 /// starts by matching random curves to the path, then Levenberg-Marquardt in all unknowns. Where a bound or
 /// limit that the projection does not see is active, an augmented Lagrangian finishes.
-SliderPathSynthesis synthesise_slider_path(const SliderPathProblem& problem,
-                                           const PathSynthesisOptions& options, RunContext& context);
+SliderPathSynthesis synthesise_path(const SliderPathProblem& problem, const PathSynthesisOptions& options,
+                                    RunContext& context);
 
 /// Least path error for each of `strokes` (m, any order) as greatest stroke: points of the front of path
 /// error against stroke, those that another one dominates left out. Every point is a search of its own, from

@@ -1,8 +1,9 @@
-#include "linkwright/planar/studies/path_solution.h"
+#include "linkwright/planar/studies/path_run.h"
 
 #include <gmock/gmock.h>
 
 #include "linkwright/planar/path/four_bar/usability.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 
 namespace linkwright::planar {
 namespace {
@@ -33,7 +34,11 @@ Example example() {
 
 TEST(PathSolution, SaysWhatTheDesignIs) {
   const Example e = example();
-  const study::Solution solution = path_solution(e.problem, e.design, 3, 10);
+  study::Result result;
+  result.solutions.resize(2);
+  add_path_solution<FourBarPathKind>(result, e.problem, e.design, FourBarPathKind::label(e.problem, e.design),
+                                     10);
+  const study::Solution& solution = result.solutions.back();
   EXPECT_EQ(solution.label, "crank-rocker, open");
   EXPECT_EQ(solution.scene, "solution-3");
   EXPECT_EQ(solution.parameters.size(), 9U);  // no start angle where timing is free
@@ -49,8 +54,9 @@ TEST(PathSolution, SaysWhatTheDesignIs) {
 TEST(PathSolution, TheFirstDesignsTablesHavePlainNames) {
   const Example e = example();
   study::Result result;
-  for (std::size_t i = 1; i <= 2; ++i) result.solutions.push_back(path_solution(e.problem, e.design, i, 10));
-  add_design_tables(result, e.problem, {e.design, e.design}, 10);
+  for (std::size_t i = 1; i <= 2; ++i)
+    add_path_solution<FourBarPathKind>(result, e.problem, e.design, "", 10);
+  add_design_tables<FourBarPathKind>(result, e.problem, {e.design, e.design}, 10);
   for (const char* name : {"points", "motion", "points-2", "motion-2"})
     ASSERT_NE(result.table(name), nullptr) << name;
   EXPECT_EQ(result.table("points")->rows(), 4U);
