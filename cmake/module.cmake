@@ -66,25 +66,27 @@ function(linkwright_library module)
   add_library(Linkwright::${module} ALIAS linkwright_${module})
 endfunction()
 
-# linkwright_templates(<domain>): each studies/templates/<name>.toml of a domain, which is what `linkwright new` writes,
-# becomes <name>() of the generated header linkwright/<domain>/studies/templates.h. A kind without its file does not compile.
-function(linkwright_templates domain)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/studies/templates/*.toml)
+# linkwright_texts(<domain> <folder>): each <folder>/<name>.toml of a domain becomes <name>() of the generated header
+# linkwright/<domain>/<folder>.h, in the namespace of the folder's last name: studies/templates holds what `linkwright new`
+# writes, studies/published the tables that `linkwright reproduce` computes again. A kind without its file does not compile.
+function(linkwright_texts domain folder)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.toml)
+  cmake_path(GET folder FILENAME namespace)
   set(functions)
   foreach(file IN LISTS files)
     cmake_path(GET file STEM LAST_ONLY name)
     list(APPEND functions ${name}=${file})
   endforeach()
-  set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
-  set(header linkwright/${domain}/studies/templates.h)
-  set(source ${CMAKE_CURRENT_BINARY_DIR}/templates.cpp)
-  add_custom_command(OUTPUT ${source} ${folder}/${header}
-    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${source} -DHEADER=${header} -DDECLARE=${folder}/${header}
-            -DNAMESPACE=linkwright::${domain}::templates "-DFILES=${functions}"
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  set(header linkwright/${domain}/${folder}.h)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${namespace}.cpp)
+  add_custom_command(OUTPUT ${source} ${generated}/${header}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${source} -DHEADER=${header} -DDECLARE=${generated}/${header}
+            -DNAMESPACE=linkwright::${domain}::${namespace} "-DFILES=${functions}"
             -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
     DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
-  target_sources(linkwright_${domain}_studies PRIVATE ${source} ${folder}/${header})
-  target_include_directories(linkwright_${domain}_studies PRIVATE ${folder})
+  target_sources(linkwright_${domain}_studies PRIVATE ${source} ${generated}/${header})
+  target_include_directories(linkwright_${domain}_studies PRIVATE ${generated})
 endfunction()
 
 # linkwright_kernels(<module> SOURCES <files> [WIDEST avx2] [FLAGS <flags>]): kernels, compiled once for each instruction set,

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "linkwright/planar/four_bar/published.h"
+#include "linkwright/planar/studies/published_four_bars.h"
 #include "support/reproduced.h"
 
 namespace linkwright::planar {

@@ -5,12 +5,13 @@
 
 #include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/clearance/published_clearance.h"
+#include "linkwright/clearance/studies/published.h"
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 namespace {
 
-study::Comparisons tables(RunContext&) {
+study::Comparisons tables(const std::string&, RunContext&) {
   const ClearanceFourBar first = published_design_1(), second = published_design_2();
   ClearancePathProblem path = published_path_problem();
   const std::vector<double> x = path_variables(path, second.linkage);
@@ -46,7 +47,7 @@ study::Comparisons tables(RunContext&) {
   };
 }
 
-study::Comparisons claims(RunContext&) {
+study::Comparisons claims(const std::string&, RunContext&) {
   study::Comparisons out;
   for (const ClearanceComparison& c : compare_with_published_clearance())
     out.push_back({c.quantity, "Varedi et al. 2014", nan, c.ours, c.verdict,
@@ -54,31 +55,11 @@ study::Comparisons claims(RunContext&) {
   return out;
 }
 
-const std::vector<std::string>& notes() {
-  static const std::vector<std::string> all = {
-      "1. Clearance, speed, weight, damping, start, bounds and settings of the optimiser are not printed. "
-      "The "
-      "clearance of 1 mm is inferred: with it design 2 comes closest to the path of design 1.",
-      "2. The mass centres of Tables 2 and 3 are in metres, not in mm as printed.",
-      "3. Eqs. (3)-(7) lose the quadrant, (9)-(11) turn the wrong way, (13) and (15) lack terms with the "
-      "squared crank speed; here they are derived again. Eqs. (24)-(28) are right.",
-      "4. The source never asks whether pin and bush stay together: in design 1 they do not, so the peaks of "
-      "its figure 4 are outside of its model. kind = \"simulation\", mechanism.type = \"clearance.linkage\" "
-      "with "
-      "model = \"contact\" computes what happens instead.",
-      "5. A constant phase of 10 degrees, Eq. (34), is impossible: over a turn the pin does no work on a "
-      "passive "
-      "coupler in contact."};
-  return all;
-}
-
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  return {{"varedi-2014-tables", "A four-bar for a path with clearance at its crank pin: lengths and masses",
-           "Varedi, Daniali, Dardel and Fathi 2014, Tables 1 to 3", notes(), tables},
-          {"varedi-2014-claims", "What the clearance does to both designs",
-           "Varedi, Daniali, Dardel and Fathi 2014, figures 4 to 10", notes(), claims}};
+  return study::reproductions_of(published::reproductions(),
+                                 {{"varedi-2014-tables", tables}, {"varedi-2014-claims", claims}});
 }
 
 }  // namespace linkwright::clearance

@@ -10,6 +10,7 @@
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/samples.h"
 #include "linkwright/flexible/simulation.h"
+#include "linkwright/flexible/studies/published.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -36,7 +37,7 @@ double largest_lag(const Simulation& run, double from, double to) {
   return -smallest(run.samples, &Sample::tip_eta, from, to).value;
 }
 
-study::Comparisons spin_up(RunContext& context) {
+study::Comparisons spin_up(const std::string&, RunContext& context) {
   study::Comparisons rows;
   for (const double speed : {0.6, 2.0, 4.0, 8.0, 12.0, 16.0}) {
     const double lag =
@@ -84,7 +85,7 @@ study::Comparisons spin_up(RunContext& context) {
   return rows;
 }
 
-study::Comparisons torque(RunContext& context) {
+study::Comparisons torque(const std::string&, RunContext& context) {
   study::Comparisons rows;
   for (const double torque : {1.0, 2.0, 4.0, 6.0}) {
     const double lag =
@@ -99,26 +100,11 @@ study::Comparisons torque(RunContext& context) {
   return rows;
 }
 
-const std::vector<std::string>& notes() {
-  static const std::vector<std::string> all = {
-      "1. All results of the chapter are curves; no number of them is printed. Ours are those of exact "
-      "kinematics (chord_consistent) with 8 divisions, which agree with a geometrically exact beam.",
-      "2. The printed equations are computed as kinematics = \"source_linearised\" with the 2 divisions of "
-      "the "
-      "source; their velocities are not the derivatives of any positions.",
-      "3. G and k are not printed; cross-sections turn but do not shear (Rayleigh). With nu = 0.3 and k = "
-      "5/6 "
-      "the first frequency changes by less than 2e-5 of itself."};
-  return all;
-}
-
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  return {{"boskovic-2018-spin-up", "An elastic link on a hub that is spun up: lag, stiffening, weld",
-           "Boskovic 2018, Table 3.1 and section 3.6.1", notes(), spin_up},
-          {"boskovic-2018-torque", "An elastic link on a hub under one period of torque",
-           "Boskovic 2018, Table 3.2 and section 3.6.2", notes(), torque}};
+  return study::reproductions_of(published::reproductions(),
+                                 {{"boskovic-2018-spin-up", spin_up}, {"boskovic-2018-torque", torque}});
 }
 
 }  // namespace linkwright::flexible

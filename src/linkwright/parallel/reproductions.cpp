@@ -8,6 +8,7 @@
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 #include "linkwright/parallel/pi_joint/stiffness_synthesis.h"
+#include "linkwright/parallel/studies/published.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr const char* source = "Milutinovic et al. 2014";
 constexpr double travel = pi / 3;  // to both sides
 
-study::Comparisons prototype_rows(RunContext&) {
+study::Comparisons prototype_rows(const std::string&, RunContext&) {
   const PiJoint joint = pi_prototype();
   const PiDrive drive = pi_prototype_drive();
   const PiRangeValues range = range_values(joint, 0, travel);
@@ -38,7 +39,7 @@ study::Comparisons prototype_rows(RunContext&) {
   return out;
 }
 
-study::Comparisons acceleration_rows(RunContext&) {
+study::Comparisons acceleration_rows(const std::string&, RunContext&) {
   // The pose of the proof: theta = 25 deg at 1.3 rad/s and -4 rad/s2.
   const PiJoint joint = pi_prototype();
   const double angle = math::radians(25), rate = 1.3, by = -4;
@@ -50,7 +51,7 @@ study::Comparisons acceleration_rows(RunContext&) {
            "belongs"}};
 }
 
-study::Comparisons stiffness_rows(RunContext&) {
+study::Comparisons stiffness_rows(const std::string&, RunContext&) {
   const PiJoint joint = pi_prototype();
   const AngleRange range{-travel, travel};
   constexpr double measured = 3.5e4;
@@ -74,25 +75,10 @@ study::Comparisons stiffness_rows(RunContext&) {
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  return {{"milutinovic-2014-prototype",
-           "Prototype of the active Pi-joint",
-           "Milutinovic et al. 2014, section 4.2, Table 1",
-           {"a = 170 mm, k = 0.4, theta from -60 to 60 deg; screw of 2.54 mm lead with 200 steps a turn."},
-           prototype_rows},
-          {"milutinovic-2014-acceleration",
-           "Acceleration of the diagonal",
-           "Milutinovic et al. 2014, (18)-(20)",
-           {"The source prints no numbers: 'published' is what its equations give as printed, 'ours' what "
-            "the second "
-            "derivative of (2) gives."},
-           acceleration_rows},
-          {"milutinovic-2014-stiffness",
-           "Measured mean stiffness of the prototype",
-           "Milutinovic et al. 2014, section 4.2",
-           {"The source states neither how the mean was taken nor the stiffness of the parts. 'Ours' is the "
-            "mean over +-60 "
-            "deg with rigid arms and coupler and the diagonal that the row's reading of the mean implies."},
-           stiffness_rows}};
+  return study::reproductions_of(published::reproductions(),
+                                 {{"milutinovic-2014-prototype", prototype_rows},
+                                  {"milutinovic-2014-acceleration", acceleration_rows},
+                                  {"milutinovic-2014-stiffness", stiffness_rows}});
 }
 
 }  // namespace linkwright::parallel

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,10 +21,11 @@
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/balancing/serial_arm.h"
 #include "linkwright/planar/four_bar/classify.h"
-#include "linkwright/planar/four_bar/published.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/reproductions_paths.h"
 #include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/studies/published.h"
+#include "linkwright/planar/studies/published_four_bars.h"
 
 namespace linkwright::planar {
 namespace {
@@ -46,7 +48,7 @@ ArmTask published_arm(bool polynomials) {
   return task;
 }
 
-study::Comparisons arm_table(RunContext& context) {
+study::Comparisons arm_table(const std::string&, RunContext& context) {
   const std::string source = "Boskovic 2018, Table 2.1";
   const ArmTask first = published_arm(false), polynomial = published_arm(true);
   const std::vector<Counterweight> weights = {{"first", 0, {0, 24}, {0.5, 0.5}, pi},
@@ -192,8 +194,7 @@ void add_best(study::Comparisons& rows, std::string_view name, std::string_view 
 }
 
 // Designs: whether they are what the table says they are, and how good they are.
-study::Comparisons design_table(std::string_view table, RunContext& context) {
-  const std::string source = fmt::format("Boskovic 2018, Table {}", table);
+study::Comparisons design_table(std::string_view table, const std::string& source, RunContext& context) {
   study::Comparisons rows;
   for (const PublishedFourBar& design : published_four_bars()) {
     if (design.design_table != table) continue;
@@ -228,8 +229,7 @@ study::Comparisons design_table(std::string_view table, RunContext& context) {
 }
 
 // The settings of the methods, besides those that the program takes when a study says nothing.
-study::Comparisons settings_table(RunContext&) {
-  const std::string source = "Boskovic 2018, Table 2.5";
+study::Comparisons settings_table(const std::string& source, RunContext&) {
   const optimise::CuckooSearchOptions cuckoo;
   const optimise::FireflyOptions firefly;
   const optimise::HybridCuckooFireflyOptions hybrid;
@@ -250,65 +250,20 @@ study::Comparisons settings_table(RunContext&) {
   return rows;
 }
 
-const std::vector<std::string> corrections = {
-    "1. The printed reductions are those of the mean absolute value over the turn (here 501 samples), not of "
-    "the objective, Eqs. (2.80) and (2.136).",
-    "2. Their signs were dropped: some printed reductions are increases. Here a negative reduction is an "
-    "increase.",
-    "3. The shaking moment of Table 2.3 is that of the joint forces alone; that of Table 2.7 includes the "
-    "reaction of the motor.",
-    "4. Two printed numbers are slips: L1 of case 2, FA (0.819, meant 0.0819) and d2 of case 2, CS (0.807, "
-    "meant 0.0807).",
-    "A number counts as reproduced when it is met within what half a unit of the last printed digit of the "
-    "design may do to it."};
-
-const std::vector<std::string> design_notes = {
-    "The published designs were found by random searches that cannot be repeated. What can: whether they lie "
-    "in "
-    "their bounds, and how near they are to the best.",
-    "Objectives are those of Eqs. (2.80) and (2.136), 201 samples. Each is improved on in every objective at "
-    "once.",
-    "Lengths are free, so the function changes: the rocker of the original swings by 42 deg, that of the "
-    "designs "
-    "by 14 to 58 deg.",
-    "Two printed numbers are slips: L1 of case 2, FA (0.819, meant 0.0819) and d2 of case 2, CS (0.807, "
-    "meant "
-    "0.0807)."};
-
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  std::vector<study::Reproduction> tables = {
-      {"boskovic-2018-table-2.1",
-       "an arm of two links: joint forces by motion law and by counterweights",
-       "Boskovic 2018, section 2.2, Table 2.1",
-       {"The source prints neither the duration nor the initial law; the three printed objectives fit the "
-        "cycloidal law in 10 s and no other.",
-        "Counterweights of 23 kg at 0.5 m behind joint 1 and 7 kg at 0.5 m behind joint 2 unload joint 1 "
-        "completely and raise the torques."},
-       arm_table},
-      {"boskovic-2018-table-2.2", "a four-bar balanced by sub-population fireflies: the design",
-       "Boskovic 2018, Table 2.2", design_notes,
-       [](RunContext& context) { return design_table("2.2", context); }},
-      {"boskovic-2018-table-2.3", "a four-bar balanced by sub-population fireflies: reductions",
-       "Boskovic 2018, Table 2.3, of the design in Table 2.2", corrections,
-       [](RunContext&) { return change_table("2.3"); }},
-      {"boskovic-2018-table-2.4", "a four-bar balanced by FA, CS and H-CS-FA: the designs",
-       "Boskovic 2018, Table 2.4", design_notes,
-       [](RunContext& context) { return design_table("2.4", context); }},
-      {"boskovic-2018-table-2.5",
-       "settings of FA, CS and H-CS-FA",
-       "Boskovic 2018, Table 2.5",
-       {"A single value of beta is printed. Yang's code calls 0.2 the least attractiveness, with 1 the "
-        "largest."},
-       settings_table},
-      {"boskovic-2018-table-2.6", "a four-bar balanced in wider bounds: the design",
-       "Boskovic 2018, Table 2.6", design_notes,
-       [](RunContext& context) { return design_table("2.6", context); }},
-      {"boskovic-2018-table-2.7", "a four-bar balanced by FA, CS and H-CS-FA: reductions",
-       "Boskovic 2018, Table 2.7, of the designs in Tables 2.4 and 2.6", corrections,
-       [](RunContext&) { return change_table("2.7"); }},
-  };
+  std::map<std::string, study::ComputeTable> computed = {{"boskovic-2018-table-2.1", arm_table},
+                                                         {"boskovic-2018-table-2.5", settings_table}};
+  for (const std::string table : {"2.2", "2.4", "2.6"})
+    computed["boskovic-2018-table-" + table] = [table](const std::string& source, RunContext& context) {
+      return design_table(table, source, context);
+    };
+  for (const std::string table : {"2.3", "2.7"})
+    computed["boskovic-2018-table-" + table] = [table](const std::string&, RunContext&) {
+      return change_table(table);
+    };
+  std::vector<study::Reproduction> tables = study::reproductions_of(published::reproductions(), computed);
   for (study::Reproduction& table : path_reproductions()) tables.push_back(std::move(table));
   return tables;
 }

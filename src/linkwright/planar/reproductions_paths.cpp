@@ -20,6 +20,7 @@
 #include "linkwright/planar/path/four_bar/synthesis.h"
 #include "linkwright/planar/path/slider_crank/samples.h"
 #include "linkwright/planar/path/slider_crank/synthesis.h"
+#include "linkwright/planar/studies/published.h"
 
 namespace linkwright::planar {
 namespace {
@@ -154,14 +155,18 @@ std::string verdict_of(double published, double ours) {
   return ours == published ? "reproduced" : "not reproduced";
 }
 
+std::vector<std::complex<double>> nine_points_of_problem_3() {
+  return {{0.25, 0.0}, {0.52, 0.1}, {0.8, 0.7}, {1.2, 1.0}, {1.4, 1.3},
+          {1.1, 1.48}, {0.7, 1.4},  {0.2, 1.0}, {0.02, 0.4}};
+}
+
 study::Comparisons nine_points(const std::string& source, RunContext& context) {
-  const std::vector<std::complex<double>> points = {{0.25, 0.0}, {0.52, 0.1}, {0.8, 0.7},
-                                                    {1.2, 1.0},  {1.4, 1.3},  {1.1, 1.48},
-                                                    {0.7, 1.4},  {0.2, 1.0},  {0.02, 0.4}};
-  const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
+  const NinePointSolutions found =
+      solve_nine_points(nine_points_of_problem_3(), {.cache = user_cache_folder()}, context);
   PathProblem problem;
   problem.closed = problem.crank_rotates_fully = false;
-  for (const auto& point : points) problem.x.push_back(point.real()), problem.y.push_back(point.imag());
+  for (const auto& point : nine_points_of_problem_3())
+    problem.x.push_back(point.real()), problem.y.push_back(point.imag());
   problem.bounds = derive_bounds(problem.x, problem.y);
   const std::vector<ExactDesign> designs = exact_designs(problem, found);
   const auto free =
@@ -187,10 +192,8 @@ study::Comparisons five_points(const std::string& source, RunContext& context) {
 
 // Counts of the same problem by other authors, and what certifies them.
 study::Comparisons certified_nine_points(const std::string& source, RunContext& context) {
-  const std::vector<std::complex<double>> points = {{0.25, 0.0}, {0.52, 0.1}, {0.8, 0.7},
-                                                    {1.2, 1.0},  {1.4, 1.3},  {1.1, 1.48},
-                                                    {0.7, 1.4},  {0.2, 1.0},  {0.02, 0.4}};
-  const NinePointSolutions found = solve_nine_points(points, {.cache = user_cache_folder()}, context);
+  const NinePointSolutions found =
+      solve_nine_points(nine_points_of_problem_3(), {.cache = user_cache_folder()}, context);
   // A class of six ordered four-bars; the real ones of a real class are all six.
   const double all = 6.0 * found.certified, real = 6.0 * found.real;
   return {{"certified distinct solutions", source, 8652, all, verdict_of(8652, all), "six to a class"},
@@ -216,64 +219,20 @@ study::Comparisons five_poses(const std::string& source, RunContext&) {
            "poses of the coupler of L = 1.05394, 0.42388, 0.91424, 0.59892 m"}};
 }
 
-const std::vector<std::string> nine_point_notes = {
-    "Certified counts of the same points: Hauenstein and Sottile 2012.",
-    "A class has three cognates, each with either of its cranks as the driver: 64 x 6 = 384."};
-const std::vector<std::string> five_point_notes = {
-    "Both fixed pivots are given; points of any kind have 36 solutions."};
-
-const std::vector<std::string> four_bar_notes = {
-    "Branch open, sense +1, crank angle from the ground link, step 20 deg: the only convention that gives "
-    "four of "
-    "the six columns.",
-    "The column of Cabrera et al. 2007 prints 4.853543 twice and has lost a value; corrected it is the row "
-    "that "
-    "says so.",
-    "The published grey wolf setting does not come near the error printed for it; the design printed is "
-    "good, so "
-    "something else found it."};
-const std::vector<std::string> slider_notes = {
-    "The printed stroke is the abscissa of the tracing point at the first crank angle, in all five designs "
-    "to 1e-5. "
-    "The true stroke is not printed.",
-    "The offset H of the source is counted against the left normal of the guide; the other assembly mode is "
-    "the "
-    "guide turned by half a turn with the opposite offset.",
-    "Printed angles lie outside of the bounds 0 to 2 pi of Eq. (4.32) by whole turns."};
-
 }  // namespace
 
 std::vector<study::Reproduction> path_reproductions() {
-  const std::string thesis = "Boskovic 2018, Table ", paper =
-                                                          "Boskovic, Bulatovic, Salinic and Sredojevic, "
-                                                          "grey wolf for closed paths, Table ";
-  const auto entry = [](std::string id, std::string title, std::string source,
-                        const std::vector<std::string>& notes,
-                        study::Comparisons (*table)(const std::string&, RunContext&)) {
-    return study::Reproduction{std::move(id), std::move(title), source, notes,
-                               [table, source](RunContext& context) { return table(source, context); }};
-  };
-  const char* four = "four-bars through 18 points of a closed path: six methods";
-  const char* path = "a slider-crank through the same points";
-  const char* stroke = "slider-cranks for the same points and a short stroke: four designs";
-  return {entry("boskovic-2018-table-4.1", four, thesis + "4.1", four_bar_notes, four_bars),
-          entry("boskovic-2018-table-4.2", path, thesis + "4.2", slider_notes, single),
-          entry("boskovic-2018-table-4.3", stroke, thesis + "4.3", slider_notes, several),
-          entry("boskovic-gwo-table-1", four, paper + "1", four_bar_notes, four_bars),
-          entry("boskovic-gwo-table-2", path, paper + "2", slider_notes, single),
-          entry("boskovic-gwo-table-3", stroke, paper + "3", slider_notes, several),
-          entry("morgan-wampler-1990-problem-7",
-                "four-bars through five points of a line, both fixed pivots given",
-                "Morgan and Wampler 1990, problem 7", five_point_notes, five_points),
-          entry("burmester-1888-five-poses", "links through five poses of a body", "Burmester 1888",
-                {"Two links of the four they can have are those of any four-bar that passes the poses."},
-                five_poses),
-          entry("hauenstein-sottile-2012", "certified solutions of the nine-point problem",
-                "Hauenstein and Sottile 2012, of Wampler, Morgan and Sommese's problem 3",
-                {"Certificates of their own: Krawczyk's operator in balls instead of Smale's alpha theory."},
-                certified_nine_points),
-          entry("wampler-morgan-sommese-1992-problem-3", "all four-bars through nine points",
-                "Wampler, Morgan and Sommese 1992, problem 3", nine_point_notes, nine_points)};
+  return study::reproductions_of(published::reproductions_paths(),
+                                 {{"boskovic-2018-table-4.1", four_bars},
+                                  {"boskovic-2018-table-4.2", single},
+                                  {"boskovic-2018-table-4.3", several},
+                                  {"boskovic-gwo-table-1", four_bars},
+                                  {"boskovic-gwo-table-2", single},
+                                  {"boskovic-gwo-table-3", several},
+                                  {"morgan-wampler-1990-problem-7", five_points},
+                                  {"burmester-1888-five-poses", five_poses},
+                                  {"hauenstein-sottile-2012", certified_nine_points},
+                                  {"wampler-morgan-sommese-1992-problem-3", nine_points}});
 }
 
 }  // namespace linkwright::planar

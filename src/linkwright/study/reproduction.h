@@ -1,10 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/run_context.h"
+#include "linkwright/core/value.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
@@ -17,7 +20,20 @@ struct Reproduction {
   std::vector<std::string> notes;  ///< notes needed to read it: corrections, conventions
   /// Numbers with their verdicts: "reproduced", "corrected" (right once a slip of the source is fixed),
   /// "improved" (a better answer to the same question), "not reproduced".
-  std::function<std::vector<Comparison>(RunContext& context)> run;
+  std::function<Comparisons(RunContext& context)> run;
 };
+
+/// Reads a TOML text of published tables, which is part of the program; throws ContractError when it has a
+/// mistake.
+Value read_published(std::string_view toml);
+
+/// A function that computes a table, whose source it is given.
+using ComputeTable = std::function<Comparisons(const std::string& source, RunContext& context)>;
+
+/// The tables of a text that is part of the program, in its order, each with the function under its id. A
+/// [[table]] has its id, title, source and notes, which end with those of [shared_notes] under the name that
+/// it gives. Throws ContractError when the text and the functions do not belong together.
+std::vector<Reproduction> reproductions_of(std::string_view toml,
+                                           const std::map<std::string, ComputeTable>& computed);
 
 }  // namespace linkwright::study

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "linkwright/suspension/indirect/guide_deviations.h"
 #include "linkwright/suspension/indirect/published_guides.h"
 #include "linkwright/suspension/indirect/synthesis.h"
+#include "linkwright/suspension/studies/published.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -253,7 +255,7 @@ study::Comparisons example(std::size_t number, RunContext& context) {
 }
 
 /// Direct synthesis: twenty boxes placed at random, each searched once.
-study::Comparisons direct_example(RunContext& context) {
+study::Comparisons direct_example(const std::string&, RunContext& context) {
   constexpr int repeats = 20;
   constexpr std::array names{"toe", "camber", "relative track"};
   const std::string source = "Poznanovic 2016, section 6.6, Tab. 6-19";
@@ -301,75 +303,14 @@ study::Comparisons direct_example(RunContext& context) {
   return rows;
 }
 
-const std::string repeats_note =
-    "Each repeat draws its own boxes of 150 mm around the true coordinates; published figures are means over "
-    "40 or 100 repeats of differential evolution. A deviation counts as improved when it is no larger than "
-    "published. More repeats, and times: docs/suspension-statistics.md.";
-
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  return {
-      {"poznanovic-2016-example-1",
-       "five-link front suspension: positions and indirect synthesis",
-       "Poznanovic 2016, section 6.2, Tabs. 6-1 to 6-4, appendix 1",
-       {"Two numbers of the appendix lost a digit: alpha' of position 12 is 7.263311113054105 deg (printed "
-        "7.26331113054105), y 0.7698295993665014 m (printed 0.769829599366504); its rack has nine leading "
-        "zeros, its height six trailing ones.",
-        "Both lists of true points carry the same names: the first is the body side.", repeats_note},
-       [](RunContext& context) { return example(1, context); }},
-      {"poznanovic-2016-example-2",
-       "strut with three rods: positions and indirect synthesis",
-       "Poznanovic 2016, section 6.3, Fig. 6-3, Tabs. 6-5 to 6-8",
-       {"Figure 6-3 rounds two points that its table needs finer: x of 12 is -0.00587 (printed -0.0059), x "
-        "and "
-        "y of 14 are -0.0366043 and 0.6755409 (-0.0366, 0.6755). With them all 75 numbers are met.",
-        "The text places the boxes around Tab. 6-5 where it means figure 6-3.", repeats_note},
-       [](RunContext& context) { return example(2, context); }},
-      {"poznanovic-2016-example-3",
-       "interconnected links: positions and indirect synthesis",
-       "Poznanovic 2016, section 6.4, Fig. 6-5, Tabs. 6-9 to 6-12",
-       {"The hinge of link 3 points to 13 + (0.1 tan 9 deg, 0.1, 0); the other sign of the printed 9 deg "
-        "misses the table by 5 mm.",
-        "The carrier pitches of positions 1 and 9 are printed as -6.12819 and 4.58125 and are -6.1281952 and "
-        "4.5812446.",
-        repeats_note},
-       [](RunContext& context) { return example(3, context); }},
-      {"poznanovic-2016-example-4",
-       "five-link rear suspension: positions, synthesis with and without the carrier pitch",
-       "Poznanovic 2016, section 6.5, Fig. 6-8, Tabs. 6-13 to 6-16",
-       {"The turn of the dyad (73) is not the carrier pitch of (50), as the text has it, but the carrier "
-        "that it "
-        "turns "
-        "(74) is right; (67) lacks the length of the rod.",
-        "With the quadratic of the carrier pitch three boxes are searched here; over forty its largest "
-        "deviations of "
-        "toe and "
-        "camber, 0.032 and 0.0098 deg, are more than the published 0.019 and 0.005 deg "
-        "(docs/suspension-statistics.md).",
-        "Without the carrier pitch every solution of some micrometres is as good as another: their "
-        "coordinates "
-        "scatter "
-        "over the boxes.",
-        repeats_note},
-       [](RunContext& context) { return example(4, context); }},
-      {"poznanovic-2016-example-5",
-       "five-link front suspension: direct synthesis with priorities",
-       "Poznanovic 2016, section 6.6, Tabs. 6-17 to 6-19, Fig. 6-13",
-       {"Table 6-18 prints tolerances of 0.5 deg where 0.05 deg is used, and its rack row starts one column "
-        "early and "
-        "contains a zero: nine zeros, then the six values.",
-        "(75) needs the size of a target value, |q| - q_gr, not |q - q_gr|: only so the published 0.051 deg "
-        "at "
-        "-2.052 deg follows.",
-        "(78) compares the figures alone; here a design that meets more objectives is always the better one.",
-        "The published column minima, 0.9182, 0.9090 and 0.3556, belong to different runs: no design has all "
-        "three.",
-        "The optimum is unique, ten equally large deviations for nine coordinates, so that its figures are "
-        "the "
-        "smallest there are."},
-       direct_example},
-  };
+  std::map<std::string, study::ComputeTable> computed = {{"poznanovic-2016-example-5", direct_example}};
+  for (std::size_t number = 1; number <= 4; ++number)
+    computed[fmt::format("poznanovic-2016-example-{}", number)] =
+        [number](const std::string&, RunContext& context) { return example(number, context); };
+  return study::reproductions_of(published::reproductions(), computed);
 }
 
 }  // namespace linkwright::suspension

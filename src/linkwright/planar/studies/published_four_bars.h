@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 
 // The balanced four-bars of Boskovic 2018, section 2.4, as printed: facts to compare with.
 namespace linkwright::planar {
@@ -16,9 +16,9 @@ struct FourBarRepair {
 };
 
 struct PublishedFourBar {
-  std::string_view label;         ///< "case 1, H-CS-FA"
-  std::string_view design_table;  ///< "2.4": where the design is printed
-  std::string_view change_table;  ///< "2.7": where its reductions are printed
+  std::string label;         ///< "case 1, H-CS-FA"
+  std::string design_table;  ///< "2.4": where the design is printed
+  std::string change_table;  ///< "2.7": where its reductions are printed
   /// L1 ... L4 (crank, coupler, rocker, ground; m), alpha1 ... alpha3 (rad), m1 ... m3 (kg), J1 ... J3 about
   /// the mass centres (kg m2), d1 ... d3 (m), repaired.
   std::array<double, 16> numbers;
