@@ -13,6 +13,7 @@
 namespace linkwright::planar {
 namespace {
 
+using test::column;
 using test::prepare;
 using test::problems_of;
 using ::testing::HasSubstr;
@@ -389,14 +390,12 @@ TEST(PathStudyRun, MeetsGatesTolerancesAndTheRegionOfTheRockerPivot) {
   EXPECT_LE(x, 0.15 + 1e-8);
   EXPECT_NEAR(y, 0.3, 1e-8);
   // Independently of the search: where the tracing point is, against the gates and half a millimetre.
-  const Table* points = nullptr;
-  for (const Table& table : result.tables)
-    if (table.name == "points") points = &table;
-  ASSERT_TRUE(points);
+  const auto &found_x = column(result, "points", "x_m"), &found_y = column(result, "points", "y_m");
+  ASSERT_GE(found_x.size(), 5u);
   const double middle_x[] = {0, 0.1, 0.2, 0.3, 0.4}, low[] = {-0.005, 0.04, 0.06, 0.04, -0.005},
                high[] = {0.005, 0.06, 0.09, 0.06, 0.005};
   for (std::size_t k = 0; k < 5; ++k) {
-    const double px = points->find("x_m")->values[k], py = points->find("y_m")->values[k];
+    const double px = found_x[k], py = found_y[k];
     const double beyond = std::max({0.0, low[k] - py, py - high[k]});
     EXPECT_LE(std::hypot(px - middle_x[k], beyond), 0.0005 + 1e-9) << k;
   }

@@ -21,6 +21,7 @@ using test::prepare;
 using test::problems_of;
 using test::replaced;
 using test::run_text;
+using test::table;
 using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -385,26 +386,21 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   const study::Result r = run_text(std::string(four_bar_text) +
                                    "[quality]\noutput_joint = \"O4\"\ncentrodes = "
                                    "[\"coupler\"]\ninstant_centres = true\nassembly_modes = true\n");
-  const auto table = [&](std::string_view name) -> const Table& {
-    for (const Table& t : r.tables)
-      if (t.name == name) return t;
-    throw std::runtime_error("no table " + std::string(name));
-  };
   // The ratio of the speeds is that of the table of the analysis.
   for (std::size_t i = 0; i < 201; i += 20)
-    EXPECT_NEAR(table("advantage").find("rate_ratio")->values[i],
-                table("sweep").find("rocker_speed_rad_per_s")->values[i] / (10 * pi), 1e-13);
-  EXPECT_EQ(table("ranges").rows(), 2u);  // both modes turn fully, each a circuit of its own
-  EXPECT_EQ(table("ranges").find("full_turn")->values, (std::vector<double>{1, 1}));
-  EXPECT_EQ(table("ranges").find("circuit")->values, (std::vector<double>{1, 2}));
+    EXPECT_NEAR(table(r, "advantage").find("rate_ratio")->values[i],
+                table(r, "sweep").find("rocker_speed_rad_per_s")->values[i] / (10 * pi), 1e-13);
+  EXPECT_EQ(table(r, "ranges").rows(), 2u);  // both modes turn fully, each a circuit of its own
+  EXPECT_EQ(table(r, "ranges").find("full_turn")->values, (std::vector<double>{1, 1}));
+  EXPECT_EQ(table(r, "ranges").find("circuit")->values, (std::vector<double>{1, 2}));
   // The instant centre of the coupler lies on the lines of crank and rocker.
-  const Table& centres = table("instant_centres");
+  const Table& centres = table(r, "instant_centres");
   const double x = centres.find("ground_coupler_x_m")->values[30],
                y = centres.find("ground_coupler_y_m")->values[30];
-  const double crank = table("sweep").find("crank_angle_rad")->values[30];
+  const double crank = table(r, "sweep").find("crank_angle_rad")->values[30];
   EXPECT_NEAR(x * std::sin(crank) - y * std::cos(crank), 0, 1e-12);
-  EXPECT_EQ(table("centrodes-coupler").rows(), 201u);
-  EXPECT_EQ(table("assembly_modes").find("coupler_rocker_mode")->values, (std::vector<double>{1, -1}));
+  EXPECT_EQ(table(r, "centrodes-coupler").rows(), 201u);
+  EXPECT_EQ(table(r, "assembly_modes").find("coupler_rocker_mode")->values, (std::vector<double>{1, -1}));
 }
 
 TEST(LinkageStudy, RemarksOnADrawingThatIsNotCalledOne) {
