@@ -1,6 +1,8 @@
 #include "linkwright/cli/program.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -94,6 +96,22 @@ TEST_F(Program, OnlyPlainFilesAreRead) {
         "pipe.toml: error: is not a plain file, but a pipe or a device; write the study to a file, or give - "
         "and the study as standard input\n");
   }
+}
+
+TEST_F(Program, TheFirstInterruptEndsItWhileItWaitsForText) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const int pipe = ::open((folder_ / "pipe").c_str(), O_RDWR);
+  input_ = (folder_ / "pipe").string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "-"}, {"check", "-"}, {"compare", "-", "s.toml"}}) {
+    const pid_t child = start(words);
+    const std::string_view begun = "schema = 1\n";
+    ASSERT_EQ(::write(pipe, begun.data(), begun.size()), static_cast<ssize_t>(begun.size()));
+    for (int left = 1; left != 0;) ASSERT_EQ(::ioctl(pipe, FIONREAD, &left), 0);  // it reads
+    ::kill(child, SIGINT);
+    EXPECT_EQ(finish(child), -SIGINT) << words[0];
+  }
+  ::close(pipe);
 }
 
 TEST_F(Program, AReadOnlyResultIsLeftAsItIs) {

@@ -167,7 +167,6 @@ void follow(const Arguments& arguments, std::span<const study::Kind> kinds, app:
 
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
-  const Interruptible guard(context);
   const JoinedRanks joined = join_ranks();
   app::Ranks* ranks = joined.ranks.get();
   const EndOfRanks end{ranks};
@@ -181,6 +180,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   }
   context.set_threads(ranks && arguments.threads == 0 ? threads_of_rank() : arguments.threads);
   if (ranks && ranks->rank() > 0) {
+    const Interruptible guard(context);
     follow(arguments, kinds, *ranks, context);
     return 0;
   }
@@ -209,6 +209,8 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print_diagnostics(diagnostics);
     return bad_input;
   }
+  // Not before: the text of a study on standard input may be long in coming, and Ctrl-C ends the wait.
+  const Interruptible guard(context);
   context.set_checkpoint(&checkpoint);
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;
@@ -267,7 +269,6 @@ app::RunOutcome run_compared(const app::ComparisonInput& input, RunContext& cont
 
 int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
-  const Interruptible guard(context);
   context.set_threads(arguments.threads);
   Diagnostics diagnostics;
   const std::vector<fs::path> paths(arguments.inputs.begin(), arguments.inputs.end());
@@ -299,6 +300,7 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   std::vector<const study::Study*> studies;
   for (const app::ComparisonInput& input : inputs) studies.push_back(&input.study);
   const std::vector<std::string> names = app::names_of(paths, studies);
+  const Interruptible guard(context);
   std::vector<app::Compared> all;
   app::RunOutcome outcome;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
