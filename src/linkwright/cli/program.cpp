@@ -188,6 +188,9 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const app::RunOptions options{arguments.out, arguments.seed, arguments.set};
   Value as_written;
   const auto study = app::load_study(arguments.study, options, kinds, diagnostics, &as_written);
+  // Not earlier: a study on standard input may be long in coming, and Ctrl-C ends the wait.
+  // Not later: from here on files are written.
+  const Interruptible guard(context);
   const fs::path folder = study ? app::output_folder(*study, arguments.study, options) : fs::path();
   if (!study || !app::prepare_folder(folder, diagnostics)) {
     print_diagnostics(diagnostics);
@@ -209,8 +212,6 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print_diagnostics(diagnostics);
     return bad_input;
   }
-  // Not before: the text of a study on standard input may be long in coming, and Ctrl-C ends the wait.
-  const Interruptible guard(context);
   context.set_checkpoint(&checkpoint);
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;

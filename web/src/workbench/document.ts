@@ -111,9 +111,7 @@ export function asCpp({ text, files }: Document): string {
   return `#include <cstdio>
 ${written.length ? "#include <fstream>\n" : ""}#include <optional>
 
-#include "linkwright/app/catalogue.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
+#include "linkwright/studies.h"
 
 constexpr const char* text = ${quoted(text)};
 
