@@ -134,7 +134,8 @@ def main():
         for file in ("liblinkwright_study.a", "linkwright/studies.h", "linkage/kernel.h"):
             assert file not in listed, file
         listed = run("dpkg-deb", "-c", next(out.glob("linkwright-studies-dev_*.deb")))
-        for file in ("usr/include/linkwright/studies.h", "cmake/Linkwright/LinkwrightStudiesTargets.cmake", "pkgconfig/linkwright-studies.pc", "liblinkwright_app.a"):
+        for file in ("usr/include/linkwright/studies.h", "cmake/Linkwright/LinkwrightStudiesTargets.cmake",
+                     "pkgconfig/linkwright-studies.pc", "liblinkwright_app.a"):
             assert file in listed, file
 
 
