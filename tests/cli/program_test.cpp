@@ -66,12 +66,12 @@ TEST_F(Program, EveryWriteIsCheckedToItsEnd) {
   // A full device behind standard output.
   for (const std::string command : {"new analysis/sample.wheel -", "check s.toml", "run s.toml --json",
                                     "run s.toml", "schema", "catalogue", "schema result", "--help"}) {
-    EXPECT_EQ(shell("$L " + command + " > /dev/full"), 5) << command;
+    EXPECT_EQ(shell("$L " + command + " > /dev/full"), 3) << command;
     EXPECT_EQ(err_, "standard output: error: cannot be written: No space left on device\n") << command;
   }
   EXPECT_EQ(shell("$L check none.toml 2> /dev/full"), 2);
   // A limit of the size of files: what is not written is named, and not half there.
-  EXPECT_EQ(shell("ulimit -f 1; $L run s.toml --out limited > stdout"), 5);
+  EXPECT_EQ(shell("ulimit -f 1; $L run s.toml --out limited > stdout"), 3);
   EXPECT_THAT(err_, HasSubstr("limited/report.html: error: cannot be written: File too large\n"));
   EXPECT_FALSE(fs::exists(folder_ / "limited/report.html"));
   // A folder that is no more.
@@ -79,7 +79,7 @@ TEST_F(Program, EveryWriteIsCheckedToItsEnd) {
                     study = "'" + (folder_ / "s.toml").string() + "'";
   EXPECT_EQ(shell(gone + "$L run " + study + " > ../stdout"), 2);
   EXPECT_THAT(err_, HasSubstr("out/s: error: the folder cannot be made: No such file or directory\n"));
-  EXPECT_EQ(shell(gone + "timeout 20 $L serve " + study + " > ../stdout"), 5);
+  EXPECT_EQ(shell(gone + "timeout 20 $L serve " + study + " > ../stdout"), 3);
   EXPECT_THAT(err_, HasSubstr("cannot be reached: No such file or directory\n"));
   // Stacks of 4 GB, of which no thread gets one.
   EXPECT_EQ(shell("ulimit -s 4000000; ulimit -v 3000000; timeout 20 $L serve s.toml --port 0 > stdout"), 5);
@@ -118,7 +118,7 @@ TEST_F(Program, AReadOnlyResultIsLeftAsItIs) {
   EXPECT_EQ(run({"run", "s.toml"}), 0);
   fs::permissions(folder_ / "out/s/sweep.csv", static_cast<fs::perms>(0444));
   write("out/s/other", "");
-  EXPECT_EQ(run({"run", "s.toml", "--set", "mechanism.length_m=0.5"}), 5);
+  EXPECT_EQ(run({"run", "s.toml", "--set", "mechanism.length_m=0.5"}), 3);
   EXPECT_THAT(err_, HasSubstr("out/s/sweep.csv: error: cannot be written: Permission denied\n"));
 }
 

@@ -91,7 +91,8 @@ inline constexpr const char* about =
     "Linkwright analyses, balances and synthesises mechanisms from study files.";
 
 inline constexpr int bad_input = 2;
-inline constexpr int numeric_failure = 3;
+/// Numeric failures have the same code.
+inline constexpr int not_written = 3;
 inline constexpr int cancelled = 4;
 inline constexpr int system_limit = 5;
 inline constexpr int internal_error = 70;
@@ -100,13 +101,12 @@ struct ExitCode {
   int code;
   std::string_view meaning;
 };
-inline constexpr ExitCode exit_codes[] = {
-    {0, "done"},
-    {1, "a check failed"},
-    {bad_input, "bad input or usage"},
-    {numeric_failure, "numeric failure"},
-    {cancelled, "cancelled"},
-    {system_limit, "a file that cannot be written, too little memory, or no more threads"},
-    {internal_error, "internal error"}};
+inline constexpr ExitCode exit_codes[] = {{0, "done"},
+                                          {1, "a check failed"},
+                                          {bad_input, "bad input or usage"},
+                                          {not_written, "numeric failure, or a file that cannot be written"},
+                                          {cancelled, "cancelled"},
+                                          {system_limit, "too little memory, or no more threads"},
+                                          {internal_error, "internal error"}};
 
 }  // namespace linkwright::cli

@@ -198,7 +198,7 @@ int copy_example(const Arguments& arguments) {
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error) {
     print_diagnostics({unwritten(folder, error.message())});
-    return system_limit;
+    return not_written;
   }
   const app::Example& example = *found.front();
   std::vector<app::EmbeddedFile> files = example.beside;
@@ -217,7 +217,7 @@ int copy_example(const Arguments& arguments) {
       case app::Copied::refused:
       case app::Copied::unwritten:
         print_diagnostics(diagnostics);
-        return copied == app::Copied::unwritten ? system_limit : bad_input;
+        return copied == app::Copied::unwritten ? not_written : bad_input;
     }
   }
   fmt::print("run it with: linkwright run {}\n", (fs::path(folder) / study).string());
@@ -344,7 +344,7 @@ int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const app::Copied copied = app::write_new(file, text, diagnostics);
   print_diagnostics(diagnostics);
   if (copied == app::Copied::refused) return bad_input;
-  if (copied == app::Copied::unwritten) return system_limit;
+  if (copied == app::Copied::unwritten) return not_written;
   fmt::print("{} {}; run it with: linkwright run {}\n", file,
              copied == app::Copied::written ? "written" : "is here already", file);
   const fs::path beside = fs::path(file).parent_path() / schema;
@@ -425,7 +425,7 @@ int print_schema(const Arguments& arguments, std::span<const study::Kind> kinds)
     return 0;
   }
   print_diagnostics({unwritten(arguments.out, problem)});
-  return system_limit;
+  return not_written;
 }
 
 int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all) {

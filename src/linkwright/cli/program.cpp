@@ -40,7 +40,7 @@ namespace {
 /// The exit code where results cannot go: a folder that is none was asked for, another one cannot be written.
 int unusable(const fs::path& folder) {
   std::error_code error;
-  return fs::is_directory(folder, error) ? system_limit : bad_input;
+  return fs::is_directory(folder, error) ? not_written : bad_input;
 }
 
 /// The command line, without what does not change the result.
@@ -199,7 +199,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   if (const std::string problem = app::note_owner(folder, arguments.study, options, *study);
       !problem.empty()) {
     print_diagnostics({unwritten(folder.string(), problem)});
-    return system_limit;
+    return not_written;
   }
   const bool whole = arguments.shards == 0;
   const app::Shard shard = whole ? app::Shard{}
@@ -238,7 +238,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
   print_outcome(arguments, *study, outcome, written, problems);
   if (!arguments.quiet) offer_to_resume(outcome.result, checkpoint, folder);
-  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 /// The checkpoint that a result computed again finds in its folder; nothing is saved there.
@@ -320,7 +320,7 @@ int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
   const study::Study study = app::comparison_study(all);
   const std::vector<fs::path> written = app::write_results(study, outcome, folder, problems);
   print_outcome(arguments, study, outcome, written, problems);
-  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 /// The result of a study from the checkpoints of its shards.
@@ -352,7 +352,7 @@ int merge(const Arguments& arguments, std::span<const study::Kind> kinds) {
   Diagnostics problems;
   const std::vector<fs::path> written = app::write_results(merged->study, outcome, folder, problems);
   print_outcome(arguments, merged->study, outcome, written, problems);
-  return has_errors(problems) ? system_limit : app::exit_code(outcome.result);
+  return has_errors(problems) ? not_written : app::exit_code(outcome.result);
 }
 
 int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
@@ -439,16 +439,16 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
   const std::string problem = output_problem();
   if (problem.empty()) return code;
   print_diagnostics({unwritten("standard output", problem)});
-  return system_limit;
+  return not_written;
 } catch (const PartMissing& error) {
   fmt::print(stderr, "linkwright: {}\nInstall the program again; the study is not to blame.\n", error.what());
   return internal_error;
 } catch (const fs::filesystem_error& error) {
   print_diagnostics({unreachable(error)});
-  return system_limit;
+  return not_written;
 } catch (const std::system_error& error) {
   // Printing throws where a stream takes no more.
-  if (std::ferror(stderr) != 0) return system_limit;
+  if (std::ferror(stderr) != 0) return not_written;
   if (std::ferror(stdout) == 0) {
     if (error.code() != std::errc::resource_unavailable_try_again) return failed(error);
     std::fputs(
@@ -458,7 +458,7 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
     return system_limit;
   }
   print_diagnostics({unwritten("standard output", error.code().message())});
-  return system_limit;
+  return not_written;
 } catch (const std::bad_alloc&) {
   std::fputs(
       "linkwright: error: the memory that may be used is not enough for this study; ask it for less: a "
