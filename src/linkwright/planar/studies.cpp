@@ -2,9 +2,9 @@
 
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/dwell.h"
+#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/poses.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/simulation.h"
