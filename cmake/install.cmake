@@ -1,7 +1,7 @@
-# Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...), Linkwright::linkwright, which is the
-# mechanics, and Linkwright::studies, which is study files and reports; add_subdirectory gives the same names. Each of both is a
-# component, so that who computes a four-bar needs nothing of the other. Installed are the headers straight under src/linkwright, and
-# what they include, which are the public ones.
+# Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...), Linkwright::linkwright for all
+# mechanics, and Linkwright::studies for study files and reports; add_subdirectory gives the same names. Mechanics and studies are
+# two components, so that a program that computes a four-bar needs nothing of the studies. The headers directly in src/linkwright
+# and the headers that they include are public and are installed.
 
 get_property(mechanics GLOBAL PROPERTY LINKWRIGHT_MODULES)
 list(REMOVE_ITEM mechanics linkwright_cli linkwright_serve)

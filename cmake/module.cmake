@@ -35,12 +35,7 @@ function(linkwright_module module)
   set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_MODULES linkwright_${module})
 endfunction()
 
-# linkwright_extra(<name> ...): a library for those who link it by its name; Linkwright::linkwright is without it.
-function(linkwright_extra name)
-  linkwright_library(${name} ${ARGN})
-  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_EXTRAS linkwright_${name})
-endfunction()
-
+# linkwright_library(<name> ...): a library beside the modules, for those who link it by its name.
 function(linkwright_library module)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(linkwright_${module} STATIC ${arg_SOURCES})
