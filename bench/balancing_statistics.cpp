@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Figures over seeds of all methods on the published balancing problems, beside those of another program:
 //
 //   balancing_statistics [SEEDS] [WORD ...]

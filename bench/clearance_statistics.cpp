@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Figures over seeds of the published method for the four-bar with clearance (Varedi et al. 2014), beside
 // those of the methods that are recommended. Takes some minutes.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The reliability of the search for all four-bars through nine points, over random targets:
 //
 //   exact_statistics [TARGETS [FIRST [KINDS]]]

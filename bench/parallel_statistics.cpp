@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Figures over seeds of the synthesis of parallel robots, exact method and population methods side by side:
 //
 //   parallel_statistics SEEDS ROW ...

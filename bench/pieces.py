@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What the pieces of studies cost, for docs/many-machines.md: time and bytes of a piece on one thread, and the time of what one
 rank does alone (reading, what follows the pieces, writing), which is that of resuming a run that had ended.
 

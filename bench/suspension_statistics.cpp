@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Figures over seeds of the indirect synthesis of Poznanovic 2016, beside the published ones:
 //
 //   suspension_statistics REPEATS ROW ...

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # The serial integrators of SUNDIALS, as SundialsSerial::arkode and SundialsSerial::cvode. SUNDIALS' own package
 # config wants OpenMP (and targets of MPI) for parts that are not used here, and fails where the compiler has none.
 # Both libraries hold the serial vectors, matrices and solvers they need.

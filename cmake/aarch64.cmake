@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Toolchain file: compiles for 64-bit ARM by Debian's g++-aarch64-linux-gnu with the arm64 libraries in LINKWRIGHT_SYSROOT, which
 # tools/fetch-sysroot.sh fills; tests run under qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Libraries for machines that Debian compiles none for (WebAssembly, Windows): headers are taken from the installed packages, and what
 # has code is compiled from Debian's source packages, which tools/fetch-sources.sh puts into build/sources.
 enable_language(C)

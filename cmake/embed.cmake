@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Writes OUTPUT, a C++ source with the bytes of files. HEADER declares what is in it, as it is included.
 #   FILES = "name=path;name=path": name() in NAMESPACE returns the bytes of path as std::string_view; an empty path gives
 #     an empty text. With DECLARE, its path, the header is written too.

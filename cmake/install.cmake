@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...), Linkwright::linkwright for all
 # mechanics, and Linkwright::studies for study files and reports; add_subdirectory gives the same names. Mechanics and studies are
 # two components, so that a program that computes a four-bar needs nothing of the studies. The headers directly in src/linkwright

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # One module = one static library `linkwright_<module>`; every module is compiled with the same flags.
 
 add_library(linkwright_flags INTERFACE)

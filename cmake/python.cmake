@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # LINKWRIGHT_PYTHON: the Python module; on where Python with its headers, pybind11 and NumPy are.
 # Debian's Python unless another one is named: the newest of a machine may be without NumPy.
 find_program(LINKWRIGHT_PYTHON_EXECUTABLE NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH DOC "Python to build the module for")

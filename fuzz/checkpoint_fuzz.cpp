@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reading any bytes of a checkpoint ends with what can be used or with one message; also when somebody has
 // made owner and checksum fit.
 #include <cstddef>

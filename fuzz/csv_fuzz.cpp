@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Builds a table from the bytes - one number of columns, then keys, states and numbers - and reads its CSV
 // back.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Eleven doubles: four lengths, coupler point, pivot, frame angle, crank angle, and one whose sign is the
 // branch.
 

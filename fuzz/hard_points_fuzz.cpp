@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reading any bytes as a list of hard points ends with points or with diagnostics, and points that were read
 // survive being written and read again.
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The first line is the misspelt word, the other lines are the words that are allowed.
 
 #include <algorithm>

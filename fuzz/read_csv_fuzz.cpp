@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reading any bytes as CSV ends with a table or with diagnostics, and a table that was read survives being
 // written and read again.
 #include <cmath>

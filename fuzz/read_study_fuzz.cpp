@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reading any bytes as a study ends with a tree or with diagnostics, and what was read can be written and
 // read again.
 #include <cstddef>

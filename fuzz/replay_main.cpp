@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs a fuzz target over the files of a corpus folder, without libFuzzer.
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Any run that a page sends is refused with one line that says why, or it is a run with a name and with files
 // that stay in their folder; the guards of the head take any bytes.
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reading any bytes as a tool's points in time ends with a table or with diagnostics, and a table that was
 // read is a step that can be laid out from its first point.
 #include <cstddef>

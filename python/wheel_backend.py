@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Builds the wheel: the package and its extension, by CMake, with the libraries that not every Linux has. What pip calls are the
 hooks of PEP 517; nothing but Python's own library is used, so that no network is needed.
 

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Prints how many compilers may run at once: one a processor (one more costs a tenth more of each and gains nothing), but no
 # more than memory holds at 2 GB each, the most that sources compiled together take.
 set -eu

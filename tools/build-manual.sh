@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Builds build/manual/index.html, the manual: pages that open from disk, with the workbench beside the lessons and all pictures made
 # anew. It takes the program of build/release or build/ci and the page of tools/build-workbench.sh, and builds what is missing.
 set -eu

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Builds build/wasm/workbench.html, the workbench in one page, with Debian's emscripten.
 set -eu
 cd "$(dirname "$0")/.."

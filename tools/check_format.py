@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that every C++ file is formatted as .clang-format says.
 
     tools/check_format.py [ROOT]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that a file of src/ includes the standard headers whose names it uses, and core/check.h for what it requires, so that
 each can be read, moved and compiled alone. A source may leave them to the header of its own name.
 

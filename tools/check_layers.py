@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that every include and every link goes from a higher layer to a lower one.
 
     tools/check_layers.py [ROOT]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks what linters find in the sources that are not C++: flake8 in Python, shellcheck in shell, yamllint in YAML, and
 ESLint in TypeScript and the scripts of Node. Their rules are in .flake8, .yamllint and web/eslint.config.mjs.
 

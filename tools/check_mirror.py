@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that every unit has all its files: src/linkwright/<module>/[<folder>/]x.h has
 tests/<module>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its module, and what
 src/linkwright/<name>.h includes, the public headers, includes nothing else of the library.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that every public function is called by the program, or stands in a list that says who else wants it.
 
     tools/check_reach.py [ROOT]

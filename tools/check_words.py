@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that the repository speaks of itself alone: no paths of somebody's machine, no numbers of a tracker that a
 reader cannot open, no promises left in the code. And that it calls things by the names of the field: what users read
 (pages, study files, the texts of messages and reports) has none of the words that were given up for them. A comment is a

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Keeps what a program computes, and compares what two programs computed: for changes that must not change results.
 
     tools/compare_results.py keep LINKWRIGHT FOLDER [--jobs J] [--only PATTERN]    runs all examples, templates and

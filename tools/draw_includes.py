@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Draws which folders of each domain include which: docs/includes.svg.
 
     tools/draw_includes.py             writes it

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Unpacks Debian's source packages of the libraries that a build for WebAssembly compiles itself; does nothing when they are
 # there. Needs no root, and leaves the package lists of the machine alone.
 #   tools/fetch-sources.sh FOLDER

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Unpacks Debian's libraries for 64-bit ARM that the library and its tests link; does nothing when they are there. Needs no root, and
 # leaves packages and package lists of the machine alone.
 #   tools/fetch-sysroot.sh FOLDER

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Installs the Debian packages that are missing; does nothing, quickly, when all are there.
 #   tools/install-packages.sh run    what the program needs to be built
 #   tools/install-packages.sh test   that, and what the tests, the benchmarks and the workbench need

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Kills long studies at random moments and lets them go on: what they end with must be what a run that was left alone ends
 with, byte for byte.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Lists functions that are longer than they should be: in the C++ of src/ and in the TypeScript of web/src/.
 
     tools/long_functions.py [ROOT] [--over LINES] [--at-most COUNT]

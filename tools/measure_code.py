@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Prints a table of measures of the code, to be compared with those of another checkout.
 
     tools/measure_code.py [ROOT] [--results FOLDER]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the program on damaged studies: whatever a file holds, it must end in time, in its memory, and with an exit code of its
 own.
 

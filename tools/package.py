@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes what is handed out, from a folder that CMake has built with Debian's packages:
 
     tools/package.py BUILD OUT

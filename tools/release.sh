@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Makes a release: every test from a clean checkout, then build/release-files with the packages, the workbench, the manual and their
 # sums. It takes a commit without changes beside it, and an hour or so.
 #   tools/release.sh [--ubuntu]    also uses the archive in an Ubuntu 22.04 and an Ubuntu 24.04

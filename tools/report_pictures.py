@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of reports as readers meet them, to compare before and after a change of the viewer.
 
     tools/report_pictures.py LINKWRIGHT FOLDER [STUDY ...] [--whole] [--dark] [--chromium CHROMIUM]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Sizes of the reports of all examples and templates and, with --chromium, how long they take to open.
 
     tools/report_sizes.py LINKWRIGHT FOLDER [--time-limit S] [--chromium PROGRAM] [--most MB]

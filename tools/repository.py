@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the checks of the repository share: its files, its include lines, and how findings are reported."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs studies with a short time limit and lists by how much each overran it: a loop that does not look whether its run
 is to stop shows here. Counted is processor time, which other work on the machine does not lengthen; what the same study
 takes to be read and checked is taken off, and so is the limit itself.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the workbench as its users meet it, to look at before and after a change of the page.
 
     tools/workbench_pictures.py LINKWRIGHT FOLDER [SCREEN ...] [--chromium CHROMIUM]

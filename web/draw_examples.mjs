@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Draws all examples small, and the first study large, for the pages of the workbench (workbench.mjs):
 //   vite-node draw_examples.mjs OUT.json ENGINE_FOLDER     with the engine, engine.js and engine.wasm
 //   vite-node draw_examples.mjs OUT.json EXAMPLE_SCENES    with the program of that name

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The rules for TypeScript and for the scripts of Node; `npm run lint` applies them, and so do the tests.
 import js from "@eslint/js";
 import globals from "globals";

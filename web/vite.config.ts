@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { defineConfig, type UserConfig } from "vite";
 
 // Each bundle carries the notices that the licences of its parts ask for.

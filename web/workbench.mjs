@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Puts the workbench together:
 //   node workbench.mjs SCRIPTS_FOLDER OUT.html ENGINE_FOLDER    one page with the engine inside, to be opened from disk
 //   node workbench.mjs SCRIPTS_FOLDER OUT.html.gz               one page without, to be served by the program, which is the engine

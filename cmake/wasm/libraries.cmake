@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # The libraries of a build for WebAssembly.
 # Exceptions and the registers of 128 bit of WebAssembly itself, in all code; every browser since 2022 has both.
 add_compile_options(-fwasm-exceptions -msimd128 -msse2)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Linkwright: analysis, balancing and synthesis of mechanisms.
 
     import linkwright

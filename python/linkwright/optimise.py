@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The population methods, for objectives written in Python."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Kinematics of parallel robots as functions of arrays. Base axes with z up; metres and radians."""
 
 from __future__ import annotations

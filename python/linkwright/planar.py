@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Planar linkages as functions of arrays: what would be called a million times. SI units and radians, as in C++."""
 
 from __future__ import annotations

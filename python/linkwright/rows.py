@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Rows of numbers that a computation has left, one number a sample."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Studies, and what comes out of them."""
 
 from __future__ import annotations

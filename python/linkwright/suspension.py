@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Wheel suspensions as functions of arrays. SI units and radians; signs as in the tables of studies."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // What all modules share: statuses, diagnostics, sentences, quantities, units, tables and the context of a

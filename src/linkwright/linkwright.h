@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // All mechanics: everything but study files and reports (linkwright/studies.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Parallel robots: DELTA, HEXA and five-bar, their position, rates and statics, and paths of a tool.

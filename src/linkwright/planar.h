@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Planar mechanisms: any linkage, four-bars, serial arms, simulation, path synthesis, balancing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Wheel suspensions: their position, wheel parameters, sweeps of an axle and samples.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// The version of the library: "major.minor.patch". Until 1.0 a new minor version may change names; what is

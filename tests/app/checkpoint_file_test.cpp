@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/checkpoint_file.h"
 
 #include <gmock/gmock.h>

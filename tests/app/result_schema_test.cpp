@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/result_schema.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/sha256.h"
 
 #include <gtest/gtest.h>

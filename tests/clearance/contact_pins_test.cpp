@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/clearance/contact_pins.h"
 
 #include <gtest/gtest.h>

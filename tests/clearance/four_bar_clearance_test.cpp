@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/clearance/four_bar_clearance.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/clearance/path_synthesis.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Runs the recipes of examples/cluster as far as one machine can: cluster_recipes.sh LINKWRIGHT SOURCE
 set -eu
 PATH=$(cd "$(dirname "$1")" && pwd):$PATH

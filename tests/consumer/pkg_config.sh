@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
 # shellcheck shell=sh
 # pkg_config.sh FOLDER COMPILER SOURCE PROGRAM PACKAGE: builds an example by what pkg-config says of the installed package, and runs it.
 PKG_CONFIG_PATH=$1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/core/closing_row.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/math/ball.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/math/double_double.h"
 
 #include <gtest/gtest.h>

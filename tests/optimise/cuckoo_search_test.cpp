@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/cuckoo_search.h"
 
 #include <gmock/gmock.h>

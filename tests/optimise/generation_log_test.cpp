@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/detail/generation_log.h"
 
 #include <gmock/gmock.h>

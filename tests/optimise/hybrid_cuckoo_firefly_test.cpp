@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/hybrid_cuckoo_firefly.h"
 
 #include <gmock/gmock.h>

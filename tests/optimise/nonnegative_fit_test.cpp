@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/nonnegative_fit.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/problem.h"
 
 #include <gtest/gtest.h>

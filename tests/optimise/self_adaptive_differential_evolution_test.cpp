@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes the packages, and uses each in a Debian from which everything else is missing.
 
     packages_test.py BUILD OUT [SUITE MIRROR]

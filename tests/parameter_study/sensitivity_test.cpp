@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parameter_study/sensitivity.h"
 
 #include <gtest/gtest.h>

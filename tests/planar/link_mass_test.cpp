@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/link_mass.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Functions of arrays: against formulas of their own, against studies, and what happens to their memory."""
 
 import gc

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The examples run: scripts, and the cells of notebooks one after the other."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Python ends in peace while threads of its own are still at work."""
 
 import os

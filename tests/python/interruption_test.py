@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs leave Python's lock free, report their progress and end when they are asked to."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the stub of the extension promises is there, and the other way round."""
 
 import ast

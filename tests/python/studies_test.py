@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Studies in Python give what the command line gives: bits, messages, files."""
 
 import concurrent.futures

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables of results in files: as JSON and CSV, and as files of NumPy where they are long."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """`pip install .` in an environment of its own, without a network."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads a drawing of the spatial sample scene with ezdxf and checks its layers, scale and entities."""
 import math
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/report/sample_result.h"
 
 #include <fmt/format.h>

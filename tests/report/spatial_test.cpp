@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/report/spatial.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
 // DIR/simulation.html, DIR/units.html with DIR/units.csv, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html,
 // DIR/nowhere.html,

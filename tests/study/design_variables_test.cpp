@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/design_variables.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/display_units.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/driven_law.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/result_units.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/write.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Properties are checked on the same cases in every run; RC_PARAMS="seed=..." tries others.
 
 #include <cstdlib>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Spoils every value of every template and of some examples, one at a time, misspells every key, table and word of them, and
 counts the error messages: one mistake, one message. Each is among those that the manual lists (web/manual/messages.mjs), which reads
 them from the sources.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs templates and checks their result.json against `linkwright schema result`.
 
 usage: check_results.py LINKWRIGHT [KIND...]      without kinds: the template of every kind

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Checks that the JSON Schema of each kind accepts the template of the kind and the example studies.
 
 usage: check_schema.py LINKWRIGHT STUDY-OR-FOLDER...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Proves that tools/mutate_studies.py and tools/kill_and_resume.py find what they look for, with programs that do wrong."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the studies that the README shows.
 
     readme_study.py LINKWRIGHT README

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures that the script `run` prints at its end stand in the summaries of its studies, and it fails without one.
 
     run_figures.py LINKWRIGHT SCRIPT

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A small repository in a folder of its own, for the tests of the checks."""
 
 import sys

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Makes the manual, a folder of pages that open from disk:
 //   node build.mjs LINKWRIGHT OUT [--workbench workbench.html] [--pictures]
 // Texts are docs/manual/*.md; the reference is what the program LINKWRIGHT says of itself. With the workbench the mechanisms of

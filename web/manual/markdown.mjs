@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Markdown of the manual: headings that can be linked to, formulas, live mechanisms.
 import katex from "katex";
 import { Marked } from "marked";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // All messages of the program, read from its sources: what says something is a call of one of a few functions, and what it says
 // are the texts in it. tests/tools/check_one_message.py compares them with those that a user meets.
 //   node messages.mjs    prints them as JSON

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Search, and the live mechanism beside a text. Plain script: pages open from disk.
 /* global manual */
 "use strict";

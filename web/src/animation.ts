@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One cycle of the motion as a moving picture, as it plays in the report.
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
 import { drawingSvg, pictureOf } from "./exports";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Arrows of forces and motion: their scale, their values between samples, their shapes.
 import type { BodyStyle, Moment, Num, Quantity, Scene, Vector } from "./data";
 import { isSpatial, samplesOf } from "./grid";

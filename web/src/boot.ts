@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Unpacks what the report carries, and then starts the viewer. Should anything go wrong, the form without scripts stays on the page.
 import { inflate, unpackReport } from "./packed";
 

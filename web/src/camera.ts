@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The part of the plane on the screen, and the scale of the drawing.
 import { computed, signal } from "@preact/signals";
 import { arrowScale, boundsWith, extentOf, quantities } from "./arrows";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Maps: places of a regular grid coloured by a value, one map for each value of the group column.
 import type { Num, Plot, Table } from "./data";
 import { groupsOf } from "./groups";

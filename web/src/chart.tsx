@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A diagram with curves over one input, with its legend and what is chosen in it.
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";

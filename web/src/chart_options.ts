@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The appearance of a diagram: its axes, its curves and the bands between them, in the form of uPlot.
 import uPlot from "uplot";
 import type { Num } from "./data";

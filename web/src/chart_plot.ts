@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A diagram over one input as it is drawn on the page: uPlot with the gestures and the two cursors of every diagram.
 import { effect, type Signal } from "@preact/signals";
 import uPlot from "uplot";

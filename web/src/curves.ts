@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Curves of polar diagrams: pairs of columns of one table in a frame with equal axes.
 import type { Num, Plot, Table } from "./data";
 import { format, labelWith, nameOf, unitOf, type Unit } from "./units";

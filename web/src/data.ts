@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The data that the report file carries; null = missing (NaN or no bound).
 import type { Num } from "./packed";
 import { useUnits } from "./units";

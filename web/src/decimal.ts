@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers in files, as the program writes them: the fewest digits that read back the same.
 
 /** The number as in CSV: "0.5", "1e-05", "1e+16". */

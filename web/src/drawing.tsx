@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The mechanism to scale: grid, traces, targets with error whiskers, ghost positions and the pose itself.
 import { computed } from "@preact/signals";
 import type { JSX } from "preact";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A scene as an AutoCAD R12 drawing.
 import { extentOf, isSymbol, symbolLines } from "./arrows";
 import type { Scene } from "./data";

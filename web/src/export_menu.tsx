@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Exports of the report at the present position.
 import { useState } from "preact/hooks";
 import { gif, hasVideo, webm } from "./animation";

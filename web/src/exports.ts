@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files that the report gives away.
 import type { Num, Scene, Table } from "./data";
 import { decimal } from "./decimal";

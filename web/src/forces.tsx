@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Arrows and couples in the drawing, their controls, and their values at the instant shown.
 import { useState } from "preact/hooks";
 import {

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The gestures of every diagram, so that all of them are handled alike:
 // drag = zoom into a box, Shift or the middle button and drag = move, Ctrl and wheel or two fingers = zoom, double click = all,
 // click = fixed cursor. With the keyboard + and −, arrows while zoomed, 0, Enter and Escape.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The part of gifenc that is used here.
 declare module "gifenc" {
   type Palette = number[][];

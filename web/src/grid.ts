@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenes with a second input: their samples are a grid, of which one row is shown at a time.
 import type { Num, Scene } from "./data";
 

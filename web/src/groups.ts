@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Curves of a diagram: one for each value of its group column, its bands, and the design before behind them.
 import type { Num, Plot, Scene, Table } from "./data";
 import { sortedRows, type Turn } from "./rows";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The convex hull: the line of a thread around places in a plane.
 import type { Spot } from "./gestures";
 

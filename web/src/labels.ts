@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Names beside places, so that they do not cover each other.
 import type { Scene, Vector } from "./data";
 

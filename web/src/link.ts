@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A place of the report as the fragment of its address: "#scene=solution-2&input=1.5708&second=0.02", in SI units.
 import { inputAt, positionOf } from "./motion";
 import * as state from "./state";

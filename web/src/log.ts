@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The log of a study: one entry a seed, read without knowing which optimiser wrote it.
 import { isObject, type Json, type JsonObject } from "./data";
 

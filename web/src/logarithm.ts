@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Logarithmic axes: diagrams draw decimal logarithms on an even scale, so that numbers may be as small as they like.
 import type { Num } from "./data";
 import { niceStep, ticks } from "./view";

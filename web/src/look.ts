@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Colours and strokes that distinguish the curves of one diagram.
 export const strokes = ["--c0", "--c5", "--c2", "--c3", "--c1", "--c4"]; // variables of the page
 const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2]];

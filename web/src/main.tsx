@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { render } from "preact";
 import { follow } from "./link";
 import type { Carried } from "./data";

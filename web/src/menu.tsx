@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A button that unfolds a list of choices. Enter or a press opens it and the focus goes in, arrows move, Escape leads back to the button.
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";

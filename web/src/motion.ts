@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Motion of a scene: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
 import type { Turn } from "./rows";

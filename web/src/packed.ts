@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The small form in which a report carries its data; the program writes it (src/linkwright/report/packed.h).
 import { jsonNumber } from "./decimal";
 

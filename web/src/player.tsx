@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Controls of the motion and of what is drawn.
 import { useEffect } from "preact/hooks";
 import { extent, fitView, zoomBy } from "./camera";

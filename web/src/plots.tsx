@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Diagrams. Their cursor and the animation follow each other.
 import { computed } from "@preact/signals";
 import type { JSX } from "preact";

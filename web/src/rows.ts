@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows of tables as plots need them.
 import type { Num } from "./data";
 

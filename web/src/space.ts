@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The spatial view: a bundle of its own, which only reports with a spatial scene carry. It draws when something has changed.
 // A graphics card draws it, or paint() where there is none.
 import { AmbientLight, DirectionalLight, Scene as Stage, WebGLRenderer } from "three";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The spatial view painted on a plane canvas: for machines whose browser computes WebGL, at ten pictures a second, or has none.
 // Everything is painted from far to near; bars are painted in pieces, so that what crosses is in front where it is nearer.
 import { BufferGeometry, Color, Matrix4, Mesh, TubeGeometry, Vector3, type Camera, type Material, type Object3D, type Scene } from "three";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The content of a spatial view: the bodies, joints, traces and arrows of a scene at one instant, and the ground below them.
 import { Group, Vector3, type Object3D, type Scene as Stage } from "three";
 import { arrowScale, quantities, valueNear } from "./arrows";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Text over a spatial view: the names of joints and arrows beside their places, and the directions of the axes.
 import { Vector3 } from "three";
 import type { Scene } from "./data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Bodies, wheels, joints, arrows and traces of a spatial scene as meshes that follow its points.
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CircleGeometry, Color, ConeGeometry, Curve, CylinderGeometry, DoubleSide, DynamicDrawUsage, Group, LatheGeometry,

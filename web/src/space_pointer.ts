@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The pointer over a spatial view: what lies under it, a joint that it takes hold of, and clicks.
 import { Plane, Raycaster, Vector2, Vector3, type Object3D, type Ray } from "three";
 import type { Place } from "./motion";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From where a spatial scene is seen, and what of it there is to see. z points up; "rear" looks along +x, with y to the left.
 import type { Disc, Scene } from "./data";
 import { samplesOf } from "./grid";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The state of the page: shown results, and choices of the reader.
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import { extentOf } from "./arrows";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables of the data: in the units of the study, with a choice of columns where there are many.
 import { useMemo, useState } from "preact/hooks";
 import type { Table } from "./data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers for people: SI in the data, on the page the units that the program chose for it.
 import type { Num, ShownSuffix } from "./data";
 

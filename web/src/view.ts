@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Position of the drawing on the screen.
 import type { Num, Scene } from "./data";
 import type { Place } from "./motion";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The part of a diagram that is shown.
 import type { Box } from "./view";
 

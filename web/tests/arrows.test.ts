@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { arcPaths, arcTurn, arrowPaths, arrowScale, boundsWith, componentsNear, headOf, keyValue, largestMoment, lineOf, readMoment, readVector, symbolLines, valueNear } from "../src/arrows";
 import { boxOf, curvesOf, frameOf, nameOfPair, nearestPoint } from "../src/curves";

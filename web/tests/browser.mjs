@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Opens the sample reports from disk in a headless browser without network and uses them as a reader would.
 // node browser.mjs SAMPLES CHROMIUM PYTHON CHECK_DXF [SCREENSHOTS]; ONLY=WORDS in the environment picks tests by their names
 /* global linkwright */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { at, classColour, classOf, classes, countOf, mapsOf, pathsOf } from "../src/cells";
 import type { Plot, Table } from "../src/data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Random drags of everything that the drawings of all samples can be held by: what is held is under the hand afterwards, the pins of a
 // linkage of pins stay where they were at that input, no link changes its length while the mechanism moves, and no number changes that
 // was not dragged. What would turn the linkage over to its other branch is refused, and it must be the smaller part. In space, hard points

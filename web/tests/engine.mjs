@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The engine of the workbench against the program: every example study, number by number.
 //   node engine.mjs ENGINE_FOLDER LINKWRIGHT [NAMES]
 // Sine and cosine are not the same code in both, so that last digits differ. An analysis agrees to 1e-9 of the largest number of a

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the animation of reports costs: names of files, one a line, come in; for each [median, 95 %, processor]
 // ms of script a frame go out, a line each. The first two go by the clock, the last is the mean time of the processor, which others that use it leave alone.
 // node frame_cost.mjs CHROMIUM < NAMES

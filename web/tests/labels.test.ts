@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import type { Scene, Vector } from "../src/data";
 import { placeLabels, symbolOf } from "../src/labels";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How long reports and the workbench take to open: names of files, one a line, come in; for each goes out a line of times in ms, medians
 // of three: [first paint, viewer] of a report, [first paint, engine unpacked, engine compiled, first study drawn] of a workbench.
 // node load_times.mjs CHROMIUM < NAMES

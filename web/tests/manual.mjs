@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Makes the manual and reads it as a stranger would: all links lead somewhere, what is to be run runs, search and the mechanisms
 // beside the text work from disk without a network, and readers with aids find their way.
 // node manual.mjs LINKWRIGHT WORKBENCH FOLDER CHROMIUM; ONLY=WORDS in the environment picks tests by their names

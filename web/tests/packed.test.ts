@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The small form of the data: the bytes are those that the program writes (tests/report/packed_test.cpp).
 import { describe, expect, it } from "vitest";
 import { decimal, jsonNumber } from "../src/decimal";

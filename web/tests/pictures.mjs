@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // First screens of reports; called by tools/report_pictures.py, which says what it does.
 // node pictures.mjs CHROMIUM FOLDER FLAGS REPORT...
 import { mkdirSync } from "node:fs";

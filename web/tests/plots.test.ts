@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import type { Scene } from "../src/data";
 import { logarithms, logRange, logTicks } from "../src/logarithm";

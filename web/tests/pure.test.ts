@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 /// <reference types="vite/client" />
 import { describe, expect, it } from "vitest";
 import { readTable, type Scene } from "../src/data";

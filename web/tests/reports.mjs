@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs every template or example of the program and opens its report in a headless browser without network: no error may appear,
 // what the diagrams draw must be told apart, and readers with aids must find their way.
 // node reports.mjs templates|examples LINKWRIGHT FOLDER CHROMIUM

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The common part of the browser tests: how the browser is started, and how scenarios run.
 import { chromium } from "playwright-core";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
 import { freedom, missing } from "../src/workbench/mobility";
 import { blank, elementName, jointsAt, pinName, radiiOf, studyOf, valueOf, wheelsOf, withoutPin, type ElementKind, type Pin, type Sketch, type SketchElement } from "../src/workbench/sketch";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Random sketches of the drawing board: what it lets move, the program accepts and computes. Linkages are put together from a crank and
 // dyads, then whatever tool presses anywhere; of each that lacks nothing the study is run.
 //   vite-node tests/sketches.mjs LINKWRIGHT [COUNT [SEED]]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { arrowScale, componentsNear, extentOf, readVector } from "../src/arrows";
 import type { Plot, Scene, Table } from "../src/data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables in the units of the study.
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { ShownSuffix } from "../src/data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
 import type { Scene } from "../src/data";
 import { pathOf, small, thinned, thumbnail } from "../src/workbench/thumbnail";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The units of a report for which none were chosen, for the tests here. Made from core/units;
 // tests/report/units_test.cpp fails when it is not up to date, and prints what it must be.
 import { useUnits } from "../src/units";

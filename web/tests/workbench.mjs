@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Uses the workbench from disk, without network, as a designer would, and compares what it shows with the program.
 //   node workbench.mjs PAGE LINKWRIGHT CHROMIUM [PICTURES]; ONLY=WORDS in the environment picks tests by their names
 // PAGE is workbench.html, or a folder, workbench/, as a web host would have it, or "serve": then the page is the one that `LINKWRIGHT serve`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { beforeEach, expect, test } from "vitest";
 import example from "../../examples/cpp/any_study.cpp?raw";
 import type { JsonObject, Scene } from "../src/data";

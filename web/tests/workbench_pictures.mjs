@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Pictures of the workbench; called by tools/workbench_pictures.py, which says what it does.
 // node workbench_pictures.mjs LINKWRIGHT CHROMIUM FOLDER [NAME...]
 import { spawn } from "node:child_process";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { boxWithin } from "../src/gestures";
 import { chosen, firstChoice, lookOf } from "../src/look";

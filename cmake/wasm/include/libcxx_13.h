@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // What libc++ 13, which comes with Debian's emscripten, lacks of C++20 and this project uses; included before

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/compare_diagrams.h"
 
 #include <fmt/format.h>

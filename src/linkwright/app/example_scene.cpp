@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/example_scene.h"
 
 #include <cstdint>

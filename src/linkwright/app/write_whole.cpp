@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/write_whole.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/clearance/step_pace.h"
 
 #include <fmt/core.h>

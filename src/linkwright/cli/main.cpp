@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/app/catalogue.h"
 #include "linkwright/cli/program.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/core/random.h"
 
 #include <Random123/philox.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/flexible/reference_beam.h"
 
 #include <Eigen/Core>

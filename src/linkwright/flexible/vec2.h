@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Vectors of the plane, written as numbers and not as std::complex, whose product looks for infinities.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/math/ode_stepper.h"
 
 #include <arkode/arkode_butcher.h>

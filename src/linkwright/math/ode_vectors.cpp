@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/math/detail/ode_vectors.h"
 
 #include <nvector/nvector_serial.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Kernels are compiled once per instruction set; forced inlining keeps code for one set out of the others'

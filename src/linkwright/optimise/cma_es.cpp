@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/cma_es.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/firefly.h"
 
 #include "linkwright/optimise/detail/firefly_base.h"

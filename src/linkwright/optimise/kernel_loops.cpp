@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The loops of kernels.h for one instruction set. This source must not use inline functions of other headers:
 // where it is compiled for a newer processor, the linker could keep that copy for everybody. Hence it has no
 // standard algorithms, and an unnamed namespace.

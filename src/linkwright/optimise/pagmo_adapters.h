@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // For programs that use pagmo themselves; link Linkwright::pagmo_adapters. It is the one header of this

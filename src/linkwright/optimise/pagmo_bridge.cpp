@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/optimise/pagmo_bridge.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/pagmo/part.h"
 
 using namespace linkwright::optimise;

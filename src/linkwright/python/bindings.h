@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Not included: pybind11 costs seconds, and these declarations do without.

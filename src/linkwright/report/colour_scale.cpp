@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/report/colour_scale.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/report/static_page.h"
 
 #include <fmt/format.h>

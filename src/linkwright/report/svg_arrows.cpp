@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/report/detail/svg_arrows.h"
 
 #include <fmt/core.h>

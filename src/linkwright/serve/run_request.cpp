@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/serve/run_request.h"
 
 #include <fmt/core.h>

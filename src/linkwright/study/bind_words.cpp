@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/detail/bind_words.h"
 
 #include <fmt/core.h>

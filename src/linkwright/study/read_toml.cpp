@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // toml++ 3.3 asserts on some malformed input ("[" and a new line, for one) which it otherwise reports as a
 // syntax error, so its assertions are off whatever the build type.
 #ifndef NDEBUG

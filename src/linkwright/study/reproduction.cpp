@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/study/reproduction.h"
 
 #include "linkwright/core/check.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/core/platform/machine.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/assembly_modes/assembly_modes.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/assembly_modes/platform_paths.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/robot/pose_check.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/robot/regular_ball.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/serial_arm/serial_arm.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/studies/pi_joint.h"
 
 #include <gmock/gmock.h>

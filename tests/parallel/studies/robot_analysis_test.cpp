@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/studies/robot_analysis.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/studies/robot.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
 
 #include <gmock/gmock.h>

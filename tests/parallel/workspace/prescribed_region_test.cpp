@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/workspace/prescribed_region.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/workspace/survey.h"
 
 #include <gtest/gtest.h>

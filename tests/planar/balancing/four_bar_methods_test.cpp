@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Population methods on the published balancing problems, twenty seeds each, against the figures of another
 // program. All rows of the reference: bench/balancing_statistics.
 

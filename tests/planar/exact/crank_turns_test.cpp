@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/detail/crank_turns.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/given_pivots.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/timed_points.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/detail/wide_number.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/four_bar/as_linkage.h"
 
 #include <gtest/gtest.h>

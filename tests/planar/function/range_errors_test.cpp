@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/function/detail/range_errors.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/path/detail/multipliers.h"
 
 #include <gtest/gtest.h>

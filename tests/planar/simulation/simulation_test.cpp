@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/simulation/simulation.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/elastic_scene.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/four_bar_balancing.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/serial_arm.h"
 
 #include <gmock/gmock.h>

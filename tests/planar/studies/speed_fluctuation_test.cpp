@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/speed_fluctuation.h"
 
 #include <gmock/gmock.h>

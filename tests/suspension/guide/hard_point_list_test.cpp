@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/guide/hard_point_list.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/guide/plausibility.h"
 
 #include <gmock/gmock.h>

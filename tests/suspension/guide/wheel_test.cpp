@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/guide/wheel.h"
 
 #include <gtest/gtest.h>

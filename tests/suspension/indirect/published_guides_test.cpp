@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/indirect/published_guides.h"
 
 #include <gtest/gtest.h>

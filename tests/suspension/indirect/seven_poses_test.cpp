@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/indirect/seven_poses.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/wheel/axle_sweep.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/wheel/parameters.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The study that is being worked on: its text is the document, and every change of it can be undone.
 import { batch, computed, signal } from "@preact/signals";
 import { pack, unpack } from "../packed";

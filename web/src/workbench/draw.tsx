@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Drawing a linkage from nothing: press where pins are; links, ground, guides, the drive, springs, loads and gears follow.
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The questions of the workbench to the program, wherever that runs.
 import { once, type Carried, type Json, type JsonObject, type Num } from "../data";
 import { jsonNumber } from "../decimal";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files that users open or drop: studies, the tables that they read, and the reports and results that were made of
 // studies.
 import { oneStudy, type JsonObject } from "../data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The examples and templates to begin with.
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";

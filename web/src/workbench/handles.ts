@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From a drawn point to the numbers of the study that made it, and back.
 import type { Json, JsonObject, Num, Scene } from "../data";
 import { placeAt, type Place } from "../motion";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lists of points and tables of functions: rows to be typed, added, taken out, and pasted from a spreadsheet.
 import * as state from "../state";
 import { unitOf } from "../units";

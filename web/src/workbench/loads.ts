@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Springs, forces and torques of a linkage, and points that are traced: what they begin with, and what they may be put on.
 import type { Json, JsonObject } from "../data";
 import type { Edit } from "./engine";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Mobility of a sketch: its freedoms by count and by what its joints allow, and what it lacks until its drive moves all
 // of it.
 import { bodiesAt, driveOf, elementName, jointOf, jointsAt, kinds, least, movingBodies, pinName, sliderName, valueOf, wheelsOf, type Place, type Sketch } from "./sketch";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One number of the study, to be typed or stepped.
 import { signal } from "@preact/signals";
 import { format, unitOf } from "../units";

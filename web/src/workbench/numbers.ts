@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The numbers, choices and switches of a study, in groups as its tables have them, each with its key.
 import type { Json, JsonObject } from "../data";
 import { nameOf, unitOf } from "../units";

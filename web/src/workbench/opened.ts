@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The place where the study is saved: the file that the program was started with, while that one is edited, or a
 // download.
 import { computed, signal } from "@preact/signals";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Beside the drawing: the study as text, and its numbers one by one.
 import { computed, signal } from "@preact/signals";
 import { Fragment, type JSX } from "preact";

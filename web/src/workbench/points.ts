@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Target points and poses set by hand - one by one, or as a path that is drawn in one stroke - and rows of points that are pasted.
 import type { JsonObject, Scene } from "../data";
 import type { Place } from "../motion";

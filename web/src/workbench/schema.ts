@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The rules of a kind's JSON Schema for a key of its studies.
 import type { Json, JsonObject } from "../data";
 

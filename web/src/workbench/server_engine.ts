@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The program as the engine of a page that it serves itself (`linkwright serve`), and the file that it was started with.
 import type { JsonObject } from "../data";
 import { withNumbers, readAnswer, Stopped, type Catalogue, type Engine, type Progress } from "./engine";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The study, the engine and what is shown of it, kept in step: the newest text wins, and an answer that comes too late is dropped.
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { JsonObject, Scene } from "../data";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A linkage as it is drawn with the pointer, in one position, in millimetres: points on links, and what holds, drives and loads them;
 // and the study that it makes.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A picture of a mechanism for a page that has no engine yet: its path and one pose, as what stands in an <svg>.
 import type { Scene } from "../data";
 import { isSpatial, middleRow, rowOf } from "../grid";

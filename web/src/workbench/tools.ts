@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The tools of the drawing board: what a press does to a sketch, and what a drag from there does.
 import { hullOf } from "../hull";
 import { bodiesAt, driveOf, jointsAt, radiiOf, valueOf, withoutPin, type ElementKind, type Pin, type Place, type Sketch, type SketchElement } from "./sketch";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The workbench: a study, its mechanism to take hold of, and all that comes of it, while it is changed.
 import { decompress } from "fzstd";
 import { render } from "preact";

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs beside the page: the engine, one question at a time. Before this script stands the one that emscripten makes (engine.js).
 interface Module {
   HEAPU8: Uint8Array;

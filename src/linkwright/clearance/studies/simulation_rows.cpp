@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/clearance/studies/simulation_rows.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
 // All of the folder but sockets, for Windows.
 #define NOMINMAX
 #define WIN32_LEAN_AND_MEAN

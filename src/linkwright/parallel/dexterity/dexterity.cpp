@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/dexterity/dexterity.h"
 
 #include "linkwright/core/check.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/dexterity/synthesis_samples.h"
 
 #include "linkwright/core/numbers.h"

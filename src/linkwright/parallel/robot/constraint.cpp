@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/robot/constraint.h"
 
 #include <fmt/core.h>

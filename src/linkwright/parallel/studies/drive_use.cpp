@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/parallel/studies/drive_use.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/balancing/linear_forces.h"
 
 #include <fmt/core.h>

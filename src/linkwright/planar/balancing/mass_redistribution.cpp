@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/balancing/mass_redistribution.h"
 
 #include <fmt/core.h>

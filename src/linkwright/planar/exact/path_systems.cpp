@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/detail/path_systems.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/exact/slider_designs.h"
 
 #include <fmt/core.h>

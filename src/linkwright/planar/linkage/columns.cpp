@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/linkage/columns.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/planar/linkage/kernel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/serial_arm/samples.h"
 
 #include "linkwright/core/numbers.h"

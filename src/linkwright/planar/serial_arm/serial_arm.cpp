@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/serial_arm/serial_arm.h"
 
 #include <cmath>

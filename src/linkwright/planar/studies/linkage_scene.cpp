@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/linkage_scene.h"
 
 #include <fmt/core.h>

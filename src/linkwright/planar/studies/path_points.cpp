@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/path_points.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/published_four_bars.h"
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/compliance/springs.h"
 
 #include <cmath>

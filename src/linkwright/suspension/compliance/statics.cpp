@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/compliance/statics.h"
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/guide/wheel.h"
 
 #include "linkwright/suspension/guide/detail/wheel_kernel.h"

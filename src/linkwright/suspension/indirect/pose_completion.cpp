@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/indirect/pose_completion.h"
 
 #include <algorithm>

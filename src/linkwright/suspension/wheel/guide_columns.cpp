@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/wheel/guide_columns.h"
 
 #include <algorithm>

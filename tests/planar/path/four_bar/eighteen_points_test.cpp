@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/path/four_bar/fit.h"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/path/slider_crank/objective.h"
 
 #include <algorithm>
