@@ -63,7 +63,7 @@ int main() {
     const auto plain = [&](const char* what, std::vector<double> x) {
       const ClearanceMassDesign d = clearance_mass_design(mass, std::move(x));
       fmt::print("  {:<42} first turn {:.6g}, orbit {:.6g} rad, least tension {:.4g} N\n", what,
-                 d.transient_error, d.orbit_error, d.least_tension);
+                 d.transient_error, d.orbit_error, d.min_tension);
     };
     plain("masses of Table 3", table_3);
     plain("all mass at the pin", at_the_pin);
@@ -78,7 +78,7 @@ int main() {
       const ClearanceMassDesign design = synthesise_clearance_masses(mass, 6, {.seed = seed}, context);
       orbits.push_back(design.orbit_error);
       first_turns.push_back(design.transient_error);
-      tension = design.least_tension;
+      tension = design.min_tension;
     }
     std::sort(orbits.begin(), orbits.end());
     std::sort(first_turns.begin(), first_turns.end());
@@ -93,7 +93,7 @@ int main() {
   const auto tell = [&](const char* what, const std::vector<double>& nine, const std::vector<double>& eight) {
     const DesignMeasures d = measure_design(study, {nine, eight});
     fmt::print("  {:<42} presumed {:.6g} mm, orbit {:.6g} mm rms, least tension {:.4g} N\n", what,
-               d.presumed.rms * 1e3, d.rms * 1e3, d.run.least_tension);
+               d.presumed.rms * 1e3, d.rms * 1e3, d.run.min_tension);
   };
   for (const double phase : {path.phase, 0.0}) {
     study.path = path;

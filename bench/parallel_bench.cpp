@@ -13,7 +13,7 @@ namespace {
 struct Places {
   Robot robot;
   std::vector<Pose> poses;
-  std::vector<std::array<double, most_legs>> angles;
+  std::vector<std::array<double, max_legs>> angles;
 };
 
 Places places_of(const Robot& robot, const Vec3& middle, double size, double tilt) {

@@ -3,7 +3,7 @@
 
 #include "linkwright/suspension/compliance/compliance.h"
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/axle_sweep.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/parameters.h"
@@ -17,12 +17,12 @@ enum Task { position, rates, parameters };
 // Travel from -80 to +80 mm in steps of 5 mm at some racks, each position from the one before.
 void sweep(benchmark::State& state, const char* name, Task task) {
   constexpr int count = 33;
-  const GuidePlan plan = prepare_guide(guide_sample(name).guide);
-  const GuidePosition reference = reference_position(plan);
+  const CornerPlan plan = prepare_suspension(corner_sample(name).suspension);
+  const CornerPosition reference = reference_position(plan);
   std::int64_t done = 0;
   for (auto _ : state)
     for (double rack : {-0.03, 0.0, 0.03}) {
-      GuidePosition at = solve_position(plan, Driver::wheel_centre_z, {-0.08, rack}, reference);
+      CornerPosition at = solve_position(plan, Driver::wheel_centre_z, {-0.08, rack}, reference);
       for (int i = 0; i < count; ++i) {
         at = solve_position(plan, Driver::wheel_centre_z, {-0.08 + 0.005 * i, rack}, at);
         if (at.status != Status::done) state.SkipWithError("a position failed");
@@ -35,37 +35,37 @@ void sweep(benchmark::State& state, const char* name, Task task) {
   state.SetItemsProcessed(done);
 }
 
-void guide_5US_position(benchmark::State& s) { sweep(s, "5US", position); }
-void guide_5US_rates(benchmark::State& s) { sweep(s, "5US", rates); }
-void guide_5US_parameters(benchmark::State& s) { sweep(s, "5US", parameters); }
-void guide_double_wishbone_parameters(benchmark::State& s) { sweep(s, "2RS-US", parameters); }
-void guide_strut_parameters(benchmark::State& s) { sweep(s, "SP-3US", parameters); }
-void guide_trapezoidal_parameters(benchmark::State& s) { sweep(s, "RR-US", parameters); }
-BENCHMARK(guide_5US_position)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_5US_rates)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_5US_parameters)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_double_wishbone_parameters)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_strut_parameters)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_trapezoidal_parameters)->Unit(benchmark::kMicrosecond);
+void corner_5US_position(benchmark::State& s) { sweep(s, "5US", position); }
+void corner_5US_rates(benchmark::State& s) { sweep(s, "5US", rates); }
+void corner_5US_parameters(benchmark::State& s) { sweep(s, "5US", parameters); }
+void corner_double_wishbone_parameters(benchmark::State& s) { sweep(s, "2RS-US", parameters); }
+void corner_strut_parameters(benchmark::State& s) { sweep(s, "SP-3US", parameters); }
+void corner_trapezoidal_parameters(benchmark::State& s) { sweep(s, "RR-US", parameters); }
+BENCHMARK(corner_5US_position)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_5US_rates)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_5US_parameters)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_double_wishbone_parameters)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_strut_parameters)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_trapezoidal_parameters)->Unit(benchmark::kMicrosecond);
 
 // Both limits of travel to 1e-11 m.
-void guide_5US_limits(benchmark::State& state) {
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
-  const GuidePosition reference = reference_position(plan);
+void corner_5US_limits(benchmark::State& state) {
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
+  const CornerPosition reference = reference_position(plan);
   for (auto _ : state) benchmark::DoNotOptimize(travel_limits(plan, Driver::wheel_centre_z, 0, reference));
 }
-BENCHMARK(guide_5US_limits)->Unit(benchmark::kMicrosecond);
+BENCHMARK(corner_5US_limits)->Unit(benchmark::kMicrosecond);
 
 // A suspension with rubber in every joint, elastic in all six directions but for balls, or with rods that
 // yield along their line only: the whole compliance with all joint forces at one position.
 enum Elastic { rubber, rods };
 void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
-  const WheelGuide& guide = guide_sample(name).guide;
-  const GuidePlan plan = prepare_guide(guide);
-  const GuidePosition at =
+  const Suspension& suspension = corner_sample(name).suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.01}, reference_position(plan));
-  GuideElasticity elasticity{.spring = 3e4};
-  for (const GuideLink& link : guide.links) {
+  CornerElasticity elasticity{.spring = 3e4};
+  for (const CornerLink& link : suspension.links) {
     LinkElasticity& joints = elasticity.links.emplace_back();
     if (elastic == rods) {
       joints.body = {{.translation = {1.5e7, rigid, rigid}}};
@@ -77,7 +77,7 @@ void compliance(benchmark::State& state, const char* name, Elastic elastic, bool
   const std::optional<PointLoad> load =
       preloaded ? std::optional(PointLoad{plan.contact, {0, 0, 4000}}) : std::nullopt;
   for (auto _ : state) {
-    const Compliance found = solve_compliance(guide, at.place, 0.01, elasticity, Support::spring, load);
+    const Compliance found = solve_compliance(suspension, at.place, 0.01, elasticity, Support::spring, load);
     if (found.status != Status::done) state.SkipWithError("singular");
     benchmark::DoNotOptimize(found.at_centre);
   }
@@ -92,17 +92,17 @@ BENCHMARK(compliance_5US_rubber_preloaded)->Unit(benchmark::kMicrosecond);
 BENCHMARK(compliance_double_wishbone_rubber)->Unit(benchmark::kMicrosecond);
 
 void forces_5US(benchmark::State& state) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePlan plan = prepare_guide(guide);
-  const GuidePosition at = reference_position(plan);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition at = reference_position(plan);
   const WheelLoad load = load_at(plan.wheel.centre, plan.contact, {-1000, 2000, 4000});
-  for (auto _ : state) benchmark::DoNotOptimize(solve_forces(guide, plan, at, load, Support::spring));
+  for (auto _ : state) benchmark::DoNotOptimize(solve_forces(suspension, plan, at, load, Support::spring));
 }
 BENCHMARK(forces_5US)->Unit(benchmark::kMicrosecond);
 
 // Both wheels over roll from -5 to +5 degrees in steps of half a degree, with everything that is reported.
 void axle_roll_double_wishbone(benchmark::State& state) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
   std::vector<double> values;
   for (int i = -10; i <= 10; ++i) values.push_back(i * 0.5 / 57.3);
   for (auto _ : state) benchmark::DoNotOptimize(sweep_axle(plan, AxleMotion::roll, values));
@@ -112,11 +112,11 @@ BENCHMARK(axle_roll_double_wishbone)->Unit(benchmark::kMicrosecond);
 
 // Derivatives of all parameters at a position, for all thirty coordinates of the rods or for the first nine.
 void derivatives(benchmark::State& state, std::size_t count, Extent extent) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  std::vector<DesignNumber> numbers = hard_points(guide);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  std::vector<DesignNumber> numbers = hard_points(suspension);
   numbers.resize(count);
-  const DerivativePlan plan = prepare_derivatives(guide, numbers);
-  const GuidePosition at =
+  const DerivativePlan plan = prepare_derivatives(suspension, numbers);
+  const CornerPosition at =
       solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
   for (auto _ : state) benchmark::DoNotOptimize(wheel_derivatives(plan, at, extent));
 }
@@ -125,8 +125,8 @@ BENCHMARK_CAPTURE(derivatives, nine_coordinates, 9, Extent::all)->Unit(benchmark
 BENCHMARK_CAPTURE(derivatives, nine_coordinates_at_rest, 9, Extent::at_rest)->Unit(benchmark::kMicrosecond);
 
 void derivatives_along_travel(benchmark::State& state) {
-  const DerivativePlan plan = prepare_derivatives(guide_sample("5US").guide, {});
-  const GuidePosition at =
+  const DerivativePlan plan = prepare_derivatives(corner_sample("5US").suspension, {});
+  const CornerPosition at =
       solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
   for (auto _ : state) benchmark::DoNotOptimize(input_derivatives(plan, at));
 }

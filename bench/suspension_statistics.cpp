@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/indirect/guide_deviations.h"
-#include "linkwright/suspension/indirect/published_guides.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/indirect/corner_deviations.h"
+#include "linkwright/suspension/indirect/published_suspensions.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 
 namespace {
@@ -66,8 +66,8 @@ struct Mean {
 };
 
 void run(const Row& row, int repeats) {
-  const PublishedGuide& published = published_guides()[row.example];
-  const WheelGuide& truth = guide_sample(published.sample).guide;
+  const PublishedSuspension& published = published_suspensions()[row.example];
+  const Suspension& truth = corner_sample(published.sample).suspension;
   IndirectTask task{.targets = published_targets(published), .links = {}, .couplers = {}};
   const CarrierTargets complete = task.targets;
   if (row.carrier_pitch_open)
@@ -93,13 +93,14 @@ void run(const Row& row, int repeats) {
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     generations += static_cast<double>(found.generations) / repeats;
     at_limit += found.generations >= row.generations;
-    coordinates += coordinate_error(task.links, found.guide.links, found.guide.couplers, truth) / repeats;
+    coordinates +=
+        coordinate_error(task.links, found.suspension.links, found.suspension.couplers, truth) / repeats;
     for (const LinkFit& link : found.links) {
       ++links;
       done += link.status == Status::done;
       rms += link.rms;
     }
-    const PoseDeviations d = pose_deviations(found.guide, complete);
+    const PoseDeviations d = pose_deviations(found.suspension, complete);
     movable += d.missed == 0;
     x.add(d.x, repeats), y.add(d.y, repeats), toe.add(d.toe, repeats), camber.add(d.camber, repeats),
         carrier_pitch.add(d.carrier_pitch, repeats);

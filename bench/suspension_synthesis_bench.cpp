@@ -5,9 +5,9 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/direct/published_targets.h"
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
 #include "linkwright/suspension/indirect/seven_poses.h"
 #include "linkwright/suspension/indirect/synthesis.h"
@@ -19,18 +19,18 @@ namespace {
 /// A published example and the positions that its carrier takes, solved for.
 struct Example {
   CarrierTargets targets;
-  WheelGuide guide;
+  Suspension suspension;
 };
 
 Example example(const char* name, double travel, double step, double rack) {
-  Example e{.guide = guide_sample(name).guide};
-  e.targets.wheel = e.guide.wheel;
-  const GuidePlan plan = prepare_guide(e.guide);
-  const GuidePosition start = reference_position(plan);
+  Example e{.suspension = corner_sample(name).suspension};
+  e.targets.wheel = e.suspension.wheel;
+  const CornerPlan plan = prepare_suspension(e.suspension);
+  const CornerPosition start = reference_position(plan);
   const auto add = [&](double z, double q) {
-    const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, {z, q}, start);
-    e.targets.poses.push_back(
-        {q, at.place.carrier.centre, wheel_angles(Side::left, e.guide.wheel, at.place.carrier.rotation)});
+    const CornerPosition at = solve_position(plan, Driver::wheel_centre_z, {z, q}, start);
+    e.targets.poses.push_back({q, at.place.carrier.centre,
+                               wheel_angles(Side::left, e.suspension.wheel, at.place.carrier.rotation)});
   };
   for (double z = -travel; z < travel + step / 2; z += step) add(z, 0);
   for (double q = -rack; rack > 0 && q < rack + 0.01; q += 0.025) add(0, q);
@@ -50,7 +50,7 @@ PointBox box(const Vec3& p, RandomStream& random) {
 IndirectTask whole(const Example& e, std::uint64_t seed) {
   IndirectTask task{.targets = e.targets};
   RandomStream random({seed, 31});
-  for (const GuideLink& link : e.guide.links) {
+  for (const CornerLink& link : e.suspension.links) {
     LinkTask to{.name = link.name, .type = link.type, .moved_by_rack = link.moved_by_rack};
     for (const Vec3& p : link.body) to.body.push_back(box(p, random));
     for (const Vec3& p : link.carrier) to.carrier.push_back(box(p, random));
@@ -58,9 +58,9 @@ IndirectTask whole(const Example& e, std::uint64_t seed) {
       for (int k = 0; k < 2; ++k) to.carrier[k].lower.y = to.carrier[k].upper.y = link.carrier[k].y;
     task.links.push_back(to);
   }
-  for (const Coupler& c : e.guide.couplers)
+  for (const Coupler& c : e.suspension.couplers)
     task.couplers.push_back(
-        {.first = c.first, .second = c.second, .least_offset = 0.1, .point = box_around(c.point, 0.15)});
+        {.first = c.first, .second = c.second, .min_offset = 0.1, .point = box_around(c.point, 0.15)});
   return task;
 }
 

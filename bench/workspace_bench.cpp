@@ -42,13 +42,13 @@ void map(benchmark::State& state, const WorkspaceTask& task) {
 // A million nodes of which the legs reach nearly all, or of a box around everything.
 void delta_inside(benchmark::State& state) {
   map(state,
-      {.conditions = {.robot = delta_robot(), .drives = drives(), .assembly = -1, .least_transmission = 0.5},
+      {.conditions = {.robot = delta_robot(), .drives = drives(), .assembly = -1, .min_transmission = 0.5},
        .grid = {{-0.5, -0.5, -0.99}, {0.49, 0.49, 0}, 0.01},
        .wanted = all_indices});
 }
 void delta_around(benchmark::State& state, const WantedIndices& wanted) {
   map(state,
-      {.conditions = {.robot = delta_robot(), .drives = drives(), .assembly = -1, .least_transmission = 0.5},
+      {.conditions = {.robot = delta_robot(), .drives = drives(), .assembly = -1, .min_transmission = 0.5},
        .grid = {{-1, -1, -1.2}, {1, 1, 0}, 0.017},
        .wanted = wanted});
 }
@@ -56,7 +56,7 @@ void hexa_inside(benchmark::State& state) {
   map(state, {.conditions = {.robot = hexa_robot(),
                              .drives = drives(),
                              .assembly = 1,
-                             .least_transmission = 0.4,
+                             .min_transmission = 0.4,
                              .characteristic_length = 0.09},
               .grid = {{-0.2, -0.2, -0.65}, {0.196, 0.196, -0.254}, 0.004},
               .wanted = all_indices});

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "linkwright/suspension/guide/hard_point_list.h"
+#include "linkwright/suspension/corner/hard_point_list.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -34,7 +34,7 @@ FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS
 BASE, STUDIES = "", "studies"
 FOLDERS = {
     "planar": [[BASE], ["linkage", "serial_arm"], ["four_bar"], ["simulation", "path", "balancing", "dyads"], ["function", "exact"]],
-    "suspension": [["guide"], ["wheel", "indirect"], ["compliance", "direct"]],
+    "suspension": [["corner"], ["wheel", "indirect"], ["compliance", "direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
     "clearance": [[BASE]],
     "parameter_study": [[BASE]],

@@ -6,13 +6,13 @@
 
 int main() {
   using namespace linkwright;
-  const suspension::GuideSample& sample = suspension::guide_samples().front();
-  const suspension::GuidePlan plan = suspension::prepare_guide(sample.guide);
-  const suspension::GuidePosition reference = suspension::reference_position(plan);
+  const suspension::CornerSample& sample = suspension::guide_samples().front();
+  const suspension::CornerPlan plan = suspension::prepare_guide(sample.guide);
+  const suspension::CornerPosition reference = suspension::reference_position(plan);
   if (reference.status != Status::done) return 1;
   std::printf("%s\n travel     toe  camber  roll centre\n", sample.summary.c_str());
   for (int mm = -60; mm <= 60; mm += 20) {
-    const suspension::GuidePosition there =
+    const suspension::CornerPosition there =
         suspension::solve_position(plan, suspension::Driver::wheel_centre_z, {mm * 1e-3, 0}, reference);
     if (there.status != Status::done) return 1;
     const suspension::WheelParameters p = suspension::wheel_parameters(plan, there);

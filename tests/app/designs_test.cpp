@@ -306,7 +306,7 @@ TEST_P(DesignsOf, RunAsTheyAreAndAgree) {
   const Result found = study::run_study(source, context);
   ASSERT_EQ(found.status, Status::done);
   ASSERT_FALSE(found.solutions.empty());
-  for (std::size_t i = 0; i < std::min(found.solutions.size(), study::most_designs); ++i) {
+  for (std::size_t i = 0; i < std::min(found.solutions.size(), study::max_designs); ++i) {
     const Solution& solution = found.solutions[i];
     ASSERT_FALSE(solution.study.is_null()) << to_string(solution.label);
     const std::string text = study::design_toml(solution, i + 1, title_of(source), "linkwright");

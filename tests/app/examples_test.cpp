@@ -89,7 +89,7 @@ TEST(Examples, AreFoundByNameOrByPart) {
 }
 
 // Words in which people search; each must find these examples, and perhaps more.
-constexpr std::pair<std::string_view, std::string_view> trade_words[] = {
+constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
     {"excavator", "excavator-arm excavator-bucket"},
     {"backhoe", "excavator-arm excavator-bucket"},
     {"Diggers", "excavator-arm excavator-bucket"},
@@ -159,7 +159,7 @@ constexpr std::pair<std::string_view, std::string_view> trade_words[] = {
 };
 
 TEST(Examples, AreFoundByTheWordsOfTheTrade) {
-  for (const auto& [words, expected] : trade_words) {
+  for (const auto& [words, expected] : synonyms) {
     std::set<std::string> found;
     for (const Example* example : find_examples(words)) found.insert(example->name);
     std::istringstream names{std::string(expected)};

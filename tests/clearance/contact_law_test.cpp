@@ -112,7 +112,7 @@ TEST(ContactLaw, ShapeOfAnImpactAgainstAnElasticOne) {
 
 TEST(ContactLaw, KnowsFromWhereOnItIsTrue) {
   for (const ContactDamping damping : {ContactDamping::lankarani_nikravesh, ContactDamping::flores_2011}) {
-    const double least = least_restitution(damping, 0.25);
+    const double least = min_restitution(damping, 0.25);
     const auto off = [&](double c) {
       return std::abs(effective_restitution({.stiffness = 1, .restitution = c, .damping = damping}) / c - 1);
     };

@@ -257,7 +257,7 @@ TEST(ContactSimulation, AnyPinsOfAFourBar) {
 }
 
 // A pin that grazes its bush at the start: pressed on by its motion around it, it is in contact with an
-// approach of zero, which least_approach keeps finite; moving away it is free.
+// approach of zero, which min_approach keeps finite; moving away it is free.
 TEST(ContactSimulation, GrazingStarts) {
   const planar::Linkage l = contact_slider_crank();
   const planar::InputDrive crank{math::ConstantSpeed{0, 0}, 0, 0};
@@ -275,7 +275,7 @@ TEST(ContactSimulation, GrazingStarts) {
     ASSERT_EQ(run.events.size(), pressed ? 1u : 0u);
     if (!pressed) continue;
     EXPECT_EQ(run.events[0].start, 0);
-    EXPECT_LT(run.events[0].approach, least_approach);
+    EXPECT_LT(run.events[0].approach, min_approach);
     // On the circle about the end of the rod: m v^2 / c at most, with the mass that the slider and the rod
     // have along the force, 0.35 kg together at most.
     EXPECT_GT(force, 1);

@@ -65,8 +65,8 @@ TEST_P(PublishedDesign2, FollowsTheReferenceThroughATurn) {
   const auto [least, most] = std::minmax_element(fine.phase.begin(), fine.phase.end());
   EXPECT_NEAR(*least / degree, test::number_at(turned, "psi_min_deg"), 0.02);
   EXPECT_NEAR(*most / degree, test::number_at(turned, "psi_max_deg"), 0.02);
-  EXPECT_NEAR(fine.run.least_tension / test::number_at(turned, "tension_min_N"), 1, 3e-4);
-  EXPECT_NEAR(fine.run.most_tension / test::number_at(turned, "tension_max_N"), 1, 3e-4);
+  EXPECT_NEAR(fine.run.min_tension / test::number_at(turned, "tension_min_N"), 1, 3e-4);
+  EXPECT_NEAR(fine.run.max_tension / test::number_at(turned, "tension_max_N"), 1, 3e-4);
   EXPECT_NEAR(fine.run.fastest_link / speed / test::number_at(turned, "gammadot_max_over_w2"), 1, 1e-3);
   EXPECT_TRUE(std::isnan(fine.run.first_separation));
   EXPECT_EQ(fine.run.separated, 0);

@@ -72,7 +72,7 @@ TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
     EXPECT_EQ(k, times.size());
     EXPECT_TRUE(std::isnan(rows.run.joints[0].first_separation));
     EXPECT_EQ(rows.run.joints[0].sign_changes, 0);
-    EXPECT_NEAR(rows.run.joints[0].least_tension, run.least_tension, 0.05);  // steps are not the same
+    EXPECT_NEAR(rows.run.joints[0].min_tension, run.min_tension, 0.05);  // steps are not the same
   }
 }
 
@@ -137,7 +137,7 @@ TEST(JointClearance, StopsWhereContactIsLost) {
   EXPECT_LT(rows, times.size());
   EXPECT_LE(part.end[0].tension, 0);
   EXPECT_GT(part.end[0].tension, -1e-6);
-  EXPECT_EQ(part.end[0].tension, part.joints[0].least_tension);
+  EXPECT_EQ(part.end[0].tension, part.joints[0].min_tension);
   EXPECT_NEAR(part.inputs[0].value, 50 * part.simulation.time, 1e-12);
   EXPECT_LT(whole.parted, 0);
   // A start without contact has no row at all. Two millionths of a turn after the loss the tension is

@@ -56,10 +56,10 @@ TEST(KeptMembers, AreThereAndInRange) {
   Value table;
   table["count"] = 3;
   table["text"] = "x";
-  EXPECT_EQ(kept_integer(table, "count", 0, 3, "seed 7"), 3);
+  EXPECT_EQ(load_integer(table, "count", 0, 3, "seed 7"), 3);
   const auto wrong = [&](const Value& from, std::string_view key, std::int64_t most) -> std::string {
     try {
-      kept_integer(from, key, 0, most, "seed 7");
+      load_integer(from, key, 0, most, "seed 7");
     } catch (const CheckpointError& error) {
       return error.what();
     }

@@ -9,12 +9,12 @@ namespace linkwright {
 namespace {
 
 TEST(Interruption, GoesOnUntilTheRunIsToStop) {
-  EXPECT_NO_THROW(go_on(nullptr));
+  EXPECT_NO_THROW(throw_if_interrupted(nullptr));
   RunContext context;
-  EXPECT_NO_THROW(go_on(context));
+  EXPECT_NO_THROW(throw_if_interrupted(context));
   context.cancel();
   try {
-    go_on(context);
+    throw_if_interrupted(context);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const Interrupted& i) {
     EXPECT_EQ(i.status(), Status::cancelled);
@@ -23,7 +23,7 @@ TEST(Interruption, GoesOnUntilTheRunIsToStop) {
   RunContext late;
   late.set_time_limit(std::chrono::seconds(0));
   try {
-    go_on(&late);
+    throw_if_interrupted(&late);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const Interrupted& i) {
     EXPECT_EQ(i.status(), Status::deadline);

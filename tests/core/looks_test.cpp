@@ -17,7 +17,7 @@ TEST(Looks, ThoseThatAreNotAllowedCancel) {
     EXPECT_FALSE(context.interrupted());
     EXPECT_EQ(looks.made(), 2);
     EXPECT_EQ(context.interruption(), Status::cancelled);
-    EXPECT_THROW(go_on(context), Interrupted);
+    EXPECT_THROW(throw_if_interrupted(context), Interrupted);
     EXPECT_EQ(looks.made(), 4);
     EXPECT_THROW(LooksAllowed(1), ContractError);
   }

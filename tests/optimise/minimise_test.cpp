@@ -253,7 +253,9 @@ TEST(Minimise, AProblemThatLooksItselfEndsTheGeneration) {
   Problem problem = test::sphere(2);
   RunContext context;
   context.cancel();
-  problem.evaluate = [&](const PopulationView&, std::span<double>, std::span<double>) { go_on(context); };
+  problem.evaluate = [&](const PopulationView&, std::span<double>, std::span<double>) {
+    throw_if_interrupted(context);
+  };
   const Report nothing = minimise(problem, {}, {}, {}, context);
   EXPECT_EQ(nothing.status, Status::cancelled);
   EXPECT_EQ(nothing.evaluations, 0);

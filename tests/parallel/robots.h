@@ -42,10 +42,10 @@ inline WorkspaceTask constraint_task(const std::string& name) {
                            : delta({.base_radius = 0.145, .platform_radius = 0.045, .arm = 0.5, .rod = 0.5});
   WorkspaceTask out{.conditions = {.robot = robot, .assembly = assembly_at(robot, constraint_home(name))}};
   if (mean) {
-    out.conditions.least_transmission = out.conditions.least_conditioning = 0.4;
+    out.conditions.min_transmission = out.conditions.min_conditioning = 0.4;
     out.grid = {{-0.4, -0.4, -0.54446}, {0.4, 0.4, -0.29446}, 0.025};
   } else {
-    out.conditions.least_transmission = 0.5;
+    out.conditions.min_transmission = 0.5;
     for (Drive& d : out.conditions.drives) d.lowest = -0.7853981633974483, d.highest = 1.7453292519943295;
     out.grid = {{-0.5, -0.5, -0.9}, {0.5, 0.5, -0.2}, 0.025};
   }

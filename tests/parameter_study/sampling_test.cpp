@@ -51,7 +51,7 @@ TEST(Sampling, TheSobolSequenceIsTheKnownOne) {
     EXPECT_EQ(hits[0], 0);
     EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 1023) << j;
   }
-  EXPECT_THROW(sobol_sequence(1, most_sobol_dimensions + 1), ContractError);
+  EXPECT_THROW(sobol_sequence(1, max_sobol_dimensions + 1), ContractError);
 }
 
 TEST(Sampling, TrajectoriesChangeEachCoordinateOnce) {

@@ -233,7 +233,7 @@ TEST_F(ServerTest, ALongRunIsEndedByItsPage) {
 TEST_F(ServerTest, RunsOfPagesThatAreGoneEnd) {
   const std::string body = run_body("a.1", test::long_study());
   std::vector<int> open;
-  for (std::size_t i = 0; i < most_runs; ++i) {
+  for (std::size_t i = 0; i < max_runs; ++i) {
     const std::string own = run_body(fmt::format("tab{}.1", i), test::long_study());
     const std::string request =
         head("POST /run", bearer() + fmt::format("Content-Length: {}\r\n", own.size())) + own;

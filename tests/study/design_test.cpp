@@ -74,13 +74,13 @@ type = "planar.linkage"
 
 TEST(Design, IsKeptOfTheBestSolutionsAlone) {
   Result result = result_of("[mechanism]\ntype = \"a\"");
-  result.solutions.resize(most_designs + 1, result.solutions[0]);
+  result.solutions.resize(max_designs + 1, result.solutions[0]);
   result.solutions[2].study = Value();
   complete_designs(result, "A", {});
   EXPECT_TRUE(result.solutions[0].study.is_object());
   EXPECT_TRUE(result.solutions[2].study.is_null()) << "there was none";
-  EXPECT_TRUE(result.solutions[most_designs - 1].study.is_object());
-  EXPECT_TRUE(result.solutions[most_designs].study.is_null());
+  EXPECT_TRUE(result.solutions[max_designs - 1].study.is_object());
+  EXPECT_TRUE(result.solutions[max_designs].study.is_null());
 }
 
 TEST(Design, HasAFileWithAReadableName) {

@@ -39,12 +39,12 @@ Loop squares(RunContext& context, std::uint64_t cut = 0) {
       [](const Answer& a) { return a.status; }, [](const Answer& a) { return a.cost; },
       [](const Answer& a) {
         Value value;
-        value["status"] = kept_status(a.status);
+        value["status"] = saved_status(a.status);
         value["cost"] = pack_numbers({&a.cost, 1});
         return value;
       },
       [](const Value& value, std::string_view what) {
-        return Answer{restored_status(value, what), restored_numbers(value, "cost", 1, what)[0]};
+        return Answer{load_status(value, what), load_numbers(value, "cost", 1, what)[0]};
       });
   return out;
 }
@@ -72,17 +72,17 @@ TEST(RunSeeds, WhatWasKeptIsCheckedLikeAFileOfAStranger) {
   Value table;
   table["status"] = "deadline";
   EXPECT_THAT(
-      [&] { restored_status(table, "seed 3"); },
+      [&] { load_status(table, "seed 3"); },
       ThrowsMessage<CheckpointError>(HasSubstr("seed 3: has no status of a seed that came to its end")));
   for (const Status end : {Status::done, Status::infeasible, Status::not_converged, Status::singular}) {
-    table["status"] = kept_status(end);
-    EXPECT_EQ(restored_status(table, "seed 3"), end);
+    table["status"] = saved_status(end);
+    EXPECT_EQ(load_status(table, "seed 3"), end);
   }
   const std::vector<double> infinite{1, infinity};
   table["x"] = pack_numbers(infinite);
-  EXPECT_THAT([&] { restored_numbers(table, "x", 2, "seed 3"); },
+  EXPECT_THAT([&] { load_numbers(table, "x", 2, "seed 3"); },
               ThrowsMessage<CheckpointError>(HasSubstr("seed 3: x is not finite")));
-  EXPECT_THAT([&] { restored_numbers(table, "x", 3, "seed 3"); },
+  EXPECT_THAT([&] { load_numbers(table, "x", 3, "seed 3"); },
               ThrowsMessage<CheckpointError>(HasSubstr("seed 3: x has 2 numbers, must be 3")));
 }
 
@@ -91,15 +91,15 @@ TEST(RunSeeds, LogsComeBackToTheBit) {
       {.evaluations = 20, .best_cost = 0.1, .best_violation = 0, .median = nan, .mean = 0.3, .violated = 0.5},
       {.evaluations = 40, .best_cost = 0.05, .best_violation = 0, .median = 1, .mean = 2, .violated = 0}};
   Value table;
-  table["log"] = kept_log(log);
-  const auto back = restored_log(table, "seed 1");
+  table["log"] = saved_log(log);
+  const auto back = load_log(table, "seed 1");
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(back[0].evaluations, 20);
   EXPECT_TRUE(std::isnan(back[0].median));
   EXPECT_EQ(back[1].mean, 2);
   EXPECT_EQ(back[0].violated, 0.5);
   table["log"]["evaluations"].push_back(60);
-  EXPECT_THAT([&] { restored_log(table, "seed 1"); },
+  EXPECT_THAT([&] { load_log(table, "seed 1"); },
               ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is not one of generations")));
 }
 

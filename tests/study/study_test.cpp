@@ -94,7 +94,7 @@ TEST(Study, RunsAndChecks) {
 TEST(Study, ARunThatEndsWithNothingInHandHasItsStatus) {
   Study study;
   study.run = [](RunContext& run) -> Result {
-    go_on(run);
+    throw_if_interrupted(run);
     return {.status = Status::done};
   };
   RunContext context;

@@ -15,14 +15,14 @@ const Words joints{"revolute", "prismatic", "pin_in_slot", "fixed", "gear"};
 const Words links{"R", "RR", "S", "RS", "SR", "SP", "US", "SS"};
 const Words samples{"R", "RR-US", "2RS-US", "RS-SP-US", "5US"};
 
-TEST(TradeWords, CaseBlanksAndPunctuationDoNotMatter) {
+TEST(Synonyms, CaseBlanksAndPunctuationDoNotMatter) {
   for (const char* word :
        {"fourbar", "four-bar", "Four Bar", "four_bar", "planar.fourbar", "PLANAR.FOUR_BAR"})
     EXPECT_EQ(meant_word(word, mechanisms), "planar.four_bar") << word;
   EXPECT_EQ(meant_word("Pin-in-slot", joints), "pin_in_slot");
 }
 
-TEST(TradeWords, OtherNamesAndOtherLanguages) {
+TEST(Synonyms, OtherNamesAndOtherLanguages) {
   for (const char* word : {"4bar", "planar.4bar", "4-bar linkage", "Viergelenk", "quatre barres"})
     EXPECT_EQ(meant_word(word, mechanisms), "planar.four_bar") << word;
   EXPECT_EQ(meant_word("Schubkurbel", mechanisms), "planar.slider_crank");
@@ -40,7 +40,7 @@ TEST(TradeWords, OtherNamesAndOtherLanguages) {
     EXPECT_EQ(meant_word(word, links), "US") << word;
 }
 
-TEST(TradeWords, MeanWhatIsAllowed) {
+TEST(Synonyms, MeanWhatIsAllowed) {
   EXPECT_EQ(meant_word("bielle", rods), "rod");
   EXPECT_EQ(meant_word("MacPherson", mechanisms), "suspension.corner");
   EXPECT_EQ(meant_word("MacPherson", samples), "RS-SP-US");
@@ -49,7 +49,7 @@ TEST(TradeWords, MeanWhatIsAllowed) {
   EXPECT_EQ(meant_word("grashof", {"order", "crank_rotates_fully"}), "crank_rotates_fully");
 }
 
-TEST(TradeWords, ElseTheNearestOrNone) {
+TEST(Synonyms, ElseTheNearestOrNone) {
   EXPECT_EQ(meant_word("cupler", lengths), "coupler");
   EXPECT_EQ(meant_word("temperature", lengths), "");
   EXPECT_EQ(meant_word("", lengths), "");

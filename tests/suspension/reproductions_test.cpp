@@ -23,7 +23,7 @@ std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, 
 
 using Counts = std::map<std::string, int>;
 
-TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
+TEST(CornerReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
 const study::Comparison& row(const std::vector<study::Comparison>& rows, std::string_view item) {
   for (const study::Comparison& r : rows)
@@ -31,7 +31,7 @@ const study::Comparison& row(const std::vector<study::Comparison>& rows, std::st
   throw std::runtime_error("no row " + std::string(item));
 }
 
-TEST(GuideReproductions, FrontSuspension) {
+TEST(CornerReproductions, FrontSuspension) {
   const auto table = rows("poznanovic-2016-example-1");
   EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 75}}));
   EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
@@ -43,7 +43,7 @@ TEST(GuideReproductions, FrontSuspension) {
   EXPECT_EQ(verdicts(table, "largest error"), (Counts{{"reproduced", 4}}));
 }
 
-TEST(GuideReproductions, Strut) {
+TEST(CornerReproductions, Strut) {
   const auto table = rows("poznanovic-2016-example-2");
   const Counts positions = verdicts(table, "position ");
   EXPECT_EQ(positions.at("reproduced") + positions.at("corrected"), 75);
@@ -52,7 +52,7 @@ TEST(GuideReproductions, Strut) {
   EXPECT_EQ(row(table, "generations of differential evolution, all links").verdict, "reproduced");
 }
 
-TEST(GuideReproductions, InterconnectedLinks) {
+TEST(CornerReproductions, InterconnectedLinks) {
   const auto table = rows("poznanovic-2016-example-3");
   EXPECT_EQ(verdicts(table, "position "), (Counts{{"corrected", 2}, {"reproduced", 53}}));
   EXPECT_EQ(row(table, "position 9 (travel 0.06 m, rack 0 m): carrier pitch in deg").verdict, "corrected");
@@ -60,7 +60,7 @@ TEST(GuideReproductions, InterconnectedLinks) {
   EXPECT_LT(row(table, "mean error of coordinates, m").ours, 1e-5);
 }
 
-TEST(GuideReproductions, RearSuspension) {
+TEST(CornerReproductions, RearSuspension) {
   const auto table = rows("poznanovic-2016-example-4");
   EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 52}}));
   EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
@@ -71,7 +71,7 @@ TEST(GuideReproductions, RearSuspension) {
   }
 }
 
-TEST(GuideReproductions, EndEarlyWhenTold) {
+TEST(CornerReproductions, EndEarlyWhenTold) {
   RunContext context;
   context.cancel();
   const auto table = reproductions()[0].run(context);
@@ -79,7 +79,7 @@ TEST(GuideReproductions, EndEarlyWhenTold) {
   EXPECT_TRUE(verdicts(table, "recommended method").empty());
 }
 
-TEST(GuideReproductions, DirectSynthesis) {
+TEST(CornerReproductions, DirectSynthesis) {
   const auto table = rows("poznanovic-2016-example-5");
   // 0.9177826 is the smallest there is; the note says in how many boxes it was found.
   EXPECT_LE(row(table, "largest deviation of all in tolerances").ours, 0.91779);

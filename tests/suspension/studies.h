@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/studies.h"
 #include "support/study_text.h"
 

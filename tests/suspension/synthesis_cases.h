@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
-#include "linkwright/suspension/guide/carrier_poses.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
 #include "linkwright/suspension/indirect/link_fit.h"
 #include "support/published.h"
-#include "tests/suspension/guides.h"
+#include "tests/suspension/suspensions.h"
 
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
@@ -19,17 +19,17 @@ using namespace linkwright::test;  // shared by the tests of all modules
 /// A mechanism of the published figures, and the positions that its carrier takes.
 struct Example {
   CarrierTargets targets;
-  WheelGuide guide;
-  std::vector<GuideLink> links;  ///< links of the suspension, with names
+  Suspension suspension;
+  std::vector<CornerLink> links;  ///< links of the suspension, with names
 };
 
 inline Example published_example(std::string_view id) {
   using test::at, test::number_at;
   const Value& given = published(id);
   Example e;
-  e.guide = guide_from(at(given, "inputs.mechanism"));
-  e.targets.wheel = e.guide.wheel;
-  e.targets.rack_direction = e.guide.rack_direction;
+  e.suspension = corner_from(at(given, "inputs.mechanism"));
+  e.targets.wheel = e.suspension.wheel;
+  e.targets.rack_direction = e.suspension.rack_direction;
   for (const char* key : {"positions", "wheel_travel", "rack_travel", "combined"}) {
     const Value* positions = at(given, "computed").find(key);
     if (!positions) continue;
@@ -39,7 +39,7 @@ inline Example published_example(std::string_view id) {
            point(at(pose, "wheel_centre_m")),
            {number_at(pose, "toe_rad"), number_at(pose, "camber_rad"), number_at(pose, "carrier_spin_rad")}});
   }
-  for (GuideLink& link : e.guide.links) {
+  for (CornerLink& link : e.suspension.links) {
     link.name = "link " + std::to_string(e.links.size() + 1);
     e.links.push_back(link);
   }
@@ -48,7 +48,7 @@ inline Example published_example(std::string_view id) {
 
 /// The task whose solution is `link`: boxes of `edge`, placed at random around its points. The coordinate of
 /// the largest component of every axis is given, and that of a strut's point.
-inline LinkTask random_task(const GuideLink& link, double edge, RandomStream& random) {
+inline LinkTask random_task(const CornerLink& link, double edge, RandomStream& random) {
   LinkTask task{.name = link.name, .type = link.type, .moved_by_rack = link.moved_by_rack};
   const auto place = [&](const Vec3& p) {
     const auto shift = [&] { return random.uniform(-edge / 2, edge / 2); };

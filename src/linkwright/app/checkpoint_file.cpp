@@ -21,8 +21,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t format_version = 1;
 constexpr std::size_t longest_header = 4096;
-constexpr std::size_t longest_text = 100;      // longest name
-constexpr std::size_t most_lines = 1'000'000;  // ten for each seed that a study may have
+constexpr std::size_t max_text = 100;         // longest name
+constexpr std::size_t max_lines = 1'000'000;  // ten for each seed that a study may have
 constexpr std::chrono::duration<double> shortest_interval(0.5);
 constexpr double writing_share = 0.05;  // largest share of the time of a run that is spent on writing
 
@@ -43,7 +43,7 @@ Value table_of(std::string_view line) {
 /// A short text of printable characters: it goes into messages, and so to a terminal.
 const std::string* printable_member(const Value& table, std::string_view key) {
   const Value* member = table.find(key);
-  if (!member || !member->is_string() || member->as_string().size() > longest_text) return nullptr;
+  if (!member || !member->is_string() || member->as_string().size() > max_text) return nullptr;
   const std::string& text = member->as_string();
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; }) ? &text : nullptr;
 }
@@ -55,7 +55,7 @@ CheckpointOwner checkpoint_owner(const study::Study& study) {
 }
 
 std::string checkpoint_line(std::string_view name, const Value& value) {
-  LINKWRIGHT_REQUIRE(!name.empty() && name.size() <= longest_text, "name of {} characters", name.size());
+  LINKWRIGHT_REQUIRE(!name.empty() && name.size() <= max_text, "name of {} characters", name.size());
   Value entry;
   entry["name"] = name;
   entry["value"] = value;
@@ -131,7 +131,7 @@ std::optional<CheckpointLines> read_checkpoint(std::string_view text, const Chec
     text.remove_prefix(std::min(length + 1, text.size()));
     const Value table = table_of(line);
     const std::string* name = printable_member(table, "name");
-    if (!name || !table.find("value") || lines.size() == most_lines || !lines.emplace(*name, line).second) {
+    if (!name || !table.find("value") || lines.size() == max_lines || !lines.emplace(*name, line).second) {
       refuse(diagnostics, file, fmt::format("is damaged: line {} names no value of its own", number));
       return std::nullopt;
     }
@@ -215,7 +215,7 @@ void CheckpointFile::keep(std::string_view name, const Value& value) {
   };
   // A line that cannot be read back is not saved: an older state under this name is better.
   if (line.size() > study::largest_document || bytes_ + line.size() > largest_checkpoint ||
-      lines_.size() == most_lines)
+      lines_.size() == max_lines)
     return;
   if (const auto at = lines_.find(name); at != lines_.end()) remove(at);
   for (auto at = lines_.lower_bound(below); at != lines_.end() && at->first.starts_with(below);)

@@ -20,7 +20,7 @@
 namespace linkwright::app {
 namespace {
 
-constexpr std::int64_t least_steps = 500;  // half a second or so of the slowest searches
+constexpr std::int64_t min_steps = 500;  // half a second or so of the slowest searches
 
 Value first_scene(const Example& example, const std::string& folder) {
   Diagnostics diagnostics;
@@ -29,7 +29,7 @@ Value first_scene(const Example& example, const std::string& folder) {
       study::prepare(document, example.name, folder, catalogue(), diagnostics);
   if (!study) return {};
   // A study that has nothing to show by then runs for longer.
-  for (std::int64_t steps = least_steps;; steps *= 10) {
+  for (std::int64_t steps = min_steps;; steps *= 10) {
     const LooksAllowed allowed(steps);
     RunContext context;
     context.set_threads(1);

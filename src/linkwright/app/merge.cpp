@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* study_name = "study.json";
 constexpr const char* end_name = "shard";  // a shard that is done saves its name under this one
-constexpr std::size_t most_named = 10;     // missing shards in a message
+constexpr std::size_t max_named = 10;      // missing shards in a message
 
 void refuse_shards(Diagnostics& diagnostics, const fs::path& file, std::string message, std::string hint) {
   diagnostics.push_back(
@@ -74,9 +74,9 @@ std::vector<File> files_in(std::span<const fs::path> folders, Diagnostics& diagn
 
 std::string listed(const std::vector<std::size_t>& numbers) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(numbers.size(), most_named); ++i)
+  for (std::size_t i = 0; i < std::min(numbers.size(), max_named); ++i)
     text += fmt::format("{}{}", i == 0 ? "" : ", ", numbers[i]);
-  if (numbers.size() > most_named) text += fmt::format(" and {} more", numbers.size() - most_named);
+  if (numbers.size() > max_named) text += fmt::format(" and {} more", numbers.size() - max_named);
   return text;
 }
 

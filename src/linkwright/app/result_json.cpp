@@ -71,8 +71,8 @@ Value to_value(const study::Comparison& comparison) {
 
 /// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand
 /// beside.
-Value to_value(const Table& table, const NumberLists& lists, std::size_t most_rows) {
-  const bool apart = table.rows() > most_rows;
+Value to_value(const Table& table, const NumberLists& lists, std::size_t max_rows) {
+  const bool apart = table.rows() > max_rows;
   Value v;
   v["name"] = table.name;
   if (!apart && !table.names.empty()) {
@@ -205,7 +205,7 @@ study::Result presented(const study::Study& study, study::Result result) {
 }
 
 Value result_json(const study::Study& study, const study::Result& shown, const RunRecord& run,
-                  const NumberLists& lists, std::size_t most_rows) {
+                  const NumberLists& lists, std::size_t max_rows) {
   Value v;
   v["schema"] = study::schema_version;
   v["tool"] = "linkwright " + std::string(version());
@@ -222,7 +222,7 @@ Value result_json(const study::Study& study, const study::Result& shown, const R
   v["statistics"] = or_empty(shown.statistics, Value::object());
   v["log"] = or_empty(shown.log, Value::array());
   v["tables"] = Value::array();
-  for (const Table& table : shown.tables) v["tables"].push_back(to_value(table, lists, most_rows));
+  for (const Table& table : shown.tables) v["tables"].push_back(to_value(table, lists, max_rows));
   v["diagnostics"] = all(shown.diagnostics);
   Value& record = v["run"];
   record["started"] = run.started;
@@ -234,11 +234,11 @@ Value result_json(const study::Study& study, const study::Result& shown, const R
 
 std::string long_table_file(const Table& table) { return table.name + ".npy"; }
 
-study::Result with_short_tables(study::Result shown, std::size_t most_rows) {
+study::Result with_short_tables(study::Result shown, std::size_t max_rows) {
   constexpr std::size_t shown_rows = 10'000;
   for (Table& table : shown.tables) {
     const std::size_t rows = table.rows(), step = (rows + shown_rows - 1) / shown_rows;
-    if (rows <= most_rows || step < 2) continue;
+    if (rows <= max_rows || step < 2) continue;
     const auto thin = [&](auto& values) {
       for (std::size_t i = 1; i * step < values.size(); ++i) values[i] = std::move(values[i * step]);
       values.resize((values.size() + step - 1) / step);

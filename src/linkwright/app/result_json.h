@@ -28,18 +28,18 @@ struct RunRecord {
 study::Result presented(const study::Study& study, study::Result result);
 
 /// The document of result.json, see result_schema.h, of a result as it is presented(). All of it but `run`
-/// depends on the study and the program alone. `lists`: of the tables. Tables of more than `most_rows` are
+/// depends on the study and the program alone. `lists`: of the tables. Tables of more than `max_rows` are
 /// named by their file (long_table_file) alone.
 Value result_json(const study::Study& study, const study::Result& shown, const RunRecord& run,
                   const NumberLists& lists = {},
-                  std::size_t most_rows = std::numeric_limits<std::size_t>::max());
+                  std::size_t max_rows = std::numeric_limits<std::size_t>::max());
 
 /// The file of a table that is too long for result.json, CSV and the report: "trials.npy".
 std::string long_table_file(const Table& table);
 
-/// A result for its report: of tables with more than `most_rows`, each k-th row, so that no more than 10 000
+/// A result for its report: of tables with more than `max_rows`, each k-th row, so that no more than 10 000
 /// are left, without the maps that are drawn of them.
-study::Result with_short_tables(study::Result shown, std::size_t most_rows);
+study::Result with_short_tables(study::Result shown, std::size_t max_rows);
 
 /// A published table with its numbers recomputed.
 Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows);

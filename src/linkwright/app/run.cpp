@@ -44,7 +44,7 @@ bool wants(const study::Study& study, study::Format format) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
-Diagnostic long_table_warning(const Table& table, std::size_t most_rows) {
+Diagnostic long_table_warning(const Table& table, std::size_t max_rows) {
   return {Diagnostic::Severity::warning,
           {},
           {},
@@ -52,7 +52,7 @@ Diagnostic long_table_warning(const Table& table, std::size_t most_rows) {
           fmt::format(
               "the table '{}' has {} rows, more than {}: it is written as {}, without CSV, and the report "
               "shows a part of its rows",
-              table.name, table.rows(), most_rows, long_table_file(table)),
+              table.name, table.rows(), max_rows, long_table_file(table)),
           "numpy.load(file) reads it in Python"};
 }
 
@@ -156,16 +156,16 @@ bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
   return problem.empty();
 }
 
-RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t most_rows) {
+RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t max_rows) {
   RunOutcome outcome;
-  outcome.most_rows = most_rows;
+  outcome.max_rows = max_rows;
   const auto start = RunContext::Clock::now();
   outcome.record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   outcome.record.host = platform::host_name();
   outcome.record.threads = context.threads();
   outcome.result = study::run_study(study, context);
   for (const Table& table : outcome.result.tables)
-    if (table.rows() > most_rows) outcome.result.diagnostics.push_back(long_table_warning(table, most_rows));
+    if (table.rows() > max_rows) outcome.result.diagnostics.push_back(long_table_warning(table, max_rows));
   outcome.record.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
   return outcome;
 }
@@ -179,8 +179,8 @@ std::string report_text(const study::Study& study, const study::Result& shown, c
     return study::to_json_readable(result_json(study, drawn, outcome.record));
   };
   if (std::any_of(shown.tables.begin(), shown.tables.end(),
-                  [&](const Table& table) { return table.rows() > outcome.most_rows; })) {
-    const study::Result drawn = with_short_tables(shown, outcome.most_rows);
+                  [&](const Table& table) { return table.rows() > outcome.max_rows; })) {
+    const study::Result drawn = with_short_tables(shown, outcome.max_rows);
     return text(drawn, json_of(drawn));
   }
   return text(shown, json.empty() ? json_of(shown) : std::move(json));
@@ -198,13 +198,13 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       refuse(diagnostics, file, fmt::format("cannot be written: {}", problem));
   };
   const study::Result& result = outcome.result;
-  const auto is_long = [&](const Table& table) { return table.rows() > outcome.most_rows; };
+  const auto is_long = [&](const Table& table) { return table.rows() > outcome.max_rows; };
   const study::Result shown = presented(study, result);
   const study::DisplayUnits units = study::chosen_units(study.common.output.units, study.common.units);
   // The report carries it along; for tables alone it is not made, which takes longer than many a study.
   const bool needs_json = wants(study, study::Format::json) || wants(study, study::Format::html);
   const std::string json =
-      needs_json ? study::to_json_readable(result_json(study, shown, outcome.record, {}, outcome.most_rows))
+      needs_json ? study::to_json_readable(result_json(study, shown, outcome.record, {}, outcome.max_rows))
                  : std::string();
   if (wants(study, study::Format::json)) write("result.json", json);
   const std::string tool = fmt::format("linkwright {}", version());

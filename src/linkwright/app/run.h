@@ -49,20 +49,19 @@ std::string note_owner(const std::filesystem::path& folder, const std::filesyste
 bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostics);
 
 /// Rows of a table that CSV, result.json and reports hold; a longer one is written as .npy (core/npy.h).
-inline constexpr std::size_t longest_table = 1'000'000;
+inline constexpr std::size_t max_table = 1'000'000;
 
 /// The result of a run.
 struct RunOutcome {
   study::Result result;
   RunRecord record;
   std::string command;  ///< command line that does it again, for the report
-  std::size_t most_rows = longest_table;
+  std::size_t max_rows = max_table;
 };
 
-/// Runs a study, checks included, and notes what `run` of result.json holds. Tables of more than `most_rows`
+/// Runs a study, checks included, and notes what `run` of result.json holds. Tables of more than `max_rows`
 /// are warned of.
-RunOutcome run_and_record(const study::Study& study, RunContext& context,
-                          std::size_t most_rows = longest_table);
+RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t max_rows = max_table);
 
 /// The report of a result as it is presented(), with a part of the rows of long tables. `json`: that of the
 /// result, if it is there.

@@ -2,7 +2,7 @@
 #include "linkwright/app/samples.h"
 
 #include "linkwright/planar/linkage/samples.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 
 namespace linkwright::app {
 
@@ -10,7 +10,7 @@ std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (const planar::LinkageSample& sample : planar::linkage_samples())
     all.push_back({sample.name, sample.summary, {"planar.linkage", "clearance.linkage"}, "Planar linkages"});
-  for (const suspension::GuideSample& sample : suspension::guide_samples())
+  for (const suspension::CornerSample& sample : suspension::guide_samples())
     all.push_back({sample.name, sample.summary, {"suspension.corner"}, "Wheel suspensions"});
   return all;
 }

@@ -46,7 +46,7 @@ double elastic_energy(const ContactLaw& law, double depth) {
 }
 
 double normal_force(const ContactLaw& law, double depth, double rate, double approach) {
-  const double factor = 1 + damping_factor(law) * rate / std::max(approach, least_approach);
+  const double factor = 1 + damping_factor(law) * rate / std::max(approach, min_approach);
   return elastic_force(law, depth) * std::max(factor, 0.0);
 }
 
@@ -86,7 +86,7 @@ ImpactShape impact_shape(const ContactLaw& law) {
   return out;
 }
 
-double least_restitution(ContactDamping damping, double share) {
+double min_restitution(ContactDamping damping, double share) {
   for (int percent = 99; percent >= 1; --percent) {
     const double c = percent / 100.0;
     const ContactLaw law{.stiffness = 1, .restitution = c, .damping = damping};
@@ -96,7 +96,7 @@ double least_restitution(ContactDamping damping, double share) {
 }
 
 double contact_time(const ContactLaw& law, double mass, double approach) {
-  const double v = std::max(approach, least_approach), n = law.exponent;
+  const double v = std::max(approach, min_approach), n = law.exponent;
   const double depth = std::pow((n + 1) * mass * v * v / (2 * law.stiffness), 1 / (n + 1));
   // 2 depth / v times the integral of 1 / sqrt(1 - x^(n+1)) from 0 to 1.
   const double shape =

@@ -46,7 +46,7 @@ double pin_stiffness(double bush_radius, double pin_radius, const Elasticity& bu
 double damping_factor(const ContactLaw& law);
 
 /// Speeds of approach below this count as this in the damping, so that it stays finite (m/s).
-inline constexpr double least_approach = 1e-6;
+inline constexpr double min_approach = 1e-6;
 
 /// N, never negative; zero unless depth > 0. `approach` (m/s) is the rate at the start of the contact.
 double normal_force(const ContactLaw& law, double depth, double rate, double approach);
@@ -73,7 +73,7 @@ struct ImpactShape {
 ImpactShape impact_shape(const ContactLaw& law);
 /// Least coefficient of restitution, in hundredths, from which on the effective one of the law differs by no
 /// more than `share` of it.
-double least_restitution(ContactDamping damping, double share);
+double min_restitution(ContactDamping damping, double share);
 
 /// About how long an impact lasts (s): 3.2 (m^2 / (K^2 v))^(1/5), elastic, exponent 1.5; in general the same
 /// for the depth that takes up all energy. `mass` (kg) is the effective one, `approach` in m/s.

@@ -289,7 +289,7 @@ class ContactMotion {
     const PinPlace& s = pins_[k];
     const ContactLaw& law = joints_[k].law;
     ContactEvent& e = c.event;
-    const double approach = std::max(e.approach, least_approach), force = forces_[k].normal;
+    const double approach = std::max(e.approach, min_approach), force = forces_[k].normal;
     const double stiff = s.depth > 0 ? law.exponent * elastic_force(law, s.depth) / s.depth : 0;
     const double force_rate =
         force > 0 ? stiff * s.depth_rate * (1 + damping_factor(law) * s.depth_rate / approach) +
@@ -345,7 +345,7 @@ class ContactMotion {
       const Contact& c = contact_[k];
       if (!c.on || !(c.mass > 0)) continue;
       const ContactLaw& law = joints_[k].law;
-      const double approach = std::max(c.event.approach, least_approach);
+      const double approach = std::max(c.event.approach, min_approach);
       most = std::max(most, (elastic_force(law, c.depth) * damping_factor(law) / approach +
                              c.force * law.friction / (law.friction_whole - law.friction_from)) /
                                 c.mass);

@@ -102,7 +102,7 @@ struct ContactRun {
 ///
 /// No impact is missed: in flight a step moves the pin by half the clearance at most, and within every step
 /// the depth is followed between its ends (see math::integrate); flights shorter than 1e-10 s are not
-/// reported apart. A contact that begins more slowly than least_approach counts as begun with that. A start
+/// reported apart. A contact that begins more slowly than min_approach counts as begun with that. A start
 /// whose eccentricity is the clearance up to rounding is in contact when the bodies would press into each
 /// other.
 ///

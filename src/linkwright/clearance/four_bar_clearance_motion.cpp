@@ -128,8 +128,8 @@ class FourBarMotion {
     run_.link = {state[0], state[1]};
     run_.time = t;
     run_.fastest_link = std::max(run_.fastest_link, std::abs(state[1]));
-    run_.least_tension = std::min(run_.least_tension, now_.tension);
-    run_.most_tension = std::max(run_.most_tension, now_.tension);
+    run_.min_tension = std::min(run_.min_tension, now_.tension);
+    run_.max_tension = std::max(run_.max_tension, now_.tension);
   }
   void finish(const math::OdeReport& ode, std::span<const double> y) {
     run_.time = ode.t;

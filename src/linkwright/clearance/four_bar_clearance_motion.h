@@ -41,10 +41,10 @@ struct ClearanceRun {
   /// s: when the tension first is zero or less, so that pin and bush would part; NaN when it never is. What
   /// follows is outside of the model.
   double first_separation = nan;
-  double separated = 0;             ///< share of the time during which the tension is zero or less, 0 to 1
-  int sign_changes = 0;             ///< sign changes of the tension
-  double least_tension = infinity;  ///< N, over steps and rows
-  double most_tension = -infinity;
+  double separated = 0;           ///< share of the time during which the tension is zero or less, 0 to 1
+  int sign_changes = 0;           ///< sign changes of the tension
+  double min_tension = infinity;  ///< N, over steps and rows
+  double max_tension = -infinity;
   double fastest_link = 0;  ///< rad/s: largest |rate| of the clearance link, over steps and rows
   long steps = 0, evaluations = 0;
 };

@@ -144,7 +144,7 @@ class Watcher {
       now.acceleration = s.angular_acceleration;
       now.tension = tension(i, k);
       ContactValidity& validity = run_.joints[k];
-      validity.least_tension = std::min(validity.least_tension, now.tension);
+      validity.min_tension = std::min(validity.min_tension, now.tension);
       if (!started_ && !(now.tension > 0)) part(k, i.time);
     }
     started_ = true;

@@ -71,10 +71,10 @@ using JointClearanceOutput = std::function<bool(const JointClearanceRow&)>;
 
 /// The end of contact. Found within the steps of the integration: rows have no influence.
 struct ContactValidity {
-  double first_separation = nan;    ///< s: first tension <= 0; NaN: never
-  double separated = 0;             ///< share of the time with tension <= 0
-  int sign_changes = 0;             ///< sign changes of the tension
-  double least_tension = infinity;  ///< N, over steps and rows
+  double first_separation = nan;  ///< s: first tension <= 0; NaN: never
+  double separated = 0;           ///< share of the time with tension <= 0
+  int sign_changes = 0;           ///< sign changes of the tension
+  double min_tension = infinity;  ///< N, over steps and rows
 };
 
 struct JointClearanceRun {

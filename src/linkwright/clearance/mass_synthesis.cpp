@@ -246,7 +246,7 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
                     const double off = std::remainder(row.link.angle - row.crank.value - p.phase, full_turn);
                     sum += off * off;
                   });
-  out.least_tension = run.least_tension;
+  out.min_tension = run.min_tension;
   out.orbit_error = run.status == Status::done ? std::sqrt(sum) / p.samples : infinity;
   return out;
 }
@@ -283,7 +283,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   Status interrupted = context.interruption();
   if (interrupted == Status::done && follower.begin(with_masses(p.model, x))) {
     const std::vector<double> angles = even_angles(p.crank, p.samples);
-    const auto on_orbit = [&](std::span<const double> at, std::span<double> r) {
+    const auto on_periodic_orbit = [&](std::span<const double> at, std::span<double> r) {
       ++evaluations;
       if (context.interrupted()) return false;
       const ClearanceFourBar model = with_masses(p.model, at);
@@ -297,7 +297,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
     math::LeastSquaresOptions options = local_options();
     options.max_iterations = 40;
     options.relative_decrease_tolerance = 1e-4;
-    minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
+    minimise_shares(on_periodic_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
   // An interrupted search reports its best as far as that takes no time of its own.
@@ -336,7 +336,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
   };
   // Least force of the ideal pin over a turn, over the mean one: where it is nearly zero pin and bush part,
   // and its direction says nothing of the clearance link.
-  const auto evenness = [&](const ClearanceFourBar& model) {
+  const auto uniformity = [&](const ClearanceFourBar& model) {
     ClearanceFourBar ideal = model;
     ideal.clearance = 0;
     double least = infinity, mean = 0;
@@ -348,12 +348,12 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     }
     return mean > 0 ? least / mean : 0.0;
   };
-  const double even_enough = std::min(0.25, 0.5 * evenness(model_of(x)));
+  const double even_enough = std::min(0.25, 0.5 * uniformity(model_of(x)));
   // The clearance link along the force of the ideal joint: no integration.
   const auto in_the_limit = [&](std::span<const double> at, std::span<double> r) {
     ++out.evaluations;
     const ClearanceFourBar model = model_of(at);
-    if (evenness(model) < even_enough) return false;
+    if (uniformity(model) < even_enough) return false;
     for (std::size_t k = 0; k < path.x.size(); ++k) {
       const double direction = force_direction(model, path.crank_angles[k], mass.crank.speed, 0);
       const ClearancePosition p = clearance_position(model, path.crank_angles[k], direction);
@@ -373,9 +373,9 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     double rms = infinity;
     std::vector<double> x;
     ClearanceOrbit orbit;
-    double least_tension = -infinity;
+    double min_tension = -infinity;
   } seen;
-  const auto on_orbit = [&](std::span<const double> at, std::span<double> r) {
+  const auto on_periodic_orbit = [&](std::span<const double> at, std::span<double> r) {
     ++out.evaluations;
     if (context.interrupted()) return false;
     const ClearanceFourBar model = model_of(at);
@@ -383,9 +383,9 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     const ClearanceRun run = over_a_turn(
         model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances, &context,
         [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
-    if (run.status != Status::done || !(run.least_tension > 0)) return false;
+    if (run.status != Status::done || !(run.min_tension > 0)) return false;
     if (const double now = rms(r); now < seen.rms)
-      seen = {now, {at.begin(), at.end()}, follower.orbit(), run.least_tension};
+      seen = {now, {at.begin(), at.end()}, follower.orbit(), run.min_tension};
     return true;
   };
   const auto minimise = [&](auto&& misfit, double share, double decrease, int iterations) {
@@ -415,9 +415,9 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
   // From x, in place: the distance of the path on the orbit; infinite where there is no orbit in contact.
   const auto on_orbit_from = [&](std::vector<double> start, bool search) {
     x = std::move(start);
-    if (!follower.begin(model_of(x)) || !on_orbit(x, r)) return infinity;
-    if (search) minimise(on_orbit, integrated, 1e-2, 30);
-    return follower.begin(model_of(x)) && on_orbit(x, r) ? rms(r) : infinity;
+    if (!follower.begin(model_of(x)) || !on_periodic_orbit(x, r)) return infinity;
+    if (search) minimise(on_periodic_orbit, integrated, 1e-2, 30);
+    return follower.begin(model_of(x)) && on_periodic_orbit(x, r) ? rms(r) : infinity;
   };
   const std::vector<double> given = x;
   const auto stopped = [&](Status why) {
@@ -427,7 +427,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     out.limit_rms = in_the_limit(out.x, r) ? rms(r) : infinity;
     out.path_rms = seen.rms;
     out.orbit = seen.orbit;
-    out.least_tension = seen.least_tension;
+    out.min_tension = seen.min_tension;
     return out;
   };
   minimise([&](std::span<const double> at,
@@ -449,7 +449,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
   out.model = model_of(x);
   out.limit_rms = in_the_limit(x, r) ? rms(r) : infinity;
   out.path_rms = infinity;
-  out.least_tension = -infinity;
+  out.min_tension = -infinity;
   if (!there || !follower.follow(out.model)) {
     out.status = Status::not_converged;
     const Status why = context.interruption();
@@ -462,7 +462,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
       [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
   if (const Status why = context.interruption(); why != Status::done) return stopped(why);
   if (run.status == Status::done) out.path_rms = rms(r);
-  out.least_tension = run.least_tension;
+  out.min_tension = run.min_tension;
   return out;
 }
 

@@ -57,7 +57,7 @@ struct ClearanceMassDesign {
   ClearanceOrbit orbit;        ///< orbit with these masses
   double orbit_error = 0;      ///< rad: as the objective, on the orbit
   double transient_error = 0;  ///< rad: the objective of the source
-  double least_tension = 0;    ///< N, on the orbit; not positive: pin and bush would part
+  double min_tension = 0;      ///< N, on the orbit; not positive: pin and bush would part
   std::int64_t evaluations = 0;
 };
 /// The design with these masses; `x` is kept. Without an orbit, that is not_converged, when `context` asks to
@@ -82,9 +82,9 @@ struct ClearanceDesign {
   ClearanceFourBar model;
   std::vector<double> x;  ///< nine lengths, eight masses
   ClearanceOrbit orbit;
-  double path_rms = 0;       ///< m: distance of the points on the orbit from their targets
-  double limit_rms = 0;      ///< m: the same with the clearance link along the force of the ideal joint
-  double least_tension = 0;  ///< N, on the orbit
+  double path_rms = 0;     ///< m: distance of the points on the orbit from their targets
+  double limit_rms = 0;    ///< m: the same with the clearance link along the force of the ideal joint
+  double min_tension = 0;  ///< N, on the orbit
   std::int64_t evaluations = 0;
 };
 /// The path that is traced on the periodic orbit itself is brought to the target, in lengths and masses at

@@ -84,7 +84,7 @@ void guide(Linkage& l, int body, math::Pose pose) {
 
 // Adds `count` drives at joints that have none, so that the linkage can be planned; the best of all choices.
 std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& problem) {
-  constexpr int most_plans = 20'000;
+  constexpr int max_plans = 20'000;
   std::vector<int> candidates;
   for (std::size_t j = 0; j < l.joints.size(); ++j) {
     const bool has_coordinate =
@@ -100,7 +100,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& pro
   std::optional<LinkagePlan> best;
   std::vector<int> best_driven;
   int best_score = -1;
-  for (int tried = 0; tried < most_plans; ++tried) {
+  for (int tried = 0; tried < max_plans; ++tried) {
     l.driven = before;
     for (std::size_t k = 0; k < candidates.size(); ++k)
       if (chosen[k]) l.driven.push_back(candidates[k]);

@@ -449,10 +449,10 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
   const std::size_t rows = samples.size() / l.driven.size();
   // Number of pieces: as many as threads and machines can use, if their statistics fit into memory.
-  constexpr double most_bytes = 1e8;
+  constexpr double max_bytes = 1e8;
   const double bytes = static_cast<double>(sizeof(double) * rows * (4 * values + sizes.size() + 1));
-  const int most_pieces = static_cast<int>(std::clamp(most_bytes / bytes, 8.0, 1024.0));
-  const int size = (draws + most_pieces - 1) / most_pieces;
+  const int max_pieces = static_cast<int>(std::clamp(max_bytes / bytes, 8.0, 1024.0));
+  const int size = (draws + max_pieces - 1) / max_pieces;
   const auto count = at((draws + size - 1) / size);
   const auto draws_of = [&](std::size_t k) { return std::min(size, draws - static_cast<int>(k) * size); };
   std::vector<std::optional<DrawnPiece>> pieces(count);

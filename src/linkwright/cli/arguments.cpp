@@ -14,7 +14,7 @@
 namespace linkwright::cli {
 namespace {
 
-constexpr int most_shards = 1'000'000;
+constexpr int max_shards = 1'000'000;
 
 /// The grammar of the command line. What is read goes to `arguments`, which must outlive it.
 class Grammar {
@@ -69,10 +69,10 @@ class Grammar {
                                 CLI::detail::lexical_cast(text.substr(0, slash), arguments_.shard) &&
                                 CLI::detail::lexical_cast(text.substr(slash + 1), arguments_.shards);
               if (!read || arguments_.shard < 1 || arguments_.shard > arguments_.shards ||
-                  arguments_.shards > most_shards)
+                  arguments_.shards > max_shards)
                 throw CLI::ValidationError(
                     "--shard",
-                    fmt::format("is '{}', must be K/N with K from 1 to N, N at most {}", text, most_shards));
+                    fmt::format("is '{}', must be K/N with K from 1 to N, N at most {}", text, max_shards));
             },
             "do this part of the seeds and keep it in the folder, for `merge`: 3/64 is the third of 64")
         ->type_name("K/N");

@@ -43,15 +43,15 @@ std::vector<double> unpack_numbers(const Value& value, std::string_view what) {
   return numbers;
 }
 
-const Value& kept_member(const Value& table, std::string_view key, std::string_view what) {
+const Value& load_member(const Value& table, std::string_view key, std::string_view what) {
   const Value* member = table.find(key);
   if (!member) throw CheckpointError(fmt::format("{}: has no '{}'", what, key));
   return *member;
 }
 
-std::int64_t kept_integer(const Value& table, std::string_view key, std::int64_t least, std::int64_t most,
+std::int64_t load_integer(const Value& table, std::string_view key, std::int64_t least, std::int64_t most,
                           std::string_view what) {
-  const Value& member = kept_member(table, key, what);
+  const Value& member = load_member(table, key, what);
   if (!member.is_integer() || member.as_integer() < least || member.as_integer() > most)
     throw CheckpointError(fmt::format("{}: '{}' is not an integer from {} to {}", what, key, least, most));
   return member.as_integer();

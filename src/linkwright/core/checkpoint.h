@@ -69,10 +69,10 @@ Value pack_numbers(std::span<const double> numbers);
 std::vector<double> unpack_numbers(const Value& value, std::string_view what);
 
 /// Member of a table. Throws CheckpointError, naming `what`, if there is none.
-const Value& kept_member(const Value& table, std::string_view key, std::string_view what);
+const Value& load_member(const Value& table, std::string_view key, std::string_view what);
 
 /// Integer member of a table in [least, most]. Throws CheckpointError, naming `what`.
-std::int64_t kept_integer(const Value& table, std::string_view key, std::int64_t least, std::int64_t most,
+std::int64_t load_integer(const Value& table, std::string_view key, std::int64_t least, std::int64_t most,
                           std::string_view what);
 
 }  // namespace linkwright

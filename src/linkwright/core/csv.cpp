@@ -15,7 +15,7 @@
 namespace linkwright {
 namespace {
 
-constexpr std::size_t most_columns = 1000, most_problems = 20;
+constexpr std::size_t max_columns = 1000, max_problems = 20;
 
 void append_utf8(std::string& out, std::uint32_t code) {
   if (code < 0x80) {
@@ -340,7 +340,7 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
                               std::vector<int>* lines) {
   const std::size_t before = diagnostics.size();
   const auto problem = [&](Position position, std::string key, std::string message, std::string hint = {}) {
-    if (diagnostics.size() - before < most_problems)
+    if (diagnostics.size() - before < max_problems)
       diagnostics.push_back(
           {Diagnostic::Severity::error, file, position, std::move(key), std::move(message), std::move(hint)});
   };
@@ -370,8 +370,8 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
   std::vector<Cell> cells;
   if (!scanner.row(*separator, cells)) problem(cells.back().position, {}, "a quote is not closed");
   while (cells.size() > 1 && trimmed(cells.back().text).empty()) cells.pop_back();
-  if (cells.size() > most_columns) {
-    problem({1, 1}, {}, fmt::format("{} columns, at most {} are allowed", cells.size(), most_columns));
+  if (cells.size() > max_columns) {
+    problem({1, 1}, {}, fmt::format("{} columns, at most {} are allowed", cells.size(), max_columns));
     return std::nullopt;
   }
   if (std::all_of(cells.begin(), cells.end(), [](const Cell& c) { return is_number(c.text); })) {

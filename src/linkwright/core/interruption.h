@@ -23,10 +23,10 @@ class Interrupted : public std::exception {
 
 /// Throws Interrupted when the run is to stop. Without a context nobody can ask for that. To be called at
 /// least every 50 ms of work or so; a call costs about as much as reading a clock.
-inline void go_on(const RunContext* context) {
+inline void throw_if_interrupted(const RunContext* context) {
   if (!context) return;
   if (const Status why = context->interruption(); why != Status::done) throw Interrupted(why);
 }
-inline void go_on(const RunContext& context) { go_on(&context); }
+inline void throw_if_interrupted(const RunContext& context) { throw_if_interrupted(&context); }
 
 }  // namespace linkwright

@@ -122,7 +122,7 @@ void ChainEquations::move_linearised(const ChainState& state) {
 // From forces and couples at the nodes to residuals, with springs and dampers.
 void ChainEquations::project(const ChainState& state) {
   Vec2 outer;
-  double couple = 0, most_force = 0, most_moment = 0;
+  double couple = 0, max_force = 0, max_moment = 0;
   for (std::size_t s = joint_.size(); s-- > 0;) {
     Joint& j = joint_[s];
     const Cell& cell = chain_->cells[s];
@@ -141,8 +141,8 @@ void ChainEquations::project(const ChainState& state) {
     r[extension] = chain_->extensible
                        ? dot(outer, j.by[extension]) + cell.axial * (q[extension] + damped * v[extension])
                        : 0;
-    most_force = std::max({most_force, std::abs(outer.x) + std::abs(outer.y), std::abs(elastic)});
-    most_moment = std::max({most_moment, std::abs(bending), std::abs(couple)});
+    max_force = std::max({max_force, std::abs(outer.x) + std::abs(outer.y), std::abs(elastic)});
+    max_moment = std::max({max_moment, std::abs(bending), std::abs(couple)});
     if (cell.hinge) {
       r[slide] = r[extension] = 0;
       if (locked_[s]) {
@@ -154,8 +154,8 @@ void ChainEquations::project(const ChainState& state) {
     }
     couple += dot(outer, j.by_angle);
   }
-  force_scale_ = natural_force_ + most_force;
-  moment_scale_ = natural_moment_ + most_moment;
+  force_scale_ = natural_force_ + max_force;
+  moment_scale_ = natural_moment_ + max_moment;
 }
 
 void ChainEquations::balance(const ChainState& state, const TipLoad& load) {

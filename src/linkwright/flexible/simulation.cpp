@@ -17,7 +17,7 @@ namespace linkwright::flexible {
 
 namespace {
 
-constexpr int most_refinements = 12, most_halvings = 6;
+constexpr int max_refinements = 12, max_halvings = 6;
 
 // The drive: exactly one of both laws.
 struct Drive {
@@ -196,7 +196,7 @@ class Run {
   void step(double h, double t, int halvings = 0) {
     if (attempt(h, t)) return;
     factored_ = false;
-    if (halvings == most_halvings) {
+    if (halvings == max_halvings) {
       out_.status = Status::not_converged;
       out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
       return;
@@ -443,7 +443,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
             "the run with twice the step failed, so there is no estimate of the error: " + coarse.message);
       }
       const bool good = both && (o.tolerance <= 0 || limit.error <= o.tolerance);
-      const bool last = stopped || o.tolerance <= 0 || halvings == most_refinements;
+      const bool last = stopped || o.tolerance <= 0 || halvings == max_refinements;
       if (good || last) {
         out = std::move(limit);
         if (!good && out.status == Status::done && o.tolerance > 0) {

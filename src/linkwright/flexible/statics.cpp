@@ -12,7 +12,7 @@ namespace linkwright::flexible {
 namespace {
 
 // Beyond this turn in one joint a step of Newton's method has left the place where it holds.
-constexpr double longest_turn = 1;
+constexpr double max_turn = 1;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
       double most = 0;
       for (std::size_t s = turn; s < change.size(); s += coordinates_per_cell)
         most = std::max(most, std::abs(change[s]));
-      if (most > longest_turn) break;
+      if (most > max_turn) break;
       for (std::size_t k = 0; k < change.size(); ++k) trial.q[k] += change[k];
     }
     if (met) {

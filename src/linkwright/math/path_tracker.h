@@ -19,8 +19,8 @@ struct TrackerOptions {
   double corrected = 1e-5;   ///< largest second correction of Newton's method, relative to |z|
   double first_step = 1e-3;  ///< length of the first step on the path, whose length is 1
   double largest_step = 0.15;
-  double least_step = 1e-12;
-  int most_steps = 3000;  ///< accepted and rejected ones
+  double min_step = 1e-12;
+  int max_steps = 3000;  ///< accepted and rejected ones
 };
 
 /// The end point of a path, with its status.
@@ -244,7 +244,7 @@ LINKWRIGHT_KERNEL void track_paths(
     // Lanes that arrive, get stuck or change their chart are handled one by one.
     const Mask far = accepted && (tracker::size(z[0]) > T(System::largest_chart * System::largest_chart));
     const Mask arrived = accepted && (t[0] > T(1 - 1e-15));
-    const Mask stuck = (step < T(options.least_step)) || (fresh && !accepted);
+    const Mask stuck = (step < T(options.min_step)) || (fresh && !accepted);
     const unsigned arrived_bits = L::bits(arrived), stuck_bits = L::bits(stuck), far_bits = L::bits(far);
     for (int lane = 0; lane < L::count; ++lane) {
       const std::size_t which = path[static_cast<std::size_t>(lane)];
@@ -252,7 +252,7 @@ LINKWRIGHT_KERNEL void track_paths(
       const unsigned bit = 1U << lane;
       int& taken = steps[static_cast<std::size_t>(lane)];
       ++taken;
-      if ((arrived_bits & bit) || (stuck_bits & bit) || taken >= options.most_steps) {
+      if ((arrived_bits & bit) || (stuck_bits & bit) || taken >= options.max_steps) {
         ends[which] = {point_of(lane), static_cast<double>(L::get(t[0], lane)), (arrived_bits & bit) != 0,
                        taken};
         --running;

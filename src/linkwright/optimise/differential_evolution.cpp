@@ -27,7 +27,7 @@ constexpr std::size_t random_members(MutationScheme scheme) {
   }
   return 3;
 }
-constexpr std::size_t least_population(MutationScheme scheme) {
+constexpr std::size_t min_population(MutationScheme scheme) {
   return std::max<std::size_t>(4, random_members(scheme) + 1);
 }
 
@@ -133,7 +133,7 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
                                           const DifferentialEvolutionOptions& options, const Seed& seed) {
   require_in_range("differential_evolution", options);
-  const std::size_t least = least_population(options.scheme);
+  const std::size_t least = min_population(options.scheme);
   LINKWRIGHT_REQUIRE(options.population == 0 || options.population >= static_cast<int>(least),
                      "differential_evolution: population must be 0 or at least {} with {}, got {}", least,
                      name_of(options.scheme), options.population);

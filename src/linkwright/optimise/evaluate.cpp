@@ -31,7 +31,7 @@ void evaluate(const Problem& problem, const PopulationView& candidates, std::spa
   std::fill(violation.begin(), violation.end(), nan);
   const std::size_t m = problem.objectives, blocks = (candidates.size + block_size - 1) / block_size;
   parallel_for(blocks, context.threads(), [&](std::size_t block) {
-    if (block > 0) go_on(context);
+    if (block > 0) throw_if_interrupted(context);
     const std::size_t first = block * block_size, count = std::min(block_size, candidates.size - first);
     problem.evaluate(candidates.slice(first, count), cost.subspan(first * m, count * m),
                      violation.subspan(first, count));

@@ -149,7 +149,7 @@ struct Snapshot {
 
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are saved once
 constexpr std::size_t log_numbers = 6;  // numbers logged for one generation
-constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
+constexpr std::int64_t max_evaluations = std::int64_t{1} << 53;  // exact as a double
 
 /// Saves a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
 /// `NAME/state`. The log may thus be ahead of the state, never behind it.
@@ -165,15 +165,15 @@ class StateKeeper {
                Report& report, int& unimproved, std::optional<ParetoArchive>& front) {
     const Value value = checkpoint_ ? checkpoint_->find(name_ + "/state") : Value();
     if (value.is_null()) return;
-    const Value& reason = kept_member(value, "stop_reason", name_);
-    report.generations = static_cast<int>(kept_integer(value, "generations", 1, generations, name_));
-    report.evaluations = kept_integer(value, "evaluations", 1, most_evaluations, name_);
-    unimproved = static_cast<int>(kept_integer(value, "unimproved", 0, generations, name_));
-    const std::vector<double> best = unpack_numbers(kept_member(value, "best", name_), name_);
+    const Value& reason = load_member(value, "stop_reason", name_);
+    report.generations = static_cast<int>(load_integer(value, "generations", 1, generations, name_));
+    report.evaluations = load_integer(value, "evaluations", 1, max_evaluations, name_);
+    unimproved = static_cast<int>(load_integer(value, "unimproved", 0, generations, name_));
+    const std::vector<double> best = unpack_numbers(load_member(value, "best", name_), name_);
     OptimiserState state;
     state.generation = static_cast<std::uint32_t>(
-        kept_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
-    state.numbers = unpack_numbers(kept_member(value, "optimiser", name_), name_);
+        load_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
+    state.numbers = unpack_numbers(load_member(value, "optimiser", name_), name_);
     if (!reason.is_string() || best.size() != 2 + report.costs.size() ||
         std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[1] >= 0) ||
         !optimiser.restore(state) || (front && !restore_front(value, variables, *front)))
@@ -265,7 +265,7 @@ class StateKeeper {
   /// False for what no front can be.
   bool restore_front(const Value& value, std::span<const Variable> variables, ParetoArchive& front) const {
     const std::size_t dimension = variables.size();
-    const std::vector<double> numbers = unpack_numbers(kept_member(value, "front", name_), name_);
+    const std::vector<double> numbers = unpack_numbers(load_member(value, "front", name_), name_);
     const std::size_t one = dimension + front.objectives();
     if (numbers.size() % one != 0 || numbers.size() / one > front.capacity() ||
         std::any_of(numbers.begin(), numbers.end(), [](double v) { return std::isnan(v); }))
@@ -291,7 +291,7 @@ class StateKeeper {
             fmt::format("{}: has {} numbers, must be {}", part, v.size(), log_numbers * count));
       for (std::size_t k = 0; k < count; ++k) {
         const double* g = &v[log_numbers * k];
-        if (!(g[0] >= 0 && g[0] <= static_cast<double>(most_evaluations)))
+        if (!(g[0] >= 0 && g[0] <= static_cast<double>(max_evaluations)))
           throw CheckpointError(fmt::format("{}: {} evaluations", part, g[0]));
         log.push_back({.evaluations = static_cast<std::int64_t>(g[0]),
                        .best_cost = g[1],
@@ -360,7 +360,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     optimiser.start_from(known.x, combination ? std::span(&cost_of_known, 1) : std::span(known.costs));
     set_best(report, known.x, cost_of_known, known.costs, 0);
   }
-  if (options.log) report.log.reserve(static_cast<std::size_t>(std::min(generations, most_logged)) + 1);
+  if (options.log) report.log.reserve(static_cast<std::size_t>(std::min(generations, max_logged)) + 1);
 
   int unimproved = 0;
   StateKeeper keeper(context.checkpoint(), options.checkpoint);
@@ -381,7 +381,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
       try {
         std::fill(violations.begin(), violations.end(), nan);
         // Rounds of a quick generation are not worth a look each.
-        if (std::chrono::steady_clock::now() - began > between_looks) go_on(context);
+        if (std::chrono::steady_clock::now() - began > between_looks) throw_if_interrupted(context);
         if (asked > 0) evaluate(parts, candidates, costs, violations, context);
       } catch (const Interrupted& why) {
         interruption = why.status();

@@ -48,7 +48,7 @@ MultistartReport multistart_least_squares(math::ResidualFunction function, std::
     std::int64_t evaluations = 0;
     const auto looking = [&](std::span<const double> at, std::span<double> residuals,
                              std::span<double> jacobian) {
-      if (evaluations > 0) go_on(context);
+      if (evaluations > 0) throw_if_interrupted(context);
       ++evaluations;
       return function(at, residuals, jacobian);
     };

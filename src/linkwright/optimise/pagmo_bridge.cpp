@@ -29,7 +29,7 @@
 namespace linkwright::optimise {
 namespace {
 
-constexpr double least_violated_cost = 1e79;  // feasible candidates cost less, see cost_by_feasibility_rules
+constexpr double min_violated_cost = 1e79;  // feasible candidates cost less, see cost_by_feasibility_rules
 
 /// Evaluates what pagmo asks for: designs of the free variables only, as pagmo takes none without a range.
 class Evaluator {
@@ -54,7 +54,7 @@ class Evaluator {
 
   /// x is design after design; likewise the costs that pagmo receives.
   pagmo::vector_double operator()(const pagmo::vector_double& x) {
-    if (evaluations > 0) go_on(context_);  // moead asks for one design after the other
+    if (evaluations > 0) throw_if_interrupted(context_);  // moead asks for one design after the other
     const std::size_t n = free_.size(), m = problem_.objectives, count = x.size() / n;
     if (candidates_.size() != count) {
       candidates_ = Population(problem_.variables.size(), count);
@@ -153,11 +153,11 @@ std::vector<ParetoPoint> feasible(const pagmo::population& members, const Evalua
   const std::vector<pagmo::vector_double>&x = members.get_x(), &f = members.get_f();
   std::vector<ParetoPoint> found;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (f[i][0] < least_violated_cost) found.push_back(evaluator.design(x[i], f[i]));
+    if (f[i][0] < min_violated_cost) found.push_back(evaluator.design(x[i], f[i]));
   return found;
 }
 
-std::vector<double> least_costs(const std::vector<ParetoPoint>& front, std::size_t objectives) {
+std::vector<double> min_costs(const std::vector<ParetoPoint>& front, std::size_t objectives) {
   std::vector<double> least(objectives, infinity);
   for (const ParetoPoint& point : front)
     for (std::size_t k = 0; k < objectives; ++k) least[k] = std::min(least[k], point.costs[k]);
@@ -189,14 +189,14 @@ class FrontKeeper {
                Evaluator& evaluator, FrontReport& report) {
     const Value value = checkpoint_ ? checkpoint_->find(name_) : Value();
     if (value.is_null()) return;
-    constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
+    constexpr std::int64_t max_evaluations = std::int64_t{1} << 53;  // exact as a double
     const std::size_t n = evaluator.lower.size(), m = evaluator.objectives();
-    report.generations = static_cast<int>(kept_integer(value, "generations", 1, generations, name_));
-    evaluator.evaluations = kept_integer(value, "evaluations", 1, most_evaluations, name_);
+    report.generations = static_cast<int>(load_integer(value, "generations", 1, generations, name_));
+    evaluator.evaluations = load_integer(value, "evaluations", 1, max_evaluations, name_);
     const auto numbers = [&](std::string_view key) {
-      return unpack_numbers(kept_member(value, key, name_), name_);
+      return unpack_numbers(load_member(value, key, name_), name_);
     };
-    const Value& reason = kept_member(value, "stop_reason", name_);
+    const Value& reason = load_member(value, "stop_reason", name_);
     const std::vector<double> x = numbers("x"), f = numbers("f"), best = numbers("least_violated"),
                               logged = numbers("log");
     const std::size_t all = evaluator.design({}, {}).x.size(), entry = 3 + m,
@@ -209,7 +209,7 @@ class FrontKeeper {
     for (std::size_t i = 0; good && i < x.size(); ++i)
       good = x[i] >= evaluator.lower[i % n] && x[i] <= evaluator.upper[i % n];
     for (std::size_t k = 0; good && k < entries; ++k)
-      good = logged[k * entry] >= 0 && logged[k * entry] <= static_cast<double>(most_evaluations) &&
+      good = logged[k * entry] >= 0 && logged[k * entry] <= static_cast<double>(max_evaluations) &&
              logged[k * entry + 2] >= 0 && logged[k * entry + 2] <= static_cast<double>(population);
     if (!good) throw CheckpointError(fmt::format("{}: is not a state of this method and problem", name_));
     report.stop_reason = reason.as_string();
@@ -326,7 +326,7 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
                         .violated = static_cast<double>(evaluator.violated) /
                                     static_cast<double>(evaluator.evaluations - before),
                         .front = static_cast<int>(front.size()),
-                        .least = least_costs(front, problem.objectives)};
+                        .least = min_costs(front, problem.objectives)};
       });
     if (options.progress)
       context.report({.stage = name, .fraction = static_cast<double>(report.generations) / generations});

@@ -33,7 +33,7 @@ SmoothProblem interruptible(SmoothProblem problem, const RunContext& context) {
     thread_local Population one;
     if (one.dimension() != candidates.dimension || one.size() != 1) one = Population(candidates.dimension, 1);
     for (std::size_t i = 0; i < candidates.size; ++i) {
-      if (i > 0) go_on(context);
+      if (i > 0) throw_if_interrupted(context);
       for (std::size_t j = 0; j < candidates.dimension; ++j) one(j, 0) = candidates(j, i);
       evaluate(one.view(), values.subspan(i * width, width));
     }

@@ -29,7 +29,7 @@ study::Comparisons prototype_rows(const std::string&, RunContext&) {
   row("base and coupler b, mm", "section 4.2", 68, 1e3 * base_length(joint), "reproduced");
   row("longest diagonal over +-60 deg, mm", "section 4.2", 232, 1e3 * range.greatest_diagonal,
       "not reproduced", "rounding up would explain it");
-  row("shortest diagonal over +-60 deg, mm", "section 4.2", 117, 1e3 * range.least_diagonal, "not reproduced",
+  row("shortest diagonal over +-60 deg, mm", "section 4.2", 117, 1e3 * range.min_diagonal, "not reproduced",
       "rounding up would explain it");
   row("stroke over +-60 deg, mm", "section 4.2", 115, 1e3 * range.stroke(), "reproduced");
   row("linear resolution, mm/step", "Table 1", 0.0127, 1e3 * quantum(drive), "reproduced");

@@ -10,7 +10,7 @@
 
 namespace linkwright::parameter_study {
 
-static_assert(most_sobol_dimensions == BOOST_RANDOM_SOBOL_MAX_DIMENSION);
+static_assert(max_sobol_dimensions == BOOST_RANDOM_SOBOL_MAX_DIMENSION);
 
 namespace {
 
@@ -57,8 +57,8 @@ Points latin_hypercube(std::size_t count, std::size_t dimension, std::uint64_t s
 }
 
 Points sobol_sequence(std::size_t count, std::size_t dimension) {
-  LINKWRIGHT_REQUIRE(dimension <= most_sobol_dimensions, "a Sobol sequence has at most {} dimensions, got {}",
-                     most_sobol_dimensions, dimension);
+  LINKWRIGHT_REQUIRE(dimension <= max_sobol_dimensions, "a Sobol sequence has at most {} dimensions, got {}",
+                     max_sobol_dimensions, dimension);
   Points points{dimension, {}};
   if (dimension == 0) return points;
   points.coordinates.reserve(count * dimension);

@@ -21,7 +21,7 @@ struct Points {
 };
 
 /// Dimensions for which there are Sobol sequences.
-inline constexpr std::size_t most_sobol_dimensions = 3667;
+inline constexpr std::size_t max_sobol_dimensions = 3667;
 
 /// All combinations of levels[j] >= 1 equal steps from 0 to 1 (0.5 where there is one step); the last
 /// coordinate runs fastest.
@@ -32,7 +32,7 @@ Points grid(const std::vector<std::size_t>& levels);
 Points latin_hypercube(std::size_t count, std::size_t dimension, std::uint64_t seed);
 
 /// The first points of a Sobol sequence (direction numbers of Joe and Kuo 2008) behind the origin, which is
-/// left out. dimension <= most_sobol_dimensions.
+/// left out. dimension <= max_sobol_dimensions.
 Points sobol_sequence(std::size_t count, std::size_t dimension);
 
 /// Trajectories of Morris (1991): from a random point of a grid of `levels` (even, >= 2) each coordinate is

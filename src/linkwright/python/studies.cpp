@@ -245,13 +245,13 @@ void write_report(const FinishedRun& run, const fs::path& file) {
   if (!problem.empty()) raise_os_error(fmt::format("{}: cannot be written: {}", file.string(), problem));
 }
 
-std::vector<std::string> save(const FinishedRun& run, const fs::path& folder, std::size_t longest_table) {
+std::vector<std::string> save(const FinishedRun& run, const fs::path& folder, std::size_t max_table) {
   Diagnostics problems;
   std::vector<std::string> out;
   {
     const Unlocked unlocked;
     app::RunOutcome outcome = run.outcome;
-    outcome.most_rows = longest_table;
+    outcome.max_rows = max_table;
     if (app::prepare_folder(folder, problems))
       for (const fs::path& file : app::write_results(run.study, outcome, folder, problems))
         out.push_back(file.string());

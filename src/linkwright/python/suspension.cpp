@@ -20,7 +20,7 @@
 #include "linkwright/python/values.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/suspension/studies/sweep.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 
 namespace linkwright::python {
 namespace py = pybind11;
@@ -54,12 +54,12 @@ std::vector<double> ascending(const Array& array, std::string_view what) {
 class WheelSuspension {
  public:
   explicit WheelSuspension(const StudySource& source)
-      : study_(sweep_of(source)), plan_(suspension::prepare_guide(study_.description.guide)) {}
+      : study_(sweep_of(source)), plan_(suspension::prepare_suspension(study_.description.suspension)) {}
 
   Rows sweep(const Array& travel, const Array& rack, const std::vector<std::string>& wanted) const {
     const std::vector<double> travels = ascending(travel, "travel"), racks = ascending(rack, "rack");
-    std::vector<const suspension::GuideColumn*> columns;
-    for (const suspension::GuideColumn& column : suspension::guide_columns())
+    std::vector<const suspension::CornerColumn*> columns;
+    for (const suspension::CornerColumn& column : suspension::corner_columns())
       if (wanted.empty() || std::find(wanted.begin(), wanted.end(), column.key) != wanted.end())
         columns.push_back(&column);
     for (const std::string& key : wanted)
@@ -88,7 +88,7 @@ class WheelSuspension {
   };
 
   void fill(const suspension::GridPositions& grid, const std::vector<double>& travels,
-            const std::vector<double>& racks, const std::vector<const suspension::GuideColumn*>& columns,
+            const std::vector<double>& racks, const std::vector<const suspension::CornerColumn*>& columns,
             Computed& out) const {
     const std::size_t rows = grid.positions.size();
     const auto add = [&](std::string_view key, auto&& value) {
@@ -98,15 +98,15 @@ class WheelSuspension {
     };
     add("travel_m", [&](std::size_t i) { return travels[grid.first_travel + i % grid.travels]; });
     add("rack_m", [&](std::size_t i) { return racks[i / grid.travels]; });
-    for (const suspension::GuideColumn* column : columns)
+    for (const suspension::CornerColumn* column : columns)
       add(column->key, [&](std::size_t i) {
         return suspension::value_of(*column, {grid.positions[i], grid.wheels[i], study_.lock});
       });
-    for (const suspension::GuidePosition& position : grid.positions) out.status.push_back(position.status);
+    for (const suspension::CornerPosition& position : grid.positions) out.status.push_back(position.status);
   }
 
   suspension::SweepStudy study_;
-  suspension::GuidePlan plan_;
+  suspension::CornerPlan plan_;
 };
 
 }  // namespace

@@ -25,9 +25,9 @@ namespace {
 
 constexpr double sheet_width = 640, left_margin = 74, right_margin = 16, top_margin = 8;  // px
 constexpr double map_gap = 16, map_head = 24, map_foot = 44, bar_height = 12,
-                 bar = 62;           // px, between and below the maps
-constexpr double most_height = 420;  // px, of one map
-constexpr std::size_t most_maps = 12, most_columns = 3;
+                 bar = 62;          // px, between and below the maps
+constexpr double max_height = 420;  // px, of one map
+constexpr std::size_t max_maps = 12, max_columns = 3;
 constexpr double same = 1e-6;  // share of the range: coordinates that are closer differ by rounding
 constexpr std::string_view no_value = "#e9edf0";
 
@@ -104,7 +104,7 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
   };
   const std::vector<Group> groups = groups_of(plot, table);
   out.groups = groups.size();
-  const std::size_t drawn = std::min(groups.size(), most_maps);
+  const std::size_t drawn = std::min(groups.size(), max_maps);
   for (std::size_t k = 0; k < drawn; ++k) {
     const Group& group = groups[drawn == groups.size() ? k : k * (groups.size() - 1) / (drawn - 1)];
     Map map{group.label, {}};
@@ -141,12 +141,12 @@ struct Layout {
 Layout layout_of(const Maps& maps) {
   Layout out;
   const std::size_t n = maps.maps.size();
-  out.rows = (n + most_columns - 1) / most_columns;
+  out.rows = (n + max_columns - 1) / max_columns;
   out.columns = (n + out.rows - 1) / out.rows;
   const double room =
       (sheet_width - left_margin - right_margin - map_gap * static_cast<double>(out.columns - 1)) /
       static_cast<double>(out.columns);
-  out.scale = std::min(room / maps.x.size(), most_height / maps.y.size());
+  out.scale = std::min(room / maps.x.size(), max_height / maps.y.size());
   out.map_width = maps.x.size() * out.scale;
   out.map_height = maps.y.size() * out.scale;
   return out;

@@ -28,8 +28,8 @@ using Style = study::Plot::Style;
 
 constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
-constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
-constexpr std::size_t most_named_curves = 6;  // more curves are a bundle, of which the first have names
+constexpr std::size_t max_points = 3000;                                   // a curve; more cannot be seen
+constexpr std::size_t max_named_curves = 6;  // more curves are a bundle, of which the first have names
 // Share of the largest number: less than this is zero on a logarithmic axis.
 constexpr double rounding = 1e-16;
 constexpr std::string_view pale = "#8fa0ae", band_colour = "#009E73";
@@ -83,7 +83,7 @@ std::vector<Curve> curves_of(const study::Plot& plot, const Table& table, const 
     if (!x || !y) return;
     const std::size_t end = std::min(x->values.size(), y->values.size());
     for (const Group& group : groups) {
-      const std::size_t step = group.rows.size() / most_points + 1;
+      const std::size_t step = group.rows.size() / max_points + 1;
       const bool alone = plot.style != Style::polar && plot.y.size() == 1;
       Curve curve{group.label.empty() ? label : alone ? group.label : label + ", " + group.label, {}};
       for (std::size_t i = 0; i < group.rows.size(); i += step)
@@ -373,12 +373,12 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   const std::optional<Peak> peak =
       plot.style == Style::line && !plot.logarithmic_y ? peak_of(plot, table, shown) : std::nullopt;
   const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright, peak);
-  const bool bundle = curves.size() > most_named_curves, empty = axes.box.empty();
+  const bool bundle = curves.size() > max_named_curves, empty = axes.box.empty();
   const bool points = plot.style == Style::points;
   // The first curves of a bundle have a name; one that is a family has none but those of its ends.
   const std::size_t named = !polar && curves.size() == 1 ? 0
                             : !bundle                    ? curves.size()
-                            : plot.group.empty()         ? most_named_curves
+                            : plot.group.empty()         ? max_named_curves
                                                          : 0;
   struct Sign {
     std::string look, text;

@@ -26,8 +26,8 @@
 namespace linkwright::report {
 namespace {
 
-constexpr std::size_t longest_table = 40;
-constexpr std::size_t most_named_joints = 24;  // more joints than this have no room for their names
+constexpr std::size_t max_table = 40;
+constexpr std::size_t max_named_joints = 24;  // more joints than this have no room for their names
 
 // A table of texts; every cell is escaped here and nowhere else.
 class Sheet {
@@ -118,7 +118,7 @@ void write_drawing(std::string& out, const study::Scene& scene, std::size_t inde
   // Poses and arrows, or poses in three views, are too much.
   options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
   options.length = chosen_length(units);
-  options.labels = scene.joints.size() <= most_named_joints;
+  options.labels = scene.joints.size() <= max_named_joints;
   // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
   put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
       spatial ? fmt::format(" data-scene=\"{}\"", index) : "", svg(scene, options),
@@ -218,7 +218,7 @@ void write_log(std::string& out, const Value& log) {
 void write_tables(std::string& out, const study::Result& result) {
   for (const auto& table : result.tables) {
     heading(out, table.name);
-    const std::size_t step = std::max<std::size_t>(1, (table.rows() + longest_table - 1) / longest_table);
+    const std::size_t step = std::max<std::size_t>(1, (table.rows() + max_table - 1) / max_table);
     if (step > 1) put(out, "<p class=\"note\">One row in {}, of {} in all.</p>\n", step, table.rows());
     std::vector<std::string> head;
     if (!table.names.empty()) head.emplace_back("name");

@@ -121,7 +121,7 @@ std::shared_ptr<Job> Jobs::start(RunRequest request) {
   std::erase_if(running_, [](const std::shared_ptr<Job>& job) { return job->finished(); });
   for (const std::shared_ptr<Job>& job : running_)
     if (tab_of(job->name()) == tab_of(request.run)) job->cancel();
-  if (running_.size() >= most_) return nullptr;
+  if (running_.size() >= max_) return nullptr;
   try {
     running_.push_back(std::make_shared<Job>(std::move(request), folder_));
   } catch (const std::system_error&) {

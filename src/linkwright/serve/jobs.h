@@ -62,7 +62,7 @@ class Job {
 class Jobs {
  public:
   /// `most`: runs at a time.
-  Jobs(std::filesystem::path folder, std::size_t most) : folder_(std::move(folder)), most_(most) {}
+  Jobs(std::filesystem::path folder, std::size_t most) : folder_(std::move(folder)), max_(most) {}
 
   /// Starts a run and cancels an earlier one of the same tab; nullptr when too many are running.
   std::shared_ptr<Job> start(RunRequest request);
@@ -72,7 +72,7 @@ class Jobs {
 
  private:
   const std::filesystem::path folder_;
-  const std::size_t most_;
+  const std::size_t max_;
   std::mutex mutex_;
   std::vector<std::shared_ptr<Job>> running_;
 };

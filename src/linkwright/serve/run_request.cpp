@@ -13,7 +13,7 @@
 namespace linkwright::serve {
 namespace {
 
-constexpr std::size_t most_files = 64;
+constexpr std::size_t max_files = 64;
 constexpr std::size_t longest_name = 255, longest_tab = 64, longest_number = 16;
 
 /// A name that stays in the folder it is put into.
@@ -23,8 +23,8 @@ bool is_plain_name(std::string_view name) {
 }
 
 bool read_files(const Value& files, RunRequest& request, std::string& problem) {
-  if (!files.is_object() || files.as_object().size() > most_files) {
-    problem = fmt::format("files: must be a table of at most {} texts", most_files);
+  if (!files.is_object() || files.as_object().size() > max_files) {
+    problem = fmt::format("files: must be a table of at most {} texts", max_files);
     return false;
   }
   for (const auto& [name, text, position] : files.as_object()) {

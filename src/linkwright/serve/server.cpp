@@ -39,8 +39,8 @@ using std::chrono::seconds;
 
 // Threads that answer; more than there are runs, so that some are always free.
 constexpr std::size_t threads = 12;
-constexpr std::size_t most_waiting = 64;  // connections that wait for one of them; others are refused
-constexpr int backlog = 128;              // connections that wait to be accepted
+constexpr std::size_t max_waiting = 64;  // connections that wait for one of them; others are refused
+constexpr int backlog = 128;             // connections that wait to be accepted
 constexpr std::size_t largest_head = std::size_t{64} << 10;
 constexpr seconds head_patience{5}, body_patience{30}, answer_patience{60};
 constexpr milliseconds glance{100};  // between two looks whether the server ends
@@ -135,7 +135,7 @@ class Workers final : public httplib::TaskQueue {
   void enqueue(std::function<void()> task) override {
     {
       const std::lock_guard lock(mutex_);
-      if (tasks_.size() < most_waiting) {
+      if (tasks_.size() < max_waiting) {
         tasks_.emplace_back(Clock::now(), std::move(task));
         came_.notify_one();
         return;
@@ -295,7 +295,7 @@ struct Server::Parts {
       study.emplace(options.study);
       folder = study->path().parent_path();
     }
-    jobs.emplace(folder, most_runs);
+    jobs.emplace(folder, max_runs);
     for (Listener* listener : {&here, &here6}) set_up(*listener);
   }
 
@@ -346,7 +346,7 @@ void Server::Parts::run(const httplib::ContentReader& read, httplib::Response& r
   if (!request) return answer(response, 400, problem);
   const std::shared_ptr<Job> job = jobs->start(std::move(*request));
   if (!job)
-    return answer(response, 503, fmt::format("{} studies are running; end one of them, or wait", most_runs));
+    return answer(response, 503, fmt::format("{} studies are running; end one of them, or wait", max_runs));
   response.set_chunked_content_provider(
       "application/octet-stream", [job](std::size_t, httplib::DataSink& sink) {
         const Job::News news = job->news(glance);

@@ -18,7 +18,7 @@ struct ServerOptions {
 /// Bodies of requests are no larger than this.
 inline constexpr std::size_t largest_body = std::size_t{16} << 20;
 /// Runs at a time, of all tabs.
-inline constexpr std::size_t most_runs = 8;
+inline constexpr std::size_t max_runs = 8;
 
 /// Listens from its start to its end at 127.0.0.1 and, where the machine has it, at ::1.
 class Server {

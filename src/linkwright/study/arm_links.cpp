@@ -11,7 +11,7 @@ namespace linkwright::study {
 namespace {
 
 // More is no arm, and its tables would fill the memory.
-constexpr std::size_t most_links = 20;
+constexpr std::size_t max_links = 20;
 
 bool begins_columns(std::string_view name) {
   return std::isalpha(static_cast<unsigned char>(name.front())) &&
@@ -25,8 +25,8 @@ void complete_arm_links(ObjectReader& mechanism, std::span<std::string* const> n
   std::vector<ObjectReader> tables = mechanism.tables("link");
   if (mechanism.has("link") && names.empty() && tables.empty())
     mechanism.error("link", "an arm has at least one link", "add [[mechanism.link]]");
-  if (names.size() > most_links)
-    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", names.size(), most_links));
+  if (names.size() > max_links)
+    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", names.size(), max_links));
   for (std::size_t k = 0; k < std::min(names.size(), tables.size()); ++k) {
     std::string& name = *names[k];
     if (name.empty()) {

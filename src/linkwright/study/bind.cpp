@@ -15,7 +15,7 @@ namespace linkwright::study {
 namespace {
 
 // An angle in radians beyond it is probably one in degrees.
-constexpr double most_turns = 20;
+constexpr double max_turns = 20;
 
 std::string list_of(std::span<const Word> words) {
   std::string text;
@@ -225,7 +225,7 @@ bool ObjectReader::number(const Found& found, const Field& field, double& result
     problem(found, fmt::format("{}, must be at most {}", what, with_unit(field.maximum, found.unit)));
     return false;
   }
-  if (found.unit && found.unit->suffix == "rad" && std::abs(value) > most_turns * 2 * pi) {
+  if (found.unit && found.unit->suffix == "rad" && std::abs(value) > max_turns * 2 * pi) {
     std::string key = found.path.substr(found.path.rfind('.') + 1);
     key = key.substr(0, key.find('['));
     document_->report(Diagnostic::Severity::warning, found.value->position, found.path,

@@ -20,7 +20,7 @@ namespace linkwright::study {
 namespace {
 
 // A file with more unknown keys than this is no study; the rest of them would only hide the first.
-constexpr std::size_t most_unknown_keys = 50;
+constexpr std::size_t max_unknown_keys = 50;
 
 /// A JSON Schema and what it is composed of: every schema that may describe the same value.
 std::vector<const Value*> alternatives_of(const Value& schema) {
@@ -204,7 +204,7 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) continue;
     // Known, but the reader gave up before it came to it.
     if (gave_up_ && !members_of(schemas, member.key).empty()) continue;
-    if (++unknown_ > most_unknown_keys) continue;
+    if (++unknown_ > max_unknown_keys) continue;
     // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
     // is more likely than one that may be left out.
     const auto parts = split_unit(member.key);
@@ -322,9 +322,9 @@ void DocumentReader::finish(const std::function<Value()>& schema) {
   if (schema && (gave_up_ || has_unknown())) schema_ = schema();
   finish_object(document_, schema_.is_object() ? alternatives_of(schema_) : std::vector<const Value*>());
   drop_follow_ups();
-  if (unknown_ > most_unknown_keys)
+  if (unknown_ > max_unknown_keys)
     report(Diagnostic::Severity::error, {}, {},
-           fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
+           fmt::format("{} more unknown keys", unknown_ - max_unknown_keys));
   // A table that two readers open (the study module and the domain) reports its problems twice.
   std::set<std::string> told;
   const auto first = diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_);

@@ -99,7 +99,7 @@ Value as_people_write(Value study, const DisplayUnits& units) {
 void complete_designs(Result& result, std::string_view title, const DisplayUnits& units) {
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {
     Solution& solution = result.solutions[i];
-    if (i >= most_designs) solution.study = Value();
+    if (i >= max_designs) solution.study = Value();
     if (solution.study.is_null()) continue;
     Value tables = as_people_write(std::exchange(solution.study, Value::object()), units);
     solution.study["schema"] = schema_version;

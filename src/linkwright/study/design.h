@@ -17,11 +17,11 @@ namespace linkwright::study {
 Value as_people_write(Value study, const DisplayUnits& units);
 
 /// Largest number of solutions of a result that get a study, the best ones.
-inline constexpr std::size_t most_designs = 20;
+inline constexpr std::size_t max_designs = 20;
 
 /// Makes whole studies of what a domain put into `Solution::study`: adds the version, the kind "analysis"
 /// unless the domain chose another one, and the title "<title of the source>: <label of the solution>", and
-/// writes them as_people_write(). Solutions beyond `most_designs` lose theirs.
+/// writes them as_people_write(). Solutions beyond `max_designs` lose theirs.
 void complete_designs(Result& result, std::string_view title, const DisplayUnits& units);
 
 /// The name of the file of a solution's study, without ending: "1-crank-rocker-open". Numbers count from 1;

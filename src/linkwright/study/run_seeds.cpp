@@ -19,16 +19,16 @@ constexpr std::size_t numbers_of_generation = 5;
 
 }  // namespace
 
-Value kept_status(Status status) { return Value(to_string(status)); }
+Value saved_status(Status status) { return Value(to_string(status)); }
 
-Status restored_status(const Value& table, std::string_view what) {
-  const Value& name = kept_member(table, "status", what);
+Status load_status(const Value& table, std::string_view what) {
+  const Value& name = load_member(table, "status", what);
   for (const Status end : ends)
     if (name.is_string() && name.as_string() == to_string(end)) return end;
   throw CheckpointError(fmt::format("{}: has no status of a seed that came to its end", what));
 }
 
-Value kept_log(std::span<const optimise::GenerationLog> log) {
+Value saved_log(std::span<const optimise::GenerationLog> log) {
   Value::Array evaluations;
   std::vector<double> numbers;
   for (const optimise::GenerationLog& g : log) {
@@ -41,16 +41,16 @@ Value kept_log(std::span<const optimise::GenerationLog> log) {
   return out;
 }
 
-std::vector<optimise::GenerationLog> restored_log(const Value& table, std::string_view what) {
-  const Value& log = kept_member(table, "log", what);
-  const Value& evaluations = kept_member(log, "evaluations", what);
-  const std::vector<double> numbers = unpack_numbers(kept_member(log, "numbers", what), what);
+std::vector<optimise::GenerationLog> load_log(const Value& table, std::string_view what) {
+  const Value& log = load_member(table, "log", what);
+  const Value& evaluations = load_member(log, "evaluations", what);
+  const std::vector<double> numbers = unpack_numbers(load_member(log, "numbers", what), what);
   if (!evaluations.is_array() || numbers.size() != numbers_of_generation * evaluations.as_array().size())
     throw CheckpointError(fmt::format("{}: its log is not one of generations", what));
   std::vector<optimise::GenerationLog> out;
   for (std::size_t i = 0; i < evaluations.as_array().size(); ++i) {
     const Value& count = evaluations.as_array()[i];
-    if (!count.is_integer() || count.as_integer() < 0 || count.as_integer() > most_kept_evaluations)
+    if (!count.is_integer() || count.as_integer() < 0 || count.as_integer() > max_kept_evaluations)
       throw CheckpointError(fmt::format("{}: generation {} of its log has no evaluations", what, i));
     const double* g = &numbers[numbers_of_generation * i];
     out.push_back({.evaluations = count.as_integer(),
@@ -63,9 +63,9 @@ std::vector<optimise::GenerationLog> restored_log(const Value& table, std::strin
   return out;
 }
 
-std::vector<double> restored_numbers(const Value& table, std::string_view key, std::size_t count,
-                                     std::string_view what) {
-  std::vector<double> out = unpack_numbers(kept_member(table, key, what), what);
+std::vector<double> load_numbers(const Value& table, std::string_view key, std::size_t count,
+                                 std::string_view what) {
+  std::vector<double> out = unpack_numbers(load_member(table, key, what), what);
   if (out.size() != count)
     throw CheckpointError(fmt::format("{}: {} has {} numbers, must be {}", what, key, out.size(), count));
   if (!std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); }))

@@ -28,21 +28,21 @@ inline bool is_interrupted(Status status) {
 
 /// The status of a seed that ended, as a checkpoint saves it under the key `status` of a table, and back.
 /// Throws CheckpointError, naming `what`, unless it is the name of a status of a seed that came to its end.
-Value kept_status(Status status);
-Status restored_status(const Value& table, std::string_view what);
+Value saved_status(Status status);
+Status load_status(const Value& table, std::string_view what);
 
 /// Likewise the generations of a population method, under the key `log`.
-Value kept_log(std::span<const optimise::GenerationLog> log);
-std::vector<optimise::GenerationLog> restored_log(const Value& table, std::string_view what);
+Value saved_log(std::span<const optimise::GenerationLog> log);
+std::vector<optimise::GenerationLog> load_log(const Value& table, std::string_view what);
 
 /// Member `key` of a table: `count` packed numbers, all of them finite. Throws CheckpointError, naming
 /// `what`.
-std::vector<double> restored_numbers(const Value& table, std::string_view key, std::size_t count,
-                                     std::string_view what);
+std::vector<double> load_numbers(const Value& table, std::string_view key, std::size_t count,
+                                 std::string_view what);
 
 /// Far more evaluations than a search makes, and few enough that the sum over the seeds of a study is an
 /// integer.
-inline constexpr std::int64_t most_kept_evaluations = std::int64_t{1} << 46;
+inline constexpr std::int64_t max_kept_evaluations = std::int64_t{1} << 46;
 
 /// Runs answer(seed) for each seed of a study on the threads of the context. `status` and `cost` (for the
 /// progress; infinite if none) of an answer are asked of it.

@@ -10,56 +10,56 @@
 namespace linkwright::study {
 namespace {
 
-struct TradeWords {
+struct Synonyms {
   std::string_view ours;
   std::string_view theirs;  ///< in small letters and digits only, separated by blanks
 };
 
 // A word of the trade may mean several of ours; the first that is allowed counts.
-constexpr std::array trade_words{
-    TradeWords{"four_bar",
-               "4bar fourbarlinkage 4barlinkage crankrocker gelenkviereck viergelenk viergelenkgetriebe "
-               "kurbelschwinge quatrebarres cuatrobarras"},
-    TradeWords{"slider_crank",
-               "crankslider schubkurbel schubkurbelgetriebe biellemanivelle bielamanivela manivelacorredera"},
-    TradeWords{"five_bar", "5bar 5r"},
-    TradeWords{"linkage", "sixbar 6bar eightbar 8bar koppelgetriebe"},
-    TradeWords{"serial_arm", "robotarm manipulator roboterarm"},
-    TradeWords{"corner",
-               "doublewishbone macpherson mcpherson multilink suspension wheelsuspension quartercar "
-               "doppelquerlenker mehrlenker radaufhängung radaufhaengung doubletriangulation"},
+constexpr std::array synonyms{
+    Synonyms{"four_bar",
+             "4bar fourbarlinkage 4barlinkage crankrocker gelenkviereck viergelenk viergelenkgetriebe "
+             "kurbelschwinge quatrebarres cuatrobarras"},
+    Synonyms{"slider_crank",
+             "crankslider schubkurbel schubkurbelgetriebe biellemanivelle bielamanivela manivelacorredera"},
+    Synonyms{"five_bar", "5bar 5r"},
+    Synonyms{"linkage", "sixbar 6bar eightbar 8bar koppelgetriebe"},
+    Synonyms{"serial_arm", "robotarm manipulator roboterarm"},
+    Synonyms{"corner",
+             "doublewishbone macpherson mcpherson multilink suspension wheelsuspension quartercar "
+             "doppelquerlenker mehrlenker radaufhängung radaufhaengung doubletriangulation"},
 
-    TradeWords{"ground", "frame base gestell steg bâti bati bastidor"},
-    TradeWords{"crank", "kurbel antriebskurbel manivelle manivela"},
-    TradeWords{"coupler", "floatinglink connectingrod koppel bielle biela acoplador"},
-    TradeWords{"rod", "connectingrod conrod coupler pleuel koppel bielle biela"},
-    TradeWords{"rocker", "follower schwinge abtriebsschwinge balancier balancín balancin"},
-    TradeWords{"speed", "velocity drehzahl vitesse velocidad"},
-    TradeWords{"mass", "weight masse gewicht masa"},
-    TradeWords{"length", "länge laenge longueur longitud"},
+    Synonyms{"ground", "frame base gestell steg bâti bati bastidor"},
+    Synonyms{"crank", "kurbel antriebskurbel manivelle manivela"},
+    Synonyms{"coupler", "floatinglink connectingrod koppel bielle biela acoplador"},
+    Synonyms{"rod", "connectingrod conrod coupler pleuel koppel bielle biela"},
+    Synonyms{"rocker", "follower schwinge abtriebsschwinge balancier balancín balancin"},
+    Synonyms{"speed", "velocity drehzahl vitesse velocidad"},
+    Synonyms{"mass", "weight masse gewicht masa"},
+    Synonyms{"length", "länge laenge longueur longitud"},
 
-    TradeWords{"revolute",
-               "hinge pin pinjoint pivot pivote rotary drehgelenk gelenk scharnier charnière bisagra"},
-    TradeWords{"prismatic", "slider slide sliding translational schubgelenk glissière corredera"},
-    TradeWords{"pin_in_slot", "slot pinslot kulisse coulisse ranura"},
-    TradeWords{"fixed", "weld welded rigid fest encastrement"},
-    TradeWords{"gear", "gears gearpair zahnrad zahnradpaar engrenage engranaje"},
+    Synonyms{"revolute",
+             "hinge pin pinjoint pivot pivote rotary drehgelenk gelenk scharnier charnière bisagra"},
+    Synonyms{"prismatic", "slider slide sliding translational schubgelenk glissière corredera"},
+    Synonyms{"pin_in_slot", "slot pinslot kulisse coulisse ranura"},
+    Synonyms{"fixed", "weld welded rigid fest encastrement"},
+    Synonyms{"gear", "gears gearpair zahnrad zahnradpaar engrenage engranaje"},
 
-    TradeWords{"2RS-US", "doublewishbone doppelquerlenker doubletriangulation"},
-    TradeWords{"RS-SP-US", "macpherson mcpherson"},
-    TradeWords{"5US", "multilink fivelink mehrlenker fünflenker fuenflenker"},
-    TradeWords{"RS", "wishbone aarm controlarm querlenker dreiecklenker dreieckslenker triangle triángulo"},
-    TradeWords{"US", "tierod trackrod toelink twopointlink lenker stablenker spurstange biellette tirante"},
-    TradeWords{"SP", "strut macpherson mcpherson damper federbein jambedeforce"},
-    TradeWords{"RR", "trapezoidalarm trapezlenker"},
-    TradeWords{"R", "trailingarm semitrailingarm längslenker schräglenker brastiré"},
-    TradeWords{"S", "balljoint kugelgelenk rotule rótula"},
+    Synonyms{"2RS-US", "doublewishbone doppelquerlenker doubletriangulation"},
+    Synonyms{"RS-SP-US", "macpherson mcpherson"},
+    Synonyms{"5US", "multilink fivelink mehrlenker fünflenker fuenflenker"},
+    Synonyms{"RS", "wishbone aarm controlarm querlenker dreiecklenker dreieckslenker triangle triángulo"},
+    Synonyms{"US", "tierod trackrod toelink twopointlink lenker stablenker spurstange biellette tirante"},
+    Synonyms{"SP", "strut macpherson mcpherson damper federbein jambedeforce"},
+    Synonyms{"RR", "trapezoidalarm trapezlenker"},
+    Synonyms{"R", "trailingarm semitrailingarm längslenker schräglenker brastiré"},
+    Synonyms{"S", "balljoint kugelgelenk rotule rótula"},
 
-    TradeWords{"crank_rotates_fully", "grashof fullrotation umlauffähig umlauffaehig"},
-    TradeWords{"transmission_angle", "übertragungswinkel uebertragungswinkel angledetransmission"},
-    TradeWords{"synthesis", "design optimise optimize optimisation optimization auslegung"},
-    TradeWords{"simulation", "dynamics dynamik dynamique"},
-    TradeWords{"balancing", "massenausgleich équilibrage"},
+    Synonyms{"crank_rotates_fully", "grashof fullrotation umlauffähig umlauffaehig"},
+    Synonyms{"transmission_angle", "übertragungswinkel uebertragungswinkel angledetransmission"},
+    Synonyms{"synthesis", "design optimise optimize optimisation optimization auslegung"},
+    Synonyms{"simulation", "dynamics dynamik dynamique"},
+    Synonyms{"balancing", "massenausgleich équilibrage"},
 };
 
 /// In small letters, without blanks and punctuation.
@@ -98,7 +98,7 @@ std::string_view meant_word(std::string_view word, const std::vector<std::string
     if (letters(candidate) == whole) return candidate;
   for (const std::string_view candidate : allowed)
     if (letters(last_part(candidate)) == last) return candidate;
-  for (const TradeWords& row : trade_words)
+  for (const Synonyms& row : synonyms)
     if (lists(row.theirs, last))
       for (const std::string_view candidate : allowed)
         if (last_part(candidate) == row.ours) return candidate;

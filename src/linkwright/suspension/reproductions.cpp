@@ -13,11 +13,11 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/direct/published_targets.h"
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/indirect/guide_deviations.h"
-#include "linkwright/suspension/indirect/published_guides.h"
+#include "linkwright/suspension/indirect/corner_deviations.h"
+#include "linkwright/suspension/indirect/published_suspensions.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 #include "linkwright/suspension/studies/published.h"
 
@@ -28,12 +28,14 @@ constexpr double last_place = 5.01e-6;  // five decimals, and the rounding of th
 constexpr int boxes = 1000;             // boxes of each link
 constexpr int evolutions = 20;
 
-std::string source_of(const PublishedGuide& guide) { return fmt::format("Poznanovic 2016, {}", guide.table); }
+std::string source_of(const PublishedSuspension& suspension) {
+  return fmt::format("Poznanovic 2016, {}", suspension.table);
+}
 
 constexpr std::array quantities{"x in m", "y in m", "toe in deg", "camber in deg", "carrier pitch in deg"};
 
-std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& row) {
-  const GuidePosition at =
+std::array<double, 5> found_at(const CornerPlan& plan, const PublishedPosition& row) {
+  const CornerPosition at =
       solve_position(plan, Driver::wheel_centre_z, {row.travel, row.rack}, reference_position(plan));
   if (at.status != Status::done) {
     return {nan, nan, nan, nan, nan};
@@ -44,9 +46,9 @@ std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& r
 }
 
 // Every number of the table of positions.
-void add_positions(study::Comparisons& rows, const PublishedGuide& published) {
-  const GuidePlan plan = prepare_guide(guide_sample(published.sample).guide);
-  const GuidePlan as_printed = published.example == 2 ? prepare_guide(strut_as_printed()) : plan;
+void add_positions(study::Comparisons& rows, const PublishedSuspension& published) {
+  const CornerPlan plan = prepare_suspension(corner_sample(published.sample).suspension);
+  const CornerPlan as_printed = published.example == 2 ? prepare_suspension(strut_as_printed()) : plan;
   for (std::size_t i = 0; i < published.positions.size(); ++i) {
     const PublishedPosition& row = published.positions[i];
     const std::array printed{row.x, row.y, row.toe, row.camber, row.carrier_pitch};
@@ -93,9 +95,9 @@ struct Means {
 
 /// Repeats a synthesis of the whole mechanism, other boxes each time, until interrupted.
 template <class Synthesise>
-Means repeat(const PublishedGuide& published, bool carrier_pitch_open, int repeats, RunContext& context,
+Means repeat(const PublishedSuspension& published, bool carrier_pitch_open, int repeats, RunContext& context,
              Synthesise&& synthesise_one) {
-  const WheelGuide& truth = guide_sample(published.sample).guide;
+  const Suspension& truth = corner_sample(published.sample).suspension;
   const CarrierTargets complete = published_targets(published);
   IndirectTask task{.targets = complete, .links = {}, .couplers = {}};
   if (carrier_pitch_open)
@@ -111,9 +113,10 @@ Means repeat(const PublishedGuide& published, bool carrier_pitch_open, int repea
       ++means.links;
       means.found += link.status == Status::done;
     }
-    means.coordinate_error += coordinate_error(task.links, found.guide.links, found.guide.couplers, truth);
+    means.coordinate_error +=
+        coordinate_error(task.links, found.suspension.links, found.suspension.couplers, truth);
     means.generations += found.generations;
-    means.add(pose_deviations(found.guide, complete));
+    means.add(pose_deviations(found.suspension, complete));
   }
   if (means.repeats > 0) {
     means.coordinate_error /= means.repeats;
@@ -147,7 +150,7 @@ constexpr std::array<Tables, 4> tables = {{{"Tab. 6-2", "Tab. 6-3", "Tab. 6-4"},
                                            {"Tab. 6-10", "Tab. 6-11", "Tab. 6-12"},
                                            {"Tab. 6-14", "Tab. 6-15", "Tab. 6-16"}}};
 
-void add_synthesis(study::Comparisons& rows, const PublishedGuide& published, RunContext& context) {
+void add_synthesis(study::Comparisons& rows, const PublishedSuspension& published, RunContext& context) {
   const Tables& at = tables[static_cast<std::size_t>(published.example - 1)];
   const auto source = [](std::string_view table) { return fmt::format("Poznanovic 2016, {}", table); };
   const PublishedEvolution& printed = published.evolution;
@@ -191,13 +194,13 @@ void add_synthesis(study::Comparisons& rows, const PublishedGuide& published, Ru
 }
 
 void add_run_of_the_appendix(study::Comparisons& rows) {
-  const PublishedGuide& published = published_guides()[0];
+  const PublishedSuspension& published = published_suspensions()[0];
   const CarrierTargets targets = published_targets(published);
-  WheelGuide guide = guide_sample(published.sample).guide;
+  Suspension suspension = corner_sample(published.sample).suspension;
   const std::span<const double> off = published_run();
   double sum = 0, mean = 0;
-  for (std::size_t j = 0; j < guide.links.size(); ++j) {
-    GuideLink& link = guide.links[j];
+  for (std::size_t j = 0; j < suspension.links.size(); ++j) {
+    CornerLink& link = suspension.links[j];
     for (int place = 0; place < 6; ++place) {
       const double d = off[6 * j + static_cast<std::size_t>(place)];
       LinkCoordinates::set(link, place, LinkCoordinates::get(link, place) - d);
@@ -211,7 +214,7 @@ void add_run_of_the_appendix(study::Comparisons& rows) {
                   "the sum of five links, each a mean over 15 positions, is divided by 4"});
   rows.push_back({"mean error of coordinates, m", source, 3.783e-7, mean,
                   std::abs(mean / 3.783e-7 - 1) < 1e-3 ? "reproduced" : "not reproduced", ""});
-  const PoseDeviations d = pose_deviations(guide, targets);
+  const PoseDeviations d = pose_deviations(suspension, targets);
   const auto add = [&](const char* what, double printed, double ours, double unit) {
     rows.push_back({what, source, printed, ours,
                     std::abs(printed - ours) <= unit ? "reproduced" : "not reproduced", ""});
@@ -225,7 +228,7 @@ void add_run_of_the_appendix(study::Comparisons& rows) {
 }
 
 void add_open_carrier_pitch(study::Comparisons& rows, RunContext& context) {
-  const PublishedGuide& published = published_guides()[3];
+  const PublishedSuspension& published = published_suspensions()[3];
   for (const CarrierPitchTechnique technique :
        {CarrierPitchTechnique::quadratic, CarrierPitchTechnique::dyad}) {
     const PublishedEvolution& printed =
@@ -246,7 +249,7 @@ void add_open_carrier_pitch(study::Comparisons& rows, RunContext& context) {
 }
 
 study::Comparisons example(std::size_t number, RunContext& context) {
-  const PublishedGuide& published = published_guides()[number - 1];
+  const PublishedSuspension& published = published_suspensions()[number - 1];
   study::Comparisons rows;
   add_positions(rows, published);
   if (number == 1) add_run_of_the_appendix(rows);

@@ -37,7 +37,7 @@ std::vector<Sample> samples() {
 
 struct Flat {
   std::vector<double> value;
-  std::vector<std::array<double, most_dimensions>> by;
+  std::vector<std::array<double, max_dimensions>> by;
 };
 
 Flat flat(const Sample& sample, const std::vector<double>& values) {
@@ -46,7 +46,7 @@ Flat flat(const Sample& sample, const std::vector<double>& values) {
   measure(designed, elbows_out(sample.family), {.length = 0.09, .output = true, .constraint = true},
           sample.place, sample.rotation, at);
   Flat out;
-  const auto add = [&](double value, const std::array<double, most_dimensions>& by) {
+  const auto add = [&](double value, const std::array<double, max_dimensions>& by) {
     out.value.push_back(value);
     out.by.push_back(by);
   };

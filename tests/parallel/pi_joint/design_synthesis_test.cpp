@@ -45,17 +45,17 @@ TEST(PiDesignSynthesis, BestCentreOfThePrototype) {
     const double centre = best_centre(pi_prototype(), radians(half));
     const PiRangeValues found = range_values(pi_prototype(), centre, radians(half));
     expect_same(centre, number_at(expected, "theta_c_rad"));
-    expect_same(found.least_transmission, number_at(expected, "mu_min_rad"));
+    expect_same(found.min_transmission, number_at(expected, "mu_min_rad"));
     expect_same(centre - radians(half), number_at(expected, "theta_lo_rad"));
     expect_same(centre + radians(half), number_at(expected, "theta_hi_rad"));
-    expect_same(found.least_diagonal, number_at(expected, "d_min_m"));
+    expect_same(found.min_diagonal, number_at(expected, "d_min_m"));
     expect_same(found.greatest_diagonal, number_at(expected, "d_max_m"));
     expect_same(found.stroke(), number_at(expected, "stroke_m"));
-    expect_same(found.least_jacobian, number_at(expected, "J_min_m"));
+    expect_same(found.min_jacobian, number_at(expected, "J_min_m"));
     expect_same(found.greatest_jacobian, number_at(expected, "J_max_m"));
   }
   const Value& expected = computed("pi-best-centre");
-  expect_same(range_values(pi_prototype(), radians(-10), radians(50)).least_jacobian,
+  expect_same(range_values(pi_prototype(), radians(-10), radians(50)).min_jacobian,
               number_at(expected, "source_range_J_min_m"));
   expect_same(symmetric_ratio_limit(radians(60), 2), number_at(expected, "k_symmetric_ratio2"));
   expect_same(centred_ratio_limit(radians(60), 2), number_at(expected, "k_centred_ratio2"));
@@ -68,13 +68,13 @@ TEST(PiDesignSynthesis, NoCentreIsBetterThanTheBest) {
     const PiJoint joint{.arm = random.uniform(0.05, 1), .ratio = random.uniform(0.1, i % 4 ? 0.99 : 3)};
     const double half = random.uniform(0.1, 1.4), most = pi / 2 - half;
     const double centre = best_centre(joint, half);
-    const double best = range_values(joint, centre, half).least_jacobian;
+    const double best = range_values(joint, centre, half).min_jacobian;
     ASSERT_LE(std::abs(centre), most);
     const double shorter = std::min(joint.arm, base_length(joint));
     expect_same(best, shorter * std::cos(half), 1e-13);
     expect_same(range_values(joint, centre, half).stroke(), 2 * shorter * std::sin(half), 1e-13);
     for (int k = 0; k <= 2000; ++k)
-      ASSERT_LE(range_values(joint, most * (k / 1000.0 - 1), half).least_jacobian, best * (1 + 1e-14));
+      ASSERT_LE(range_values(joint, most * (k / 1000.0 - 1), half).min_jacobian, best * (1 + 1e-14));
   }
 }
 
@@ -100,11 +100,11 @@ TEST(PiDesignSynthesis, DesignOfTheReference) {
   expect_same(base_length(closed.joint), number_at(expected, "b_m"), 1e-13);
   expect_same(closed.centre, number_at(expected, "theta_c_rad"), 1e-13);
   const PiRangeValues range = range_values(closed.joint, closed.centre, radians(60));
-  expect_same(range.least_diagonal, number_at(expected, "d_min_m"), 1e-13);
+  expect_same(range.min_diagonal, number_at(expected, "d_min_m"), 1e-13);
   expect_same(range.greatest_diagonal, number_at(expected, "d_max_m"), 1e-13);
   expect_same(range.stroke(), number_at(expected, "stroke_m"), 1e-13);
-  expect_same(range.least_transmission, number_at(expected, "mu_min_rad"), 1e-13);
-  expect_same(range.least_jacobian, number_at(expected, "J_min_m"), 1e-13);
+  expect_same(range.min_transmission, number_at(expected, "mu_min_rad"), 1e-13);
+  expect_same(range.min_jacobian, number_at(expected, "J_min_m"), 1e-13);
   expect_same(range.greatest_jacobian, number_at(expected, "J_max_m"), 1e-13);
 
   EXPECT_EQ(report.status, Status::done);
@@ -149,9 +149,9 @@ double scanned_size(const PiRequirements& r) {
     for (int k = -steps; k <= steps; ++k) {
       const PiJoint unit{.arm = 1, .ratio = static_cast<double>(i) / steps};
       const PiRangeValues v = range_values(unit, most * k / steps, r.half_travel);
-      const double arm = least / v.least_jacobian;
+      const double arm = least / v.min_jacobian;
       if (arm * v.greatest_jacobian * r.speed <= r.rate_limit && arm * v.stroke() <= r.stroke &&
-          v.telescoping() <= r.telescoping && v.least_transmission >= r.transmission)
+          v.telescoping() <= r.telescoping && v.min_transmission >= r.transmission)
         best = std::min(best, arm * (1 + unit.ratio));
     }
   return best;
@@ -195,11 +195,11 @@ TEST(PiDesignSynthesis, ClosedFormSearchAndScanOfRandomTasks) {
     EXPECT_LE(report.best.size, scanned * (1 + 1e-8)) << i;
     EXPECT_LT(report.stationarity, 1e-5) << i;
     const PiRangeValues v = range_values(report.best.joint, report.best.centre, r.half_travel);
-    EXPECT_GE(v.least_jacobian * r.force_limit, r.torque * (1 - 1e-8));
+    EXPECT_GE(v.min_jacobian * r.force_limit, r.torque * (1 - 1e-8));
     EXPECT_LE(v.greatest_jacobian * r.speed, r.rate_limit * (1 + 1e-8));
     EXPECT_LE(v.stroke(), r.stroke * (1 + 1e-8));
     EXPECT_LE(v.telescoping(), r.telescoping * (1 + 1e-8));
-    EXPECT_GE(v.least_transmission, r.transmission * (1 - 1e-8));
+    EXPECT_GE(v.min_transmission, r.transmission * (1 - 1e-8));
     if (!report.closed_form.design) {
       // Only limits of the ratio can be met by moving the range.
       for (const PiConflict& conflict : report.closed_form.conflicts) EXPECT_TRUE(conflict.of_ratio);

@@ -77,7 +77,7 @@ TEST(LedArms, SayWhereTheRodsNoLongerHold) {
     const ArmAngles start = inverse(robot, home);
     for (int i = 0; i < 6; ++i)
       there[i] = start.angle[i] + found.share * math::wrap_angle(angles[i] - start.angle[i]);
-    EXPECT_NEAR(least_rods(robot, jacobians(robot, found.pose, there), length), 1e-3, 1e-4);
+    EXPECT_NEAR(min_rods(robot, jacobians(robot, found.pose, there), length), 1e-3, 1e-4);
   }
   EXPECT_NE(found.status, Status::branch_lost);
 }

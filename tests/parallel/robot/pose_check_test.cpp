@@ -81,16 +81,15 @@ Plain plain(const PoseConditions& c, const Pose& pose) {
            q.constraint_index - c.least_constraint);
   }
   demand(drives.status == Status::done, Criterion::travel, 1);
-  demand(lowest_elbow >= c.least_elbow && highest_elbow <= c.most_elbow, Criterion::elbow,
-         std::min(std::abs(lowest_elbow - c.least_elbow), std::abs(highest_elbow - c.most_elbow)));
-  demand(swing <= c.most_swing, Criterion::swing, swing - c.most_swing);
+  demand(lowest_elbow >= c.min_elbow && highest_elbow <= c.max_elbow, Criterion::elbow,
+         std::min(std::abs(lowest_elbow - c.min_elbow), std::abs(highest_elbow - c.max_elbow)));
+  demand(swing <= c.max_swing, Criterion::swing, swing - c.max_swing);
   if (!std::isnan(drive_transmission))
-    demand(drive_transmission >= c.least_drive_transmission, Criterion::drive_transmission,
-           drive_transmission - c.least_drive_transmission);
-  demand(q.transmission >= c.least_transmission, Criterion::transmission,
-         q.transmission - c.least_transmission);
-  demand(1 / q.condition >= c.least_conditioning, Criterion::conditioning,
-         1 / q.condition - c.least_conditioning);
+    demand(drive_transmission >= c.min_drive_transmission, Criterion::drive_transmission,
+           drive_transmission - c.min_drive_transmission);
+  demand(q.transmission >= c.min_transmission, Criterion::transmission, q.transmission - c.min_transmission);
+  demand(1 / q.condition >= c.min_conditioning, Criterion::conditioning,
+         1 / q.condition - c.min_conditioning);
   return out;
 }
 
@@ -115,7 +114,7 @@ struct PoseCase {
   const char* name;
   PoseConditions conditions;
   Vec3 low, high;
-  double most_turn;
+  double max_turn;
 };
 std::vector<PoseCase> cases() {
   PoseConditions delta{.robot = reference_delta(),
@@ -123,12 +122,12 @@ std::vector<PoseCase> cases() {
                        .assembly = -1,
                        .constraint = 1,
                        .least_constraint = 0.4,
-                       .least_elbow = 40 * degree,
-                       .most_elbow = 150 * degree,
-                       .most_swing = 35 * degree,
-                       .least_drive_transmission = 0.28,
-                       .least_transmission = 0.6,
-                       .least_conditioning = 0.4};
+                       .min_elbow = 40 * degree,
+                       .max_elbow = 150 * degree,
+                       .max_swing = 35 * degree,
+                       .min_drive_transmission = 0.28,
+                       .min_transmission = 0.6,
+                       .min_conditioning = 0.4};
   PoseConditions motors{.robot = reference_delta(), .assembly = -1};
   for (Drive& d : motors.drives) {
     d.lowest = -100 * degree;
@@ -142,16 +141,16 @@ std::vector<PoseCase> cases() {
   PoseConditions hexa{.robot = reference_hexa(),
                       .drives = reference_drives(),
                       .assembly = 1,
-                      .most_swing = 25 * degree,
-                      .least_transmission = 0.3,
-                      .least_conditioning = 0.1,
+                      .max_swing = 25 * degree,
+                      .min_transmission = 0.3,
+                      .min_conditioning = 0.1,
                       .characteristic_length = 0.09};
   PoseConditions five_bar{.robot = reference_five_bar(),
                           .drives = mirrored_drives(),
                           .mode = {-1, 1},
                           .assembly = 1,
-                          .least_elbow = 30 * degree,
-                          .least_transmission = 0.4};
+                          .min_elbow = 30 * degree,
+                          .min_transmission = 0.4};
   return {{"delta", delta, {-0.6, -0.6, -1.1}, {0.6, 0.6, -0.2}, 0},
           {"delta with motors", motors, {-0.6, -0.6, -1.1}, {0.6, 0.6, 0.2}, 0},
           {"hexa", hexa, {-0.25, -0.25, -0.7}, {0.25, 0.25, -0.3}, 0.6},
@@ -159,15 +158,15 @@ std::vector<PoseCase> cases() {
 }
 
 TEST(PoseCheck, AgreesWithThePlainFunctions) {
-  for (const auto& [name, conditions, low, high, most_turn] : cases()) {
+  for (const auto& [name, conditions, low, high, max_turn] : cases()) {
     SCOPED_TRACE(name);
     RandomStream random({.seed = 3});
     std::vector<Pose> poses(4001);  // the last register is not full
     for (Pose& pose : poses) {
       pose.position = {random.uniform(low.x, high.x), random.uniform(low.y, high.y),
                        random.uniform(low.z, high.z)};
-      const auto turn = [&] { return most_turn * random.uniform(-1, 1); };
-      if (most_turn > 0) pose.rotation = math::turn_about(Vec3{turn(), turn(), turn()});
+      const auto turn = [&] { return max_turn * random.uniform(-1, 1); };
+      if (max_turn > 0) pose.rotation = math::turn_about(Vec3{turn(), turn(), turn()});
     }
     const Found found = all_of(conditions, poses);
     std::array<int, criterion_count> count{};
@@ -201,11 +200,11 @@ TEST(PoseCheck, AgreesWithThePlainFunctions) {
     some(Criterion::leg, true);
     some(Criterion::travel, true);
     some(Criterion::constraint, c.constraint != 0);
-    some(Criterion::elbow, c.least_elbow > 0);
-    some(Criterion::swing, c.most_swing < pi / 2);
-    some(Criterion::drive_transmission, c.least_drive_transmission > 0);
-    some(Criterion::transmission, c.least_transmission > 0);
-    some(Criterion::conditioning, c.least_conditioning > 0);
+    some(Criterion::elbow, c.min_elbow > 0);
+    some(Criterion::swing, c.max_swing < pi / 2);
+    some(Criterion::drive_transmission, c.min_drive_transmission > 0);
+    some(Criterion::transmission, c.min_transmission > 0);
+    some(Criterion::conditioning, c.min_conditioning > 0);
   }
 }
 
@@ -238,7 +237,7 @@ TEST(PoseCheck, EveryInstructionSetAgrees) {
   PoseCheckTask task{.freedom = Freedom::space_translation};
   const Robot robot = reference_delta();
   for (int i = 0; i < 3; ++i)
-    task.leg[i] = {.leg = robot.leg[i], .least_elbow_part = -2, .most_elbow_part = 2, .most_swing_part = 2};
+    task.leg[i] = {.leg = robot.leg[i], .min_elbow_part = -2, .max_elbow_part = 2, .max_swing_part = 2};
   for (int i = 0; i < 3; ++i) task.rods_scale /= robot.leg[i].rod;
   task.count = 8;
   // Seven poses within reach, and one far out of it.
@@ -311,11 +310,11 @@ TEST(PoseCheck, RefusesConditionsWithAProblem) {
   EXPECT_EQ(message(c), "assembly 2: must be -1, 0 or 1");
   c = {.robot = reference_delta(), .mode = {1, 0, 1}};
   EXPECT_EQ(message(c), "leg 2: working mode 0 must be 1 or -1");
-  c = {.robot = reference_delta(), .least_elbow = 1, .most_elbow = 0.5};
+  c = {.robot = reference_delta(), .min_elbow = 1, .max_elbow = 0.5};
   EXPECT_EQ(message(c), "elbow angles from 1 to 0.5 rad: must rise between 0 and pi");
-  c = {.robot = reference_delta(), .most_swing = 2};
+  c = {.robot = reference_delta(), .max_swing = 2};
   EXPECT_EQ(message(c), "rod swing 2 rad: must be between 0 and pi/2");
-  c = {.robot = reference_delta(), .least_conditioning = 1.5};
+  c = {.robot = reference_delta(), .min_conditioning = 1.5};
   EXPECT_EQ(message(c), "limit 1.5 of an index: must be between 0 and 1");
   c = {.robot = reference_delta(), .least_constraint = -0.1};
   EXPECT_EQ(message(c), "limit -0.1 of an index: must be between 0 and 1");

@@ -24,7 +24,7 @@ TEST(RegularBall, MeasuresAreThoseOfThePose) {
     const Jacobians at = jacobians(robot, pose, arms.angle);
     const Quality q = quality(robot, at, 0.09);
     EXPECT_EQ(there.marks.assembly, determinant(robot, at) > 0 ? 1 : -1);
-    EXPECT_NEAR(there.rods, least_rods(robot, at, 0.09), 1e-14);
+    EXPECT_NEAR(there.rods, min_rods(robot, at, 0.09), 1e-14);
     double least = 1;
     for (int i = 0; i < robot.legs(); ++i) {
       EXPECT_NEAR(std::sqrt(there.legs[i].square) / robot.leg[i].rod, std::abs(q.input[i]), 1e-13);

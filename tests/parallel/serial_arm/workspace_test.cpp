@@ -17,10 +17,10 @@ SerialConditions conditions() {
   SerialConditions out{.arm = {.offset = {0.06, -0.02}, .arm = {0.3, 0.25}}, .mode = -1};
   out.arm.drive[0] = {.type = DriveType::pi_joint, .mounting = 0.5, .lowest = -1, .highest = 1};
   out.arm.drive[1] = {.type = DriveType::pi_joint, .mirror = -1, .lowest = -1, .highest = 1};
-  out.least_elbow = 0.6;
-  out.most_elbow = 2.6;
-  out.least_drive_transmission = 0.3;
-  out.least_conditioning = 0.2;
+  out.min_elbow = 0.6;
+  out.max_elbow = 2.6;
+  out.min_drive_transmission = 0.3;
+  out.min_conditioning = 0.2;
   return out;
 }
 
@@ -34,12 +34,12 @@ SerialCriterion expected(const SerialConditions& c, const Vector2& point) {
   // By the law of cosines.
   const double x = point[0] - c.arm.offset[0], y = point[1] - c.arm.offset[1];
   const double elbow = std::acos((0.09 + 0.0625 - x * x - y * y) / 0.15);
-  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialCriterion::elbow;
+  if (elbow < c.min_elbow || elbow > c.max_elbow) return SerialCriterion::elbow;
   const SerialQuality quality_at = quality(c.arm, q.angle);
   for (const double t : quality_at.transmission)
-    if (t < c.least_drive_transmission) return SerialCriterion::drive_transmission;
-  return quality_at.condition > 1 / c.least_conditioning ? SerialCriterion::conditioning
-                                                         : SerialCriterion::none;
+    if (t < c.min_drive_transmission) return SerialCriterion::drive_transmission;
+  return quality_at.condition > 1 / c.min_conditioning ? SerialCriterion::conditioning
+                                                       : SerialCriterion::none;
 }
 
 TEST(SerialPiWorkspace, StopsAtTheFirstCriterion) {

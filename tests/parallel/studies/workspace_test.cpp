@@ -88,7 +88,7 @@ TEST(WorkspaceStudy, TellsWhatCanBePromised) {
   ASSERT_GE(boundary.rows(), 100u);
   const Drive drive{
       .type = DriveType::pi_joint, .ratio = 0.4, .mounting = pi / 6, .lowest = -pi / 3, .highest = pi / 3};
-  PoseConditions conditions{.robot = reference_delta(), .assembly = -1, .least_transmission = 0.5};
+  PoseConditions conditions{.robot = reference_delta(), .assembly = -1, .min_transmission = 0.5};
   conditions.drives.fill(drive);
   const auto &z = column(result, "workspace_boundary", "z_m"),
              &angle = column(result, "workspace_boundary", "direction_rad"),

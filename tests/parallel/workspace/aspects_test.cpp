@@ -15,7 +15,7 @@ WorkspaceTask delta_task() {
   return {.conditions = {.robot = reference_delta(),
                          .drives = reference_drives(),
                          .assembly = -1,
-                         .least_transmission = 0.5},
+                         .min_transmission = 0.5},
           .grid = {{-0.7, -0.7, -1.2}, {0.7, 0.7, -0.3}, 0.04}};
 }
 

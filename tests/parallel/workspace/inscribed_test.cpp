@@ -33,7 +33,7 @@ const Setting& delta_setting() {
   static const Setting out({.conditions = {.robot = reference_delta(),
                                            .drives = reference_drives(),
                                            .assembly = -1,
-                                           .least_transmission = 0.5},
+                                           .min_transmission = 0.5},
                             .grid = {{-0.7, -0.7, -1.2}, {0.7, 0.7, -0.2}, 0.04}});
   return out;
 }

@@ -98,10 +98,10 @@ TEST(WorkspaceRays, YawOfTheReferenceHexaEndsAtItsSingularity) {
   const RotationRange found = rotation_range(
       c, {{0, 0, -0.5}}, 36, {.longest = pi, .step = degree, .tolerance = 1e-12}, RunContext());
   // At yaw +-1.6147 rad the robot is singular of type 2.
-  EXPECT_NEAR(found.most_yaw, 1.614713769, 2e-9);
-  EXPECT_NEAR(found.least_yaw, -found.most_yaw, 1e-9);
-  EXPECT_EQ(found.most_yaw_criterion, Criterion::assembly);
-  EXPECT_EQ(found.least_yaw_criterion, Criterion::assembly);
+  EXPECT_NEAR(found.max_yaw, 1.614713769, 2e-9);
+  EXPECT_NEAR(found.min_yaw, -found.max_yaw, 1e-9);
+  EXPECT_EQ(found.max_yaw_criterion, Criterion::assembly);
+  EXPECT_EQ(found.min_yaw_criterion, Criterion::assembly);
   // Three pairs of legs: the tilts repeat after 120 deg, and the mirror image in y turns the other way about
   // y.
   ASSERT_EQ(found.tilts.size(), 36u);
@@ -121,7 +121,7 @@ TEST(WorkspaceRays, ARotationThatDoesNotPassHasNoRange) {
   const PoseConditions c{.robot = reference_hexa(), .assembly = -1};
   const RotationRange found = rotation_range(c, {{0, 0, -0.5}}, 4, {.longest = 1, .step = 0.1}, RunContext());
   EXPECT_EQ(found.tilt, 0);
-  EXPECT_EQ(found.most_yaw, 0);
+  EXPECT_EQ(found.max_yaw, 0);
   EXPECT_EQ(found.tilt_criterion, Criterion::assembly);
 }
 

@@ -14,7 +14,7 @@ WorkspaceTask delta_task() {
   WorkspaceTask task{.conditions = {.robot = reference_delta(),
                                     .drives = reference_drives(),
                                     .assembly = assembly_at(reference_delta(), {{0, 0, -0.8}}),
-                                    .least_transmission = 0.5},
+                                    .min_transmission = 0.5},
                      .grid = {{-1, -0.9, -1.2}, {1, 1, 0}, 0.05}};
   task.wanted[slot(PoseIndex::conditioning)] = true;
   return task;

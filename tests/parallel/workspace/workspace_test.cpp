@@ -27,7 +27,7 @@ WorkspaceTask delta_task() {
   return {.conditions = {.robot = reference_delta(),
                          .drives = reference_drives(),
                          .assembly = assembly_at(reference_delta(), {{0, 0, -0.8}}),
-                         .least_transmission = 0.5},
+                         .min_transmission = 0.5},
           .grid = {{-1, -1, -1.2}, {1, 1, 0}, 0.02}};
 }
 
@@ -100,7 +100,7 @@ TEST(Workspace, OfTheReferenceHexa) {
     const WorkspaceTask task{.conditions = {.robot = reference_hexa(),
                                             .drives = reference_drives(),
                                             .assembly = assembly_at(reference_hexa(), {{0, 0, -0.5}}),
-                                            .least_transmission = 0.4},
+                                            .min_transmission = 0.4},
                              .grid = {{-0.42, -0.42, -0.75}, {0.42, 0.42, -0.15}, 0.03},
                              .rotation = math::turn_z(yaw * pi / 180)};
     const WorkspaceMap map = workspace(task, RunContext());

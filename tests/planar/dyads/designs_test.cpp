@@ -61,7 +61,7 @@ TEST(FindPoseDesigns, FourPosesLeaveACurveThatHasLinkagesWithoutDefect) {
   EXPECT_TRUE(four.swept);
   EXPECT_GT(four.free, 100);
   ASSERT_FALSE(four.designs.empty());
-  EXPECT_EQ(four.designs.size(), static_cast<std::size_t>(problem.most_designs));
+  EXPECT_EQ(four.designs.size(), static_cast<std::size_t>(problem.max_designs));
   for (const PoseDesign& design : four.designs) {
     EXPECT_LT(spread(design.driver, problem.poses), 1e-7);
     EXPECT_LT(spread(design.other, problem.poses), 1e-7);

@@ -74,14 +74,14 @@ TEST(FivePoints, MorganAndWamplersSeventhProblem) {
 
 TEST(FivePoints, ThirtySixSolutionsOfEachRandomTarget) {
   RandomStream random({.seed = 14});
-  std::size_t most_real = 0;
+  std::size_t max_real = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Points points = random_points(random, 5), pivots = random_points(random, 2);
     const auto found = solve(points, pivots);
     EXPECT_EQ(found.status, Status::done) << trial;
     EXPECT_EQ(found.finite, 36) << trial;
     EXPECT_EQ(found.real.size() % 2, 0U) << trial;  // the others are pairs of conjugates
-    most_real = std::max(most_real, found.real.size());
+    max_real = std::max(max_real, found.real.size());
     if (trial >= 50) continue;
     const PathProblem problem = test::exact_problem(points);
     for (const ExactDesign& design : exact_designs(problem, found)) {
@@ -90,7 +90,7 @@ TEST(FivePoints, ThirtySixSolutionsOfEachRandomTarget) {
       EXPECT_LT(std::abs(rocker_pivot(design.design.linkage) - pivots[1]), 1e-12);
     }
   }
-  EXPECT_GE(most_real, 14U);
+  EXPECT_GE(max_real, 14U);
 }
 
 TEST(FivePoints, DoNotDependOnThreads) {

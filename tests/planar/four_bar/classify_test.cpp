@@ -226,7 +226,7 @@ RC_GTEST_PROP(Classify, AnswersAnyInput, ()) {
     const auto mu = transmission_angles(l);
     RC_ASSERT(0 <= mu.minimum && mu.minimum <= mu.maximum && mu.maximum <= pi / 2);
   } catch (const ContractError&) {
-    const auto usable = [](double length) { return length >= shortest_link && length <= longest_link; };
+    const auto usable = [](double length) { return length >= shortest_link && length <= max_link; };
     RC_ASSERT(!(usable(l.ground) && usable(l.crank) && usable(l.coupler) && usable(l.rocker)));
   }
 }

@@ -212,7 +212,7 @@ RC_GTEST_PROP(FourBarPosition, AnswersAnyInput, ()) {
   l.pivot_x = *wild;
   l.frame_angle = *wild;
   l.branch = *any_branch();
-  const auto usable = [](double length) { return length >= shortest_link && length <= longest_link; };
+  const auto usable = [](double length) { return length >= shortest_link && length <= max_link; };
   bool thrown = false;
   try {
     const auto pose = position(l, *rc::gen::oneOf(any_angle(), rc::gen::just(0.0), rc::gen::just(pi)));

@@ -111,7 +111,7 @@ struct State {  // any linkage in any motion
   double angle, speed, acceleration, gravity;
   FourBarRates r;
 };
-State any_state(double least_sine) {
+State any_state(double min_sine) {
   State s{*test::any_four_bar(),
           *test::any_masses(),
           *any_angle(),
@@ -120,7 +120,7 @@ State any_state(double least_sine) {
           *between(0, 20),
           {}};
   s.r = rates(s.linkage, s.angle, s.speed, s.acceleration);
-  RC_PRE(s.r.status == Status::done && std::abs(s.r.transmission_sine) > least_sine);
+  RC_PRE(s.r.status == Status::done && std::abs(s.r.transmission_sine) > min_sine);
   return s;
 }
 

@@ -23,7 +23,7 @@ using linkwright::test::number_at;
 double distance_of(const FunctionGenerator& g, Complex a, Complex b, double c) {
   return (std::abs(g.a - a) + std::abs(g.b - b) + std::abs(g.c - c)) / (std::abs(a) + std::abs(b) + c);
 }
-double least_distance(const std::vector<FunctionGenerator>& all, Complex a, Complex b, double c) {
+double min_distance(const std::vector<FunctionGenerator>& all, Complex a, Complex b, double c) {
   double least = infinity;
   for (const FunctionGenerator& g : all) least = std::min(least, distance_of(g, a, b, c));
   return least;
@@ -57,7 +57,7 @@ TEST(ExactGenerators, FourBarsThroughTheStoredPairs) {
     EXPECT_EQ(found.size(), listed.size()) << id;
     for (const Value& value : listed)
       EXPECT_LT(
-          least_distance(found, complex_at(value, "a"), complex_at(value, "b"), number_at(value, "coupler")),
+          min_distance(found, complex_at(value, "a"), complex_at(value, "b"), number_at(value, "coupler")),
           1e-8)
           << id;
     for (const FunctionGenerator& g : found)
@@ -82,7 +82,7 @@ TEST(ExactGenerators, SliderCranksThroughTheStoredPairs) {
   for (const Value& value : listed) {
     const Complex a = std::polar(number_at(value, "crank_m"), number_at(value, "start_angle_rad"));
     const Complex b(number_at(value, "slider_zero_m"), number_at(value, "offset_m"));
-    EXPECT_LT(least_distance(found, a, b, number_at(value, "rod_m")), 1e-8);
+    EXPECT_LT(min_distance(found, a, b, number_at(value, "rod_m")), 1e-8);
   }
   const auto first = output_at(found[0], pairs[0].input);
   ASSERT_TRUE(first);
@@ -163,7 +163,7 @@ TEST(ExactGenerators, FourPairsWithOneStartAngle) {
   for (const StartAngles given : {StartAngles{0.3, {}}, StartAngles{{}, 1.1}}) {
     const std::vector<FunctionGenerator> found = exact_generators(pairs, false, given);
     EXPECT_LE(found.size(), 3u);
-    EXPECT_LT(least_distance(found, known.a, known.b, known.c), 1e-9);
+    EXPECT_LT(min_distance(found, known.a, known.b, known.c), 1e-9);
   }
 }
 

@@ -110,7 +110,7 @@ TEST(StephensonGenerators, MoveAsTheLinkageDoes) {
 
 TEST(FindStephensonGenerators, AreFarBetterThanFourBars) {
   FunctionProblem p = stored_function("log10 1..10");
-  p.most_link = 20;
+  p.max_link = 20;
   RunContext context;
   const double wanted = 30 * pi / 180;
   const StephensonAnswer answer = find_stephenson_generators(p, wanted, context);

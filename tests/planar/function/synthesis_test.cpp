@@ -58,7 +58,7 @@ TEST(FindGenerators, TheLeastGreatestErrorsWithALeastPairAngle) {
       {"tan 0..45", 0.25027},    {"exp 0..1", 0.025947},  {"x^2 0..1", 0.067117},   {"1/x 1..2", 0.17227}};
   for (const auto& [name, best] : known) {
     FunctionProblem p = stored_function(name);
-    p.least_pair_angle = pi / 6;
+    p.min_pair_angle = pi / 6;
     RunContext context;
     const FunctionAnswer answer = find_generators(p, context);
     ASSERT_FALSE(answer.designs.empty()) << name;
@@ -105,7 +105,7 @@ TEST(FindGenerators, SliderCranks) {
   p.input_range = pi / 3;
   const auto angle = p.output;
   p.output = [angle](double share) { return 0.08 * angle(share) / (pi / 2); };
-  p.most_link = 1.6;
+  p.max_link = 1.6;
   RunContext context;
   const FunctionAnswer answer = find_generators(p, context);
   ASSERT_FALSE(answer.designs.empty());

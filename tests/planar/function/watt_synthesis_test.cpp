@@ -25,7 +25,7 @@ FunctionProblem decade_of_logarithm(FunctionFit fit) {
   p.input_range = pi / 2;
   p.output = [](double share) { return pi / 2 * std::log10(1 + 9 * share); };
   p.fit = fit;
-  p.most_link = 5;
+  p.max_link = 5;
   return p;
 }
 

@@ -44,7 +44,7 @@ TEST(PathTask, AnglesFollowFromTheTiming) {
 TEST(PathTask, RefusesWhatTheTimingCannotMean) {
   PathTask p = square();
   EXPECT_EQ(refusal(p), "none");
-  p.least_step = 0;
+  p.min_step = 0;
   EXPECT_THAT(refusal(p), HasSubstr("the least step is 0"));
   p = square();
   p.timing = Timing::equal_steps;

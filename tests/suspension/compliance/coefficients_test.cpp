@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
-#include "suspension/guides.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -18,16 +18,16 @@ using test::at;
 using test::number_at;
 using test::numbers;
 
-Compliance five_rods(const WheelGuide& guide, Support support = Support::spring, double spring = 30000) {
+Compliance five_rods(const Suspension& suspension, Support support = Support::spring, double spring = 30000) {
   const auto rods =
       numbers(at(published("5US-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
-  return solve_compliance(guide, {{guide.wheel.centre, {}}, 0}, 0, elastic_rods(guide, rods, spring),
-                          support);
+  return solve_compliance(suspension, {{suspension.wheel.centre, {}}, 0}, 0,
+                          elastic_rods(suspension, rods, spring), support);
 }
 
 // The load cases of the reference, with its signs turned to those of the coefficients.
 TEST(ComplianceCoefficients, Reference) {
-  const ComplianceCoefficients found = compliance_coefficients(five_rods(guide_sample("5US").guide));
+  const ComplianceCoefficients found = compliance_coefficients(five_rods(corner_sample("5US").suspension));
   const Value& cases = at(published("5US-compliance-and-rod-forces"), "computed.load_cases");
   const auto expect = [&](double value, double expected) {
     EXPECT_NEAR(value, expected, 1e-9 * std::abs(expected) + 1e-16);
@@ -55,10 +55,10 @@ TEST(ComplianceCoefficients, Reference) {
 // A torque that the body takes: the power of the load in any motion is that of the force on the contact
 // point of a wheel that turns freely, but for the turn of the wheel's axis in its own plane.
 TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const Compliance found = five_rods(guide);
-  const GuidePlan plan = prepare_guide(guide);
-  const GuideRates rates = solve_rates(plan, reference_position(plan), Driver::wheel_centre_z);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const Compliance found = five_rods(suspension);
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerRates rates = solve_rates(plan, reference_position(plan), Driver::wheel_centre_z);
   const WheelAngles& angles = found.angles;
   for (const Twist& twist : {rates.bump, rates.steer}) {
     const auto power = [&](LoadCase load) {
@@ -66,10 +66,10 @@ TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
       return dot(of.force, twist.velocity) + dot(of.moment, twist.turning);
     };
     const ContactVelocity speed =
-        contact_velocity(Side::left, guide.wheel.tyre_diameter, angles, twist.velocity, twist.turning);
+        contact_velocity(Side::left, suspension.wheel.tyre_diameter, angles, twist.velocity, twist.turning);
     const double toe = angle_rates(Side::left, angles, twist.turning).toe;
     const double difference =
-        guide.wheel.tyre_diameter / 2 * toe * std::sin(angles.camber) * std::cos(angles.toe);
+        suspension.wheel.tyre_diameter / 2 * toe * std::sin(angles.camber) * std::cos(angles.toe);
     EXPECT_NEAR(power(LoadCase::drive_inboard), speed.geometric.x + difference, 1e-14);
     EXPECT_EQ(power(LoadCase::brake_inboard), -power(LoadCase::drive_inboard));
     EXPECT_NEAR(power(LoadCase::drive_outboard), speed.on_carrier.x, 1e-14);
@@ -77,10 +77,10 @@ TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
 }
 
 TEST(ComplianceCoefficients, AreTheSameForBothWheels) {
-  const WheelGuide& guide = guide_sample("5US").guide;
+  const Suspension& suspension = corner_sample("5US").suspension;
   for (Support support : {Support::spring, Support::contact_held}) {
-    const ComplianceCoefficients left = compliance_coefficients(five_rods(guide, support));
-    const ComplianceCoefficients right = compliance_coefficients(five_rods(mirrored(guide), support));
+    const ComplianceCoefficients left = compliance_coefficients(five_rods(suspension, support));
+    const ComplianceCoefficients right = compliance_coefficients(five_rods(mirrored(suspension), support));
     for (auto member : {&ComplianceCoefficients::lateral_steer, &ComplianceCoefficients::lateral_camber,
                         &ComplianceCoefficients::lateral_at_contact, &ComplianceCoefficients::brake_wind_up,
                         &ComplianceCoefficients::brake_inboard_steer, &ComplianceCoefficients::drive_camber,
@@ -92,7 +92,8 @@ TEST(ComplianceCoefficients, AreTheSameForBothWheels) {
     // A brake torque turns the carrier as the wheel turns.
     EXPECT_GT(left.brake_wind_up, 0);
   }
-  const ComplianceCoefficients held = compliance_coefficients(five_rods(guide, Support::wheel_centre_held));
+  const ComplianceCoefficients held =
+      compliance_coefficients(five_rods(suspension, Support::wheel_centre_held));
   EXPECT_TRUE(std::isinf(held.centre_stiffness.z));
   EXPECT_GT(held.centre_stiffness.y, 1e6);
 }
@@ -100,9 +101,9 @@ TEST(ComplianceCoefficients, AreTheSameForBothWheels) {
 // The rack joins the wheels. Against a rack that is held and against one that is free to move: with opposing
 // lateral forces a symmetric axle does not move it, with parallel ones it does.
 TEST(AxleCompliance, ParallelAndOpposing) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const Compliance left = five_rods(guide, Support::contact_held),
-                   right = five_rods(mirrored(guide), Support::contact_held);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const Compliance left = five_rods(suspension, Support::contact_held),
+                   right = five_rods(mirrored(suspension), Support::contact_held);
   const AxleCompliance held = axle_compliance(left, right, rigid), soft = axle_compliance(left, right, 4e6);
   const double alone = compliance_coefficients(left).lateral_steer;
   for (const AxleCompliance* axle : {&held, &soft}) {
@@ -121,7 +122,7 @@ TEST(AxleCompliance, ParallelAndOpposing) {
   double on_rack = 0;
   const WheelLoad load = unit_load(left, LoadCase::lateral);
   for (const JointForce& joint : respond(left, load).joints)
-    if (!joint.at_carrier && joint.link == 2) on_rack -= 2 * dot(joint.force, guide.rack_direction);
+    if (!joint.at_carrier && joint.link == 2) on_rack -= 2 * dot(joint.force, suspension.rack_direction);
   EXPECT_NEAR(left.rack_stiffness, 0, 1e-4);  // rounding of forces of 1e7 N for a metre
   EXPECT_NEAR(parallel.rack, on_rack / 4e6, 1e-9 * std::abs(parallel.rack));
   EXPECT_GT(std::abs(parallel.rack), 1e-9);
@@ -133,16 +134,17 @@ TEST(AxleCompliance, ParallelAndOpposing) {
 // The rack's stiffness in the matrix against a tie rod that is softer by it: one wheel alone, the rack along
 // the tie rod's line so that both are springs in series.
 TEST(AxleCompliance, RackInSeriesWithTheTieRod) {
-  WheelGuide guide = guide_sample("5US").guide;
-  guide.rack_direction = unit(guide.links[2].carrier[0] - guide.links[2].body[0]);
-  const auto compliance = [&](const WheelGuide& of, double tie_rod) {
+  Suspension suspension = corner_sample("5US").suspension;
+  suspension.rack_direction = unit(suspension.links[2].carrier[0] - suspension.links[2].body[0]);
+  const auto compliance = [&](const Suspension& of, double tie_rod) {
     return solve_compliance(of, {{of.wheel.centre, {}}, 0}, 0,
                             elastic_rods(of, {1.8e7, 2e7, tie_rod, 1.2e7, 1.2e7}, 3e4), Support::spring);
   };
-  WheelGuide unsteered = mirrored(guide);
-  for (GuideLink& link : unsteered.links) link.moved_by_rack = false;
-  const AxleCompliance axle = axle_compliance(compliance(guide, 1.5e7), compliance(unsteered, 1.5e7), 5e6);
-  const Compliance series = compliance(guide, 1 / (1 / 1.5e7 + 1 / 5e6));
+  Suspension unsteered = mirrored(suspension);
+  for (CornerLink& link : unsteered.links) link.moved_by_rack = false;
+  const AxleCompliance axle =
+      axle_compliance(compliance(suspension, 1.5e7), compliance(unsteered, 1.5e7), 5e6);
+  const Compliance series = compliance(suspension, 1 / (1 / 1.5e7 + 1 / 5e6));
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) {
       EXPECT_NEAR(axle.at_centres[i][j], series.at_centre[i][j],
@@ -158,11 +160,11 @@ TEST(AxleCompliance, RackInSeriesWithTheTieRod) {
 }
 
 TEST(AxleCompliance, Contract) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const Compliance left = five_rods(guide);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const Compliance left = five_rods(suspension);
   EXPECT_THAT(test::message([&] { axle_compliance(left, left, 1e6); }),
               ::testing::StartsWith("axle_compliance: the first wheel is left, the second left"));
-  EXPECT_THAT(test::message([&] { axle_compliance(left, five_rods(mirrored(guide)), 0); }),
+  EXPECT_THAT(test::message([&] { axle_compliance(left, five_rods(mirrored(suspension)), 0); }),
               ::testing::StartsWith("axle_compliance: rack stiffness 0 N/m"));
 }
 

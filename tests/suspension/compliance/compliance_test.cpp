@@ -9,10 +9,10 @@
 #include <Eigen/LU>
 
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
-#include "suspension/guides.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -29,8 +29,8 @@ Matrix eigen(const Matrix6& from) {
   return out;
 }
 
-GuidePosition solve(const WheelGuide& guide, double travel, double rack) {
-  const GuidePlan plan = prepare_guide(guide);
+CornerPosition solve(const Suspension& suspension, double travel, double rack) {
+  const CornerPlan plan = prepare_suspension(suspension);
   return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
 }
 
@@ -40,11 +40,11 @@ std::vector<double> reference_rods() {
 constexpr double reference_spring = 30000;
 
 // A joint of rubber somewhere between those of passenger cars, not the same in any two links.
-GuideElasticity rubber(const WheelGuide& guide) {
-  GuideElasticity out{.spring = 28000};
+CornerElasticity rubber(const Suspension& suspension) {
+  CornerElasticity out{.spring = 28000};
   double stiffness = 6e6;
   const auto next = [&] { return stiffness *= 1.13; };
-  for (const GuideLink& link : guide.links) {
+  for (const CornerLink& link : suspension.links) {
     LinkElasticity& joints = out.links.emplace_back();
     for (int k = 0; k < body_points(link.type); ++k)
       joints.body.push_back(bushing(next(), 3 * next(), 40, 1500 + k));
@@ -55,17 +55,18 @@ GuideElasticity rubber(const WheelGuide& guide) {
       for (JointStiffness& joint : joints.body) joint.rotation = {60, 2e4, 3e4};
     }
   }
-  out.couplers.assign(guide.couplers.size(), 1.5e7);
+  out.couplers.assign(suspension.couplers.size(), 1.5e7);
   return out;
 }
 
 TEST(Compliance, ReferenceOfRodsWithASpring) {
   const Value& reference = published("5US-compliance-and-rod-forces");
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePosition here = solve(guide, 0, 0);
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const CornerPosition here = solve(suspension, 0, 0);
   EXPECT_EQ(number_at(reference, "inputs.spring_stiffness_N_per_m"), reference_spring);
-  const Compliance found = solve_compliance(
-      guide, here.place, 0, elastic_rods(guide, reference_rods(), reference_spring), Support::spring);
+  const Compliance found =
+      solve_compliance(suspension, here.place, 0,
+                       elastic_rods(suspension, reference_rods(), reference_spring), Support::spring);
   ASSERT_EQ(found.status, Status::done) << found.reason;
   const Matrix stiffness = eigen(found.at_centre).inverse();
   const auto& rows = at(reference, "computed.stiffness_matrix_wheel_centre").as_array();
@@ -103,16 +104,16 @@ TEST(Compliance, ReferenceOfRodsWithASpring) {
   const ElasticResponse carried =
       respond(found, load_at(c, p, {0, 0, number_at(reference, "inputs.static_load_N")}));
   for (const JointForce& joint : carried.joints)
-    EXPECT_NEAR(rod_force(guide, here, joint), forces[joint.link], 1e-9 * 4000);
+    EXPECT_NEAR(rod_force(suspension, here, joint), forces[joint.link], 1e-9 * 4000);
   EXPECT_NEAR(carried.spring_force, forces[5], 1e-9 * 4000);
 }
 
 // Rods as bodies on balls of finite stiffness against the sum of k w w^T with the three springs of each rod
 // in series; a ball's stiffness across the rod moves nothing.
 TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePosition here = solve(guide, 0.04, -0.02);
-  GuideElasticity elasticity{.spring = reference_spring};
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const CornerPosition here = solve(suspension, 0.04, -0.02);
+  CornerElasticity elasticity{.spring = reference_spring};
   Matrix sum = Matrix::Zero();
   const auto add = [&](const Vec3& from, const Vec3& to, double stiffness) {
     const Vec3 d = unit(to - from), turn = cross(to - here.place.carrier.centre, d);
@@ -123,14 +124,14 @@ TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
   for (int i = 0; i < 5; ++i) {
     const double body = (9 + i) * 1e6, carrier = (40 - 3 * i) * 1e6;
     elasticity.links.push_back({{ball_joint(body)}, {ball_joint(carrier)}});
-    Vec3 from = guide.links[i].body[0];
-    if (guide.links[i].moved_by_rack) from += -0.02 * guide.rack_direction;
-    add(from, place(here.place.carrier, guide.links[i].carrier[0], guide.wheel.centre),
+    Vec3 from = suspension.links[i].body[0];
+    if (suspension.links[i].moved_by_rack) from += -0.02 * suspension.rack_direction;
+    add(from, place(here.place.carrier, suspension.links[i].carrier[0], suspension.wheel.centre),
         1 / (1 / body + 1 / carrier));
   }
-  add(guide.spring->body, place(here.place.carrier, guide.spring->moving, guide.wheel.centre),
+  add(suspension.spring->body, place(here.place.carrier, suspension.spring->moving, suspension.wheel.centre),
       reference_spring);
-  const Compliance found = solve_compliance(guide, here.place, -0.02, elasticity, Support::spring);
+  const Compliance found = solve_compliance(suspension, here.place, -0.02, elasticity, Support::spring);
   ASSERT_EQ(found.status, Status::done) << found.reason;
   const Matrix expected = sum.inverse();
   for (int i = 0; i < 6; ++i)
@@ -139,12 +140,12 @@ TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
 }
 
 TEST(Compliance, SymmetricAndPositiveForEveryMechanism) {
-  for (const GuideSample& sample : guide_samples()) {
+  for (const CornerSample& sample : corner_samples()) {
     SCOPED_TRACE(sample.name);
-    const WheelGuide& guide = sample.guide;
-    const GuidePosition here = solve(guide, 0.03, 0.01);
-    const bool spring = guide.spring.has_value();
-    const Compliance found = solve_compliance(guide, here.place, 0.01, rubber(guide),
+    const Suspension& suspension = sample.suspension;
+    const CornerPosition here = solve(suspension, 0.03, 0.01);
+    const bool spring = suspension.spring.has_value();
+    const Compliance found = solve_compliance(suspension, here.place, 0.01, rubber(suspension),
                                               spring ? Support::spring : Support::contact_held);
     ASSERT_EQ(found.status, Status::done) << found.reason;
     for (const Matrix6* of : {&found.at_centre, &found.at_contact}) {
@@ -164,8 +165,9 @@ TEST(Compliance, SymmetricAndPositiveForEveryMechanism) {
     for (int load = 0; load < 6; ++load) {
       double on_rack = 0;
       for (const JointTransfer& joint : found.joints)
-        if (!joint.joint.at_carrier && guide.links[joint.joint.link].moved_by_rack)
-          on_rack += dot(Vec3{joint.by[0][load], joint.by[1][load], joint.by[2][load]}, guide.rack_direction);
+        if (!joint.joint.at_carrier && suspension.links[joint.joint.link].moved_by_rack)
+          on_rack +=
+              dot(Vec3{joint.by[0][load], joint.by[1][load], joint.by[2][load]}, suspension.rack_direction);
       EXPECT_NEAR(on_rack, -found.by_rack[load], 1e-8 * (1 + std::abs(on_rack)));
     }
   }
@@ -174,20 +176,20 @@ TEST(Compliance, SymmetricAndPositiveForEveryMechanism) {
 // Rigid joints: forces are those of statics, and motions with the spring active those of kinematics.
 TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
   const WheelLoad load{{-700, 1100, 3900}, {310, -90, 55}};
-  for (const GuideSample& sample : guide_samples()) {
+  for (const CornerSample& sample : corner_samples()) {
     SCOPED_TRACE(sample.name);
-    const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare_guide(guide);
-    const GuidePosition here = solve(guide, -0.02, 0.015);
-    const GuideRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
+    const Suspension& suspension = sample.suspension;
+    const CornerPlan plan = prepare_suspension(suspension);
+    const CornerPosition here = solve(suspension, -0.02, 0.015);
+    const CornerRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
     for (Support support :
          {Support::spring, Support::spring_held, Support::wheel_centre_held, Support::contact_held}) {
       const bool by_spring = support == Support::spring || support == Support::spring_held;
-      if (by_spring && !guide.spring) continue;
-      const Compliance found = solve_compliance(guide, here.place, 0.015, {.spring = 25000}, support);
+      if (by_spring && !suspension.spring) continue;
+      const Compliance found = solve_compliance(suspension, here.place, 0.015, {.spring = 25000}, support);
       ASSERT_EQ(found.status, Status::done) << found.reason;
       const ElasticResponse moved = respond(found, load);
-      const GuideForces expected = solve_forces(guide, plan, here, load, support);
+      const CornerForces expected = solve_forces(suspension, plan, here, load, support);
       ASSERT_EQ(moved.joints.size(), expected.joints.size());
       for (std::size_t i = 0; i < moved.joints.size(); ++i) {
         // Forces of some 1e4 N, conditions of some 1e2; with the spring active the stiffness enters.
@@ -209,7 +211,7 @@ TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
       EXPECT_LT(distance(moved.turn, travel * rates.bump.turning), 1e-11);
     }
     // A metre of rack, with the height held.
-    const Compliance held = solve_compliance(guide, here.place, 0.015, {}, Support::wheel_centre_held);
+    const Compliance held = solve_compliance(suspension, here.place, 0.015, {}, Support::wheel_centre_held);
     const ElasticResponse steered = respond(held, {}, 1);
     EXPECT_LT(distance(steered.shift, rates.steer.velocity), 1e-10);
     EXPECT_LT(distance(steered.turn, rates.steer.turning), 1e-10);
@@ -219,34 +221,34 @@ TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
 // A wishbone with two bushings: the pair's stiffness against turning about the vertical is that of two radial
 // springs at their distance; here from the forces.
 TEST(Compliance, TwoBushingsShareTheLoad) {
-  const WheelGuide& guide = guide_sample("2RS-US").guide;
-  const GuidePosition here = solve(guide, 0, 0);
-  GuideElasticity elasticity{.links = {{.body = {bushing(2e6, 9e6, 0, 0), bushing(1e6, 5e6, 0, 0)}}, {}, {}},
-                             .spring = 25000};
-  const Compliance found = solve_compliance(guide, here.place, 0, elasticity, Support::spring_held);
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const CornerPosition here = solve(suspension, 0, 0);
+  CornerElasticity elasticity{.links = {{.body = {bushing(2e6, 9e6, 0, 0), bushing(1e6, 5e6, 0, 0)}}, {}, {}},
+                              .spring = 25000};
+  const Compliance found = solve_compliance(suspension, here.place, 0, elasticity, Support::spring_held);
   ASSERT_EQ(found.status, Status::done) << found.reason;
   ASSERT_EQ(found.joints.size(), 7u);
   const ElasticResponse moved = respond(found, {{1000, 0, 0}, {}});
-  const Vec3 axis = unit(guide.links[0].body[1] - guide.links[0].body[0]);
+  const Vec3 axis = unit(suspension.links[0].body[1] - suspension.links[0].body[0]);
   // Along the hinge both bushings shift by the same, so they share by their axial stiffness.
   const double first = dot(moved.joints[0].force, axis), second = dot(moved.joints[1].force, axis);
   EXPECT_GT(std::abs(first), 100);
   EXPECT_NEAR(first, 2 * second, 1e-8);
   // The sums with rigid links against the same load are the same: the suspension is determinate.
-  const GuideForces rigid_forces =
-      solve_forces(guide, prepare_guide(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
+  const CornerForces rigid_forces = solve_forces(suspension, prepare_suspension(suspension), here,
+                                                 {{1000, 0, 0}, {}}, Support::spring_held);
   EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);
 }
 
 // A full matrix in turned axes is the same element as numbers in others.
 TEST(Compliance, FullMatrixInItsOwnAxes) {
-  const WheelGuide& guide = guide_sample("RS-3US").guide;
-  const GuidePosition here = solve(guide, 0.02, 0);
+  const Suspension& suspension = corner_sample("RS-3US").suspension;
+  const CornerPosition here = solve(suspension, 0.02, 0);
   const auto with = [&](const JointStiffness& joint) {
-    GuideElasticity elasticity = rubber(guide);
+    CornerElasticity elasticity = rubber(suspension);
     elasticity.links[1].body = {joint};
     elasticity.links[2].carrier = {joint};
-    return eigen(solve_compliance(guide, here.place, 0, elasticity, Support::spring).at_centre);
+    return eigen(solve_compliance(suspension, here.place, 0, elasticity, Support::spring).at_centre);
   };
   const JointStiffness numbers_of{
       .translation = {2e6, 7e6, 4e6}, .rotation = {300, 900, 500}, .axis = {0, 0, 2}, .across = {1, 0, 3}};
@@ -268,25 +270,25 @@ TEST(Compliance, FullMatrixInItsOwnAxes) {
 }
 
 // A sixth rod: the kinematic solver refuses it, elastic joints carry it.
-TEST(Compliance, RedundantGuide) {
-  WheelGuide guide = guide_sample("5US").guide;
-  guide.links.push_back({.body = {{0.05, 0.4, 0.1}}, .carrier = {{0.02, 0.66, 0.1}}});
+TEST(Compliance, RedundantCorner) {
+  Suspension suspension = corner_sample("5US").suspension;
+  suspension.links.push_back({.body = {{0.05, 0.4, 0.1}}, .carrier = {{0.02, 0.66, 0.1}}});
   std::vector<double> rods = reference_rods();
   rods.push_back(8e6);
-  EXPECT_THAT(test::message([&] { prepare_guide(guide); }),
+  EXPECT_THAT(test::message([&] { prepare_suspension(suspension); }),
               ::testing::HasSubstr("0 degrees of freedom remain"));
-  const GuidePlace here{{guide.wheel.centre, {}}, 0};
-  const Compliance found =
-      solve_compliance(guide, here, 0, elastic_rods(guide, rods, reference_spring), Support::spring);
+  const CornerPlace here{{suspension.wheel.centre, {}}, 0};
+  const Compliance found = solve_compliance(
+      suspension, here, 0, elastic_rods(suspension, rods, reference_spring), Support::spring);
   ASSERT_EQ(found.status, Status::done) << found.reason;
   // The rod adds k w w^T.
-  const WheelGuide& five = guide_sample("5US").guide;
+  const Suspension& five = corner_sample("5US").suspension;
   Matrix sum = eigen(solve_compliance(five, here, 0, elastic_rods(five, reference_rods(), reference_spring),
                                       Support::spring)
                          .at_centre)
                    .inverse();
-  const Vec3 d = unit(guide.links[5].carrier[0] - guide.links[5].body[0]);
-  const Vec3 turn = cross(guide.links[5].carrier[0] - guide.wheel.centre, d);
+  const Vec3 d = unit(suspension.links[5].carrier[0] - suspension.links[5].body[0]);
+  const Vec3 turn = cross(suspension.links[5].carrier[0] - suspension.wheel.centre, d);
   Eigen::Matrix<double, 6, 1> w;
   w << d.x, d.y, d.z, turn.x, turn.y, turn.z;
   sum += 8e6 * w * w.transpose();
@@ -295,7 +297,7 @@ TEST(Compliance, RedundantGuide) {
     for (int j = 0; j < 6; ++j)
       EXPECT_NEAR(found.at_centre[i][j], expected(i, j), 1e-9 * std::sqrt(expected(i, i) * expected(j, j)));
 
-  const Compliance locked = solve_compliance(guide, here, 0, {.spring = 1e4}, Support::spring_held);
+  const Compliance locked = solve_compliance(suspension, here, 0, {.spring = 1e4}, Support::spring_held);
   EXPECT_EQ(locked.status, Status::singular);
   EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints constrain the carrier more than once"));
   EXPECT_THAT(test::message([&] { respond(locked, {}); }),
@@ -307,13 +309,13 @@ TEST(Compliance, RedundantGuide) {
 
 // The other wheel: all that is a number is the same, all that is a vector its mirror image.
 TEST(Compliance, MirroredWheel) {
-  const WheelGuide& guide = guide_sample("RS-SP-US").guide;
-  const WheelGuide other = mirrored(guide);
-  const auto moved = [&](const WheelGuide& of, double rack, const WheelLoad& load) {
+  const Suspension& suspension = corner_sample("RS-SP-US").suspension;
+  const Suspension other = mirrored(suspension);
+  const auto moved = [&](const Suspension& of, double rack, const WheelLoad& load) {
     return respond(solve_compliance(of, solve(of, 0.02, rack).place, rack, rubber(of), Support::spring),
                    load);
   };
-  const ElasticResponse left = moved(guide, 0.01, {{200, 300, 400}, {5, 6, 7}});
+  const ElasticResponse left = moved(suspension, 0.01, {{200, 300, 400}, {5, 6, 7}});
   const ElasticResponse right = moved(other, -0.01, {{200, -300, 400}, {-5, 6, -7}});
   EXPECT_LT(distance(left.shift, math::mirrored(right.shift)), 1e-13);
   EXPECT_LT(distance(left.turn, -math::mirrored(right.turn)), 1e-13);
@@ -325,19 +327,21 @@ TEST(Compliance, MirroredWheel) {
 // at its height: k i^2 and the change of the motion ratio. All joints of all mechanisms turn there.
 TEST(Compliance, GeometricStiffnessIsThatOfTheWheelRate) {
   constexpr double stiffness = 25000, weight = 4000;
-  for (const GuideSample& sample : guide_samples().first(12)) {
+  for (const CornerSample& sample : corner_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare_guide(guide);
+    const Suspension& suspension = sample.suspension;
+    const CornerPlan plan = prepare_suspension(suspension);
     const double travel = 0.03;
-    const GuidePosition here = solve(guide, travel, 0);
+    const CornerPosition here = solve(suspension, travel, 0);
     const double ratio = wheel_parameters(plan, here).motion_ratio;
     const PointLoad load{here.place.carrier.centre, {0, 0, weight}};
     const Compliance found =
-        solve_compliance(guide, here.place, 0, {.spring = stiffness}, Support::spring, load);
+        solve_compliance(suspension, here.place, 0, {.spring = stiffness}, Support::spring, load);
     ASSERT_EQ(found.status, Status::done) << found.reason;
     const double spring = weight / ratio;
-    const auto ratio_at = [&](double z) { return wheel_parameters(plan, solve(guide, z, 0)).motion_ratio; };
+    const auto ratio_at = [&](double z) {
+      return wheel_parameters(plan, solve(suspension, z, 0)).motion_ratio;
+    };
     // Difference over 1 mm: truncation 1e-6 of a third derivative of some 10.
     const double bend = (ratio_at(travel + 1e-3) - ratio_at(travel - 1e-3)) / 2e-3;
     const double rate = stiffness * ratio * ratio + spring * bend;
@@ -347,16 +351,16 @@ TEST(Compliance, GeometricStiffnessIsThatOfTheWheelRate) {
 }
 
 TEST(Compliance, Contract) {
-  WheelGuide guide = guide_sample("5US").guide;
-  const GuidePlace here{{guide.wheel.centre, {}}, 0};
-  EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {.spring = -1}, Support::spring); }),
+  Suspension suspension = corner_sample("5US").suspension;
+  const CornerPlace here{{suspension.wheel.centre, {}}, 0};
+  EXPECT_THAT(test::message([&] { solve_compliance(suspension, here, 0, {.spring = -1}, Support::spring); }),
               ::testing::StartsWith("solve_compliance: 1 problems, the first: "));
-  guide.spring.reset();
-  EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
+  suspension.spring.reset();
+  EXPECT_THAT(test::message([&] { solve_compliance(suspension, here, 0, {}, Support::spring_held); }),
               ::testing::StartsWith(
                   "solve_compliance: the support is 'spring_held', and the suspension has no spring"));
   EXPECT_THAT(test::message([&] {
-                solve_compliance(guide, here, 0, {}, Support::contact_held, PointLoad{{}, {0, 0, 1}});
+                solve_compliance(suspension, here, 0, {}, Support::contact_held, PointLoad{{}, {0, 0, 1}});
               }),
               ::testing::StartsWith("solve_compliance: the preload needs a spring"));
 }

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
@@ -17,16 +17,17 @@ namespace {
 // The slope of the wheel force over positions solved anew.
 TEST(WheelRate, AgainstForcesOfOtherPositions) {
   const SpringLaw law{28000, 5200};
-  for (const GuideSample& sample : guide_samples().first(12))
+  for (const CornerSample& sample : corner_samples().first(12))
     for (double travel : {-0.05, 0.0, 0.06}) {
       SCOPED_TRACE(sample.name);
-      const WheelGuide& guide = sample.guide;
-      const GuidePlan plan = prepare_guide(guide);
+      const Suspension& suspension = sample.suspension;
+      const CornerPlan plan = prepare_suspension(suspension);
       const double rack = 0.01;
-      const GuidePosition here =
+      const CornerPosition here =
           solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
       const auto at = [&](double z) {
-        return wheel_rate(guide, plan, solve_position(plan, Driver::wheel_centre_z, {z, rack}, here), law);
+        return wheel_rate(suspension, plan, solve_position(plan, Driver::wheel_centre_z, {z, rack}, here),
+                          law);
       };
       const double step = 1e-4;
       const WheelRate found = at(travel), more = at(travel + step), less = at(travel - step);
@@ -49,16 +50,16 @@ TEST(WheelRate, SpringOffTheLineOfARod) {
   for (const int link : {0, 1, 2})
     for (const std::optional<Vec3>& axis :
          {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.8, 0.5, 0.6}}}) {
-      WheelGuide guide = guide_sample("5US").guide;
-      guide.spring->link = link;
-      guide.links[link].cross_axis = axis;
-      const DerivativePlan plan = prepare_derivatives(guide, {});
-      const GuidePosition reference = reference_position(plan.plan);
+      Suspension suspension = corner_sample("5US").suspension;
+      suspension.spring->link = link;
+      suspension.links[link].cross_axis = axis;
+      const DerivativePlan plan = prepare_derivatives(suspension, {});
+      const CornerPosition reference = reference_position(plan.plan);
       for (const double travel : {-0.05, 0.06}) {
         const auto position = [&](double z) {
           return solve_position(plan.plan, Driver::wheel_centre_z, {z, 0.01}, reference);
         };
-        const WheelRate found = wheel_rate(guide, plan.plan, position(travel), law);
+        const WheelRate found = wheel_rate(suspension, plan.plan, position(travel), law);
         ASSERT_EQ(found.status, Status::done);
         const double step = 1e-4;
         const WheelParameters more = wheel_parameters(plan.plan, position(travel + step)),
@@ -74,11 +75,11 @@ TEST(WheelRate, SpringOffTheLineOfARod) {
 // A level arm: its end moves straight up to second order, so that an upright spring is compressed in
 // proportion to the travel.
 TEST(WheelRate, LevelArmUnderAnUprightSpring) {
-  WheelGuide guide{.wheel = {{0, 0.8, 0}, 0, 0, 0.6}};
-  guide.links.push_back({.type = LinkType::R, .body = {{-0.1, 0.3, 0}, {0.1, 0.3, 0}}});
-  guide.spring = {{0, 0.7, 0.4}, {0, 0.7, 0}, -1};
-  const GuidePlan plan = prepare_guide(guide);
-  const WheelRate found = wheel_rate(guide, plan, reference_position(plan), {10000, 3000});
+  Suspension suspension{.wheel = {{0, 0.8, 0}, 0, 0, 0.6}};
+  suspension.links.push_back({.type = LinkType::R, .body = {{-0.1, 0.3, 0}, {0.1, 0.3, 0}}});
+  suspension.spring = {{0, 0.7, 0.4}, {0, 0.7, 0}, -1};
+  const CornerPlan plan = prepare_suspension(suspension);
+  const WheelRate found = wheel_rate(suspension, plan, reference_position(plan), {10000, 3000});
   EXPECT_NEAR(found.motion_ratio, 0.8, 1e-14);  // 0.4 m of 0.5 m
   EXPECT_NEAR(found.wheel_force, 2400, 1e-10);
   EXPECT_NEAR(found.by_stiffness, 6400, 1e-9);
@@ -87,16 +88,16 @@ TEST(WheelRate, LevelArmUnderAnUprightSpring) {
 }
 
 TEST(WheelRate, Contract) {
-  WheelGuide guide = guide_sample("5US").guide;
-  const GuidePlan plan = prepare_guide(guide);
+  Suspension suspension = corner_sample("5US").suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
   EXPECT_THAT(test::message([&] {
-                wheel_rate(guide, plan, reference_position(plan), {-1, 0});
+                wheel_rate(suspension, plan, reference_position(plan), {-1, 0});
               }),
               ::testing::StartsWith("wheel_rate: stiffness -1 N/m"));
-  guide.spring.reset();
+  suspension.spring.reset();
   EXPECT_THAT(test::message([&] {
-                const GuidePlan bare = prepare_guide(guide);
-                wheel_rate(guide, bare, reference_position(bare), {1, 0});
+                const CornerPlan bare = prepare_suspension(suspension);
+                wheel_rate(suspension, bare, reference_position(bare), {1, 0});
               }),
               ::testing::StartsWith("wheel_rate: the suspension has no spring"));
 }

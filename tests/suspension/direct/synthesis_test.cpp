@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "tests/suspension/direct_cases.h"
 
 namespace linkwright::suspension {
@@ -48,10 +48,10 @@ TEST(DirectSynthesis, FindsTheLeastSquaresOptimumOfExample5) {
       synthesise(task, {.goal = DirectGoal::least_squares, .starts = 16}, 3, context);
   const Value& expected = at(published("ex5-least-squares-optimum"), "computed");
   EXPECT_NEAR(found.half_sum_of_squares, test::number_at(expected, "half_sum_of_squares"), 1e-6 * 3.98);
-  const WheelGuide optimum = test::with_points(task, at(expected, "points_03_04_05_m"));
+  const Suspension optimum = test::with_points(task, at(expected, "points_03_04_05_m"));
   // The end of the search: a ten thousandth of a millimetre in the weakest direction.
   for (int i = 2; i < 5; ++i)
-    EXPECT_LT(distance(found.guide.links[i].body[0], optimum.links[i].body[0]), 1e-6);
+    EXPECT_LT(distance(found.suspension.links[i].body[0], optimum.links[i].body[0]), 1e-6);
 }
 
 TEST(DirectSynthesis, MinimisesOneObjectiveWithTheOthersWithinTolerance) {
@@ -102,17 +102,17 @@ TEST(DirectSynthesis, ThreadsDoNotMatter) {
 }
 
 TEST(DirectSynthesis, TakesBumpSteerOutOfADoubleWishbone) {
-  DirectTask task{.guide = guide_sample("2RS-US").guide};
+  DirectTask task{.suspension = corner_sample("2RS-US").suspension};
   for (int axis = 0; axis < 3; ++axis) {
     const DesignNumber number{DesignKind::body, 2, 0, axis};
-    const double now = suspension::design_value(task.guide, number);
+    const double now = suspension::design_value(task.suspension, number);
     task.designed.push_back({number, now - 0.03, now + 0.03});
   }
   TargetCurve curve{.quantity = WheelQuantity::toe, .measure = TargetMeasure::change};
   for (int i = -4; i <= 4; ++i)
     curve.points.push_back({.input = {0.02 * i, 0}, .value = 0, .tolerance = 0.001});
   task.objectives = {{"bump steer", {curve}}};
-  const DirectSynthesis before = assess(task, {}, task.guide);
+  const DirectSynthesis before = assess(task, {}, task.suspension);
   RunContext context;
   const DirectSynthesis found = synthesise(task, {.starts = 8, .refined = 2}, 1, context);
   ASSERT_EQ(found.status, Status::done) << to_string(found.reason);
@@ -127,7 +127,7 @@ TEST(DirectSynthesis, KeepsLimits) {
   const DirectSynthesis open = synthesise(task, {.starts = 8}, 1, context);
   // The rods 4 and 5 are to be further apart than they are at the free optimum.
   const auto distance_of = [](const DirectSynthesis& of) {
-    return -limit_answers(of.guide, {.links = {{3, 4, 0}}}, of.answer.positions, {}, {})[0].excess;
+    return -limit_answers(of.suspension, {.links = {{3, 4, 0}}}, of.answer.positions, {}, {})[0].excess;
   };
   task.limits.links = {{3, 4, distance_of(open) + 0.005}};
   task.limits.lengths = {{0, 0.3, 0.4}};
@@ -145,7 +145,7 @@ TEST(DirectSynthesis, KeepsLimits) {
 TEST(DirectSynthesis, SaysWhenNothingAssembles) {
   DirectTask task = published_direct_task();
   place_published_boxes(task, 1);
-  task.guide.links[4].length = 0.9;
+  task.suspension.links[4].length = 0.9;
   RunContext context;
   const DirectSynthesis found = synthesise(task, {.starts = 3, .draws = 3}, 1, context);
   EXPECT_EQ(found.status, Status::infeasible);

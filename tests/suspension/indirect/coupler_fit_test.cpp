@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "linkwright/suspension/indirect/guide_errors.h"
+#include "linkwright/suspension/indirect/corner_errors.h"
 #include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 TEST(CouplerFit, IsFoundToTheNanometre) {
   const test::Example e = test::published_example("ex3-forward");
-  const CouplerTask task{.second = 2, .least_offset = 0.1, .point = box_around({0.23, 0.6, -0.07}, 0.15)};
+  const CouplerTask task{.second = 2, .min_offset = 0.1, .point = box_around({0.23, 0.6, -0.07}, 0.15)};
   const CouplerFit fit = fit_coupler(e.targets, e.links, task);
   EXPECT_EQ(fit.status, Status::done);
   EXPECT_NEAR(fit.offset, 0.176, 1e-8);  // errors of the positions, 1e-15 m, times a condition of 1e6
@@ -27,7 +27,7 @@ TEST(CouplerFit, IsFoundToTheNanometre) {
 
 TEST(CouplerFit, KeepsToItsBox) {
   const test::Example e = test::published_example("ex3-forward");
-  const CouplerTask task{.second = 2, .least_offset = 0.1, .point = box_around({0.3, 0.7, -0.07}, 0.1)};
+  const CouplerTask task{.second = 2, .min_offset = 0.1, .point = box_around({0.3, 0.7, -0.07}, 0.1)};
   const CouplerFit fit = fit_coupler(e.targets, e.links, task);
   EXPECT_EQ(fit.status, Status::not_converged);
   EXPECT_GT(fit.rms, 1e-7);
@@ -44,12 +44,12 @@ TEST(CouplerFit, IsTheBestPlaceOfItsBox) {
     const auto off = [&] { return random.uniform(-0.2, 0.2); };
     const double x = off(), y = off(), z = off();
     const PointBox box = box_around(Vec3{0.2, 0.628, -0.058} + Vec3{x, y, z}, 0.15);
-    const CouplerTask task{.second = 2, .least_offset = 0.1, .most_offset = 0.28, .point = box};
+    const CouplerTask task{.second = 2, .min_offset = 0.1, .max_offset = 0.28, .point = box};
     const CouplerFit fit = fit_coupler(e.targets, e.links, task);
     ASSERT_TRUE(std::isfinite(fit.rms));
     std::vector<LinkTask> links;
-    for (const GuideLink& l : e.links) links.push_back(given_link(l));
-    GuideErrors errors(e.targets, links, std::vector{task});
+    for (const CornerLink& l : e.links) links.push_back(given_link(l));
+    CornerErrors errors(e.targets, links, std::vector{task});
     double least = fit.rms;
     for (int start = 0; start < 40; ++start) {
       Coupler begin{.first = 0, .second = 2};
@@ -74,7 +74,7 @@ TEST(CouplerFit, RefusesLinksItCannotJoin) {
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 1}),
               HasSubstr("coupler 'c': link 1 is of type US, needs SR"));
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 5}), HasSubstr("coupler 'c': link 5 of 3"));
-  EXPECT_THAT(told({.name = "c", .second = 2, .least_offset = 1}),
+  EXPECT_THAT(told({.name = "c", .second = 2, .min_offset = 1}),
               HasSubstr("coupler 'c': offset of at least 1 m and at most inf m on a link of 0.286"));
 }
 

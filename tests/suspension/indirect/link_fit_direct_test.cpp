@@ -17,7 +17,7 @@ TEST(LinkFitDirect, LinksOfEveryMechanismHaveNoErrors) {
        {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R", "mechanism-RR-US",
         "mechanism-S-2US", "mechanism-2RS-US", "mechanism-RS-SP-US", "mechanism-2SR-US"}) {
     const test::Example e = test::published_example(id);
-    for (const GuideLink& link : e.links) {
+    for (const CornerLink& link : e.links) {
       const LinkMotion motion = link_motion(e.targets, link.moved_by_rack);
       std::vector<double> errors(error_rows(link.type, motion.size()), 1.0);
       ASSERT_TRUE(structural_errors(motion, link, errors, {}, {}));
@@ -31,7 +31,7 @@ TEST(LinkFitDirect, DerivativesAreThoseOfTheErrors) {
   const test::Example e = test::published_example("ex1-forward");
   for (const LinkType type :
        {LinkType::US, LinkType::RS, LinkType::SR, LinkType::RR, LinkType::SP, LinkType::S, LinkType::R}) {
-    GuideLink link{.type = type};
+    CornerLink link{.type = type};
     for (int k = 0; k < body_points(type); ++k) link.body.push_back({0.2 - 0.3 * k, 0.4, -0.1 + 0.05 * k});
     for (int k = 0; k < carrier_points(type); ++k)
       link.carrier.push_back({0.01 + 0.1 * k, 0.7, -0.13 + 0.02 * k});

@@ -36,8 +36,8 @@ TEST(LinkFitMotion, NeedsTheCarrierPitch) {
 }
 
 TEST(LinkFitMotion, LinksAreComparedPointByPoint) {
-  const GuideLink a{.body = {{0, 0, 0}}, .carrier = {{1, 0, 0}}};
-  GuideLink b = a;
+  const CornerLink a{.body = {{0, 0, 0}}, .carrier = {{1, 0, 0}}};
+  CornerLink b = a;
   b.carrier[0] = {1, 0.3, 0.4};
   EXPECT_DOUBLE_EQ(largest_distance(a, b), 0.5);
   b.body.push_back({});

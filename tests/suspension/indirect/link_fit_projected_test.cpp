@@ -19,7 +19,7 @@ std::vector<int> columns_of(const LinkTask& task) {
   return columns;
 }
 
-std::vector<double> coordinates(const GuideLink& link) {
+std::vector<double> coordinates(const CornerLink& link) {
   std::vector<double> x;
   for (const auto& points : {link.body, link.carrier})
     for (const Vec3& p : points) x.insert(x.end(), {p.x, p.y, p.z});
@@ -30,7 +30,7 @@ TEST(LinkFitProjected, EliminatedPointsOfATrueLinkAreItsOwn) {
   for (const char* id : {"ex1-forward", "ex2-forward", "mechanism-RR-US", "mechanism-2RS-US",
                          "mechanism-RS-SP-US", "mechanism-2SR-US"}) {
     const test::Example e = test::published_example(id);
-    for (const GuideLink& link : e.links) {
+    for (const CornerLink& link : e.links) {
       RandomStream random({3});
       const LinkMotion motion = link_motion(e.targets, link.moved_by_rack);
       LinkProjection projection(motion, link, columns_of(test::random_task(link, 0.15, random)));
@@ -48,7 +48,7 @@ TEST(LinkFitProjected, EliminatedPointsOfATrueLinkAreItsOwn) {
 TEST(LinkFitProjected, DerivativesAreThoseOfTheResiduals) {
   const test::Example e = test::published_example("mechanism-2RS-US");
   for (const LinkType type : {LinkType::US, LinkType::RS, LinkType::SR, LinkType::RR, LinkType::SP}) {
-    GuideLink link{.type = type};
+    CornerLink link{.type = type};
     for (int k = 0; k < body_points(type); ++k) link.body.push_back({0.2 - 0.4 * k, 0.35, -0.1 + 0.04 * k});
     for (int k = 0; k < carrier_points(type); ++k)
       link.carrier.push_back({0.05 - 0.1 * k, 0.7, -0.13 + 0.02 * k});

@@ -21,7 +21,7 @@ struct Tally {
 };
 
 /// Random boxes of 150 mm around the points of a link, as the source has them.
-Tally solve_boxes(const test::Example& e, const GuideLink& link, int boxes, double near) {
+Tally solve_boxes(const test::Example& e, const CornerLink& link, int boxes, double near) {
   Tally tally;
   RunContext context;
   for (int i = 0; i < boxes; ++i) {
@@ -44,7 +44,7 @@ TEST(LinkFit, LinksOfTheExamplesAreFoundFromEveryBox) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward"}) {
     const test::Example e = test::published_example(id);
     const bool well = id[2] < '3';
-    for (const GuideLink& link : e.links) {
+    for (const CornerLink& link : e.links) {
       const int boxes = well ? 1000 : 400;
       const Tally tally = solve_boxes(e, link, boxes, well ? 1e-6 : 1e-5);
       EXPECT_EQ(tally.solved, boxes) << id << " " << link.name;
@@ -58,7 +58,7 @@ TEST(LinkFit, OtherTypesOfLinks) {
   for (const char* id : {"mechanism-RR-US", "mechanism-2RS-US", "mechanism-RS-SP-US", "mechanism-2SR-US",
                          "mechanism-S-2US", "mechanism-R"}) {
     const test::Example e = test::published_example(id);
-    for (const GuideLink& link : e.links) {
+    for (const CornerLink& link : e.links) {
       if (link.type == LinkType::US && e.links.size() < 4 && e.targets.poses.size() < 10)
         continue;  // families
       const Tally tally = solve_boxes(e, link, 100, 1e-6);
@@ -127,7 +127,7 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
     }
     std::size_t j = 0;
     for (const Value& wanted : test::at(published(table), "computed.links").as_array()) {
-      const GuideLink& link = e.links[j++];
+      const CornerLink& link = e.links[j++];
       const LinkTask task{.type = link.type,
                           .body = {box_around(link.body[0], 0.1)},
                           .carrier = {box_around(link.carrier[0], 0.1)},
@@ -161,10 +161,10 @@ TEST(LinkFit, StartsAreTakenFromGivenLinks) {
   const test::Example e = test::published_example("ex4-forward");
   RandomStream random({1});
   const LinkTask task = test::random_task(e.links[0], 0.15, random);
-  GuideLink near = e.links[0];
+  CornerLink near = e.links[0];
   near.body[0].x += 1e-4;
   RunContext context;
-  const std::vector<GuideLink> starts{e.links[1], near};  // the first lies out of the boxes
+  const std::vector<CornerLink> starts{e.links[1], near};  // the first lies out of the boxes
   const LinkFit fit = fit_link_from(starts, e.targets, task, {}, {}, context);
   EXPECT_EQ(fit.starts, 1);
   EXPECT_EQ(fit.status, Status::done);
@@ -175,11 +175,11 @@ TEST(LinkFit, StartsAreTakenFromGivenLinks) {
 TEST(LinkFit, ConditioningTellsTheWeakDirection) {
   RunContext context;
   const test::Example e = test::published_example("ex4-forward");
-  const GuideLink& link = e.links[0];
+  const CornerLink& link = e.links[0];
   const LinkTask task{.body = {box_around(link.body[0], 0.1)}, .carrier = {box_around(link.carrier[0], 0.1)}};
   const LinkConditioning c = conditioning(e.targets, task, link);
   // Along it the link moves by a millimetre and its errors hardly change: about 2e-7 of it, and its square.
-  GuideLink moved = link;
+  CornerLink moved = link;
   moved.body[0] += 1e-3 * c.weakest.body[0];
   moved.carrier[0] += 1e-3 * c.weakest.carrier[0];
   const LinkTask fixed{.body = {{moved.body[0], moved.body[0]}},

@@ -5,36 +5,37 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "suspension/guides.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
 
 TEST(LinkPoses, TakeTheirPointsAlong) {
-  for (const GuideSample& sample : guide_samples()) {
+  for (const CornerSample& sample : corner_samples()) {
     SCOPED_TRACE(sample.name);
-    const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare_guide(guide);
+    const Suspension& suspension = sample.suspension;
+    const CornerPlan plan = prepare_suspension(suspension);
     const double rack = 0.02;
-    const GuidePosition at =
+    const CornerPosition at =
         solve_position(plan, Driver::wheel_centre_z, {0.05, rack}, reference_position(plan));
     ASSERT_EQ(at.status, Status::done);
-    const auto poses = link_poses(guide, at.place, rack);
-    ASSERT_EQ(poses.size(), guide.links.size());
+    const auto poses = link_poses(suspension, at.place, rack);
+    ASSERT_EQ(poses.size(), suspension.links.size());
     for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
-      const GuideLink& link = guide.links[i];
+      const CornerLink& link = suspension.links[i];
       for (int k = 0; k < static_cast<int>(link.body.size()); ++k)
-        EXPECT_LT(distance(placed(poses[i], link.body[k]), body_point(guide, i, k, rack)), 1e-14);
+        EXPECT_LT(distance(placed(poses[i], link.body[k]), body_point(suspension, i, k, rack)), 1e-14);
       // The strut's point slides along the link; all others are points of it. Rounding of the residuals.
       if (link.type == LinkType::SP) continue;
       for (int k = 0; k < static_cast<int>(link.carrier.size()); ++k)
-        EXPECT_LT(distance(placed(poses[i], link.carrier[k]), carrier_point(guide, i, k, at.place.carrier)),
-                  1e-13);
+        EXPECT_LT(
+            distance(placed(poses[i], link.carrier[k]), carrier_point(suspension, i, k, at.place.carrier)),
+            1e-13);
     }
-    if (!guide.spring) continue;
-    EXPECT_NEAR(norm(spring_end(guide, at.place, rack) - guide.spring->body),
+    if (!suspension.spring) continue;
+    EXPECT_NEAR(norm(spring_end(suspension, at.place, rack) - suspension.spring->body),
                 plan.spring->length + driver_value(plan, at.place, rack, Driver::spring), 1e-13);
   }
 }
@@ -43,18 +44,18 @@ TEST(LinkPoses, TakeTheirPointsAlong) {
 // rod. The angles follow from where the rod has gone.
 TEST(LinkPoses, AKJointIsTwoHinges) {
   for (const std::optional<Vec3>& axis : {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.9, 0.3, -0.4}}}) {
-    WheelGuide guide = guide_sample("5US").guide;
-    guide.spring->link = 2;  // the tie rod, which the rack moves
-    guide.links[2].cross_axis = axis;
-    ASSERT_TRUE(guide.links[2].moved_by_rack);
-    ASSERT_TRUE(check(guide).empty());
-    const GuidePlan plan = prepare_guide(guide);
-    for (const GuideInput& input : {GuideInput{0.07, -0.02}, GuideInput{-0.06, 0.03}}) {
-      const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference_position(plan));
+    Suspension suspension = corner_sample("5US").suspension;
+    suspension.spring->link = 2;  // the tie rod, which the rack moves
+    suspension.links[2].cross_axis = axis;
+    ASSERT_TRUE(suspension.links[2].moved_by_rack);
+    ASSERT_TRUE(check(suspension).empty());
+    const CornerPlan plan = prepare_suspension(suspension);
+    for (const CornerInput& input : {CornerInput{0.07, -0.02}, CornerInput{-0.06, 0.03}}) {
+      const CornerPosition at = solve_position(plan, Driver::wheel_centre_z, input, reference_position(plan));
       ASSERT_EQ(at.status, Status::done);
-      const GuideLink& rod = guide.links[2];
-      const Vec3 then = unit(rod.carrier[0] - rod.body[0]), from = body_point(guide, 2, 0, input.rack);
-      const Vec3 now = unit(carrier_point(guide, 2, 0, at.place.carrier) - from);
+      const CornerLink& rod = suspension.links[2];
+      const Vec3 then = unit(rod.carrier[0] - rod.body[0]), from = body_point(suspension, 2, 0, input.rack);
+      const Vec3 now = unit(carrier_point(suspension, 2, 0, at.place.carrier) - from);
       const Vec3 standing = unit(axis.value_or(cross(Vec3{0, 0, 1}, then)));
       if (!axis) {
         EXPECT_NEAR(standing.z, 0, 1e-15);
@@ -65,25 +66,25 @@ TEST(LinkPoses, AKJointIsTwoHinges) {
       const double second = std::atan2(dot(cross(then, back), turning), dot(then, back));
       const Mat3 both = math::turn_about(first * standing) * math::turn_about(second * turning);
       EXPECT_LT(distance(both * then, now), 1e-14);
-      const Vec3 end = from + both * (guide.spring->moving - rod.body[0]);
-      EXPECT_LT(distance(spring_end(guide, at.place, input.rack), end), 1e-14);
-      EXPECT_NEAR(norm(end - guide.spring->body),
+      const Vec3 end = from + both * (suspension.spring->moving - rod.body[0]);
+      EXPECT_LT(distance(spring_end(suspension, at.place, input.rack), end), 1e-14);
+      EXPECT_NEAR(norm(end - suspension.spring->body),
                   plan.spring->length + driver_value(plan, at.place, input.rack, Driver::spring), 1e-13);
-      const auto [a, b] = cross_axes(guide, 2, at.place.carrier, input.rack);
+      const auto [a, b] = cross_axes(suspension, 2, at.place.carrier, input.rack);
       EXPECT_LT(distance(a, standing) + distance(b, turned), 1e-14);
     }
   }
 }
 
 TEST(LinkPoses, ASpringOnARodOfAnotherLengthKeepsItsShare) {
-  WheelGuide guide = guide_sample("5US").guide;
-  const Vec3 from = guide.links[0].body[0], to = guide.links[0].carrier[0];
-  guide.links[0].length = 1.02 * norm(to - from);
-  guide.spring = {{0, 0.5, 0.4}, from + 0.6 * (to - from), 0};
-  const GuidePlan plan = prepare_guide(guide);
-  const GuidePosition at = reference_position(plan);
+  Suspension suspension = corner_sample("5US").suspension;
+  const Vec3 from = suspension.links[0].body[0], to = suspension.links[0].carrier[0];
+  suspension.links[0].length = 1.02 * norm(to - from);
+  suspension.spring = {{0, 0.5, 0.4}, from + 0.6 * (to - from), 0};
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition at = reference_position(plan);
   ASSERT_EQ(at.status, Status::done) << at.reason;
-  EXPECT_NEAR(norm(spring_end(guide, at.place, 0) - guide.spring->body),
+  EXPECT_NEAR(norm(spring_end(suspension, at.place, 0) - suspension.spring->body),
               plan.spring->length + driver_value(plan, at.place, 0, Driver::spring), 1e-13);
 }
 

@@ -15,7 +15,7 @@ TEST(LinkSynthesis, ObjectiveOfThePublishedRun) {
   const auto off = test::numbers(test::at(run, "inputs.x_true_minus_x_found_m"));
   const auto wanted = test::numbers(test::at(run, "computed.f_per_link_mean_over_15_m"));
   for (std::size_t j = 0; j < 5; ++j) {
-    GuideLink link = e.links[j];
+    CornerLink link = e.links[j];
     const double* d = &off[6 * j];
     link.body[0] = link.body[0] - Vec3{d[0], d[1], d[2]};
     link.carrier[0] = link.carrier[0] - Vec3{d[3], d[4], d[5]};
@@ -32,7 +32,7 @@ TEST(LinkSynthesis, ProblemCostsWhatTheLinkCosts) {
   ASSERT_EQ(problem.variables.size(), 5u);
   EXPECT_EQ(problem.variables[0].name, "body_1_x_m");
   EXPECT_EQ(problem.variables[4].name, "carrier_1_y_m");
-  GuideLink link = e.links[3];
+  CornerLink link = e.links[3];
   link.body[0].x += 0.01;
   optimise::Population one(5, 1);
   const double x[] = {link.body[0].x, link.body[0].y, link.body[0].z, link.carrier[0].x, link.carrier[0].y};
@@ -52,7 +52,7 @@ Course evolve(const std::string& id, int repeats) {
   const test::Example e = test::published_example(id);
   Course course;
   RunContext context;
-  for (const GuideLink& link : e.links)
+  for (const CornerLink& link : e.links)
     for (int i = 0; i < repeats; ++i) {
       const auto seed = static_cast<std::uint64_t>(i) + 1;
       RandomStream random({seed, 5});

@@ -25,7 +25,7 @@ TEST(LinkTask, UnknownsAreTheCoordinatesWhoseBoxHasAWidth) {
   EXPECT_DOUBLE_EQ(c.upper(1), 1.1);
   EXPECT_EQ(c.middle().carrier[1], (Vec3{1, 5, -0.5}));
 
-  GuideLink link = c.middle();
+  CornerLink link = c.middle();
   EXPECT_TRUE(c.inside(link));
   LinkCoordinates::set(link, 8, 0.1);
   EXPECT_EQ(LinkCoordinates::get(link, 8), 0.1);
@@ -35,7 +35,7 @@ TEST(LinkTask, UnknownsAreTheCoordinatesWhoseBoxHasAWidth) {
 }
 
 TEST(LinkTask, AGivenLinkHasNoUnknowns) {
-  const GuideLink link{.name = "rod", .body = {{0.1, 0.2, 0.3}}, .carrier = {{0.4, 0.7, 0.6}}};
+  const CornerLink link{.name = "rod", .body = {{0.1, 0.2, 0.3}}, .carrier = {{0.4, 0.7, 0.6}}};
   const LinkCoordinates c(given_link(link));
   EXPECT_TRUE(c.free().empty());
   EXPECT_EQ(c.middle().body, link.body);  // bit by bit

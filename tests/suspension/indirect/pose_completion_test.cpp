@@ -28,7 +28,7 @@ const CarrierTarget& state(const test::Example& e, double travel, double rack) {
 TEST(PoseCompletion, DyadOfTheSource) {
   for (const Value& row : test::at(published("rs-dyad-spin"), "computed.rows").as_array()) {
     const test::Example e = test::published_example(test::at(row, "mechanism").as_string() + "-forward");
-    const GuideLink& rod = e.links[static_cast<std::size_t>(test::number_at(row, "link_1based")) - 1];
+    const CornerLink& rod = e.links[static_cast<std::size_t>(test::number_at(row, "link_1based")) - 1];
     const CarrierTarget& pose = state(e, test::number_at(row, "travel_m"), test::number_at(row, "rack_m"));
     const RsDyad dyad = rs_dyad(e.targets, pose, rod);
     EXPECT_EQ(dyad.status, Status::done);
@@ -48,7 +48,7 @@ TEST(PoseCompletion, DyadOfTheSource) {
 TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex4-forward", "mechanism-5US", "mechanism-RS-3US"}) {
     const test::Example e = test::published_example(id);
-    for (const GuideLink& rod : e.links) {
+    for (const CornerLink& rod : e.links) {
       if (rod.type != LinkType::US) continue;
       for (const CarrierTarget& pose : e.targets.poses) {
         const RsDyad dyad = rs_dyad(e.targets, pose, rod);
@@ -76,7 +76,7 @@ TEST(PoseCompletion, EveryParameterComesBack) {
   // the sides.
   const test::Example e = test::published_example("ex4-forward");
   for (const auto& parameter : names(PoseParameter{}))
-    for (const GuideLink& rod : e.links) {
+    for (const CornerLink& rod : e.links) {
       if (parameter.value == PoseParameter::centre_z && (rod.name == "link 1" || rod.name == "link 4"))
         continue;
       CarrierTargets open = e.targets;
@@ -92,7 +92,7 @@ TEST(PoseCompletion, EveryParameterComesBack) {
 
 TEST(PoseCompletion, ARodOutOfReachIsTold) {
   const test::Example e = test::published_example("ex4-forward");
-  GuideLink rod = e.links[0];
+  CornerLink rod = e.links[0];
   rod.length = 0.2;  // half a metre is needed
   CarrierTargets open = e.targets;
   for (CarrierTarget& pose : open.poses) pose.angles.carrier_pitch = nan;
@@ -109,7 +109,7 @@ TEST(PoseCompletion, ARodOutOfReachIsTold) {
 
 TEST(PoseCompletion, ARodOnTheWheelsAxisSettlesNoCarrierPitch) {
   const test::Example e = test::published_example("ex4-forward");
-  GuideLink rod = e.links[0];
+  CornerLink rod = e.links[0];
   rod.carrier[0] = e.targets.wheel.centre - 0.1 * wheel_axis(Side::left, 0, e.targets.wheel.camber);
   EXPECT_EQ(solve_for(e.targets, e.targets.poses[2], rod, PoseParameter::carrier_pitch).status,
             Status::singular);

@@ -15,7 +15,7 @@ namespace linkwright::suspension {
 namespace {
 
 /// Rods that fit all positions within `tolerance`, and how far the nearest is from `link`.
-double nearest(const SevenPoseReport& report, const GuideLink& link, double tolerance) {
+double nearest(const SevenPoseReport& report, const CornerLink& link, double tolerance) {
   double best = infinity;
   for (const SevenPoseRod& rod : report.rods)
     if (rod.rms < tolerance) best = std::min(best, largest_distance(rod.link, link));
@@ -37,8 +37,8 @@ TEST(SevenPoses, PublishedPositionsHaveTheirTwentySolutions) {
     const auto& wanted = test::at(given, "computed.real_solutions").as_array();
     EXPECT_EQ(report.rods.size(), wanted.size());
     for (const Value& rod : wanted) {
-      const GuideLink link{.body = {point(test::at(rod, "body_m"))},
-                           .carrier = {point(test::at(rod, "carrier_m"))}};
+      const CornerLink link{.body = {point(test::at(rod, "body_m"))},
+                            .carrier = {point(test::at(rod, "carrier_m"))}};
       EXPECT_LT(nearest(report, link, 1), 1e-6 * (1 + norm(link.body[0]) + norm(link.carrier[0]))) << id;
     }
   }
@@ -95,7 +95,7 @@ TEST(SevenPoses, LinksOfAMechanismAreWhatFitsAllPositions) {
     const test::Example e = test::published_example(id);
     for (const bool moved : {false, true}) {
       const SevenPoseReport report = seven_pose_rods(e.targets, moved);
-      for (const GuideLink& link : e.links) {
+      for (const CornerLink& link : e.links) {
         if (link.type != LinkType::US || link.moved_by_rack != moved) continue;
         // Conditions of 1e7 in examples 3 and 4.
         EXPECT_LT(nearest(report, link, 1e-9), 1e-6) << id << " " << link.name;
@@ -119,7 +119,7 @@ TEST(SevenPoses, EverySubsetOfPositionsTellsTheLinks) {
     const SevenPoseReport report = seven_pose_rods(motion, six, e.targets.wheel.centre, false, seed);
     complete += report.solutions == 20;
     bool found = true;
-    for (const GuideLink& link : e.links)
+    for (const CornerLink& link : e.links)
       found = found && (link.moved_by_rack || nearest(report, link, 1e-9) < 1e-6);
     all_links += found;
   }
@@ -132,12 +132,12 @@ TEST(SevenPoses, ArmsComeAsFamilies) {
     const test::Example e = test::published_example(id);
     const SevenPoseReport report = seven_pose_rods(e.targets, false);
     EXPECT_EQ(report.status, Status::singular) << id;
-    for (const GuideLink& link : e.links) {
+    for (const CornerLink& link : e.links) {
       if (link.type != LinkType::RS && link.type != LinkType::SR) continue;
       const bool rs = link.type == LinkType::RS;
       const auto& axis = rs ? link.body : link.carrier;
       bool found = false;
-      for (const GuideLink& arm : report.arms) {
+      for (const CornerLink& arm : report.arms) {
         if (arm.type != link.type) continue;
         const double shared = rs ? norm(arm.carrier[0] - link.carrier[0]) : norm(arm.body[0] - link.body[0]);
         double off = 0;

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/guide/wheel.h"
-#include "linkwright/suspension/indirect/guide_deviations.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/indirect/corner_deviations.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
-#include "linkwright/suspension/indirect/published_guides.h"
+#include "linkwright/suspension/indirect/published_suspensions.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {
@@ -28,7 +28,7 @@ Case make_case(const char* id, std::uint64_t seed, double edge) {
   c.open = c.example.targets;
   for (CarrierTarget& pose : c.open.poses) pose.angles.carrier_pitch = nan;
   RandomStream random({seed, 41});
-  for (const GuideLink& link : c.example.links) c.tasks.push_back(test::random_task(link, edge, random));
+  for (const CornerLink& link : c.example.links) c.tasks.push_back(test::random_task(link, edge, random));
   return c;
 }
 
@@ -67,14 +67,14 @@ constexpr Vec3 coupler_on_blade{0.22040104155562712, 0.591838870380279, -0.00553
 // follows only one start, or creeps along the curved valleys, stays at 1.5e-7 m with the coupler's point at a
 // limit.
 TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
-  const WheelGuide& guide = guide_sample("interconnected").guide;
-  const GuidePlan plan = prepare_guide(guide);
-  CarrierTargets targets{.wheel = guide.wheel};
+  const Suspension& suspension = corner_sample("interconnected").suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
+  CarrierTargets targets{.wheel = suspension.wheel};
   for (int i = -5; i <= 5; ++i) {
     if (i == 0) continue;
-    const GuidePosition at =
+    const CornerPosition at =
         solve_position(plan, Driver::wheel_centre_z, {0.02 * i, 0}, reference_position(plan));
-    WheelAngles angles = wheel_angles(Side::left, guide.wheel, at.place.carrier.rotation);
+    WheelAngles angles = wheel_angles(Side::left, suspension.wheel, at.place.carrier.rotation);
     angles.carrier_pitch = nan;
     targets.poses.push_back({.rack = 0, .centre = at.place.carrier.centre, .angles = angles});
   }
@@ -95,11 +95,8 @@ TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
                                      .type = LinkType::SR,
                                      .body = {box(blade_body, false)},
                                      .carrier = {box(blade_carrier_1, true), box(blade_carrier_2, true)}}};
-  const std::vector<CouplerTask> couplers{{.name = "coupler",
-                                           .first = 0,
-                                           .second = 2,
-                                           .least_offset = 0.1,
-                                           .point = box(coupler_on_blade, false)}};
+  const std::vector<CouplerTask> couplers{
+      {.name = "coupler", .first = 0, .second = 2, .min_offset = 0.1, .point = box(coupler_on_blade, false)}};
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const CarrierPitchFit fit = fit_with_unknown_carrier_pitch(targets, tasks, {}, seed, context, couplers);
@@ -170,10 +167,10 @@ TEST(IndirectSynthesisCarrierPitch, TechniquesOfTheSourceKeepTheirPublishedDevia
           fit_with_unknown_carrier_pitch(boxes.open, boxes.tasks, {.technique = technique}, seed, context);
       ASSERT_EQ(fit.links.size(), 5u);
       ASSERT_TRUE(carrier_pitch_is_given(fit.targets));
-      WheelGuide guide = c.example.guide;
-      guide.links = fit.links;
-      EXPECT_NEAR(constraint_error(guide, fit.targets).gap, fit.largest, 1e-12);
-      const PoseDeviations d = pose_deviations(guide, boxes.open);
+      Suspension suspension = c.example.suspension;
+      suspension.links = fit.links;
+      EXPECT_NEAR(constraint_error(suspension, fit.targets).gap, fit.largest, 1e-12);
+      const PoseDeviations d = pose_deviations(suspension, boxes.open);
       EXPECT_EQ(d.missed, 0);
       add(x, d.x), add(y, d.y), add(toe, d.toe), add(camber, d.camber);
     }

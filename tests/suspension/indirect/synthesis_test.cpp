@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/indirect/guide_deviations.h"
+#include "linkwright/suspension/indirect/corner_deviations.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {
@@ -15,12 +15,12 @@ namespace {
 IndirectTask whole(const test::Example& e, std::uint64_t seed) {
   IndirectTask task{.targets = e.targets};
   RandomStream random({seed, 31});
-  for (const GuideLink& link : e.links) task.links.push_back(test::random_task(link, 0.15, random));
-  for (const Coupler& c : e.guide.couplers)
+  for (const CornerLink& link : e.links) task.links.push_back(test::random_task(link, 0.15, random));
+  for (const Coupler& c : e.suspension.couplers)
     task.couplers.push_back({.name = "coupler",
                              .first = c.first,
                              .second = c.second,
-                             .least_offset = 0.1,
+                             .min_offset = 0.1,
                              .point = box_around(c.point, 0.15)});
   return task;
 }
@@ -34,9 +34,9 @@ TEST(IndirectSynthesis, WholeMechanismsOfTheSource) {
       ASSERT_EQ(found.status, Status::done)
           << id << " seed " << seed << " " << (found.findings.empty() ? "" : to_string(found.findings[0]));
       EXPECT_LT(found.largest, 1e-8);
-      EXPECT_NEAR(constraint_error(found.guide, e.targets).gap, found.largest, 1e-13);
+      EXPECT_NEAR(constraint_error(found.suspension, e.targets).gap, found.largest, 1e-13);
       for (std::size_t j = 0; j < e.links.size(); ++j)
-        EXPECT_LT(largest_distance(found.guide.links[j], e.links[j]), 1e-4)
+        EXPECT_LT(largest_distance(found.suspension.links[j], e.links[j]), 1e-4)
             << id << " seed " << seed << " link " << j;
     }
   }
@@ -102,7 +102,7 @@ TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
   }
   const IndirectTask task = whole(e, 1);
   RunContext context;
-  std::vector<GuideLink> one_by_one;
+  std::vector<CornerLink> one_by_one;
   for (std::size_t l = 0; l < task.links.size(); ++l)
     one_by_one.push_back(
         fit_link(e.targets, task.links[l], {.starts = 20}, {}, 1, context, static_cast<std::uint32_t>(l))
@@ -110,23 +110,23 @@ TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
   const CouplerFit coupler = fit_coupler(e.targets, one_by_one, task.couplers[0]);
   const IndirectSynthesis found = synthesise(task, {.link = {.starts = 20}}, 1, context);
   EXPECT_EQ(found.status, Status::not_converged);
-  GuideErrors errors(e.targets, task.links, task.couplers);
+  CornerErrors errors(e.targets, task.links, task.couplers);
   std::vector<double> x(errors.unknowns()), rows(errors.rows());
-  const auto squares = [&](std::span<const GuideLink> links, const Coupler& c) {
+  const auto squares = [&](std::span<const CornerLink> links, const Coupler& c) {
     errors.start_from(links, {&c, 1}, x);
     EXPECT_TRUE(errors.evaluate(x, rows, {}));
     return errors.totals(rows).square;
   };
   const double before = squares(one_by_one, coupler.coupler),
-               after = squares(found.guide.links, found.guide.couplers[0]);
+               after = squares(found.suspension.links, found.suspension.couplers[0]);
   EXPECT_LT(after, before * (1 - 1e-3));
   EXPECT_LT(std::sqrt(after / 40), 5e-6);  // half a unit of the last place is 5e-6
   EXPECT_NEAR(found.links[0].rms, errors.link_totals(0, rows).rms(), 1e-12);
   EXPECT_NEAR(found.couplers[0].rms, errors.coupler_totals(0, rows).rms(), 1e-12);
-  EXPECT_NEAR(
-      found.couplers[0].offset,
-      found.guide.couplers[0].fraction * norm(found.guide.links[0].carrier[0] - found.guide.links[0].body[0]),
-      1e-15);
+  EXPECT_NEAR(found.couplers[0].offset,
+              found.suspension.couplers[0].fraction *
+                  norm(found.suspension.links[0].carrier[0] - found.suspension.links[0].body[0]),
+              1e-15);
 }
 
 TEST(IndirectSynthesis, AGivenRodSettlesTheCarrierPitch) {
@@ -140,12 +140,12 @@ TEST(IndirectSynthesis, AGivenRodSettlesTheCarrierPitch) {
     const IndirectSynthesis found = synthesise(task, {}, seed, context);
     ASSERT_EQ(found.status, Status::done) << seed;
     EXPECT_EQ(found.fewest, 24 / 4.0 + 1);  // six unknowns less
-    EXPECT_EQ(found.guide.links[0].body, e.links[0].body);
+    EXPECT_EQ(found.suspension.links[0].body, e.links[0].body);
     for (std::size_t i = 0; i < e.targets.poses.size(); ++i)
       EXPECT_NEAR(found.targets.poses[i].angles.carrier_pitch, e.targets.poses[i].angles.carrier_pitch,
                   1e-10);
-    EXPECT_LT(constraint_error(found.guide, found.targets).gap, 1e-8);
-    const PoseDeviations d = pose_deviations(found.guide, e.targets);
+    EXPECT_LT(constraint_error(found.suspension, found.targets).gap, 1e-8);
+    const PoseDeviations d = pose_deviations(found.suspension, e.targets);
     EXPECT_LT(d.x.largest, 1e-7);  // errors of 1e-8 m at most, and what the suspension makes of them
     EXPECT_LT(d.carrier_pitch.largest, 1e-6);
   }
@@ -155,7 +155,7 @@ TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
   const test::Example e = test::published_example("ex4-forward");
   IndirectTask task = whole(e, 1);
   for (CarrierTarget& pose : task.targets.poses) pose.angles.carrier_pitch = nan;
-  GuideLink rod = e.links[2];
+  CornerLink rod = e.links[2];
   rod.carrier[0] = e.targets.wheel.centre + Vec3{0.001, -0.1, 0};
   task.links[2] = given_link(rod);
   RunContext context;
@@ -177,7 +177,7 @@ TEST(IndirectSynthesis, LinksAndCarrierPitchesTogether) {
   EXPECT_EQ(found.status, Status::done);
   EXPECT_EQ(found.fewest, 8.5);
   EXPECT_TRUE(carrier_pitch_is_given(found.targets));
-  EXPECT_NEAR(constraint_error(found.guide, found.targets).gap, found.largest, 1e-12);
+  EXPECT_NEAR(constraint_error(found.suspension, found.targets).gap, found.largest, 1e-12);
 }
 
 TEST(IndirectSynthesis, CanBeStopped) {
@@ -189,7 +189,7 @@ TEST(IndirectSynthesis, CanBeStopped) {
   ASSERT_EQ(found.links.size(), 5u);
   EXPECT_TRUE(std::isfinite(found.links[0].rms));  // the first start always runs
   EXPECT_EQ(found.links[4].status, Status::cancelled);
-  EXPECT_EQ(found.guide.links.size(), 5u);
+  EXPECT_EQ(found.suspension.links.size(), 5u);
   const IndirectSynthesis evolved = evolve(whole(e, 1), {}, 1, context);
   EXPECT_EQ(evolved.status, Status::cancelled);
   EXPECT_EQ(evolved.generations, 5);
@@ -216,15 +216,15 @@ TEST(IndirectSynthesis, DifferentialEvolutionFindsTheSame) {
   EXPECT_LT(found.generations, 2600);
   for (std::size_t l = 0; l < e.links.size(); ++l) {
     EXPECT_EQ(found.links[l].status, Status::done);
-    EXPECT_LT(largest_distance(found.guide.links[l], e.links[l]), 1e-4);
+    EXPECT_LT(largest_distance(found.suspension.links[l], e.links[l]), 1e-4);
   }
-  EXPECT_NEAR(constraint_error(found.guide, e.targets).gap, found.largest, 1e-13);
+  EXPECT_NEAR(constraint_error(found.suspension, e.targets).gap, found.largest, 1e-13);
 }
 
 TEST(IndirectSynthesis, DifferentialEvolutionTakesLinksThatShareACouplerTogether) {
   const test::Example e = test::published_example("ex3-forward");
   IndirectTask task = whole(e, 2);
-  task.couplers[0].most_offset = 0.286;
+  task.couplers[0].max_offset = 0.286;
   RunContext context;
   IndirectEvolutionOptions options;
   options.method.method.generations = 300;

@@ -8,8 +8,8 @@
 #include <regex>
 #include <string>
 
-#include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/guide/wheel.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/wheel.h"
 #include "support/resumed.h"
 #include "suspension/studies.h"
 
@@ -76,14 +76,15 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   // Positions of a suspension with a wishbone (RS), and rods that are asked for.
-  const WheelGuide& guide = guide_sample("RS-3US").guide;
-  const GuidePlan plan = prepare_guide(guide);
+  const Suspension& suspension = corner_sample("RS-3US").suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
   std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
-  text += fmt::format(
-      "[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
-      test::written(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
+  text +=
+      fmt::format("[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
+                  test::written(suspension.wheel.centre), suspension.wheel.toe, suspension.wheel.camber,
+                  suspension.wheel.tyre_diameter);
   int open = 0;
-  for (const GuideLink& l : guide.links) {
+  for (const CornerLink& l : suspension.links) {
     const bool rod = l.type == LinkType::US;
     const std::string ends =
         rod && open++ == 0 ? fmt::format("body_m = {{ near = {}, box_m = 0.1 }}\ncarrier_m = {}\n",
@@ -97,9 +98,9 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   }
   text += "[target]\ntype = \"carrier_poses\"\n";
   for (double travel = -0.08; travel < 0.085; travel += 0.02) {
-    const GuidePosition p =
+    const CornerPosition p =
         solve_position(plan, Driver::wheel_centre_z, {travel, 0}, reference_position(plan));
-    const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
+    const WheelAngles a = wheel_angles(Side::left, suspension.wheel, p.place.carrier.rotation);
     text +=
         fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ncarrier_pitch_rad = {}\n",
                     test::written(p.place.carrier.centre), a.toe, a.camber, a.carrier_pitch);
@@ -107,7 +108,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   const study::Result result = run_text(text);
   const Table& arms = test::table(result, "seven_pose_arms");
   ASSERT_EQ(arms.names, std::vector<std::string>{"RS"});
-  const GuideLink& arm = guide.links[0];
+  const CornerLink& arm = suspension.links[0];
   EXPECT_NEAR(arms.find("ball_x_m")->values.at(0), arm.carrier[0].x, 1e-5);
   EXPECT_NEAR(arms.find("ball_y_m")->values.at(0), arm.carrier[0].y, 1e-5);
   // Its axis is the hinge of the wishbone.
@@ -137,7 +138,7 @@ TEST(IndirectStudyRead, SlipsOfUnitsAreTold) {
               HasSubstr("target.pose: position 1: the wheel centre lies 200 m from its reference"));
 }
 
-TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {
+TEST(IndirectStudy, FindsTheSameCornerOnTheRight) {
   // The mirror image: y changes its sign in every [x, y, z], and so does the rack's direction.
   std::string mirrored = std::regex_replace(
       poses_example(), std::regex(R"(\[([^\[\],]+),\s*(-?)([0-9.]+),([^\[\],]+)\])"), "[$1, @$2$3,$4]");

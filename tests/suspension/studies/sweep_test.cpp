@@ -11,8 +11,8 @@
 
 #include "linkwright/core/looks.h"
 #include "linkwright/core/memory.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -33,16 +33,16 @@ TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5US", sweep + racks));
   ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   ASSERT_EQ(result.tables.at(0).rows(), 15U);
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
-  const GuidePosition reference = reference_position(plan);
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
+  const CornerPosition reference = reference_position(plan);
   for (std::size_t i = 0; i < 15; ++i) {
-    const GuideInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
-    const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference);
+    const CornerInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
+    const CornerPosition at = solve_position(plan, Driver::wheel_centre_z, input, reference);
     const WheelParameters wheel = wheel_parameters(plan, at);
-    const GuideRow row{at, wheel, Driver::spring};
+    const CornerRow row{at, wheel, Driver::spring};
     // Another way to the same position: rounding.
-    for (const GuideColumn& c : guide_columns()) {
-      if (!why_missing(guide_sample("5US").guide, c).empty()) {
+    for (const CornerColumn& c : corner_columns()) {
+      if (!why_missing(corner_sample("5US").suspension, c).empty()) {
         EXPECT_EQ(result.tables.at(0).find(c.key), nullptr) << c.key;
         continue;
       }
@@ -138,7 +138,7 @@ TEST(SweepStudy, TablesBumpSteerWithTheRackInItsMiddle) {
   EXPECT_EQ(run_text(sample("5US", sweep + "[output]\nquantities = [\"track\"]\n")).table("bump"), nullptr);
 }
 
-TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
+TEST(SweepStudy, LaysAnotherCornerBehindTheCurves) {
   const std::string text = sample("2RS-US", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-US\"\n";
   const study::Result result = run_text(text), other = run_text(sample("RS-SP-US", sweep));
   const auto baseline = std::find_if(result.tables.begin(), result.tables.end(),
@@ -220,7 +220,7 @@ TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
 }
 
 TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
   const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
   RunContext context;
   EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, &context).positions.size(), 6U);
@@ -230,7 +230,7 @@ TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
 }
 
 TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
   std::vector<double> travels;
   for (int i = 0; i < 10000; ++i) travels.push_back(1e-5 * (i - 300));
   RunContext context;
@@ -246,7 +246,7 @@ TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
 }
 
 TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
   std::vector<double> travels;
   for (int i = 0; i < 300; ++i) travels.push_back(1e-5 * i);
   RunContext context;

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "linkwright/core/looks.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "support/message.h"
-#include "suspension/guides.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -24,9 +24,9 @@ AxleParameters parameters(const AxlePlan& plan, const AxlePosition& position) {
 }
 
 TEST(AxleSweep, ParallelTravelIsThatOfOneWheelTwice) {
-  for (const GuideSample& sample : guide_samples().first(12)) {
+  for (const CornerSample& sample : corner_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const AxlePlan plan = prepare_axle(mirrored(sample.guide));  // from either wheel
+    const AxlePlan plan = prepare_axle(mirrored(sample.suspension));  // from either wheel
     const std::array values{-0.06, 0.0, 0.06};
     for (const AxleRow& row :
          sweep_axle(plan, AxleMotion::parallel, values, {.driver = Driver::wheel_centre_z})) {
@@ -49,8 +49,8 @@ TEST(AxleSweep, ParallelTravelIsThatOfOneWheelTwice) {
 }
 
 TEST(AxleSweep, RollCentreOfUnequalTravel) {
-  for (const GuideSample& sample : guide_samples().first(12)) {
-    const AxlePlan plan = prepare_axle(sample.guide);
+  for (const CornerSample& sample : corner_samples().first(12)) {
+    const AxlePlan plan = prepare_axle(sample.suspension);
     const AxlePosition leaned =
         solve_axle(plan, {Driver::wheel_centre_z, 0.04, -0.04, 0}, reference_position(plan));
     const AxleParameters found = parameters(plan, leaned);
@@ -75,8 +75,8 @@ TEST(AxleSweep, RollCentreOfUnequalTravel) {
 TEST(AxleSweep, Roll) {
   for (const char* name : {"2RS-US", "SR-3US", "R", "5US"}) {
     SCOPED_TRACE(name);
-    const WheelGuide& guide = guide_sample(name).guide;
-    const AxlePlan plan = prepare_axle(guide);
+    const Suspension& suspension = corner_sample(name).suspension;
+    const AxlePlan plan = prepare_axle(suspension);
     const AxlePosition start = reference_position(plan);
     for (double roll : {-0.05, 0.0, 0.03}) {
       const AxlePosition here = solve_roll(plan, roll, 0.01, 0, start);
@@ -108,7 +108,7 @@ TEST(AxleSweep, Roll) {
 
 // A wheel that stands fixed to the body leans with it.
 TEST(AxleSweep, CamberAgainstTheRoad) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
   const AxlePosition here = solve_roll(plan, 0.04, 0, 0, reference_position(plan));
   const AxleParameters found = parameters(plan, here);
   // Toe is small, so that camber and roll add.
@@ -117,7 +117,7 @@ TEST(AxleSweep, CamberAgainstTheRoad) {
 }
 
 TEST(AxleSweep, LeaningToTheOtherSideIsTheMirrorImage) {
-  const AxlePlan plan = prepare_axle(guide_sample("RS-SP-US").guide);
+  const AxlePlan plan = prepare_axle(corner_sample("RS-SP-US").suspension);
   const AxlePosition start = reference_position(plan);
   const AxleParameters one = parameters(plan, solve_roll(plan, 0.03, 0.01, 0.02, start));
   const AxleParameters other = parameters(plan, solve_roll(plan, -0.03, 0.01, -0.02, start));
@@ -135,7 +135,7 @@ TEST(AxleSweep, LeaningToTheOtherSideIsTheMirrorImage) {
 TEST(AxleSweep, AckermannOverTheRack) {
   for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
     SCOPED_TRACE(name);
-    const AxlePlan plan = prepare_axle(guide_sample(name).guide);
+    const AxlePlan plan = prepare_axle(corner_sample(name).suspension);
     const Value& reference = at(published(std::string("mechanism-") + name), "computed.ackermann");
     const AxleParameters straight = parameters(plan, reference_position(plan));
     const double track = straight.left.axis_at_spring->ground.y - straight.right.axis_at_spring->ground.y;
@@ -161,7 +161,7 @@ TEST(AxleSweep, AckermannOverTheRack) {
 }
 
 TEST(AxleSweep, ALimitOfOneWheelIsToldAndTheRestGoesOn) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
   const std::array values{0.0, 0.6, 0.05};
   const auto rows = sweep_axle(plan, AxleMotion::parallel, values, {.driver = Driver::wheel_centre_z});
   EXPECT_EQ(rows[1].position.status, Status::no_assembly);
@@ -173,7 +173,7 @@ TEST(AxleSweep, ALimitOfOneWheelIsToldAndTheRestGoesOn) {
 }
 
 TEST(AxleSweep, InterruptedGivesTheRowsSoFar) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
   std::vector<double> rolls;
   for (int i = 0; i < 10000; ++i) rolls.push_back(1e-6 * i);
   const RunContext context;
@@ -185,11 +185,11 @@ TEST(AxleSweep, InterruptedGivesTheRowsSoFar) {
 }
 
 TEST(AxleSweep, Contract) {
-  const WheelGuide& guide = guide_sample("2RS-US").guide;
-  EXPECT_THAT(test::message([&] { prepare_axle(guide, guide); }),
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  EXPECT_THAT(test::message([&] { prepare_axle(suspension, suspension); }),
               ::testing::StartsWith("prepare_axle: the first wheel is left, the second left"));
   EXPECT_THAT(test::message([&] {
-                const AxlePlan plan = prepare_axle(guide);
+                const AxlePlan plan = prepare_axle(suspension);
                 solve_roll(plan, 1.2, 0, 0, reference_position(plan));
               }),
               ::testing::StartsWith("solve_roll: roll 1.2 rad"));

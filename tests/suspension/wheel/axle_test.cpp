@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "support/message.h"
-#include "suspension/guides.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -17,18 +17,18 @@ using test::at;
 using test::number_at;
 using test::numbers;
 
-WheelParameters parameters(const WheelGuide& guide, double travel, double rack = 0) {
-  const GuidePlan plan = prepare_guide(guide);
+WheelParameters parameters(const Suspension& suspension, double travel, double rack = 0) {
+  const CornerPlan plan = prepare_suspension(suspension);
   return wheel_parameters(
       plan, solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan)));
 }
 
 TEST(Axle, ReferenceAxleAndRollCentreOfUnequalTravel) {
-  for (const GuideSample& sample : guide_samples().first(12)) {
+  for (const CornerSample& sample : corner_samples().first(12)) {
     SCOPED_TRACE(sample.name);
     const Value& computed = at(published("mechanism-" + sample.name), "computed");
     const Value& axle = at(computed, "reference_axle");
-    const WheelParameters here = parameters(sample.guide, 0);
+    const WheelParameters here = parameters(sample.suspension, 0);
     // Rates to 1e-9 (see the curves); instant centres lie metres away, which multiplies.
     EXPECT_NEAR(2 * here.contact.y, number_at(axle, "track_m"), 1e-12);
     EXPECT_NEAR(here.roll_centre_height, number_at(axle, "roll_centre_height_m"), 1e-9);
@@ -39,7 +39,8 @@ TEST(Axle, ReferenceAxleAndRollCentreOfUnequalTravel) {
       EXPECT_NEAR(here.side_centre[i], side[i], 1e-9 * std::max(1.0, std::abs(side[i])));
     }
     const auto expected = numbers(at(computed, "roll_centre_left_plus40_right_minus40_mm_yz_m"));
-    const auto found = roll_centre(parameters(sample.guide, 0.04), parameters(mirrored(sample.guide), -0.04));
+    const auto found =
+        roll_centre(parameters(sample.suspension, 0.04), parameters(mirrored(sample.suspension), -0.04));
     ASSERT_TRUE(found);
     EXPECT_NEAR((*found)[0], expected[0], 1e-9);
     EXPECT_NEAR((*found)[1], expected[1], 1e-9);
@@ -47,8 +48,8 @@ TEST(Axle, ReferenceAxleAndRollCentreOfUnequalTravel) {
 }
 
 TEST(Axle, RollCentreOfEqualTravelLiesInTheMiddle) {
-  const WheelGuide& guide = guide_sample("2RS-US").guide;
-  const WheelParameters left = parameters(guide, 0.03), right = parameters(mirrored(guide), 0.03);
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const WheelParameters left = parameters(suspension, 0.03), right = parameters(mirrored(suspension), 0.03);
   const auto found = roll_centre(left, right);
   ASSERT_TRUE(found);
   EXPECT_NEAR((*found)[0], 0, 1e-13);
@@ -60,9 +61,9 @@ TEST(Axle, RollCentreOfEqualTravelLiesInTheMiddle) {
 
 // Against two positions of the contact point, and a wheel that has to lean with the body.
 TEST(Axle, RollGains) {
-  const WheelGuide& guide = guide_sample("2RS-US").guide;
-  for (const WheelGuide& one : {guide, mirrored(guide)}) {
-    const GuidePlan plan = prepare_guide(one);
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  for (const Suspension& one : {suspension, mirrored(suspension)}) {
+    const CornerPlan plan = prepare_suspension(one);
     const RollGains found = roll_gains(parameters(one, 0));
     const double roll = 1e-5, rise = std::abs(plan.contact.y) * std::tan(roll);
     const auto angles = [&](double height) {
@@ -75,7 +76,7 @@ TEST(Axle, RollGains) {
     EXPECT_NEAR(found.toe, (up.toe - down.toe) / (2 * roll), 1e-8);
     EXPECT_NEAR(found.camber, 1 + (up.camber - down.camber) / (2 * roll), 1e-8);
   }
-  WheelGuide trailing{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
+  Suspension trailing{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
   trailing.links.push_back({.type = LinkType::R, .body = {{0.5, 0.3, 0}, {0.5, 0.6, 0}}});
   EXPECT_NEAR(roll_gains(parameters(trailing, 0)).camber, 1, 1e-15);
   EXPECT_NEAR(roll_gains(parameters(trailing, 0)).toe, 0, 1e-15);
@@ -84,15 +85,15 @@ TEST(Axle, RollGains) {
 TEST(Axle, AckermannOfTheSteeredMechanisms) {
   for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
     SCOPED_TRACE(name);
-    const WheelGuide& guide = guide_sample(name).guide;
+    const Suspension& suspension = corner_sample(name).suspension;
     const Value& reference = at(published(std::string("mechanism-") + name), "computed.ackermann");
-    const WheelParameters ahead = parameters(guide, 0);
+    const WheelParameters ahead = parameters(suspension, 0);
     const double track = 2 * ahead.axis_at_spring->ground.y;
     EXPECT_NEAR(track, number_at(reference, "kingpin_track_at_ground_m"), 1e-11);
     for (const Value& row : at(reference, "rows").as_array()) {
       const double rack = number_at(row, "rack_m");
-      const double plus = parameters(guide, 0, rack).angles.toe - ahead.angles.toe;
-      const double minus = parameters(guide, 0, -rack).angles.toe - ahead.angles.toe;
+      const double plus = parameters(suspension, 0, rack).angles.toe - ahead.angles.toe;
+      const double minus = parameters(suspension, 0, -rack).angles.toe - ahead.angles.toe;
       // A wheel that toes out is the inner one.
       const double inner = -std::min(plus, minus), outer = std::max(plus, minus);
       EXPECT_NEAR(inner, number_at(row, "inner_rad"), 1e-11);
@@ -121,7 +122,7 @@ TEST(Axle, AntiFeatures) {
     const std::string& name = at(row, "mechanism").as_string();
     SCOPED_TRACE(name);
     const bool front = row.find("anti_dive_percent_front_outboard_brake");
-    const AntiFeatures found = anti_features(parameters(guide_sample(name).guide, 0),
+    const AntiFeatures found = anti_features(parameters(corner_sample(name).suspension, 0),
                                              front ? AxlePlace::front : AxlePlace::rear, layout);
     EXPECT_NEAR(found.outboard_brake,
                 number_at(row, front ? "anti_dive_percent_front_outboard_brake"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 
 namespace linkwright::suspension {
@@ -56,26 +56,27 @@ double apart(const WheelParameters& a, const WheelParameters& b, const WheelPara
 // turns round within millimetres, leaves 1e-8; rounding of 1e-15 over the step less.
 constexpr double step = 2e-5, agreement = 1e-7;
 
-WheelParameters solved(const WheelGuide& guide, Driver driver, const GuideInput& input) {
-  const GuidePlan plan = prepare_guide(guide);
-  const GuidePosition at = solve_position(plan, driver, input, reference_position(plan, driver));
+WheelParameters solved(const Suspension& suspension, Driver driver, const CornerInput& input) {
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition at = solve_position(plan, driver, input, reference_position(plan, driver));
   EXPECT_EQ(at.status, Status::done);
   return wheel_parameters(plan, at);
 }
 
 struct Station {
   Driver driver;
-  GuideInput input;
+  CornerInput input;
 };
 
-void expect_exact(const WheelGuide& guide, const std::string& name, const std::vector<Station>& stations) {
-  std::vector<DesignNumber> numbers = hard_points(guide);
+void expect_exact(const Suspension& suspension, const std::string& name,
+                  const std::vector<Station>& stations) {
+  std::vector<DesignNumber> numbers = hard_points(suspension);
   for (int axis = 0; axis < 3; ++axis) numbers.push_back({DesignKind::wheel_centre, 0, 0, axis});
   numbers.push_back({DesignKind::wheel_toe});
   numbers.push_back({DesignKind::wheel_camber});
-  const DerivativePlan plan = prepare_derivatives(guide, numbers);
+  const DerivativePlan plan = prepare_derivatives(suspension, numbers);
   for (const auto& [driver, input] : stations) {
-    const GuidePosition at = solve_position(plan.plan, driver, input, reference_position(plan.plan, driver));
+    const CornerPosition at = solve_position(plan.plan, driver, input, reference_position(plan.plan, driver));
     const WheelDerivatives exact = wheel_derivatives(plan, at);
     const WheelParameters values = wheel_parameters(plan.plan, at);
     ASSERT_EQ(exact.by.size(), numbers.size());
@@ -87,7 +88,7 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
       const auto off = [&, driver = driver, input = input](double by_step) {
         const WheelParameters by = differenced(
             [&](double h) {
-              WheelGuide other = guide;
+              Suspension other = suspension;
               suspension::design_value(other, numbers[j]) += h;
               return solved(other, driver, input);
             },
@@ -98,56 +99,57 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
       // A curve that bends more than the step was chosen for has a sixteenth of the truncation at half of it.
       double worst = off(step);
       if (!(worst < agreement)) worst = off(step / 2);
-      EXPECT_LT(worst, agreement) << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", "
-                                  << input.rack;
+      EXPECT_LT(worst, agreement) << name << ": " << label(suspension, numbers[j]) << " at " << input.value
+                                  << ", " << input.rack;
       EXPECT_GT(count, 30);
     }
   }
 }
 
 TEST(Derivatives, AgreeWithDifferencesOfSolvedDesigns) {
-  for (const GuideSample& sample : guide_samples().first(12))
-    expect_exact(sample.guide, sample.name,
+  for (const CornerSample& sample : corner_samples().first(12))
+    expect_exact(sample.suspension, sample.name,
                  {{Driver::wheel_centre_z, {0.045, 0.02}}, {Driver::wheel_centre_z, {-0.06, 0}}});
 }
 
 TEST(Derivatives, HoldWhatDrives) {
   for (const char* name : {"2RS-US", "RS-SP-US", "RR-US"})
-    expect_exact(guide_sample(name).guide, name,
+    expect_exact(corner_sample(name).suspension, name,
                  {{Driver::spring, {0.02, 0.01}}, {Driver::contact_z, {0.05, 0}}});
 }
 
 TEST(Derivatives, OfPrescribedLengthsAndCouplers) {
-  WheelGuide lengths = guide_sample("5US").guide;
-  for (GuideLink& link : lengths.links) link.length = norm(link.carrier[0] - link.body[0]);
+  Suspension lengths = corner_sample("5US").suspension;
+  for (CornerLink& link : lengths.links) link.length = norm(link.carrier[0] - link.body[0]);
   *lengths.links[1].length += 0.003;
   expect_exact(lengths, "5US with lengths", {{Driver::wheel_centre_z, {0.03, 0.01}}});
-  const WheelGuide coupled = guide_sample("interconnected").guide;
+  const Suspension coupled = corner_sample("interconnected").suspension;
   expect_exact(coupled, "interconnected", {{Driver::wheel_centre_z, {0.05, 0}}});
-  WheelGuide right = mirrored(guide_sample("2RS-US").guide);
+  Suspension right = mirrored(corner_sample("2RS-US").suspension);
   expect_exact(right, "right wheel", {{Driver::wheel_centre_z, {0.03, -0.02}}});
 }
 
 TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
   for (const int link : {0, 2}) {
-    WheelGuide guide = guide_sample("5US").guide;
-    guide.spring->link = link;
-    expect_exact(guide, "5US, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
-    guide.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
-    guide.links[link].length = norm(guide.links[link].carrier[0] - guide.links[link].body[0]) + 0.004;
-    expect_exact(guide, "5US, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
+    Suspension suspension = corner_sample("5US").suspension;
+    suspension.spring->link = link;
+    expect_exact(suspension, "5US, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
+    suspension.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
+    suspension.links[link].length =
+        norm(suspension.links[link].carrier[0] - suspension.links[link].body[0]) + 0.004;
+    expect_exact(suspension, "5US, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
   }
-  WheelGuide coupled = guide_sample("interconnected").guide;
-  const GuideLink& rod = coupled.links[coupled.couplers[0].first];
+  Suspension coupled = corner_sample("interconnected").suspension;
+  const CornerLink& rod = coupled.links[coupled.couplers[0].first];
   coupled.couplers[0].begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
   expect_exact(coupled, "coupler off the line", {{Driver::wheel_centre_z, {0.03, 0}}});
 }
 
 TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
-  for (const GuideSample& sample : guide_samples()) {
-    const DerivativePlan plan = prepare_derivatives(sample.guide, {});
-    const GuidePosition reference = reference_position(plan.plan);
-    for (const GuideInput& input : {GuideInput{0.04, 0.015}, GuideInput{-0.05, 0}}) {
+  for (const CornerSample& sample : corner_samples()) {
+    const DerivativePlan plan = prepare_derivatives(sample.suspension, {});
+    const CornerPosition reference = reference_position(plan.plan);
+    for (const CornerInput& input : {CornerInput{0.04, 0.015}, CornerInput{-0.05, 0}}) {
       const auto at = [&](double travel, double rack) {
         return solve_position(plan.plan, Driver::wheel_centre_z, {input.value + travel, input.rack + rack},
                               reference);
@@ -167,9 +169,9 @@ TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
 }
 
 TEST(Derivatives, AtRestAreTheSameWithoutRates) {
-  const WheelGuide guide = guide_sample("2RS-US").guide;
-  const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
-  const GuidePosition at =
+  const Suspension suspension = corner_sample("2RS-US").suspension;
+  const DerivativePlan plan = prepare_derivatives(suspension, hard_points(suspension));
+  const CornerPosition at =
       solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
   const WheelDerivatives all = wheel_derivatives(plan, at),
                          rest = wheel_derivatives(plan, at, Extent::at_rest);
@@ -181,21 +183,22 @@ TEST(Derivatives, AtRestAreTheSameWithoutRates) {
 }
 
 TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
-  WheelGuide guide = guide_sample("5US").guide;
-  guide.links[4] = guide.links[3];
-  guide.links[4].name = "double";
-  const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
-  const GuidePosition at{.place = {{plan.plan.wheel.centre, {}}, 0}};
+  Suspension suspension = corner_sample("5US").suspension;
+  suspension.links[4] = suspension.links[3];
+  suspension.links[4].name = "double";
+  const DerivativePlan plan = prepare_derivatives(suspension, hard_points(suspension));
+  const CornerPosition at{.place = {{plan.plan.wheel.centre, {}}, 0}};
   const WheelDerivatives found = wheel_derivatives(plan, at);
   EXPECT_EQ(found.status, Status::singular);
   EXPECT_EQ(found.parameters.status, Status::singular);
-  EXPECT_NEAR(found.parameters.angles.toe, guide.wheel.toe, 1e-15);
+  EXPECT_NEAR(found.parameters.angles.toe, suspension.wheel.toe, 1e-15);
   EXPECT_TRUE(std::isnan(found.by[0].angles.toe));
   EXPECT_EQ(input_derivatives(plan, at).status, Status::singular);
 }
 
 TEST(Derivatives, OfNumbersThatAreNotThereAreRefused) {
-  EXPECT_THROW(prepare_derivatives(guide_sample("5US").guide, {{DesignKind::length, 0}}), ContractError);
+  EXPECT_THROW(prepare_derivatives(corner_sample("5US").suspension, {{DesignKind::length, 0}}),
+               ContractError);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/guide/samples.h"
-#include "suspension/guides.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -38,8 +38,8 @@ void expect_axis(const std::optional<SteeringAxis>& axis, const Value& row) {
   EXPECT_NEAR(axis->pitch, number_at(row, "screw_pitch_m_per_rad"), close_value);
 }
 
-void expect_row(const GuidePlan& plan, const Value& row) {
-  const GuidePosition position = solve(plan, number_at(row, "travel_m"), number_at(row, "rack_m"));
+void expect_row(const CornerPlan& plan, const Value& row) {
+  const CornerPosition position = solve(plan, number_at(row, "travel_m"), number_at(row, "rack_m"));
   ASSERT_EQ(position.status, Status::done) << position.reason;
   const WheelParameters found = wheel_parameters(plan, position);
   ASSERT_EQ(found.status, Status::done);
@@ -68,9 +68,9 @@ void expect_row(const GuidePlan& plan, const Value& row) {
 }
 
 TEST(WheelParameters, CurvesOfAllMechanisms) {
-  for (const GuideSample& sample : guide_samples().first(12)) {
+  for (const CornerSample& sample : corner_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare_guide(sample.guide);
+    const CornerPlan plan = prepare_suspension(sample.suspension);
     const Value& computed = at(published("mechanism-" + sample.name), "computed");
     for (const char* curve : {"wheel_travel", "rack_travel", "combined"})
       if (const Value* rows = computed.find(curve))
@@ -81,7 +81,7 @@ TEST(WheelParameters, CurvesOfAllMechanisms) {
 TEST(WheelParameters, ExamplesOfTheSource) {
   for (const char* id : {"derived-ex1", "derived-ex2"}) {
     SCOPED_TRACE(id);
-    const GuidePlan plan = prepare_guide(guide_from(at(published(id), "inputs.mechanism")));
+    const CornerPlan plan = prepare_suspension(corner_from(at(published(id), "inputs.mechanism")));
     for (const Value& row : at(published(id), "computed.points").as_array()) expect_row(plan, row);
   }
 }
@@ -94,13 +94,13 @@ TEST(WheelParameters, PublishedTables) {
                                    {"ex3-forward", 1e-10},
                                    {"ex4-forward", 1e-10}}) {
     SCOPED_TRACE(id);
-    const GuidePlan plan = prepare_guide(guide_from(at(published(id), "inputs.mechanism")));
+    const CornerPlan plan = prepare_suspension(corner_from(at(published(id), "inputs.mechanism")));
     const auto& rows = at(published(id), "published.rows").as_array();
     const auto& positions = at(published(id), "computed.positions").as_array();
     ASSERT_EQ(rows.size(), positions.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Value& row = positions[i];
-      const GuidePosition position = solve(plan, number_at(row, "travel_m"), number_at(row, "rack_m"));
+      const CornerPosition position = solve(plan, number_at(row, "travel_m"), number_at(row, "rack_m"));
       const WheelParameters found = wheel_parameters(plan, position);
       EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), angles);
       EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), angles);
@@ -125,24 +125,24 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
   const Value& in = at(published("ex5-targets"), "inputs");
   const Value& computed = at(published("ex5-minmax-optimum"), "computed");
   const Vec3 axis = point(at(in, "wheel_axis"));
-  WheelGuide guide{.wheel = {point(at(in, "wheel_centre_m")), std::atan2(axis.x, axis.y), -std::asin(axis.z),
-                             number_at(in, "tyre_diameter_m")}};
+  Suspension suspension{.wheel = {point(at(in, "wheel_centre_m")), std::atan2(axis.x, axis.y),
+                                  -std::asin(axis.z), number_at(in, "tyre_diameter_m")}};
   const auto lengths = test::numbers(at(in, "lengths_1_to_5_m"));
   const auto& carrier = at(in, "carrier_points_11_to_15_m").as_array();
   for (int i = 0; i < 5; ++i) {
     const Value& body = i < 2 ? at(in, "body_points_01_02_m").as_array()[i]
                               : at(computed, "points_03_04_05_m").as_array()[i - 2];
-    guide.links.push_back({.type = LinkType::US,
-                           .body = {point(body)},
-                           .carrier = {point(carrier[i])},
-                           .length = lengths[i],
-                           .moved_by_rack = i == 2});
+    suspension.links.push_back({.type = LinkType::US,
+                                .body = {point(body)},
+                                .carrier = {point(carrier[i])},
+                                .length = lengths[i],
+                                .moved_by_rack = i == 2});
   }
-  const GuidePlan plan = prepare_guide(guide);
+  const CornerPlan plan = prepare_suspension(suspension);
   const auto travels = test::numbers(at(in, "dz_m")), racks = test::numbers(at(in, "rack_m"));
   for (std::size_t i = 0; i < travels.size(); ++i) {
     const Value& row = at(computed, "positions").as_array()[i];
-    const GuidePosition position = solve(plan, travels[i], racks[i]);
+    const CornerPosition position = solve(plan, travels[i], racks[i]);
     ASSERT_EQ(position.status, Status::done) << position.reason;
     const WheelParameters found = wheel_parameters(plan, position);
     // The body points are given to 1e-12 m.
@@ -155,8 +155,8 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
 TEST(WheelParameters, BothContactVelocities) {
   const Value& reference = published("contact-velocity-definitions");
   const Value& computed = at(reference, "computed");
-  const GuidePlan plan = prepare_guide(guide_sample("front_5US").guide);
-  const GuidePosition position =
+  const CornerPlan plan = prepare_suspension(corner_sample("front_5US").suspension);
+  const CornerPosition position =
       solve(plan, number_at(reference, "inputs.travel_m"), number_at(reference, "inputs.rack_m"));
   const WheelParameters found = wheel_parameters(plan, position);
   const auto near = [](const Vec3& a, const Value& b) { EXPECT_LT(distance(a, point(b)), 1e-10); };
@@ -164,7 +164,7 @@ TEST(WheelParameters, BothContactVelocities) {
   near(found.turning, at(computed, "omega_rad_s"));
   near(found.contact_velocity.on_carrier, at(computed, "v_contact_carrier_fixed_m_s"));
   near(found.contact_velocity.geometric, at(computed, "v_contact_geometric_m_s"));
-  const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
+  const CornerRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   near(rates.steer.velocity, at(computed, "v_steer_m_s"));
   near(rates.steer.turning, at(computed, "omega_steer_rad_s"));
   near(found.axis_at_height->point, at(computed, "axis_point_m"));
@@ -172,9 +172,9 @@ TEST(WheelParameters, BothContactVelocities) {
 
 TEST(WheelParameters, RatesAreDifferencesOfValues) {
   constexpr double h = 1e-5;
-  for (const GuideSample& sample : guide_samples().first(12)) {
+  for (const CornerSample& sample : corner_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare_guide(sample.guide);
+    const CornerPlan plan = prepare_suspension(sample.suspension);
     const auto there = [&](double travel) { return wheel_parameters(plan, solve(plan, travel)); };
     const WheelParameters here = there(0.03), more = there(0.03 + h), less = there(0.03 - h);
     // Truncation h^2 times third derivatives of some 100 /m2, rounding 1e-14 / h.
@@ -196,14 +196,16 @@ TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
     for (double travel : {-0.06, 0.0, 0.05})
       for (double rack : {-0.04, 0.0, 0.05}) {
         SCOPED_TRACE(name);
-        const WheelGuide& guide = guide_sample(name).guide;
-        const GuidePlan plan = prepare_guide(guide);
-        const GuidePosition position = solve(plan, travel, rack);
+        const Suspension& suspension = corner_sample(name).suspension;
+        const CornerPlan plan = prepare_suspension(suspension);
+        const CornerPosition position = solve(plan, travel, rack);
         const SteeringAxis axis = *wheel_parameters(plan, position).axis_at_spring;
-        const Vec3 lower = place(position.place.carrier, guide.links[0].carrier[0], guide.wheel.centre);
-        const Vec3 upper = guide.links[1].type == LinkType::SP
-                               ? guide.links[1].body[0]
-                               : place(position.place.carrier, guide.links[1].carrier[0], guide.wheel.centre);
+        const Vec3 lower =
+            place(position.place.carrier, suspension.links[0].carrier[0], suspension.wheel.centre);
+        const Vec3 upper =
+            suspension.links[1].type == LinkType::SP
+                ? suspension.links[1].body[0]
+                : place(position.place.carrier, suspension.links[1].carrier[0], suspension.wheel.centre);
         EXPECT_LT(norm(cross(lower - axis.point, axis.direction)), 1e-12);
         EXPECT_LT(norm(cross(upper - axis.point, axis.direction)), 1e-12);
         EXPECT_LT(std::abs(axis.pitch), 1e-12);
@@ -217,9 +219,9 @@ TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
 // The same motion from equations with the spring as driver, and from those with the height: a second exact
 // route.
 TEST(WheelParameters, SteeringMotionByTwoRoutes) {
-  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
-  const GuidePosition position = solve(plan, 0.04, 0.03);
-  const GuideRates at_height = solve_rates(plan, position, Driver::wheel_centre_z);
+  const CornerPlan plan = prepare_suspension(corner_sample("5US").suspension);
+  const CornerPosition position = solve(plan, 0.04, 0.03);
+  const CornerRates at_height = solve_rates(plan, position, Driver::wheel_centre_z);
   for (Driver lock : {Driver::spring, Driver::contact_z}) {
     const Twist one = solve_rates(plan, position, lock).steer,
                 other = steering_twist(plan, position, at_height, lock);
@@ -229,8 +231,8 @@ TEST(WheelParameters, SteeringMotionByTwoRoutes) {
 }
 
 TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
-  const WheelGuide& guide = guide_sample("2RS-US").guide;
-  const GuidePlan left = prepare_guide(guide), right = prepare_guide(mirrored(guide));
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const CornerPlan left = prepare_suspension(suspension), right = prepare_suspension(mirrored(suspension));
   const WheelParameters a = wheel_parameters(left, solve(left, 0.05, -0.03));
   const WheelParameters b = wheel_parameters(right, solve(right, 0.05, 0.03));
   const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-13); };
@@ -263,8 +265,8 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
 // By the equations with the contact point's height as driver: another exact route.
 TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
   for (const char* name : {"2RS-US", "5US", "SP-3US"}) {
-    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
-    const GuidePosition position = solve(plan, 0.03, -0.025);
+    const CornerPlan plan = prepare_suspension(corner_sample(name).suspension);
+    const CornerPosition position = solve(plan, 0.03, -0.025);
     const WheelParameters found = wheel_parameters(plan, position);
     const SteeringAxis axis = *found.axis_at_contact;
     EXPECT_EQ(axis.lock, Driver::contact_z);
@@ -286,9 +288,9 @@ TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
 
 // Points of a screw move along it by its pitch times the turning.
 TEST(WheelParameters, PitchOfTheTravelScrew) {
-  for (const GuideSample& sample : guide_samples().first(12)) {
-    const GuidePlan plan = prepare_guide(sample.guide);
-    const GuidePosition position = solve(plan, 0.05);
+  for (const CornerSample& sample : corner_samples().first(12)) {
+    const CornerPlan plan = prepare_suspension(sample.suspension);
+    const CornerPosition position = solve(plan, 0.05);
     const WheelParameters found = wheel_parameters(plan, position);
     const Vec3 w = found.turning;
     const Vec3 point = position.place.carrier.centre + 1 / dot(w, w) * cross(w, found.velocity);
@@ -299,9 +301,9 @@ TEST(WheelParameters, PitchOfTheTravelScrew) {
 
 // The trace of the wheel's plane in a transverse plane against the vertical.
 TEST(WheelParameters, CamberInTheFrontView) {
-  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
+  const CornerPlan plan = prepare_suspension(corner_sample("2RS-US").suspension);
   for (double rack : {-0.06, 0.0, 0.06}) {
-    const GuidePosition position = solve(plan, -0.05, rack);
+    const CornerPosition position = solve(plan, -0.05, rack);
     const WheelParameters found = wheel_parameters(plan, position);
     const Vec3 trace = cross(wheel_axis(plan.side, found.angles.toe, found.angles.camber), Vec3{1, 0, 0});
     EXPECT_NEAR(found.front_view_camber, std::atan(trace.y / trace.z), 1e-15);
@@ -313,9 +315,9 @@ TEST(WheelParameters, CamberInTheFrontView) {
 // A trailing arm with its hinge along y turns about the hinge in the side view: arm and angle by
 // construction.
 TEST(WheelParameters, SwingArmsOfATrailingArm) {
-  WheelGuide guide{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
-  guide.links.push_back({.type = LinkType::R, .body = {{0.5, 0.3, 0.1}, {0.5, 0.6, 0.1}}});
-  const GuidePlan plan = prepare_guide(guide);
+  Suspension suspension{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
+  suspension.links.push_back({.type = LinkType::R, .body = {{0.5, 0.3, 0.1}, {0.5, 0.6, 0.1}}});
+  const CornerPlan plan = prepare_suspension(suspension);
   const WheelParameters found = wheel_parameters(plan, reference_position(plan));
   EXPECT_NEAR(found.side_centre[0], 0.5, 1e-15);
   EXPECT_NEAR(found.side_centre[1], 0.1, 1e-15);
@@ -325,8 +327,8 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
   EXPECT_GT(found.front_swing_arm, 1e12);
   EXPECT_NEAR(found.roll_centre_height, 0, 1e-15);
   // The front view turns if the hinge lies along x.
-  guide.links[0].body = {{-0.2, 0.2, 0.05}, {0.2, 0.2, 0.05}};
-  const GuidePlan swing = prepare_guide(guide);
+  suspension.links[0].body = {{-0.2, 0.2, 0.05}, {0.2, 0.2, 0.05}};
+  const CornerPlan swing = prepare_suspension(suspension);
   const WheelParameters across = wheel_parameters(swing, reference_position(swing));
   EXPECT_NEAR(across.front_centre[0], 0.2, 1e-15);
   EXPECT_NEAR(across.front_centre[1], 0.05, 1e-15);
@@ -336,9 +338,9 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
 }
 
 TEST(WheelParameters, WithoutSpringOrRackNumbersAreMissing) {
-  WheelGuide guide = guide_sample("R").guide;
-  guide.spring.reset();
-  const GuidePlan plan = prepare_guide(guide);
+  Suspension suspension = corner_sample("R").suspension;
+  suspension.spring.reset();
+  const CornerPlan plan = prepare_suspension(suspension);
   const WheelParameters found = wheel_parameters(plan, solve(plan, 0.02));
   EXPECT_TRUE(std::isnan(found.motion_ratio));
   EXPECT_TRUE(std::isnan(found.spring_length));
@@ -349,12 +351,12 @@ TEST(WheelParameters, WithoutSpringOrRackNumbersAreMissing) {
 
 TEST(WheelParameters, ArmsOfAWheelThatOnlyShiftsAreInfinite) {
   // Parallel links of equal length: the carrier does not turn.
-  WheelGuide guide{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
+  Suspension suspension{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
   for (const Vec3& at :
        {Vec3{0.1, 0.6, -0.1}, Vec3{-0.1, 0.6, -0.1}, Vec3{0.1, 0.6, 0.2}, Vec3{-0.1, 0.6, 0.2}})
-    guide.links.push_back({.type = LinkType::US, .body = {at - Vec3{0, 0.3, 0.01}}, .carrier = {at}});
-  guide.links.push_back({.type = LinkType::US, .body = {{-0.5, 0.6, 0}}, .carrier = {{-0.1, 0.6, 0}}});
-  const GuidePlan plan = prepare_guide(guide);
+    suspension.links.push_back({.type = LinkType::US, .body = {at - Vec3{0, 0.3, 0.01}}, .carrier = {at}});
+  suspension.links.push_back({.type = LinkType::US, .body = {{-0.5, 0.6, 0}}, .carrier = {{-0.1, 0.6, 0}}});
+  const CornerPlan plan = prepare_suspension(suspension);
   const WheelParameters found = wheel_parameters(plan, reference_position(plan));
   ASSERT_EQ(found.status, Status::done);
   EXPECT_GT(found.front_swing_arm, 1e12);

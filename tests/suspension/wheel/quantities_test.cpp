@@ -6,15 +6,15 @@
 #include <cmath>
 #include <set>
 
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {
 namespace {
 
 TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
-  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
-  const GuidePosition at =
+  const CornerPlan plan = prepare_suspension(corner_sample("2RS-US").suspension);
+  const CornerPosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters parameters = wheel_parameters(plan, at);
   std::set<double> values;
@@ -33,10 +33,10 @@ TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
 }
 
 TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
-  WheelGuide guide = guide_sample("2RS-US").guide;
-  guide.links[1] = guide.links[0];
-  guide.links[1].name = "double";
-  const GuidePlan plan = prepare_guide(guide);
+  Suspension suspension = corner_sample("2RS-US").suspension;
+  suspension.links[1] = suspension.links[0];
+  suspension.links[1].name = "double";
+  const CornerPlan plan = prepare_suspension(suspension);
   const WheelParameters parameters = wheel_parameters(plan, {.place = {{plan.wheel.centre, {}}, 0}});
   ASSERT_EQ(parameters.status, Status::singular);
   for (const auto& name : names(WheelQuantity{}))
@@ -45,7 +45,7 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
           << name.name;
     }
   // Constructions are known there as well; only derivatives take their time for them with the motions.
-  const GuidePlan wishbones = prepare_guide(guide_sample("2RS-US").guide);
+  const CornerPlan wishbones = prepare_suspension(corner_sample("2RS-US").suspension);
   const WheelParameters drawn = wheel_parameters(wishbones, reference_position(wishbones));
   EXPECT_TRUE(std::isfinite(value_of(drawn, WheelQuantity::geometric_caster)));
   EXPECT_EQ(row_of(WheelQuantity::geometric_caster).extent, Extent::all);
@@ -53,9 +53,9 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
 
 // A number that is left out of a list would have no derivative: by the design, by travel and by rack.
 TEST(WheelQuantities, WhatHasAValueHasItsDerivatives) {
-  for (const GuideSample& sample : guide_samples()) {
-    const DerivativePlan plan = prepare_derivatives(sample.guide, hard_points(sample.guide));
-    const GuidePosition at =
+  for (const CornerSample& sample : corner_samples()) {
+    const DerivativePlan plan = prepare_derivatives(sample.suspension, hard_points(sample.suspension));
+    const CornerPosition at =
         solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
     const WheelParameters values = wheel_parameters(plan.plan, at);
     const WheelDerivatives by_points = wheel_derivatives(plan, at);

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "support/message.h"
-#include "suspension/guides.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -20,21 +20,22 @@ constexpr std::array steered{"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"};
 // times its share along it.
 TEST(Steering, LeverArmsByTheScrewAxis) {
   for (const char* name : steered)
-    for (const WheelGuide& guide : {guide_sample(name).guide, mirrored(guide_sample(name).guide)})
+    for (const Suspension& suspension :
+         {corner_sample(name).suspension, mirrored(corner_sample(name).suspension)})
       for (Driver lock : {Driver::spring, Driver::wheel_centre_z, Driver::contact_z}) {
         SCOPED_TRACE(name);
-        const GuidePlan plan = prepare_guide(guide);
-        const GuidePosition here = solve(plan, 0.02, 0.03);
+        const CornerPlan plan = prepare_suspension(suspension);
+        const CornerPosition here = solve(plan, 0.02, 0.03);
         const auto found = steering_parameters(plan, here, lock);
         ASSERT_TRUE(found);
-        const GuideRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
+        const CornerRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
         const Twist twist = steering_twist(plan, here, rates, lock);
         const WheelParameters wheel = wheel_parameters(plan, here);
-        const auto axis = steering_axis(guide.side, here.place.carrier.centre, wheel.contact,
+        const auto axis = steering_axis(suspension.side, here.place.carrier.centre, wheel.contact,
                                         wheel.angles.toe, twist, lock);
         ASSERT_TRUE(axis);
         const double rate = dot(twist.turning, axis->direction) / found->toe_by_rack;
-        const double outboard = guide.side == Side::left ? 1 : -1;
+        const double outboard = suspension.side == Side::left ? 1 : -1;
         const double pitch = outboard * axis->pitch;  // pitch of a right wheel is given as in the mirror
         const auto arm = [&](const Vec3& force, const Vec3& at) {
           return rate *
@@ -45,12 +46,12 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
         EXPECT_NEAR(found->load_arm, arm({0, 0, 1}, wheel.contact), 1e-12);
         // The wheel free to turn: the force without its moment about the wheel's axis, but for the turn of
         // that axis in its own plane (toe and camber together).
-        const Vec3 carrier_pitch = wheel_axis(guide.side, wheel.angles.toe, wheel.angles.camber);
+        const Vec3 carrier_pitch = wheel_axis(suspension.side, wheel.angles.toe, wheel.angles.camber);
         const double torque =
             dot(cross(wheel.contact - here.place.carrier.centre, Vec3{1, 0, 0}), carrier_pitch);
         const double share = rate * dot(axis->direction, carrier_pitch);
         const double cant =
-            guide.wheel.tyre_diameter / 2 * std::sin(wheel.angles.camber) * std::cos(wheel.angles.toe);
+            suspension.wheel.tyre_diameter / 2 * std::sin(wheel.angles.camber) * std::cos(wheel.angles.toe);
         EXPECT_NEAR(found->drive_arm, arm({1, 0, 0}, wheel.contact) - torque * share - cant, 1e-12);
       }
 }
@@ -58,8 +59,8 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
 // Straight ahead a force along the wheel has nearly the scrub radius as its arm: the axis is upright but for
 // caster and inclination.
 TEST(Steering, SignsOfTheArms) {
-  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
-  const GuidePosition here = reference_position(plan);
+  const CornerPlan plan = prepare_suspension(corner_sample("2RS-US").suspension);
+  const CornerPosition here = reference_position(plan);
   const auto found = steering_parameters(plan, here, Driver::spring);
   const WheelParameters wheel = wheel_parameters(plan, here);
   ASSERT_TRUE(found);
@@ -73,8 +74,8 @@ TEST(Steering, SignsOfTheArms) {
 TEST(Steering, AgainstPositionsWithTheSpringHeld) {
   for (const char* name : steered) {
     SCOPED_TRACE(name);
-    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
-    const GuidePosition start = solve(plan, 0.03, 0.02);
+    const CornerPlan plan = prepare_suspension(corner_sample(name).suspension);
+    const CornerPosition start = solve(plan, 0.03, 0.02);
     const double length = driver_value(plan, start.place, 0.02, Driver::spring);
     const auto at_rack = [&](double rack) {
       return wheel_parameters(plan, solve_position(plan, Driver::spring, {length, rack}, start));
@@ -96,8 +97,8 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
 }
 
 TEST(Steering, MirroredWheel) {
-  const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePlan left = prepare_guide(guide), right = prepare_guide(mirrored(guide));
+  const Suspension& suspension = corner_sample("5US").suspension;
+  const CornerPlan left = prepare_suspension(suspension), right = prepare_suspension(mirrored(suspension));
   const auto a = steering_parameters(left, solve(left, 0.01, 0.02), Driver::spring);
   const auto b = steering_parameters(right, solve(right, 0.01, -0.02), Driver::spring);
   ASSERT_TRUE(a && b);
@@ -116,13 +117,13 @@ TEST(Steering, Ratio) {
 }
 
 TEST(Steering, NothingToSteer) {
-  WheelGuide guide = guide_sample("SR-3US").guide;
-  const GuidePlan plan = prepare_guide(guide);
+  Suspension suspension = corner_sample("SR-3US").suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
   EXPECT_FALSE(is_steered(plan));
   EXPECT_FALSE(steering_parameters(plan, reference_position(plan), Driver::spring));
-  guide.spring.reset();
+  suspension.spring.reset();
   EXPECT_THAT(test::message([&] {
-                const GuidePlan bare = prepare_guide(guide);
+                const CornerPlan bare = prepare_suspension(suspension);
                 steering_parameters(bare, reference_position(bare), Driver::spring);
               }),
               ::testing::StartsWith("steering_parameters: the spring is held, and the suspension has none"));

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/looks.h"
-#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/memory_checkpoint.h"
 
@@ -16,8 +16,8 @@ namespace linkwright::suspension {
 namespace {
 
 ToleranceTask task_of(const char* name, double tolerance) {
-  ToleranceTask task{.guide = guide_sample(name).guide};
-  for (const DesignNumber& number : hard_points(task.guide)) task.numbers.push_back({number, tolerance});
+  ToleranceTask task{.suspension = corner_sample(name).suspension};
+  for (const DesignNumber& number : hard_points(task.suspension)) task.numbers.push_back({number, tolerance});
   for (double z : {-0.06, 0.01, 0.06}) task.inputs.push_back({z, 0});
   task.curves = {WheelQuantity::toe, WheelQuantity::camber, WheelQuantity::roll_centre_height};
   return task;
@@ -31,9 +31,9 @@ TEST(Tolerances, OfOneNumberAreItsDerivative) {
   ASSERT_EQ(found.status, Status::done);
   for (std::size_t i = 0; i < task.inputs.size(); ++i) {
     const auto toe = [&](double by) {
-      WheelGuide guide = task.guide;
-      design_value(guide, task.numbers[0].number) += by;
-      const GuidePlan plan = prepare_guide(guide);
+      Suspension suspension = task.suspension;
+      design_value(suspension, task.numbers[0].number) += by;
+      const CornerPlan plan = prepare_suspension(suspension);
       return wheel_parameters(
                  plan, solve_position(plan, Driver::wheel_centre_z, task.inputs[i], reference_position(plan)))
           .angles.toe;

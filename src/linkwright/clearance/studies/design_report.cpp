@@ -148,7 +148,7 @@ class DesignReporter {
             s_.reference ? &s_.reference->masses : nullptr, k);
     return out;
   }
-  bool lost(const DesignMeasures& d) const { return !(d.run.least_tension > 0); }
+  bool lost(const DesignMeasures& d) const { return !(d.run.min_tension > 0); }
   double separation_angle(const DesignMeasures& d) const {
     return s_.mass.crank.angle + s_.mass.crank.speed * d.run.first_separation;
   }
@@ -184,7 +184,7 @@ class DesignReporter {
       out.objectives["first_turn_error_rad"] = d_.motion.transient_error;
       out.objectives["phase_min_rad"] = low;
       out.objectives["phase_max_rad"] = high;
-      out.objectives["least_tension_N"] = d_.run.least_tension;
+      out.objectives["least_tension_N"] = d_.run.min_tension;
       out.objectives["least_tension_crank_angle_rad"] = d_.least_at;
       out.objectives["separated_share"] = d_.run.separated;
       out.objectives["start_phase_rad"] = d_.rows.empty() ? nan : phase_of(s_, d_.rows[0]);
@@ -301,10 +301,10 @@ class DesignReporter {
 
   Sentence contact_text(const DesignMeasures& d) const {
     if (!lost(d))
-      return say("kept: minimum tension {}, at a crank angle of {}", newtons(d.run.least_tension),
+      return say("kept: minimum tension {}, at a crank angle of {}", newtons(d.run.min_tension),
                  crank_angle(d.least_at));
     return say("lost at a crank angle of {}; without contact {} of the turn, minimum tension {} at {}",
-               crank_angle(separation_angle(d)), percent(d.run.separated, 3), newtons(d.run.least_tension),
+               crank_angle(separation_angle(d)), percent(d.run.separated, 3), newtons(d.run.min_tension),
                crank_angle(d.least_at));
   }
   void facts() {
@@ -368,7 +368,7 @@ class DesignReporter {
         d_.motion.orbit_error, true);
     add("phase_rad", "phase objective F2 of the first turn (rad)", "rms", before_->motion.transient_error,
         d_.motion.transient_error, true);
-    add("tension_N", "tension (N)", "min", before_->run.least_tension, d_.run.least_tension, false);
+    add("tension_N", "tension (N)", "min", before_->run.min_tension, d_.run.min_tension, false);
   }
 
   void warnings() {
@@ -398,7 +398,7 @@ class DesignReporter {
     if (lost(d_))
       warn(say("pin and bush separate at a crank angle of {} (minimum tension {} at {}): what follows is "
                "outside of the model",
-               crank_angle(separation_angle(d_)), newtons(d_.run.least_tension), crank_angle(d_.least_at)),
+               crank_angle(separation_angle(d_)), newtons(d_.run.min_tension), crank_angle(d_.least_at)),
            "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
            "joint");
   }
@@ -424,7 +424,7 @@ class DesignReporter {
                   ? say(", but pin and bush separate at a crank angle of {}: the design is outside of the "
                         "model",
                         crank_angle(separation_angle(d_)))
-                  : say("; pin and bush stay in contact, with {} at least", newtons(d_.run.least_tension));
+                  : say("; pin and bush stay in contact, with {} at least", newtons(d_.run.min_tension));
     text += ".";
   }
 

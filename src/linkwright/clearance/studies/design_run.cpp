@@ -235,39 +235,39 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
 
 Value kept(const ClearanceDesignAnswer& a) {
   Value out;
-  out["status"] = study::kept_status(a.status);
+  out["status"] = study::saved_status(a.status);
   out["lengths"] = pack_numbers(a.best.lengths);
   out["masses"] = pack_numbers(a.best.masses);
   out["cost"] = pack_numbers({&a.cost, 1});
   out["starts"] = a.starts;
   out["reached"] = a.reached;
   out["evaluations"] = a.evaluations;
-  out["log"] = study::kept_log(a.log);
+  out["log"] = study::saved_log(a.log);
   return out;
 }
 
 ClearanceDesignAnswer restored(const Value& value, const ClearanceDesignStudy& s, std::string_view what) {
   ClearanceDesignAnswer out;
-  out.status = study::restored_status(value, what);
+  out.status = study::load_status(value, what);
   const auto numbers = [&](std::string_view key, std::size_t count) {
-    const Value& packed = kept_member(value, key, what);
+    const Value& packed = load_member(value, key, what);
     // A stage that found nothing, or was not come to, has none.
     return unpack_numbers(packed, what).empty() ? std::vector<double>()
-                                                : study::restored_numbers(value, key, count, what);
+                                                : study::load_numbers(value, key, count, what);
   };
   const std::size_t angles = s.path.free_timing ? s.path.x.size() : 0;
   if (s.has_path()) out.best.lengths = numbers("lengths", clearance_length_count + angles);
   if (s.has_masses()) out.best.masses = numbers("masses", clearance_mass_count);
-  const std::vector<double> cost = unpack_numbers(kept_member(value, "cost", what), what);
+  const std::vector<double> cost = unpack_numbers(load_member(value, "cost", what), what);
   const bool designed =
       (!s.has_path() || !out.best.lengths.empty()) && (!s.has_masses() || !out.best.masses.empty());
   if (cost.size() != 1 || std::isnan(cost[0]) || (std::isfinite(cost[0]) && !designed))
     throw CheckpointError(fmt::format("{}: its cost is none of a design", what));
   out.cost = cost[0];
-  out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
-  out.reached = static_cast<int>(kept_integer(value, "reached", 0, 1000000, what));
-  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
-  out.log = study::restored_log(value, what);
+  out.starts = static_cast<int>(load_integer(value, "starts", 0, 1000000, what));
+  out.reached = static_cast<int>(load_integer(value, "reached", 0, 1000000, what));
+  out.evaluations = load_integer(value, "evaluations", 0, study::max_kept_evaluations, what);
+  out.log = study::load_log(value, what);
   return out;
 }
 

@@ -138,9 +138,9 @@ struct ClearanceRecording {
   std::vector<planar::LinkageColumn> columns;
   std::vector<RecordedRow> rows;   ///< rows; of a periodic study the last periods alone
   std::vector<RecordedRow> ideal;  ///< the same without clearance: times, inputs, values
-  /// Once a period of the drives, from the start, the first `most_sections` of them: times and pins alone.
+  /// Once a period of the drives, from the start, the first `max_sections` of them: times and pins alone.
   std::vector<RecordedRow> sections;
-  static constexpr int most_sections = 100'000;
+  static constexpr int max_sections = 100'000;
   std::optional<ClearanceRegime> regime;  ///< regime of periodic studies
   /// Contacts; of a periodic regime those of its periods; the first ones of many.
   std::vector<ContactEvent> events;

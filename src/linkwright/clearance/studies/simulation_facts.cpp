@@ -45,7 +45,7 @@ class Facts {
       if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     }
     fact("integration", say("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
-    if (r_.sections.size() == ClearanceRecording::most_sections)
+    if (r_.sections.size() == ClearanceRecording::max_sections)
       warn(say("of {} periods of the drives the first {} have a row in the sections",
                count_of(std::floor((r_.time - s_.from) / s_.period) + 1), r_.sections.size()),
            "a shorter simulation has a row for each of them");
@@ -198,7 +198,7 @@ class Facts {
              "times the force and {:.3g} times the depth of an elastic one",
              law.restitution, name(k), name_of(law.damping), shape.restitution, shape.force, shape.depth),
          fmt::format("from {:g} on the law is within {:g} % of the given value",
-                     least_restitution(law.damping, far_restitution), 100 * far_restitution));
+                     min_restitution(law.damping, far_restitution), 100 * far_restitution));
   }
   void continuous_facts() {
     if (!(duration() > 0)) return;
@@ -207,15 +207,15 @@ class Facts {
       const bool lost = !std::isnan(v.first_separation);
       lost_ = lost_ || lost;
       if (!lost) {
-        fact(fmt::format("contact of {}", name(k)), say("kept: minimum tension {}", newtons(v.least_tension)),
+        fact(fmt::format("contact of {}", name(k)), say("kept: minimum tension {}", newtons(v.min_tension)),
              Verdict::good);
         continue;
       }
-      fact(fmt::format("contact of {}", name(k)),
-           say("lost at {}; without contact {} of the time, minimum tension {}",
-               at_place("time", seconds(v.first_separation)), percent(v.separated, 3),
-               newtons(v.least_tension)),
-           Verdict::bad);
+      fact(
+          fmt::format("contact of {}", name(k)),
+          say("lost at {}; without contact {} of the time, minimum tension {}",
+              at_place("time", seconds(v.first_separation)), percent(v.separated, 3), newtons(v.min_tension)),
+          Verdict::bad);
       warn(fmt::format(
                "the pin of '{}' is taken to touch its bush always, but they separate at {:.4g} s: what "
                "follows is outside of the model",

@@ -22,7 +22,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double most_rows = 1e7;  // largest number of rows, of which a periodic study keeps the last
+constexpr double max_rows = 1e7;  // largest number of rows, of which a periodic study keeps the last
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
                        bool more_than = false, bool required = false) {
@@ -329,10 +329,10 @@ void find_period(study::ObjectReader& table, ClearanceStudy& s) {
   } else if (const std::string load = load_against_time(s.linkage); !load.empty()) {
     table.error("regime", fmt::format("load '{}' depends on the time, so the motion has no period", load),
                 "let it depend on the input");
-  } else if (double(s.samples) * s.periodic()->max_turns > most_rows) {
+  } else if (double(s.samples) * s.periodic()->max_turns > max_rows) {
     table.error("samples",
                 fmt::format("{} rows a period for up to {} periods are more than {:g}", s.samples,
-                            s.periodic()->max_turns, most_rows),
+                            s.periodic()->max_turns, max_rows),
                 "take fewer samples or max_turns");
   }
 }

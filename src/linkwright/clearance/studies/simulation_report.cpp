@@ -17,7 +17,7 @@ namespace linkwright::clearance {
 namespace {
 
 // Rows beyond which not every one is compared with the ideal path.
-constexpr std::size_t most_compared = 20000;
+constexpr std::size_t max_compared = 20000;
 
 // Distance of a place from a line through places, m.
 double distance_from(const std::vector<std::complex<double>>& path, std::complex<double> place) {
@@ -141,7 +141,7 @@ class SimulationReporter {
     std::vector<double> ideal_x(rows(), nan), ideal_y(rows(), nan), error(rows(), nan), off(rows(), nan);
     for (std::size_t i = 0; i < rows(); ++i) {
       const std::complex<double> place{r_.rows[i].values[x], r_.rows[i].values[y]};
-      if (i % (1 + rows() / most_compared) == 0) off[i] = distance_from(r_.ideal_paths[k], place);
+      if (i % (1 + rows() / max_compared) == 0) off[i] = distance_from(r_.ideal_paths[k], place);
       if (i >= r_.ideal.size()) continue;
       ideal_x[i] = r_.ideal[i].values[x], ideal_y[i] = r_.ideal[i].values[y];
       error[i] = std::abs(place - std::complex<double>(ideal_x[i], ideal_y[i]));

@@ -19,7 +19,7 @@ namespace {
 using planar::InputMotion, planar::Vec;
 
 // A motion that repeats itself after more periods than this counts as one that does not.
-constexpr int most_periods = 8;
+constexpr int max_periods = 8;
 
 std::vector<math::MotionCurve> curves_of(const ClearanceStudy& s) {
   std::vector<math::MotionCurve> out;
@@ -89,7 +89,7 @@ class Recorder {
     const double to = s_.to();
     for (int i = 0; i < s_.samples; ++i)
       rows.push_back(i + 1 == s_.samples ? to : s_.from + (to - s_.from) * i / (s_.samples - 1));
-    for (int k = 0; k < ClearanceRecording::most_sections && s_.period > 0 && s_.from + k * s_.period <= to;
+    for (int k = 0; k < ClearanceRecording::max_sections && s_.period > 0 && s_.from + k * s_.period <= to;
          ++k)
       sections.push_back(s_.from + k * s_.period);
     for (std::size_t i = 0, k = 0; i < rows.size() || k < sections.size();) {
@@ -133,11 +133,11 @@ class Recorder {
       for (const PinInstant& p : row.pins) fastest = std::max(fastest, std::abs(p.rate));
     std::vector<std::vector<double>> states;
     const std::size_t first =
-        out_.sections.size() - std::min<std::size_t>(out_.sections.size(), most_periods + 1);
+        out_.sections.size() - std::min<std::size_t>(out_.sections.size(), max_periods + 1);
     for (std::size_t i = first; i < out_.sections.size(); ++i)
       states.push_back(section_state(s_, out_.sections[i], fastest));
     ClearanceRegime& regime = *out_.regime;
-    regime.turns = repeating_period(states, s_.periodic()->tolerance, most_periods);
+    regime.turns = repeating_period(states, s_.periodic()->tolerance, max_periods);
     regime.waited = static_cast<int>(out_.sections.size()) - 1;
     const std::size_t apart = at(std::max(regime.turns, 1));
     if (states.size() > apart) {
@@ -146,7 +146,7 @@ class Recorder {
         regime.change =
             std::max(regime.change, std::abs(states.back()[i] - states[states.size() - 1 - apart][i]));
     }
-    drop_rows(out_.sections.back().time - (regime.turns > 0 ? regime.turns : most_periods) * s_.period);
+    drop_rows(out_.sections.back().time - (regime.turns > 0 ? regime.turns : max_periods) * s_.period);
     return regime.turns > 0;
   }
   void drop_rows(double before) {

@@ -16,7 +16,7 @@ namespace linkwright::clearance {
 namespace {
 
 // Turns below which a section says nothing, and rows below which a spectrum does.
-constexpr std::size_t least_turns = 3, least_rows = 32;
+constexpr std::size_t min_turns = 3, min_rows = 32;
 constexpr int map_directions = 72;
 
 std::string key(const ClearanceStudy& s, std::size_t pin) { return identifier(s.pin_name(pin)); }
@@ -99,7 +99,7 @@ Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
 
 Table spectrum_table(const ClearanceStudy& s, const ClearanceRecording& r) {
   Table table{.name = "spectrum"};
-  if (r.rows.size() < least_rows) return table;
+  if (r.rows.size() < min_rows) return table;
   const double interval = (r.rows.back().time - r.rows.front().time) / double(r.rows.size() - 1);
   // Whole periods have nothing that leaks; their last row is the first one again.
   const bool periodic = r.regime && r.regime->turns > 0;
@@ -118,7 +118,7 @@ Table spectrum_table(const ClearanceStudy& s, const ClearanceRecording& r) {
 
 Table section_table(const ClearanceStudy& s, const ClearanceRecording& r) {
   Table table{.name = "section"};
-  if (r.sections.size() <= least_turns) return table;
+  if (r.sections.size() <= min_turns) return table;
   std::vector<double> turns;
   for (std::size_t i = 0; i < r.sections.size(); ++i) turns.push_back(double(i));
   table.add("turn", "turn", std::move(turns));

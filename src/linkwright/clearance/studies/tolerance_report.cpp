@@ -29,7 +29,7 @@ constexpr double poor_linearity = 0.1;
 // Share of random linkages that "nearly all" means.
 constexpr double nearly_all = 0.99;
 // Facts and plots are of the first few quantities; the tables have all.
-constexpr std::size_t most_told = 8, most_curves = 7;
+constexpr std::size_t max_told = 8, max_curves = 7;
 
 // A share of `count` out of `draws`, with the interval that holds the true one with 95 % confidence (Wilson
 // 1927).
@@ -128,7 +128,7 @@ class ToleranceReporter {
         paths.push_back(r_.quantities[p].key + end);
     over_input("band")("paths", fmt::format("Paths and their tolerance bands, drawn {:g} x", scale_), paths,
                        Style::polar);
-    for (std::size_t q = 0; q < std::min(quantities(), most_told); ++q) {
+    for (std::size_t q = 0; q < std::min(quantities(), max_told); ++q) {
       const ToleranceQuantity& quantity = r_.quantities[q];
       if (!quantity.any) continue;
       const std::string unit = unit_key(quantity.kind);
@@ -138,7 +138,7 @@ class ToleranceReporter {
       over_input("errors")("error-" + quantity.key, "Error of " + quantity.name, y);
       std::vector<std::string> parts;
       for (const std::size_t k : r_.by_share(q))
-        if (parts.size() < most_curves) parts.push_back(identifier(r_.tolerances[k]) + "_" + unit);
+        if (parts.size() < max_curves) parts.push_back(identifier(r_.tolerances[k]) + "_" + unit);
       over_input("contributions_" + quantity.key)("contributions-" + quantity.key,
                                                   "Contributions to the worst-case error of " + quantity.name,
                                                   parts);
@@ -172,7 +172,7 @@ class ToleranceReporter {
       const std::string unit = unit_key(quantity.kind);
       result_.statistics[quantity.key + "_worst_" + unit] = worst(q);
       if (std::isfinite(nearly_[q])) result_.statistics[quantity.key + "_99_percent_" + unit] = nearly_[q];
-      if (q >= most_told) continue;
+      if (q >= max_told) continue;
       Sentence text = say("at most {} at {}", shown(quantity.kind, worst(q)), where(quantity.worst_row));
       if (quantity.kind == Kind::point)
         text +=

@@ -224,8 +224,8 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   sections.add("bending_stress_Pa", "largest bending stress (Pa)");
   sections.add("position_m", "where: from the root of the link (m)");
   sections.add("time_s", "when (s)");
-  std::string most_stressed;
-  double most_stress = 0;
+  std::string max_stressed;
+  double max_stress = 0;
   for (std::size_t k = 0; k < worst.size(); ++k) {
     const ArmLinkForm& link = s.mechanism.links[k];
     const Worst& w = worst[k];
@@ -238,7 +238,7 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     double stress = nan;
     if (link.fibre_distance) {
       stress = bending_stress(link.beam, w.moment, *link.fibre_distance);
-      if (stress > most_stress) most_stress = stress, most_stressed = link.name;
+      if (stress > max_stress) max_stress = stress, max_stressed = link.name;
       fact("largest bending stress of " + link.name, say("{}, {}", measured("MPa", stress), where));
     } else {
       fact("largest bending moment of " + link.name, say("{}, {}", newton_metres(w.moment), where));
@@ -252,9 +252,9 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   result.facts.insert(result.facts.begin(), facts.begin(), facts.end());
   result.headline = result.status == Status::done
                         ? say("The tip leaves that of the rigid arm by up to {}{}.", millimetres(peak),
-                              most_stressed.empty() ? Sentence()
-                                                    : say("; {} bends most, by {}", most_stressed,
-                                                          measured("MPa", most_stress)))
+                              max_stressed.empty()
+                                  ? Sentence()
+                                  : say("; {} bends most, by {}", max_stressed, measured("MPa", max_stress)))
                         : headline_of_end(run.simulation);
   result.tables.push_back(std::move(sections));
   return std::move(result);

@@ -19,7 +19,7 @@ namespace linkwright::flexible {
 namespace {
 
 /// Cells of the comparison are at most these.
-constexpr std::size_t most_cells = 2000;
+constexpr std::size_t max_cells = 2000;
 /// Steps in a period of the first vibration below which they are too few to follow it.
 constexpr double fewest_steps = 20;
 
@@ -277,7 +277,7 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
       fact("the same without shaping", vibration_after(s, other, *drives_end));
     result.tables.push_back(std::move(other));
   }
-  if (s.simulation.compare_divisions && 2 * chain.cells.size() <= most_cells && run.status == Status::done) {
+  if (s.simulation.compare_divisions && 2 * chain.cells.size() <= max_cells && run.status == Status::done) {
     const ArmChain fine = s.arm(2);
     study::Result unused;
     const Simulation finer =

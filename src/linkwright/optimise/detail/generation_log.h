@@ -7,14 +7,14 @@
 // Logs of minimisations stay within bounded memory, however many generations there are.
 namespace linkwright::optimise {
 
-inline constexpr int most_logged = 1 << 16;
+inline constexpr int max_logged = 1 << 16;
 
 /// Generations from one entry of a log to the next: 1, and twice as many whenever the log would grow beyond
-/// `most_logged` entries. After `generations` of them a log has generations / log_interval(generations)
+/// `max_logged` entries. After `generations` of them a log has generations / log_interval(generations)
 /// entries, of the generations that this interval divides.
 inline int log_interval(int generations) {
   int interval = 1;
-  while (generations / interval > most_logged) interval *= 2;
+  while (generations / interval > max_logged) interval *= 2;
   return interval;
 }
 

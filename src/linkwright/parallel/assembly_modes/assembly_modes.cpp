@@ -183,7 +183,7 @@ Found find(const HeldRobot& held, const AssemblyModesOptions& options) {
   double accuracy = 1e-4;
   for (int attempt = 0; attempt < options.attempts; ++attempt, accuracy /= 10) {
     out.follow_all(held, start_for(options.seed, attempt), accuracy);
-    if (out.solutions.size() >= most_solutions) break;
+    if (out.solutions.size() >= max_solutions) break;
     if (attempt > 0 && out.solutions.size() == before && out.lost == 0) break;
     before = out.solutions.size();
   }
@@ -206,11 +206,11 @@ void prove_all(const HeldRobot& held, const std::vector<PlatformPoint>& points, 
     if (i < real) out.modes[i].certified = good && proof.real;
     decided = decided && (i < real ? proof.real : proof.complex);
   }
-  out.complete = decided && out.certified == static_cast<int>(most_solutions);
+  out.complete = decided && out.certified == static_cast<int>(max_solutions);
 }
 
 std::string note_on(const AssemblyModes& found, const Found& how) {
-  if (found.finite >= static_cast<int>(most_solutions)) return {};
+  if (found.finite >= static_cast<int>(max_solutions)) return {};
   std::string out = fmt::format("{} of 40 complex solutions were found", found.finite);
   if (how.infinite > 0) out += fmt::format("; {} paths went off to infinity", how.infinite);
   if (how.singular > 0) out += fmt::format("; {} paths met others at the end (singular)", how.singular);
@@ -266,7 +266,7 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
   out.singular = found.singular;
   out.conjugate_closed = found.conjugate_closed;
   prove_all(held, points, real.size(), out);
-  if (constexpr int all = most_solutions; out.finite < all) {
+  if (constexpr int all = max_solutions; out.finite < all) {
     const bool explained = found.lost == 0 && out.finite + found.infinite + found.singular >= all;
     if (!explained || found.ways < 2)
       out.status = Status::not_converged;

@@ -26,7 +26,7 @@ namespace linkwright::parallel {
 
 using Complex = std::complex<double>;
 
-inline constexpr std::size_t most_solutions = 40;
+inline constexpr std::size_t max_solutions = 40;
 
 /// Six complex numbers, one for each leg; whole operations, so that they run in SIMD registers.
 struct Six {

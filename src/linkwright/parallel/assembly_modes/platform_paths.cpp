@@ -11,7 +11,7 @@ namespace {
 
 constexpr double same_path_end = 1e-7;   // distance of solutions that are one
 constexpr double shortest_step = 1e-12;  // share of the path
-constexpr int most_steps = 500;
+constexpr int max_steps = 500;
 constexpr double nearly_there = 1e-6;     // share of the path done, for a path that is stuck
 constexpr double on_the_last_part = 0.1;  // the same, on its path to infinity
 constexpr double small = 0.2;             // ratio of |e| to |x|, for a path that leads to infinity
@@ -75,7 +75,7 @@ PlatformPath follow(const PlatformLegs& from, const PlatformLegs& to, const Plat
     // The Newton step that made the point good to the last digits left the factors for the series.
     expand(legs, rate, path.point, work.lu, work.terms);
     for (double step = step_of(work.terms, accuracy);; step /= 2) {
-      if (!(step > shortest_step) || ++path.steps > most_steps) {
+      if (!(step > shortest_step) || ++path.steps > max_steps) {
         path.end = end_of_stuck(path);
         return path;
       }
@@ -128,11 +128,11 @@ SolvedPlatform monodromy(std::uint64_t seed) {
   out.legs.square = squares_through(out.legs, first);
   out.solutions.push_back(normalised(first));
   // Each loop takes all known solutions around; one that comes back new joins them.
-  constexpr std::uint32_t most_loops = 100;
-  for (std::uint32_t loop = 1; out.solutions.size() < most_solutions && loop < most_loops; ++loop) {
+  constexpr std::uint32_t max_loops = 100;
+  for (std::uint32_t loop = 1; out.solutions.size() < max_solutions && loop < max_loops; ++loop) {
     const PlatformLegs corner[] = {out.legs, random_platform(seed, 2 * loop),
                                    random_platform(seed, 2 * loop + 1), out.legs};
-    for (std::size_t i = 0; i < out.solutions.size() && out.solutions.size() < most_solutions; ++i) {
+    for (std::size_t i = 0; i < out.solutions.size() && out.solutions.size() < max_solutions; ++i) {
       PlatformPath path{.end = PathEnd::regular, .point = out.solutions[i]};
       for (int side = 0; side < 3 && path.end == PathEnd::regular; ++side, ++out.paths)
         path = follow(corner[side], corner[side + 1], path.point);

@@ -32,13 +32,13 @@ struct DexterityMeasures {
 template <class T>
 struct PoseDexterity {
   T conditioning;  ///< LCI: least over largest singular value of J, with the sign of the assembly
-  std::array<T, most_legs> input_square;  ///< (s . u' / L)^2: square of the input transmission index
-  std::array<T, most_legs> cosine, sine;  ///< in proportion to those of the outward angle of the arm
-  std::array<T, most_legs> side;          ///< |sine| of the rod's swing out of the plane of the arm
-  std::array<T, most_legs> output;        ///< output transmission index, 0 beyond reach
-  T constraint;                           ///< chi with its sign; 1 where it is not measured
-  std::array<T, most_dimensions> conditioning_by, constraint_by;
-  std::array<std::array<T, most_dimensions>, most_legs> input_square_by, angle_by, side_by, output_by;
+  std::array<T, max_legs> input_square;  ///< (s . u' / L)^2: square of the input transmission index
+  std::array<T, max_legs> cosine, sine;  ///< in proportion to those of the outward angle of the arm
+  std::array<T, max_legs> side;          ///< |sine| of the rod's swing out of the plane of the arm
+  std::array<T, max_legs> output;        ///< output transmission index, 0 beyond reach
+  T constraint;                          ///< chi with its sign; 1 where it is not measured
+  std::array<T, max_dimensions> conditioning_by, constraint_by;
+  std::array<std::array<T, max_dimensions>, max_legs> input_square_by, angle_by, side_by, output_by;
 };
 
 /// At a place local to the region (see prescribed_region.h), with derivatives. Allocates nothing.
@@ -55,9 +55,9 @@ struct PoseSet {
 /// Indices of all poses of a set, values alone: [pose] or [leg][pose].
 struct SetDexterity {
   std::vector<double> conditioning, constraint;  ///< the latter where it was asked for
-  std::array<std::vector<double>, most_legs> input_square, cosine, sine, side, output;
+  std::array<std::vector<double>, max_legs> input_square, cosine, sine, side, output;
   /// Derivatives, where they were asked for.
-  std::array<std::vector<double>, most_dimensions> conditioning_by;
+  std::array<std::vector<double>, max_dimensions> conditioning_by;
 };
 /// Allocates only where `out` is smaller than before. The bits of a pose do not depend on the others.
 void measure(const DesignedRobot& designed, const WorkingMode& mode, const DexterityMeasures& what,

@@ -23,7 +23,7 @@ optimise::Problem population_problem(const DexterityTask& task, const RunContext
     DexterityModel::Work work;
     std::vector<double> x(candidates.dimension);
     for (std::size_t i = 0; i < candidates.size; ++i) {
-      if (i > 0 && model->nodes() > many_nodes) go_on(context);
+      if (i > 0 && model->nodes() > many_nodes) throw_if_interrupted(context);
       for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
       const DesignedRobot designed = model->designed(x);
       const Extremes extremes = model->extremes(designed, work);

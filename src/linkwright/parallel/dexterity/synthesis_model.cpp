@@ -42,10 +42,10 @@ bool stands_out(const PrescribedRegion& region, const RegionPoint& point) {
   return true;
 }
 
-double least_rate(const PiRequirements& l) {
+double min_rate(const PiRequirements& l) {
   return std::max(l.torque / l.force_limit, l.quantum / l.resolution);
 }
-double most_rate(const PiRequirements& l) { return l.speed > 0 ? l.rate_limit / l.speed : infinity; }
+double max_rate(const PiRequirements& l) { return l.speed > 0 ? l.rate_limit / l.speed : infinity; }
 
 }  // namespace
 
@@ -116,7 +116,7 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     std::size_t before = 0;
     for (const PoseSet& poses : few ? groups_[g].few : groups_[g].all) {
-      if (before > 0) go_on(context_);
+      if (before > 0) throw_if_interrupted(context_);
       measure(designed, task_.mode, measures_, poses, false, work.set);
       for (std::size_t k = 0; k < poses.size(); ++k, first = false) {
         const std::size_t pose = g * points_.size() + (few ? few_points_[before + k] : before + k);
@@ -148,7 +148,7 @@ void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind
   out.clear();
   for (const Group& group : groups_)
     for (const PoseSet& poses : group.all) {
-      if (!out.empty()) go_on(context_);
+      if (!out.empty()) throw_if_interrupted(context_);
       measure(designed, task_.mode, measures_, poses, false, work.set);
       const SetDexterity& set = work.set;
       const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
@@ -169,7 +169,7 @@ double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span
   for (const Group& group : groups_) {
     const double* weight = cell_weight_.data();
     for (const PoseSet& poses : group.cells) {
-      if (weight != cell_weight_.data()) go_on(context_);
+      if (weight != cell_weight_.data()) throw_if_interrupted(context_);
       measure(designed, task_.mode, measures_, poses, !by.empty(), work.set);
       for (std::size_t k = 0; k < poses.size(); ++k) sum += weight[k] * work.set.conditioning[k];
       for (int j = 0; !by.empty() && j < dimensions_; ++j)
@@ -219,7 +219,7 @@ double DexterityModel::bound(PoseLimit::Kind kind) const {
 double DexterityModel::limit(const PoseLimit& which, const PoseDexterity<double>& there,
                              std::span<const double> unknowns, std::span<double> by) const {
   std::fill(by.begin(), by.end(), 0.0);
-  const auto row = [&](double factor, const std::array<double, most_dimensions>& from) {
+  const auto row = [&](double factor, const std::array<double, max_dimensions>& from) {
     for (int j = 0; !by.empty() && j < dimensions_; ++j) by[j] = factor * from[j];
   };
   const int i = which.leg;
@@ -328,10 +328,10 @@ void DexterityModel::whole(std::span<const double> u, std::vector<Whole>& out,
     for (const PiRangeNumber& at_end : {range.transmission_low, range.transmission_high})
       number(DexterityLimit::pi_transmission, std::asin(std::min(1.0, at_end.value)), limits.transmission,
              true, std::sin(limits.transmission) - at_end);
-  if (const double least = least_rate(limits); least > 0)
+  if (const double least = min_rate(limits); least > 0)
     for (const PiRangeNumber& at_end : {range.rate_low, range.rate_high})
       number(DexterityLimit::pi_rate_least, at_end.value, least, true, 1.0 - at_end / least);
-  if (const double most = most_rate(limits); std::isfinite(most))
+  if (const double most = max_rate(limits); std::isfinite(most))
     number(DexterityLimit::pi_rate_most, range.rate_most.value, most, false, range.rate_most / most - 1.0);
 }
 

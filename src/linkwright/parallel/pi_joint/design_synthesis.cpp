@@ -26,14 +26,14 @@ constexpr double same_size = 1e-7;
 // A limit is active where it is met by no more than this share.
 constexpr double at_limit = 1e-6;
 // Ratios below it are no parallelograms that anybody builds; arms as long as that are no small joints.
-constexpr double least_ratio = 1e-3;
+constexpr double min_ratio = 1e-3;
 
 // J must be at least this everywhere, and what says so.
 struct LeastJacobian {
   double value = 0;
   PiLimit limit = PiLimit::torque;
 };
-LeastJacobian least_jacobian(const PiRequirements& r) {
+LeastJacobian min_jacobian(const PiRequirements& r) {
   const double torque = r.torque / r.force_limit, resolution = r.quantum / r.resolution;
   return torque >= resolution ? LeastJacobian{torque, PiLimit::torque}
                               : LeastJacobian{resolution, PiLimit::resolution};
@@ -52,9 +52,9 @@ PiTerms<Number> terms_at(const Number& arm, const Number& ratio, const Number& a
 
 class Task {
  public:
-  explicit Task(const PiRequirements& r) : r_(r), least_(least_jacobian(r)) {
-    add(least_.limit);
-    add(least_.limit);
+  explicit Task(const PiRequirements& r) : r_(r), min_(min_jacobian(r)) {
+    add(min_.limit);
+    add(min_.limit);
     if (r.speed > 0 && r.rate_limit < infinite) add(PiLimit::speed);
     if (r.transmission > 0) {
       add(PiLimit::transmission);
@@ -62,10 +62,10 @@ class Task {
     }
     if (r.stroke < infinite) add(PiLimit::stroke);
     if (r.telescoping < infinite) add(PiLimit::telescoping);
-    const double a = std::log(least_.value);
+    const double a = std::log(min_.value);
     // J is at most b, so a >= b is at least what J must be.
-    lower_ = {a, least_ratio, -greatest_centre(r)};
-    upper_ = {a - 2 * std::log(least_ratio), 1, greatest_centre(r)};
+    lower_ = {a, min_ratio, -greatest_centre(r)};
+    upper_ = {a - 2 * std::log(min_ratio), 1, greatest_centre(r)};
   }
 
   std::size_t constraints() const { return limits_.size(); }
@@ -86,7 +86,7 @@ class Task {
     const auto low = terms_at(arm, ratio, centre - r_.half_travel);
     const auto high = terms_at(arm, ratio, centre + r_.half_travel);
     const std::array<Number, 2> ends = {pi_jacobian(low), pi_jacobian(high)};
-    std::vector<Number> out = {1.0 - ends[0] / least_.value, 1.0 - ends[1] / least_.value};
+    std::vector<Number> out = {1.0 - ends[0] / min_.value, 1.0 - ends[1] / min_.value};
     if (has(PiLimit::speed)) {
       // J is largest, b, where sin(theta) = -k; else at the end that is nearer to it, smoothly.
       const double peak = -std::asin(x[1]);
@@ -116,7 +116,7 @@ class Task {
   bool has(PiLimit limit) const { return std::find(limits_.begin(), limits_.end(), limit) != limits_.end(); }
 
   PiRequirements r_;
-  LeastJacobian least_;
+  LeastJacobian min_;
   std::vector<PiLimit> limits_;
   std::array<double, 3> lower_{}, upper_{};
 };
@@ -169,11 +169,11 @@ PiRangeValues range_values(const PiJoint& joint, double centre, double half_trav
   const double low = centre - half_travel, high = centre + half_travel;
   const double peak = -std::asin(std::min(joint.ratio, 1 / joint.ratio));
   PiRangeValues out;
-  out.least_jacobian = std::min(jacobian(joint, low), jacobian(joint, high));
+  out.min_jacobian = std::min(jacobian(joint, low), jacobian(joint, high));
   out.greatest_jacobian = jacobian(joint, std::clamp(peak, low, high));
-  out.least_diagonal = diagonal(joint, low);
+  out.min_diagonal = diagonal(joint, low);
   out.greatest_diagonal = diagonal(joint, high);
-  out.least_transmission = std::asin(std::min(out.least_jacobian / joint.arm, 1.0));
+  out.min_transmission = std::asin(std::min(out.min_jacobian / joint.arm, 1.0));
   return out;
 }
 
@@ -209,7 +209,7 @@ std::optional<std::string> problem(const PiRequirements& r) {
     return fmt::format("transmission angle = {} rad, allowed: at least 0, below pi/2", r.transmission);
   if (!(r.stroke > 0)) return fmt::format("stroke = {} m", r.stroke);
   if (!(r.telescoping > 1)) return fmt::format("telescoping ratio = {}, allowed: above 1", r.telescoping);
-  if (!(least_jacobian(r).value > 0))
+  if (!(min_jacobian(r).value > 0))
     return "neither a torque with a force limit nor a quantum with a resolution is required: the joint could "
            "become arbitrarily small";
   return {};

@@ -21,11 +21,11 @@ namespace linkwright::parallel {
 
 /// The values of a joint over the range theta_c +- Delta. J has one maximum and is least at an end.
 struct PiRangeValues {
-  double least_jacobian = 0, greatest_jacobian = 0;  ///< J (m)
-  double least_diagonal = 0, greatest_diagonal = 0;  ///< d (m)
-  double least_transmission = 0;                     ///< mu, folded to [0, pi/2] (rad)
-  double stroke() const { return greatest_diagonal - least_diagonal; }
-  double telescoping() const { return greatest_diagonal / least_diagonal; }
+  double min_jacobian = 0, greatest_jacobian = 0;  ///< J (m)
+  double min_diagonal = 0, greatest_diagonal = 0;  ///< d (m)
+  double min_transmission = 0;                     ///< mu, folded to [0, pi/2] (rad)
+  double stroke() const { return greatest_diagonal - min_diagonal; }
+  double telescoping() const { return greatest_diagonal / min_diagonal; }
 };
 /// The range must lie within [-pi/2, pi/2].
 PiRangeValues range_values(const PiJoint& joint, double centre, double half_travel);

@@ -33,7 +33,7 @@ struct Drive {
   double quantum = 0;           ///< smallest step of the value (m or rad)
   double stiffness = infinity;  ///< effort per value (N/m or N m/rad)
 };
-using Drives = std::array<Drive, most_legs>;
+using Drives = std::array<Drive, max_legs>;
 
 /// A drive at an arm angle.
 struct DriveAt {
@@ -56,7 +56,7 @@ struct ArmAngle {
 };
 ArmAngle arm_angle(const Drive& drive, double arm, double value);
 
-using DrivesAt = std::array<DriveAt, most_legs>;
+using DrivesAt = std::array<DriveAt, max_legs>;
 /// Drives of all legs; `status` and `leg` give the first that is not done.
 struct DrivesState {
   Status status = Status::done;

@@ -94,7 +94,7 @@ struct Needs {
   Vector6 arm_acceleration{};
   Vector6 arm{};       // torque for the arm, its elbow and the rod's elbow end
   Vector6 platform{};  // wrench for the platform and the rods' platform ends, less the load
-  std::array<Vec3, most_legs> elbow_end{}, platform_end{};  // forces on a rod apart from what passes through
+  std::array<Vec3, max_legs> elbow_end{}, platform_end{};  // forces on a rod apart from what passes through
 };
 
 Needs needs(const Robot& robot, const Drives& drives, const RobotMasses& masses, const Jacobians& at,

@@ -82,7 +82,7 @@ inline constexpr double standard_gravity = 9.80665;  ///< m/s2
 
 struct RobotMasses {
   PlatformMasses platform;
-  std::array<LegMasses, most_legs> leg{};
+  std::array<LegMasses, max_legs> leg{};
   Vec3 gravity{0, 0, -standard_gravity};  ///< m/s2
 };
 /// The same masses in every leg.
@@ -116,8 +116,8 @@ struct DynamicLoads {
   Vector6 drive_power{};         ///< effort times speed (W); > 0: the drive drives
   /// Along the rod at its end at the platform, both of a parallelogram together, > 0 presses it (N).
   Vector6 rod_force{};
-  std::array<Vec3, most_legs> platform_force{};  ///< force of the rod on the platform (N)
-  std::array<Vec3, most_legs> elbow_force{};     ///< force of arm and elbow mass on the rod (N)
+  std::array<Vec3, max_legs> platform_force{};  ///< force of the rod on the platform (N)
+  std::array<Vec3, max_legs> elbow_force{};     ///< force of arm and elbow mass on the rod (N)
 };
 
 /// Efforts for a motion, exact for rigid links: the rods' consistent masses, so that no forces inside them

@@ -26,7 +26,7 @@ struct FamilyDimension {
   bool is_angle = false;     ///< rad, else m
 };
 
-inline constexpr int most_dimensions = 7;
+inline constexpr int max_dimensions = 7;
 
 /// Dimensions of a family, in the order in which designs have them. The last three are the arm l, the rod L
 /// and the offset, the distance from the base to the near side of a region that is to be served (of a DELTA
@@ -42,8 +42,8 @@ struct LegRate {
 /// A robot of a family, with derivatives of its legs.
 struct DesignedRobot {
   Robot robot;
-  int count = 0;                                                     ///< dimensions
-  std::array<std::array<LegRate, most_legs>, most_dimensions> by{};  ///< [dimension][leg]
+  int count = 0;                                                   ///< dimensions
+  std::array<std::array<LegRate, max_legs>, max_dimensions> by{};  ///< [dimension][leg]
   Vec3 ahead{};       ///< unit direction from the base to the region
   double offset = 0;  ///< m; dimension count - 1
   int assembly = 1;   ///< sign of det Jx where the platform is on the side of the region, elbows out
@@ -51,7 +51,7 @@ struct DesignedRobot {
   int constraint = 1;
   /// Arms of equal legs have equal positions at equal outward angles, which are measured from the outward
   /// direction, positive towards the region: outward = alpha where this is 1, pi - alpha where it is -1.
-  std::array<int, most_legs> sense{1, 1, 1, 1, 1, 1};
+  std::array<int, max_legs> sense{1, 1, 1, 1, 1, 1};
 
   int arm() const { return count - 3; }
   int rod() const { return count - 2; }

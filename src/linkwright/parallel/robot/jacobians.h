@@ -10,19 +10,19 @@
 /// Angeles 1990).
 namespace linkwright::parallel {
 
-using Matrix6 = std::array<std::array<double, most_legs>, most_legs>;
-using Vector6 = std::array<double, most_legs>;
+using Matrix6 = std::array<std::array<double, max_legs>, max_legs>;
+using Vector6 = std::array<double, max_legs>;
 
 /// The Jacobians of a pose; the leading legs() x legs() block of each matrix counts. The twist t is (vx, vy,
 /// vz) of the platform point for a DELTA, (vx, vy) for planar robots, (vx, vy, vz, wx, wy, wz) in base axes
 /// for a HEXA.
 struct Jacobians {
-  std::array<Vec3, most_legs> rod{};     ///< s: arm's end to platform joint (m)
-  std::array<Vec3, most_legs> arm{};     ///< u: unit direction of the arm
-  std::array<Vec3, most_legs> normal{};  ///< u' = du/dalpha
-  std::array<Vec3, most_legs> lever{};   ///< R b: platform point to platform joint, base axes (m)
-  Matrix6 platform{};  ///< Jx, a row a leg: s, or its part in the plane, or s with (R b) x s
-  Vector6 drive{};     ///< diagonal of Jq: l s . u' (m2)
+  std::array<Vec3, max_legs> rod{};     ///< s: arm's end to platform joint (m)
+  std::array<Vec3, max_legs> arm{};     ///< u: unit direction of the arm
+  std::array<Vec3, max_legs> normal{};  ///< u' = du/dalpha
+  std::array<Vec3, max_legs> lever{};   ///< R b: platform point to platform joint, base axes (m)
+  Matrix6 platform{};                   ///< Jx, a row a leg: s, or its part in the plane, or s with (R b) x s
+  Vector6 drive{};                      ///< diagonal of Jq: l s . u' (m2)
 };
 /// Allocates nothing.
 Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double> angles);

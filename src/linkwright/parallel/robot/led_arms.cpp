@@ -12,10 +12,10 @@ namespace linkwright::parallel {
 namespace {
 
 constexpr double longest_step = 1.0 / 16;  // share of the path
-constexpr double longest_turn = 0.1;       // rad of an arm, in a step
+constexpr double max_turn = 0.1;           // rad of an arm, in a step
 constexpr double shortest_step = 1e-9;
 constexpr double close = 0.2;  // share of a step's displacement that Newton's method may add to it
-constexpr int most_steps = 100000;
+constexpr int max_steps = 100000;
 
 /// The distance of two poses (m), rotation as displacement at a length.
 double distance(const Pose& a, const Pose& b, double length) {
@@ -40,11 +40,11 @@ LedPose lead_arms(const Robot& robot, const Pose& home, std::span<const double> 
   LedPose out{.pose = home};
   Jacobians at = jacobians(robot, home, at_angles);
   const bool positive = determinant(robot, at) > 0;
-  LINKWRIGHT_REQUIRE(least_rods(robot, at, length) >= rods_floor, "the robot is singular at home");
-  double step = std::min(longest_step, longest_turn / std::max(largest, 1e-300));
+  LINKWRIGHT_REQUIRE(min_rods(robot, at, length) >= rods_floor, "the robot is singular at home");
+  double step = std::min(longest_step, max_turn / std::max(largest, 1e-300));
   bool held = true;  // true if something other than a singularity made the last step shorter
   while (out.share < 1) {
-    if (step < shortest_step || ++out.steps > most_steps) {
+    if (step < shortest_step || ++out.steps > max_steps) {
       out.status = held ? Status::not_converged : Status::singular;
       return out;
     }
@@ -62,17 +62,17 @@ LedPose lead_arms(const Robot& robot, const Pose& home, std::span<const double> 
         placed.status == Status::done && distance(placed.pose, ahead, length) <= close * went + 1e-12;
     if (follows) {
       const Jacobians there = jacobians(robot, placed.pose, at_angles);
-      held = least_rods(robot, there, length) >= rods_floor && (determinant(robot, there) > 0) == positive;
+      held = min_rods(robot, there, length) >= rods_floor && (determinant(robot, there) > 0) == positive;
       if (held) {
         out.pose = placed.pose;
         out.residual = placed.residual;
         out.share = share;
         at = there;
-        step = std::min({2 * step, longest_step, longest_turn / std::max(largest, 1e-300)});
+        step = std::min({2 * step, longest_step, max_turn / std::max(largest, 1e-300)});
         continue;
       }
     } else {
-      held = least_rods(robot, at, length) > 10 * rods_floor;
+      held = min_rods(robot, at, length) > 10 * rods_floor;
     }
     step /= 2;
   }

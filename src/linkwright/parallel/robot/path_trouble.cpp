@@ -23,7 +23,7 @@ struct Stretch {
 class Look {
  public:
   Look(const TroubleTask& task, const PlatformWay& way)
-      : task_(task), way_(way), least_(std::max(task.least_constraint, constraint_floor)) {}
+      : task_(task), way_(way), min_(std::max(task.least_constraint, constraint_floor)) {}
 
   std::optional<PathTrouble> run(std::span<const double> breaks) {
     std::vector<Stretch> open;
@@ -53,7 +53,7 @@ class Look {
     const RegularAt there = at(middle);
     ++looks_;
     const auto change = change_within(task_.robot, there, by, task_.length);
-    if (change && there.marks == task_.home && there.constraint - *change >= least_ - slack &&
+    if (change && there.marks == task_.home && there.constraint - *change >= min_ - slack &&
         there.rods - *change >= rods_floor - slack)
       return {};
     PathTrouble out{.from = here.from, .to = here.to};
@@ -64,7 +64,7 @@ class Look {
         return out;
       }
     } else if (*change <= slack) {
-      const bool turned = there.marks.constraint != task_.home.constraint || there.constraint < least_;
+      const bool turned = there.marks.constraint != task_.home.constraint || there.constraint < min_;
       const bool crossed = there.marks.assembly != task_.home.assembly || there.rods < rods_floor;
       out.kind = crossed ? Trouble::type2 : Trouble::constraint;
       if (turned || crossed) return out;
@@ -97,7 +97,7 @@ class Look {
   void refine(PathTrouble& trouble, std::span<const double> breaks) const {
     const double a = breaks.front(), b = breaks.back();
     const bool of_reach = trouble.kind == Trouble::reach || trouble.kind == Trouble::type1;
-    const double limit = of_reach ? 0 : trouble.kind == Trouble::type2 ? rods_floor : least_;
+    const double limit = of_reach ? 0 : trouble.kind == Trouble::type2 ? rods_floor : min_;
     const auto excess = [&](double t) { return index(trouble.kind, t) - limit; };
     double inside = trouble.from, beyond = trouble.from + (trouble.to - trouble.from) / 2;
     double step = std::max(trouble.to - trouble.from, 1e-12 * (b - a));
@@ -120,10 +120,10 @@ class Look {
   std::optional<double> zero_after(Trouble kind, double t, std::span<const double> breaks,
                                    double limit) const {
     const double b = breaks.back();
-    constexpr int most_steps = 20000;
+    constexpr int max_steps = 20000;
     constexpr double least_way = 1e-7;
     double before = t, step = (b - t) / 64;
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < max_steps; ++k) {
       const RegularAt there = at(t);
       const double value = index(kind, t);
       if (!there.reached || value > limit) return {};
@@ -148,7 +148,7 @@ class Look {
 
   const TroubleTask& task_;
   const PlatformWay& way_;
-  double least_;
+  double min_;
   int looks_ = 0;
 };
 

@@ -36,9 +36,9 @@ PoseCheckLeg prepared_leg(const PoseConditions& c, int i) {
   // A cosine of -1 or 1 may be missed by rounding: -2 is a whole turn, 2 an empty range.
   out.range_cosine = half >= pi ? -2 : half < 0 ? 2 : std::cos(half);
   const double rod = out.leg.rod;
-  out.least_elbow_part = c.most_elbow >= pi ? -2 * rod : rod * std::cos(c.most_elbow);
-  out.most_elbow_part = c.least_elbow <= 0 ? 2 * rod : rod * std::cos(c.least_elbow);
-  out.most_swing_part = c.most_swing >= pi / 2 ? 2 * rod : rod * std::sin(c.most_swing);
+  out.min_elbow_part = c.max_elbow >= pi ? -2 * rod : rod * std::cos(c.max_elbow);
+  out.max_elbow_part = c.min_elbow <= 0 ? 2 * rod : rod * std::cos(c.min_elbow);
+  out.max_swing_part = c.max_swing >= pi / 2 ? 2 * rod : rod * std::sin(c.max_swing);
   return out;
 }
 
@@ -49,9 +49,9 @@ PoseCheckTask prepared(const PoseConditions& c) {
                     .assembly = c.assembly,
                     .constraint = c.constraint,
                     .least_constraint = c.least_constraint,
-                    .least_drive_transmission = c.least_drive_transmission,
-                    .least_transmission = c.least_transmission,
-                    .least_conditioning = c.least_conditioning,
+                    .min_drive_transmission = c.min_drive_transmission,
+                    .min_transmission = c.min_transmission,
+                    .min_conditioning = c.min_conditioning,
                     .characteristic_length = c.characteristic_length};
   for (int i = 0; i < c.robot.legs(); ++i) {
     out.leg[i] = prepared_leg(c, i);
@@ -120,13 +120,13 @@ std::optional<std::string> problem(const PoseConditions& c) {
     if (std::isnan(drive.lowest) || std::isnan(drive.highest) || drive.lowest > drive.highest)
       return fmt::format("leg {}: travel from {} to {} rad", i + 1, drive.lowest, drive.highest);
   }
-  if (!(within(c.least_elbow, 0, pi) && within(c.most_elbow, c.least_elbow, pi)))
-    return fmt::format("elbow angles from {} to {} rad: must rise between 0 and pi", c.least_elbow,
-                       c.most_elbow);
-  if (!within(c.most_swing, 0, pi / 2))
-    return fmt::format("rod swing {} rad: must be between 0 and pi/2", c.most_swing);
+  if (!(within(c.min_elbow, 0, pi) && within(c.max_elbow, c.min_elbow, pi)))
+    return fmt::format("elbow angles from {} to {} rad: must rise between 0 and pi", c.min_elbow,
+                       c.max_elbow);
+  if (!within(c.max_swing, 0, pi / 2))
+    return fmt::format("rod swing {} rad: must be between 0 and pi/2", c.max_swing);
   for (const double limit :
-       {c.least_drive_transmission, c.least_transmission, c.least_conditioning, c.least_constraint})
+       {c.min_drive_transmission, c.min_transmission, c.min_conditioning, c.least_constraint})
     if (!within(limit, 0, 1)) return fmt::format("limit {} of an index: must be between 0 and 1", limit);
   if (!(c.characteristic_length > 0 && std::isfinite(c.characteristic_length)))
     return fmt::format("characteristic length {} m: must be positive", c.characteristic_length);

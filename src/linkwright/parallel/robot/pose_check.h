@@ -23,16 +23,16 @@ struct PoseConditions {
   Robot robot;
   Drives drives{};
   WorkingMode mode = all_positive;
-  int assembly = 0;             ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
-  int constraint = 0;           ///< sign of det C of a DELTA (constraint.h); 0 = either. See marks_at.
-  double least_constraint = 0;  ///< least constraint index of a DELTA
-  double least_elbow = 0;       ///< angle between arm and rod at their joint: 0 = folded (rad)
-  double most_elbow = pi;       ///< pi = stretched (rad)
-  double most_swing = pi / 2;   ///< angle between a rod and the plane in which its arm moves (rad)
-  double least_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
-  double least_transmission = 0;        ///< least transmission index of the legs, LTI
-  double least_conditioning = 0;        ///< LCI, 1 / condition
-  double characteristic_length = 1;     ///< characteristic length of a HEXA, see `quality` (m)
+  int assembly = 0;                   ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
+  int constraint = 0;                 ///< sign of det C of a DELTA (constraint.h); 0 = either. See marks_at.
+  double least_constraint = 0;        ///< least constraint index of a DELTA
+  double min_elbow = 0;               ///< angle between arm and rod at their joint: 0 = folded (rad)
+  double max_elbow = pi;              ///< pi = stretched (rad)
+  double max_swing = pi / 2;          ///< angle between a rod and the plane in which its arm moves (rad)
+  double min_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
+  double min_transmission = 0;        ///< least transmission index of the legs, LTI
+  double min_conditioning = 0;        ///< LCI, 1 / condition
+  double characteristic_length = 1;   ///< characteristic length of a HEXA, see `quality` (m)
 };
 
 /// Says what keeps them from being conditions, with the value; nothing if they are.
@@ -142,17 +142,17 @@ struct PoseCheckLeg {
   double centre_cosine = 1, centre_sine = 0;  ///< direction of theta in the middle of its range
   double range_cosine = -2;                   ///< cosine of half the range
   double ratio = 0, quantum = 0;
-  double least_elbow_part = 0, most_elbow_part = 0;  ///< limits of -u . s (m)
-  double most_swing_part = 0;                        ///< limit of abs(s . t) (m)
+  double min_elbow_part = 0, max_elbow_part = 0;  ///< limits of -u . s (m)
+  double max_swing_part = 0;                      ///< limit of abs(s . t) (m)
 };
 
 /// The task of a kernel. Rows of `count` numbers, a multiple of 8.
 struct PoseCheckTask {
   Freedom freedom = Freedom::space_translation;
-  std::array<PoseCheckLeg, most_legs> leg{};
+  std::array<PoseCheckLeg, max_legs> leg{};
   int assembly = 0, constraint = 0;
   double least_constraint = 0;
-  double least_drive_transmission = 0, least_transmission = 0, least_conditioning = 0;
+  double min_drive_transmission = 0, min_transmission = 0, min_conditioning = 0;
   double characteristic_length = 1;
   double rods_scale = 1;  ///< det Jx to det of the rods' directions
   WantedIndices wanted{};

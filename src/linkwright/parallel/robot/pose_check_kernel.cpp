@@ -88,18 +88,18 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
       drive_transmission = S::min(drive_transmission, rate[i] * (1 / l.leg.arm));
     }
     const Batch elbow = -dot(found.rod, found.arm);
-    in_elbow = in_elbow & (elbow >= Batch(l.least_elbow_part)) & (elbow <= Batch(l.most_elbow_part));
+    in_elbow = in_elbow & (elbow >= Batch(l.min_elbow_part)) & (elbow <= Batch(l.max_elbow_part));
     const Vec3& e = l.leg.ahead;
     const Vec3& w = l.leg.aside;
     const Batch swing = found.rod.x * (e.y * w.z - e.z * w.y) + found.rod.y * (e.z * w.x - e.x * w.z) +
                         found.rod.z * (e.x * w.y - e.y * w.x);
-    in_swing = in_swing & (S::abs(swing) <= Batch(l.most_swing_part));
+    in_swing = in_swing & (S::abs(swing) <= Batch(l.max_swing_part));
   }
 
-  const bool conditions = task.least_conditioning > 0;
+  const bool conditions = task.min_conditioning > 0;
   const bool inverse_wanted = wanted(I::transmission) || wanted(I::conditioning) ||
                               wanted(I::axis_resolution) || wanted(I::worst_resolution) || conditions ||
-                              task.least_transmission > 0;
+                              task.min_transmission > 0;
   const bool determinant_wanted = wanted(I::rods) || wanted(I::manipulability) || task.assembly != 0;
   if (!xsimd::any(reaches)) {
     Batch(static_cast<double>(Criterion::leg)).store_unaligned(task.criterion + k);
@@ -136,7 +136,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
         scale = Batch(task.characteristic_length * task.characteristic_length * task.characteristic_length);
       put(I::manipulability, reaches, scale * S::abs(product / determinant));
     }
-    if (wanted(I::transmission) || task.least_transmission > 0) {
+    if (wanted(I::transmission) || task.min_transmission > 0) {
       Batch transmission = input;
       for (int i = 0; i < N; ++i) {
         Vector v{inverse[0][i], inverse[1][i], zero};
@@ -148,7 +148,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
         transmission = S::min(transmission, output);
       }
       if (wanted(I::transmission)) put(I::transmission, reaches, transmission);
-      transmits = transmission >= Batch(task.least_transmission);
+      transmits = transmission >= Batch(task.min_transmission);
     }
     if (wanted(I::conditioning) || conditions) {
       std::array<std::array<Batch, N>, N> j;
@@ -163,7 +163,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
       }
       const Batch conditioning = S::choose(largest < Batch(1e300), least / largest, zero);
       if (wanted(I::conditioning)) put(I::conditioning, reaches, conditioning);
-      well_conditioned = conditioning >= Batch(task.least_conditioning);
+      well_conditioned = conditioning >= Batch(task.min_conditioning);
     }
     if (wanted(I::axis_resolution) || wanted(I::worst_resolution)) {
       PoseCheckSteps<Batch, N> steps;
@@ -233,8 +233,8 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
   };
   demand(well_conditioned, Criterion::conditioning);
   demand(transmits, Criterion::transmission);
-  if (task.least_drive_transmission > 0)
-    demand(drive_transmission >= Batch(task.least_drive_transmission), Criterion::drive_transmission);
+  if (task.min_drive_transmission > 0)
+    demand(drive_transmission >= Batch(task.min_drive_transmission), Criterion::drive_transmission);
   demand(in_swing, Criterion::swing);
   demand(in_elbow, Criterion::elbow);
   demand(in_travel, Criterion::travel);

@@ -30,12 +30,12 @@ double shortfall_of(const Leg& leg, const Vec3& g) {
 }
 
 struct Residuals {
-  std::array<Vec3, most_legs> rod, lever;
-  std::array<double, most_legs> value{};  // (|s|^2 - L^2)/2
-  double largest = 0;                     // largest |value|
+  std::array<Vec3, max_legs> rod, lever;
+  std::array<double, max_legs> value{};  // (|s|^2 - L^2)/2
+  double largest = 0;                    // largest |value|
 };
 
-Residuals residuals(const Robot& robot, const std::array<Vec3, most_legs>& elbows, const Pose& pose) {
+Residuals residuals(const Robot& robot, const std::array<Vec3, max_legs>& elbows, const Pose& pose) {
   Residuals out;
   for (int i = 0; i < robot.legs(); ++i) {
     const Leg& leg = robot.leg[i];
@@ -105,10 +105,10 @@ bool positive_determinant(const Robot& robot, const Residuals& at) {
   });
 }
 
-std::array<Vec3, most_legs> elbows_of(const Robot& robot, std::span<const double> angles) {
+std::array<Vec3, max_legs> elbows_of(const Robot& robot, std::span<const double> angles) {
   LINKWRIGHT_REQUIRE(static_cast<int>(angles.size()) >= robot.legs(), "needs {} arm angles, got {}",
                      robot.legs(), angles.size());
-  std::array<Vec3, most_legs> out;
+  std::array<Vec3, max_legs> out;
   for (int i = 0; i < robot.legs(); ++i) out[i] = elbow(robot.leg[i], angles[i]);
   return out;
 }
@@ -193,7 +193,7 @@ WorkingMode working_mode(const Robot& robot, const Pose& pose, std::span<const d
 
 Placed direct(const Robot& robot, std::span<const double> angles, int assembly) {
   LINKWRIGHT_REQUIRE(robot.freedom != Freedom::space, "a robot that turns has no closed form");
-  std::array<Vec3, most_legs> centre = elbows_of(robot, angles);
+  std::array<Vec3, max_legs> centre = elbows_of(robot, angles);
   for (int i = 0; i < robot.legs(); ++i) centre[i] = centre[i] - robot.leg[i].platform;
   const auto square = [](double a) { return a * a; };
   const auto rod = [&](int i) { return robot.leg[i].rod; };
@@ -234,7 +234,7 @@ Placed direct(const Robot& robot, std::span<const double> angles, int assembly) 
 }
 
 Placed direct_near(const Robot& robot, std::span<const double> angles, const Pose& start) {
-  const std::array<Vec3, most_legs> elbows = elbows_of(robot, angles);
+  const std::array<Vec3, max_legs> elbows = elbows_of(robot, angles);
   double scale = 0;
   for (int i = 0; i < robot.legs(); ++i) scale = std::max(scale, robot.leg[i].rod * robot.leg[i].rod);
   // Quadratic convergence continues to where rounding stops it; a pose counts when it is near that.
@@ -242,9 +242,9 @@ Placed direct_near(const Robot& robot, std::span<const double> angles, const Pos
 
   Placed out{.pose = start};
   Residuals at = residuals(robot, elbows, out.pose);
-  constexpr int most_iterations = 50;
+  constexpr int max_iterations = 50;
   bool positive = false;  // det Jx at the start
-  while (at.largest > goal && out.iterations < most_iterations) {
+  while (at.largest > goal && out.iterations < max_iterations) {
     ++out.iterations;
     const Step step = newton_step(robot, at);
     if (out.iterations == 1) positive = step.positive;

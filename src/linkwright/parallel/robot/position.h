@@ -15,7 +15,7 @@ namespace linkwright::parallel {
 
 /// Sign of s . u' of each leg, 1 or -1: on which side of the straight leg the elbow is. 2^legs working modes;
 /// legs beyond legs() do not count.
-using WorkingMode = std::array<int, most_legs>;
+using WorkingMode = std::array<int, max_legs>;
 inline constexpr WorkingMode all_positive{1, 1, 1, 1, 1, 1};
 
 /// All working modes of a robot, the first leg changing fastest; all_positive first.
@@ -23,8 +23,8 @@ std::vector<WorkingMode> working_modes(const Robot& robot);
 
 struct ArmAngles {
   Status status = Status::done;  ///< no_assembly: a leg cannot reach; singular: the arm's place is open
-  std::array<double, most_legs> angle{};  ///< rad, in (-pi, pi]; NaN for legs that cannot reach
-  int leg = -1;                           ///< first leg with the trouble, from 0; -1 = none
+  std::array<double, max_legs> angle{};  ///< rad, in (-pi, pi]; NaN for legs that cannot reach
+  int leg = -1;                          ///< first leg with the trouble, from 0; -1 = none
   /// The amount that the leg lacks (m): positive = the joint is too far by so much, negative = too near.
   double shortfall = 0;
 };

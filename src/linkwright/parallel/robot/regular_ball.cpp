@@ -35,7 +35,7 @@ double square_within(const RegularAt::Leg& leg, double arm, double r) {
 
 RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mode, double length) {
   RegularAt out{.reach = infinity};
-  std::array<Vec3, most_legs> rod, lever;
+  std::array<Vec3, max_legs> rod, lever;
   for (int i = 0; i < robot.legs(); ++i) {
     const Leg& leg = robot.leg[i];
     lever[i] = pose.rotation * leg.platform;
@@ -79,7 +79,7 @@ RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mo
   return out;
 }
 
-double least_rods(const Robot& robot, const Jacobians& at, double length) {
+double min_rods(const Robot& robot, const Jacobians& at, double length) {
   return sized(robot, [&](auto size) {
     constexpr int n = size;
     std::array<std::array<double, n>, n> rows;

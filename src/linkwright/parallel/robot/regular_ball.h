@@ -36,13 +36,13 @@ struct RegularAt {
     double rho = 0, c = 0;  ///< m, see joint_seen
     double away = 0;        ///< pivot to platform joint (m)
   };
-  std::array<Leg, most_legs> legs{};
+  std::array<Leg, max_legs> legs{};
 };
 /// `length` (m) makes the turning of a HEXA comparable, see `quality`. Allocates nothing.
 RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mode, double length);
 
 /// `rods` of a pose with any arm angles.
-double least_rods(const Robot& robot, const Jacobians& at, double length);
+double min_rods(const Robot& robot, const Jacobians& at, double length);
 
 /// The largest change of `rods` and `constraint` within a displacement of the pose, on the path no arm and
 /// rod aligned; nothing where that cannot be said: the displacement is too large. With q = s . u' of a leg, r

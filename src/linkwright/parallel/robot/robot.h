@@ -34,12 +34,12 @@ struct Leg {
   Vec3 platform{};      ///< b: joint at the platform, in axes of the platform (m)
 };
 
-inline constexpr int most_legs = 6;
+inline constexpr int max_legs = 6;
 
 /// A robot of 3 (space_translation), 6 (space) or 2 (plane_translation) equal or different legs.
 struct Robot {
   Freedom freedom = Freedom::space_translation;
-  std::array<Leg, most_legs> leg{};  ///< the first legs() count
+  std::array<Leg, max_legs> leg{};  ///< the first legs() count
 
   int legs() const { return freedom == Freedom::space ? 6 : freedom == Freedom::space_translation ? 3 : 2; }
 };

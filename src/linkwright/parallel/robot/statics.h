@@ -43,7 +43,7 @@ struct LegStiffness {
   double arm_bending = infinity;  ///< in its plane of motion (N/m)
   double arm_lateral = infinity;  ///< across that plane (N/m)
 };
-using LegStiffnesses = std::array<LegStiffness, most_legs>;
+using LegStiffnesses = std::array<LegStiffness, max_legs>;
 
 /// Stiffness of a pose without load: what loads themselves add by turning with the links is left out.
 struct Stiffness {

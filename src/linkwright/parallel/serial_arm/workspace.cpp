@@ -26,10 +26,10 @@ SerialCriterion criterion_of(const SerialConditions& c, const SerialDrives& driv
                              const SerialPlace& place) {
   if (drives.status != Status::done) return SerialCriterion::travel;
   const double elbow = elbow_angle(angles);
-  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialCriterion::elbow;
-  if (place[SerialIndex::drive_transmission] < c.least_drive_transmission)
+  if (elbow < c.min_elbow || elbow > c.max_elbow) return SerialCriterion::elbow;
+  if (place[SerialIndex::drive_transmission] < c.min_drive_transmission)
     return SerialCriterion::drive_transmission;
-  if (place[SerialIndex::conditioning] < c.least_conditioning) return SerialCriterion::conditioning;
+  if (place[SerialIndex::conditioning] < c.min_conditioning) return SerialCriterion::conditioning;
   return SerialCriterion::none;
 }
 

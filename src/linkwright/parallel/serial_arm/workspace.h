@@ -20,10 +20,10 @@ namespace linkwright::parallel {
 struct SerialConditions {
   SerialPiArm arm;
   int mode = 1;
-  double least_elbow = 0;               ///< angle between the arms at their joint: 0 = folded (rad)
-  double most_elbow = pi;               ///< pi = stretched (rad)
-  double least_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
-  double least_conditioning = 0;        ///< 1 / condition
+  double min_elbow = 0;               ///< angle between the arms at their joint: 0 = folded (rad)
+  double max_elbow = pi;              ///< pi = stretched (rad)
+  double min_drive_transmission = 0;  ///< least transmission index of the drives, sin(mu) of a Pi-joint
+  double min_conditioning = 0;        ///< 1 / condition
 };
 
 /// The first condition that a place does not meet, in this order.

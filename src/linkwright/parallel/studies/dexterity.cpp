@@ -72,38 +72,38 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
 /// A finished seed as a checkpoint saves it: the design variables, not what they achieve.
 Value kept(const Answer& a) {
   Value out;
-  out["status"] = study::kept_status(a.status);
+  out["status"] = study::saved_status(a.status);
   out["x"] = pack_numbers(a.best.x);
   out["between_nodes"] = pack_numbers(a.between_nodes);
   out["worst_between_nodes"] = pack_numbers({&a.worst_between_nodes, 1});
   out["starts"] = a.starts;
   out["reached_best"] = a.reached_best;
   out["evaluations"] = a.evaluations;
-  out["log"] = study::kept_log(a.log);
+  out["log"] = study::saved_log(a.log);
   return out;
 }
 
 Answer restored(const Value& value, const DexterityStudy& s, std::string_view what) {
   Answer out;
-  out.status = study::restored_status(value, what);
-  if (!unpack_numbers(kept_member(value, "x", what), what).empty()) {
+  out.status = study::load_status(value, what);
+  if (!unpack_numbers(load_member(value, "x", what), what).empty()) {
     const std::vector<optimise::Variable> variables = design_variables(s.task);
-    const std::vector<double> x = study::restored_numbers(value, "x", variables.size(), what);
+    const std::vector<double> x = study::load_numbers(value, "x", variables.size(), what);
     for (std::size_t j = 0; j < x.size(); ++j)
       if (!(x[j] >= variables[j].lower && x[j] <= variables[j].upper))
         throw CheckpointError(fmt::format("{}: {} is {}, out of its range", what, variables[j].name, x[j]));
     out.best = assess(s.task, x);
   }
   // NaN where nothing was looked for between the nodes.
-  out.between_nodes = unpack_numbers(kept_member(value, "between_nodes", what), what);
-  const std::vector<double> worst = unpack_numbers(kept_member(value, "worst_between_nodes", what), what);
+  out.between_nodes = unpack_numbers(load_member(value, "between_nodes", what), what);
+  const std::vector<double> worst = unpack_numbers(load_member(value, "worst_between_nodes", what), what);
   if (worst.size() != 1 || out.between_nodes.size() > out.best.limits.size())
     throw CheckpointError(fmt::format("{}: what lies between the nodes is missing", what));
   out.worst_between_nodes = worst[0];
-  out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
-  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.starts, what));
-  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
-  out.log = study::restored_log(value, what);
+  out.starts = static_cast<int>(load_integer(value, "starts", 0, 1000000, what));
+  out.reached_best = static_cast<int>(load_integer(value, "reached_best", 0, out.starts, what));
+  out.evaluations = load_integer(value, "evaluations", 0, study::max_kept_evaluations, what);
+  out.log = study::load_log(value, what);
   return out;
 }
 

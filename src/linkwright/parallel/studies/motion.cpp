@@ -23,9 +23,9 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr std::size_t most_instants = 200000;
+constexpr std::size_t max_instants = 200000;
 /// A scene is for looking at: so many samples at most.
-constexpr std::size_t most_scene_samples = 1200;
+constexpr std::size_t max_scene_samples = 1200;
 /// Enough to see that a path leaves the plane of a planar robot.
 constexpr double plane_samples = 1000;
 constexpr double rounding = 1e-12;  // m, of arcs in the plane
@@ -37,7 +37,7 @@ struct Instant {
   Status status = Status::done;
   ArmAngles angles;
   Quality quality;
-  double swing = 0, least_elbow = 0, largest_elbow = 0;  ///< angles of all legs (rad)
+  double swing = 0, min_elbow = 0, largest_elbow = 0;  ///< angles of all legs (rad)
   DrivesState drives;
   DynamicLoads loads;  ///< NaN without masses or out of reach
 };
@@ -54,8 +54,8 @@ void demands_of(const RobotDescription& d, const QualityLimits& limits, const In
   if (d.robot.freedom == Freedom::space_translation)
     out.push_back(index_demand(Asked::constraint, at.quality.constraint_index, 0));
   if (limits.rod_swing) out.push_back(angle_demand(Asked::swing, 0, at.swing, 0, *limits.rod_swing));
-  if (limits.least_elbow || limits.largest_elbow)
-    out.push_back(angle_demand(Asked::elbow, at.least_elbow, at.largest_elbow, limits.least_elbow.value_or(0),
+  if (limits.min_elbow || limits.largest_elbow)
+    out.push_back(angle_demand(Asked::elbow, at.min_elbow, at.largest_elbow, limits.min_elbow.value_or(0),
                                limits.largest_elbow.value_or(pi)));
   for (int i = 0; i < d.robot.legs() && limits.drive_transmission > 0; ++i)
     out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
@@ -66,12 +66,12 @@ void demands_of(const RobotDescription& d, const QualityLimits& limits, const In
 
 void passive_angles(const Robot& robot, const Jacobians& at, Instant& out) {
   const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-  out.least_elbow = pi;
+  out.min_elbow = pi;
   for (int i = 0; i < robot.legs(); ++i) {
     const Vec3 axis = cross(robot.leg[i].ahead, robot.leg[i].aside), rod = unit(at.rod[i]);
     out.swing = std::max(out.swing, std::abs(pi / 2 - angle(dot(rod, axis))));
     const double elbow = angle(-dot(rod, at.arm[i]));
-    out.least_elbow = std::min(out.least_elbow, elbow);
+    out.min_elbow = std::min(out.min_elbow, elbow);
     out.largest_elbow = std::max(out.largest_elbow, elbow);
   }
 }
@@ -158,7 +158,7 @@ Table motion_table(const RobotDescription& d, const std::vector<Instant>& instan
   add({"rod_swing", "largest angle between a rod and the plane of its arm", angle},
       [](const Instant& i) { return i.swing; });
   add({"least_elbow", "least angle between arm and rod", angle},
-      [](const Instant& i) { return i.least_elbow; });
+      [](const Instant& i) { return i.min_elbow; });
   add({"largest_elbow", "largest angle between arm and rod", angle},
       [](const Instant& i) { return i.largest_elbow; });
   if (std::any_of(instants.begin(), instants.end(),
@@ -293,10 +293,10 @@ std::optional<MotionStudy> read_motion(study::ObjectReader& document, const stud
     return std::nullopt;
   }
   MotionStudy out{form, ToolMotion(form.path, form.limits, home)};
-  if (out.motion.duration() / form.interval > static_cast<double>(most_instants)) {
+  if (out.motion.duration() / form.interval > static_cast<double>(max_instants)) {
     table->error("interval",
                  fmt::format("makes {:.0f} instants of {:.4g} s, at most {} are allowed",
-                             out.motion.duration() / form.interval, out.motion.duration(), most_instants));
+                             out.motion.duration() / form.interval, out.motion.duration(), max_instants));
     return std::nullopt;
   }
   if (freedom == Freedom::plane_translation && out.motion.duration() > 0)
@@ -382,7 +382,7 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
 
   std::vector<RobotSample> drawn;
   std::vector<double> times;
-  const std::size_t stride = (instants.size() + most_scene_samples - 1) / most_scene_samples;
+  const std::size_t stride = (instants.size() + max_scene_samples - 1) / max_scene_samples;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     if (i % stride != 0 && i + 1 != instants.size()) continue;
     const Instant& at = instants[i];

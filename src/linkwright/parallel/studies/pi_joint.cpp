@@ -264,10 +264,10 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
   const auto range = range_values(s.joint, 0.5 * (s.angles.front() + s.angles.back()),
                                   0.5 * (s.angles.back() - s.angles.front()));
   fact("base and coupler", millimetres(base_length(s.joint)));
-  fact("diagonal", say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  fact("diagonal", say("{} to {}", millimetres(range.min_diagonal), millimetres(range.greatest_diagonal)));
   fact("stroke", millimetres(range.stroke()));
   fact("longest to shortest diagonal", plain_number(range.telescoping()).fixed(4));
-  fact("least angle between diagonal and arm", degrees_of(range.least_transmission));
+  fact("least angle between diagonal and arm", degrees_of(range.min_transmission));
   const double half = 0.5 * (s.angles.back() - s.angles.front());
   fact("best centre for this travel", degrees_of(best_centre(s.joint, half)));
   const auto least = [&](auto&& value) {
@@ -341,13 +341,13 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
     price.push_back(found == report.active.end() ? 0 : found->price);
   };
   if (r.torque > 0 && std::isfinite(r.force_limit))
-    row("torque (N m)", PiLimit::torque, range.least_jacobian * r.force_limit, r.torque, nan);
+    row("torque (N m)", PiLimit::torque, range.min_jacobian * r.force_limit, r.torque, nan);
   if (r.quantum > 0 && std::isfinite(r.resolution))
-    row("resolution (rad)", PiLimit::resolution, r.quantum / range.least_jacobian, nan, r.resolution);
+    row("resolution (rad)", PiLimit::resolution, r.quantum / range.min_jacobian, nan, r.resolution);
   if (r.speed > 0 && std::isfinite(r.rate_limit))
     row("rate of the diagonal (m/s)", PiLimit::speed, range.greatest_jacobian * r.speed, nan, r.rate_limit);
   if (r.transmission > 0)
-    row("transmission angle (rad)", PiLimit::transmission, range.least_transmission, r.transmission, nan);
+    row("transmission angle (rad)", PiLimit::transmission, range.min_transmission, r.transmission, nan);
   row("stroke (m)", PiLimit::stroke, range.stroke(), nan, r.stroke);
   row("telescoping ratio", PiLimit::telescoping, range.telescoping(), nan, r.telescoping);
   row("end of the range (rad)", PiLimit::ends, std::abs(best.centre) + r.half_travel, nan,
@@ -361,7 +361,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   fact("arm, base", say("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
   fact("range of the angle",
        say("{} to {}", degrees_of(best.centre - r.half_travel), degrees_of(best.centre + r.half_travel)));
-  fact("diagonal", say("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  fact("diagonal", say("{} to {}", millimetres(range.min_diagonal), millimetres(range.greatest_diagonal)));
   for (const PiActiveLimit& active : report.active)
     fact("held back by", say("{} (price {})", name_of(active.limit), plain_number(active.price, 3)));
   fact("closed form", report.closed_form.design ? say("{}{}", millimetres(report.closed_form.design->size),

@@ -194,7 +194,7 @@ struct RobotDescription {
   WorkingMode mode = all_positive;
   Drives drives{};
   /// Screw or gear and motor of each leg. A gear is a screw whose lead is in radians: 2 pi by its ratio.
-  std::array<PiDrive, most_legs> motors{};
+  std::array<PiDrive, max_legs> motors{};
   bool motors_known = false;  ///< a limit, or a motor, is given
   bool tool_turns() const { return robot.freedom == Freedom::space; }
 };

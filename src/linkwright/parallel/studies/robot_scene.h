@@ -15,8 +15,8 @@ namespace linkwright::parallel {
 struct RobotSample {
   Status status = Status::done;  ///< not drawn unless done
   Pose pose;
-  std::array<double, most_legs> angle{};  ///< angles of the arms (rad)
-  Vec3 velocity{};                        ///< velocity of the platform point (m/s)
+  std::array<double, max_legs> angle{};  ///< angles of the arms (rad)
+  Vec3 velocity{};                       ///< velocity of the platform point (m/s)
 };
 
 /// The input over which the samples are taken.

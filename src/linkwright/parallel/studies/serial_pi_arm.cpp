@@ -18,7 +18,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double most_arm_nodes = 5e5;
+constexpr double max_arm_nodes = 5e5;
 
 std::string words_of(SerialIndex index) {
   for (const auto& entry : names(SerialIndex{}))
@@ -217,8 +217,8 @@ std::optional<SerialGrid> grid_of(study::ObjectReader& table, const SerialWorksp
   }
   double nodes = 1;
   for (std::size_t i = 0; i < 2; ++i) nodes *= std::floor((out.high[i] - out.low[i]) / form.step + 1e-6) + 1;
-  if (nodes > most_arm_nodes) {
-    table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_arm_nodes),
+  if (nodes > max_arm_nodes) {
+    table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, max_arm_nodes),
                 "take a larger step or a smaller box");
     return std::nullopt;
   }
@@ -260,10 +260,10 @@ Sentence reason(const SerialAngles& angles) {
 
 SerialConditions conditions_of(const SerialDescription& d, const SerialLimits& limits) {
   SerialConditions out{.arm = d.arm, .mode = d.mode};
-  if (limits.least_elbow) out.least_elbow = *limits.least_elbow;
-  if (limits.largest_elbow) out.most_elbow = *limits.largest_elbow;
-  out.least_drive_transmission = limits.drive_transmission;
-  out.least_conditioning = limits.conditioning;
+  if (limits.min_elbow) out.min_elbow = *limits.min_elbow;
+  if (limits.largest_elbow) out.max_elbow = *limits.largest_elbow;
+  out.min_drive_transmission = limits.drive_transmission;
+  out.min_conditioning = limits.conditioning;
   return out;
 }
 

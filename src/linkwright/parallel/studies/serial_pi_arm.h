@@ -71,7 +71,7 @@ void fields(Visitor&& visit, SerialModesForm& m) {
 /// `[limits]`: requirements for a usable pose, along a path and in the workspace.
 struct SerialLimits {
   double conditioning = 0, drive_transmission = 0;
-  std::optional<double> least_elbow, largest_elbow;
+  std::optional<double> min_elbow, largest_elbow;
 };
 template <class Visitor>
 void fields(Visitor&& visit, SerialLimits& l) {
@@ -84,7 +84,7 @@ void fields(Visitor&& visit, SerialLimits& l) {
   visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
         l.drive_transmission);
-  visit(angle("least_elbow", "least angle between the arms, 0 = folded"), l.least_elbow);
+  visit(angle("least_elbow", "least angle between the arms, 0 = folded"), l.min_elbow);
   visit(angle("largest_elbow", "largest angle between the arms, 180 deg = stretched"), l.largest_elbow);
 }
 

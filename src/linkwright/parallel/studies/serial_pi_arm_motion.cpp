@@ -17,7 +17,7 @@ namespace linkwright::parallel {
 namespace {
 
 /// A scene is for looking at: so many samples at most.
-constexpr std::size_t most_arm_samples = 1200;
+constexpr std::size_t max_arm_samples = 1200;
 
 Vector2 plane(const Vec3& v) { return {v.x, v.y}; }
 
@@ -58,8 +58,8 @@ void demands_of(const SerialAnalysis& s, const ArmInstant& at, std::vector<Deman
   for (int i = 0; i < 2; ++i) out.push_back(travel_demand(i, d.arm.drive[i], at.drives.drive[i]));
   out.push_back(index_demand(Asked::conditioning, 1 / at.quality.condition, limits.conditioning));
   const double elbow = elbow_angle(at.angles.angle);
-  if (limits.least_elbow || limits.largest_elbow)
-    out.push_back(angle_demand(Asked::elbow, elbow, elbow, limits.least_elbow.value_or(0),
+  if (limits.min_elbow || limits.largest_elbow)
+    out.push_back(angle_demand(Asked::elbow, elbow, elbow, limits.min_elbow.value_or(0),
                                limits.largest_elbow.value_or(pi)));
   for (int i = 0; i < 2 && limits.drive_transmission > 0; ++i)
     out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
@@ -211,7 +211,7 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
 
   std::vector<SerialSample> drawn;
   std::vector<double> times;
-  const std::size_t stride = (instants.size() + most_arm_samples - 1) / most_arm_samples;
+  const std::size_t stride = (instants.size() + max_arm_samples - 1) / max_arm_samples;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     if (i % stride != 0 && i + 1 != instants.size()) continue;
     const ArmInstant& at = instants[i];

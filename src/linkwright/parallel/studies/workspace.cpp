@@ -24,12 +24,12 @@ namespace linkwright::parallel {
 namespace {
 
 /// More nodes are looked at layer by layer, and only totals are kept of them.
-constexpr double most_in_memory = 2e6;
-constexpr double most_nodes = 1e9;
+constexpr double max_in_memory = 2e6;
+constexpr double max_nodes = 1e9;
 /// More rows are no table to look at.
-constexpr std::size_t most_rows = 500000;
+constexpr std::size_t max_rows = 500000;
 /// Rows of all slices of a grid that is not in memory.
-constexpr std::size_t most_slice_rows = 100000;
+constexpr std::size_t max_slice_rows = 100000;
 
 std::string words_of(PoseIndex index) {
   for (const auto& entry : names(PoseIndex{}))
@@ -185,12 +185,12 @@ PoseConditions conditions_of(const RobotDescription& d, const QualityLimits& lim
     out.constraint = marks.constraint;
     out.least_constraint = std::max(limits.constraint, constraint_floor);
   }
-  if (limits.least_elbow) out.least_elbow = *limits.least_elbow;
-  if (limits.largest_elbow) out.most_elbow = *limits.largest_elbow;
-  if (limits.rod_swing) out.most_swing = *limits.rod_swing;
-  out.least_drive_transmission = limits.drive_transmission;
-  out.least_transmission = limits.transmission;
-  out.least_conditioning = limits.conditioning;
+  if (limits.min_elbow) out.min_elbow = *limits.min_elbow;
+  if (limits.largest_elbow) out.max_elbow = *limits.largest_elbow;
+  if (limits.rod_swing) out.max_swing = *limits.rod_swing;
+  out.min_drive_transmission = limits.drive_transmission;
+  out.min_transmission = limits.transmission;
+  out.min_conditioning = limits.conditioning;
   out.characteristic_length = platform_size(d.robot);
   return out;
 }
@@ -211,8 +211,8 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
     }
     nodes *= std::floor((form.upper[i] - form.lower[i]) / form.step + 1e-9) + 1;
   }
-  if (nodes > most_nodes) {
-    table->error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_nodes),
+  if (nodes > max_nodes) {
+    table->error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, max_nodes),
                  "take a larger step or a smaller box");
     return std::nullopt;
   }
@@ -224,11 +224,11 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
     table->error("rotation", "the platform of this robot does not turn", "leave it out");
     return std::nullopt;
   }
-  out.large = nodes > most_in_memory;
+  out.large = nodes > max_in_memory;
   if (out.large && form.inscribed) {
     table->error(
         "inscribed",
-        fmt::format("needs all nodes in memory: at most {:.3g}, these are {:.3g}", most_in_memory, nodes),
+        fmt::format("needs all nodes in memory: at most {:.3g}, these are {:.3g}", max_in_memory, nodes),
         "take a larger step or a smaller box");
     return std::nullopt;
   }
@@ -309,7 +309,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   if (f.aspects && s.large)
     fact("joined to home without a singularity",
          say("not looked at: {} nodes are more than {}", plain_number(static_cast<double>(all.count), 3),
-             plain_number(most_in_memory, 3)));
+             plain_number(max_in_memory, 3)));
   if (f.aspects && !s.large && sums.passing > 0) {
     const WorkspaceAspects aspects = workspace_aspects(
         map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
@@ -340,7 +340,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     if (range.status == Status::done) {
       fact("tilt at home, about any horizontal axis", degrees_of(range.tilt).fixed(2));
       fact("yaw at home",
-           say("{} to {}", degrees_of(range.least_yaw).fixed(2), degrees_of(range.most_yaw).fixed(2)));
+           say("{} to {}", degrees_of(range.min_yaw).fixed(2), degrees_of(range.max_yaw).fixed(2)));
     }
   }
   std::vector<std::size_t> reached;
@@ -348,10 +348,10 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     if (map.criterion[i] != Criterion::leg && map.criterion[i] != Criterion::open) reached.push_back(i);
   const std::size_t rows =
       s.large ? all.count - sums.count[static_cast<std::size_t>(Criterion::leg)] : reached.size();
-  if (f.nodes && rows <= most_rows && !s.large)
+  if (f.nodes && rows <= max_rows && !s.large)
     result.tables.push_back(node_table({{&map, reached}}, s, planar, "workspace"));
-  if (f.nodes && rows > most_rows)
-    fact("table of nodes", say("left out: {} nodes are more than {}", rows, most_rows));
+  if (f.nodes && rows > max_rows)
+    fact("table of nodes", say("left out: {} nodes are more than {}", rows, max_rows));
   const auto levels = all.nodes[2] > 1 ? levels_of(all.passing, f.slices)
                                        : std::vector<std::size_t>(sums.passing > 0 ? 1 : 0);
   std::vector<double> heights;
@@ -361,7 +361,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   std::vector<ShownNodes> slices;
   coarse.reserve(levels.size());  // the slices point to its elements
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (s.large) coarse.push_back(coarse_level(task, heights[i], most_slice_rows / levels.size(), context));
+    if (s.large) coarse.push_back(coarse_level(task, heights[i], max_slice_rows / levels.size(), context));
     const std::size_t count = s.large ? coarse.back().count() : map.nodes[0] * map.nodes[1];
     ShownNodes& slice = slices.emplace_back(ShownNodes{s.large ? &coarse.back() : &map, {}});
     for (std::size_t n = 0; n < count; ++n) slice.nodes.push_back(s.large ? n : levels[i] * count + n);

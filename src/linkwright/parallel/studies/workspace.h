@@ -16,7 +16,7 @@ namespace linkwright::parallel {
 /// `[limits]` of a robot: requirements for a usable pose, along a path and in the workspace.
 struct QualityLimits {
   double transmission = 0, conditioning = 0, drive_transmission = 0, constraint = 0;
-  std::optional<double> rod_swing, least_elbow, largest_elbow;
+  std::optional<double> rod_swing, min_elbow, largest_elbow;
 };
 template <class Visitor>
 void fields(Visitor&& visit, QualityLimits& l) {
@@ -36,8 +36,7 @@ void fields(Visitor&& visit, QualityLimits& l) {
         l.constraint);
   visit(angle("rod_swing", "largest angle between a rod and the plane of its arm", 1.5707963267948966),
         l.rod_swing);
-  visit(angle("least_elbow", "least angle between arm and rod, 0 = folded", 3.1415926535897931),
-        l.least_elbow);
+  visit(angle("least_elbow", "least angle between arm and rod, 0 = folded", 3.1415926535897931), l.min_elbow);
   visit(angle("largest_elbow", "largest angle between arm and rod, 180 deg = stretched", 3.1415926535897931),
         l.largest_elbow);
 }

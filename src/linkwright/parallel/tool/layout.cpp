@@ -16,7 +16,7 @@ namespace linkwright::parallel {
 namespace {
 
 // Nearer points are one, in m and rad.
-constexpr double least_way = 1e-9, least_turn = 1e-12;
+constexpr double least_way = 1e-9, min_turn = 1e-12;
 // The length of a line between its corners that is only rounding, m.
 constexpr double layout_rounding = 1e-12;
 // Directions that differ by less are one.
@@ -83,7 +83,7 @@ class Layer {
   Vec3 turn_to(const std::optional<Coordinates>& rotation) const {
     if (!rotation) return {};
     const Vec3 turn = turn_of(math::turn_about(vector(*rotation)) * transposed(here_.rotation));
-    return norm(turn) > least_turn ? turn : Vec3{};
+    return norm(turn) > min_turn ? turn : Vec3{};
   }
 
   ToolRun& begin() {
@@ -230,7 +230,7 @@ class Layer {
     if (s.dwell > 0) begin().dwell = s.dwell;
     if (s.back) {
       const Vec3 turn = turn_of(home.rotation * transposed(here_.rotation));
-      gate(to, from, up, s, norm(turn) > least_turn ? turn : Vec3{});
+      gate(to, from, up, s, norm(turn) > min_turn ? turn : Vec3{});
       here_ = home;
     }
     if (s.back_dwell > 0) begin().dwell = s.back_dwell;

@@ -91,7 +91,7 @@ double largest(math::FunctionRef<double(double)> f, double a, double b) {
   return best;
 }
 
-double least_duration(const ToolRun& run, TimeLaw law, const ToolLimits& limits) {
+double min_duration(const ToolRun& run, TimeLaw law, const ToolLimits& limits) {
   const double whole = length_of(run), angle = norm(run.turn);
   double duration = 0, offset = 0, begin = 0;
   for (const ToolPart& part : run.parts) {
@@ -135,7 +135,7 @@ double length_of(const ToolRun& run) {
 
 ToolTiming timed(const ToolRun& run, TimeLaw law, const ToolLimits& limits) {
   if (law == TimeLaw::double_s) return fastest(run, limits);
-  return {.duration = least_duration(run, law, limits), .phases = {}};
+  return {.duration = min_duration(run, law, limits), .phases = {}};
 }
 
 }  // namespace linkwright::parallel

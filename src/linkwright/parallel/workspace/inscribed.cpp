@@ -26,7 +26,7 @@ class Work {
     constexpr std::size_t much = 4'000'000;  // some milliseconds
     if ((nodes_ += nodes) < much) return;
     nodes_ = 0;
-    go_on(context);
+    throw_if_interrupted(context);
   }
 
  private:

@@ -40,9 +40,9 @@ bool inside(InscribedShape shape, const Vec3& u) {
 
 }  // namespace
 
-BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation, std::int64_t most_looks) {
+BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation, std::int64_t max_looks) {
   const double least = std::max(task.least_constraint, constraint_floor) - slack,
-               least_rods = rods_floor - slack;
+               min_rods = rods_floor - slack;
   const Vec3& h = body.half;
   const auto place = [&](const Vec3& u) { return body.centre + Vec3{h.x * u.x, h.y * u.y, h.z * u.z}; };
   const double flat = h.z > 0 ? 1 : 0;
@@ -68,13 +68,13 @@ BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation,
                                     h.z * reach(cell.low.z, centre.z, cell.high.z)});
     const RegularAt at = regular_at(task.robot, {place(centre), rotation}, task.mode, task.length);
     ++out.looks;
-    if (!at.reached || at.marks != task.home || at.constraint < least || at.rods < least_rods) {
+    if (!at.reached || at.marks != task.home || at.constraint < least || at.rods < min_rods) {
       // Beyond the edge of reach by no more than rounding.
       if (!at.reached && radius < edge && at.reach > -1e-6) return true;
       out.violated = place(centre);
       return false;
     }
-    const double spare = std::min(at.constraint - least, at.rods - least_rods);
+    const double spare = std::min(at.constraint - least, at.rods - min_rods);
     const auto change = change_within(task.robot, at, {radius, 0}, task.length);
     if (change ? *change <= spare : radius < edge) return true;
     open.push_back({spare, cell});
@@ -83,7 +83,7 @@ BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation,
   };
   if (!look({{-1, -1, -flat}, {1, 1, flat}})) return out;
   while (!open.empty()) {
-    if (out.looks >= most_looks) return out;
+    if (out.looks >= max_looks) return out;
     std::pop_heap(open.begin(), open.end());
     const Cell cell = open.back().cell;
     open.pop_back();

@@ -29,13 +29,13 @@ struct BodyProof {
   std::int64_t looks = 0;          ///< poses
 };
 
-inline constexpr std::int64_t most_proof_looks = 400000;
+inline constexpr std::int64_t max_proof_looks = 400000;
 
 /// Everywhere in the body the legs reach (but for 1 um at the edge of what they reach), no arm and rod are
 /// aligned, the marks are those of task.home, the rods hold the platform and the constraint index is at least
 /// the limit or the floor, both less 5e-4. By branch and bound: a box that change_within (regular_ball.h)
 /// does not decide is cut across its longest side.
 BodyProof prove(const TroubleTask& task, const Body& body, const Mat3& rotation,
-                std::int64_t most_looks = most_proof_looks);
+                std::int64_t max_looks = max_proof_looks);
 
 }  // namespace linkwright::parallel

@@ -165,10 +165,10 @@ RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose,
     return here != Criterion::none ? here : ray.stretch[0].after;
   };
   const auto n = static_cast<std::size_t>(axes);
-  out.least_yaw = -found.ray[n].reach();
-  out.least_yaw_criterion = criterion(found.ray[n]);
-  out.most_yaw = found.ray[n + 1].reach();
-  out.most_yaw_criterion = criterion(found.ray[n + 1]);
+  out.min_yaw = -found.ray[n].reach();
+  out.min_yaw_criterion = criterion(found.ray[n]);
+  out.max_yaw = found.ray[n + 1].reach();
+  out.max_yaw_criterion = criterion(found.ray[n + 1]);
   found.ray.resize(n);
   const auto first = std::min_element(found.ray.begin(), found.ray.end(),
                                       [](const Ray& a, const Ray& b) { return a.reach() < b.reach(); });

@@ -64,8 +64,8 @@ struct RotationRange {
   double tilt = 0;          ///< about every horizontal axis of those tried, at least so far (rad)
   double tilt_azimuth = 0;  ///< direction of the axis about which the least rotation is possible (rad from x)
   Criterion tilt_criterion = Criterion::none;
-  double least_yaw = 0, most_yaw = 0;  ///< about z, from the rotation of the pose (rad): <= 0, >= 0
-  Criterion least_yaw_criterion = Criterion::none, most_yaw_criterion = Criterion::none;
+  double min_yaw = 0, max_yaw = 0;  ///< about z, from the rotation of the pose (rad): <= 0, >= 0
+  Criterion min_yaw_criterion = Criterion::none, max_yaw_criterion = Criterion::none;
   std::vector<Ray> tilts;  ///< all around, from the axis x on
 };
 RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose, int axes,

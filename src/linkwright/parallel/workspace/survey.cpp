@@ -39,8 +39,8 @@ Value kept(const WorkspaceTotals& totals) {
 
 WorkspaceTotals restored(const Value& value, std::size_t nodes, const std::string& what) {
   WorkspaceTotals out;
-  const std::vector<double> counts = unpack_numbers(kept_member(value, "nodes", what), what);
-  const Value& indices = kept_member(value, "indices", what);
+  const std::vector<double> counts = unpack_numbers(load_member(value, "nodes", what), what);
+  const Value& indices = load_member(value, "indices", what);
   double all = 0;
   for (const double c : counts) all += c;
   if (counts.size() != criterion_count || all != static_cast<double>(nodes) || !indices.is_array() ||

@@ -25,8 +25,8 @@ namespace linkwright::parameter_study {
 namespace {
 
 constexpr int usual_steps = 11;
-constexpr std::size_t most_parameters = 64;
-constexpr double most_trials = 1e7;
+constexpr std::size_t max_parameters = 64;
+constexpr double max_trials = 1e7;
 
 const Field sampling_field = field::entry("method", "which values are tried");
 
@@ -224,8 +224,8 @@ void make_trials(study::ObjectReader& document, ParameterStudy& s) {
   auto table = document.table("sampling");
   study::ObjectReader& where = table ? *table : document;
   const double count = trials_asked(s);
-  if (count > most_trials)
-    return where.error("samples", fmt::format("{:.3g} trials, at most {:.3g} are made", count, most_trials),
+  if (count > max_trials)
+    return where.error("samples", fmt::format("{:.3g} trials, at most {:.3g} are made", count, max_trials),
                        "take fewer steps or samples");
   if (!study::require_memory(
           where, "samples",
@@ -305,7 +305,7 @@ void read_parameters(study::ObjectReader& document, ParameterStudy& s) {
   if (s.parameters.empty() && !s.listed() && !document.has("parameter"))
     document.missing(list, "write [[parameter]] with key, min and max");
   const std::size_t most =
-      std::holds_alternative<SaltelliSampling>(s.sampling) ? most_parameters / 2 : most_parameters;
+      std::holds_alternative<SaltelliSampling>(s.sampling) ? max_parameters / 2 : max_parameters;
   if (s.parameters.size() > most)
     document.error("parameter",
                    fmt::format("{} parameters, at most {} are changed", s.parameters.size(), most));

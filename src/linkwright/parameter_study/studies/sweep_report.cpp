@@ -22,10 +22,10 @@ namespace linkwright::parameter_study {
 namespace {
 
 constexpr const char* trials_table = "trials";
-constexpr std::size_t most_curves = 21;  // largest number of curves in one diagram
-constexpr std::size_t most_clouds = 12;  // diagrams of dots
-constexpr std::size_t most_named = 3;    // parameters of a trial in a fact
-constexpr std::size_t resamples = 200;   // for confidence intervals
+constexpr std::size_t max_curves = 21;  // largest number of curves in one diagram
+constexpr std::size_t max_clouds = 12;  // diagrams of dots
+constexpr std::size_t max_named = 3;    // parameters of a trial in a fact
+constexpr std::size_t resamples = 200;  // for confidence intervals
 
 /// A column in the making: its words, the last ones most telling, and its unit.
 struct Heading {
@@ -223,7 +223,7 @@ class Reporter {
 
   /// "at coupler 350 mm, branch open", or "in trial 17" where that would be long.
   Sentence place(std::size_t trial) const {
-    if (parameters() > most_named)
+    if (parameters() > max_named)
       return say("in trial {}", at_place("trial", count_of(static_cast<double>(trial + 1))));
     Sentence text = "at ";
     for (std::size_t j = 0; j < parameters(); ++j) {
@@ -375,7 +375,7 @@ class Reporter {
                        .y = {key_of(k)}};
       if (parameters() == 2) {
         const std::size_t other = 1 - along;
-        if (levels(other) > most_curves)
+        if (levels(other) > max_curves)
           plot.style = study::Plot::Style::points;
         else
           plot.group = keys_[other];
@@ -407,7 +407,7 @@ class Reporter {
   void add_clouds() {
     std::size_t drawn = 0;
     for (std::size_t k = 0; k < measures(); ++k)
-      for (std::size_t j = 0; j < parameters() && drawn < most_clouds; ++j, ++drawn)
+      for (std::size_t j = 0; j < parameters() && drawn < max_clouds; ++j, ++drawn)
         result_.plots.push_back({.name = fmt::format("measure-{}-over-{}", k + 1, j + 1),
                                  .title = fmt::format("{} over {}", title_of(k), titles_[j]),
                                  .table = trials_table,

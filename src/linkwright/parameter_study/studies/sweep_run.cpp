@@ -19,7 +19,7 @@ namespace linkwright::parameter_study {
 namespace {
 
 // Pieces of at most this number keep checkpoints small where trials are many and short.
-constexpr std::size_t most_pieces = 4096;
+constexpr std::size_t max_pieces = 4096;
 constexpr std::string_view invalid = "invalid";
 
 /// The trials of a piece: [first, last).
@@ -27,7 +27,7 @@ struct Part {
   std::size_t first = 0, last = 0;
 };
 Part part_of(std::size_t piece, std::size_t trials) {
-  const std::size_t size = (trials + most_pieces - 1) / most_pieces;
+  const std::size_t size = (trials + max_pieces - 1) / max_pieces;
   return {piece * size, std::min((piece + 1) * size, trials)};
 }
 
@@ -76,8 +76,8 @@ Value kept(const ParameterStudy& s, const TrialResults& results, const Part& par
 void restore(const ParameterStudy& s, const Part& part, const Value& value, const std::string& what,
              TrialResults& results) {
   const std::size_t count = part.last - part.first;
-  const std::vector<double> numbers = unpack_numbers(kept_member(value, "measured", what), what);
-  const Value &status = kept_member(value, "status", what), &problem = kept_member(value, "problem", what);
+  const std::vector<double> numbers = unpack_numbers(load_member(value, "measured", what), what);
+  const Value &status = load_member(value, "status", what), &problem = load_member(value, "problem", what);
   const auto texts = [count](const Value& list) {
     return list.is_array() && list.as_array().size() == count &&
            std::all_of(list.as_array().begin(), list.as_array().end(),

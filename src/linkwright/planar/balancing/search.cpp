@@ -17,12 +17,12 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
+constexpr std::int64_t max_evaluations = std::int64_t{1} << 46;
 // Least share of an objective on a front: no objective is forgotten altogether, or its value would be left to
 // chance.
-constexpr double least_share = 1e-3;
+constexpr double min_share = 1e-3;
 // Prices below this are rounding.
-constexpr double least_price = 1e-9;
+constexpr double min_price = 1e-9;
 
 std::vector<double> weights_of(const BalancingTask& task) {
   std::vector<double> out;
@@ -97,7 +97,7 @@ std::vector<std::vector<double>> directions(std::size_t m, int count) {
     if (k + 1 == m) {
       parts[k] = left;
       std::vector<double> share;
-      for (int part : parts) share.push_back(std::max(least_share, static_cast<double>(part) / divisions));
+      for (int part : parts) share.push_back(std::max(min_share, static_cast<double>(part) / divisions));
       out.push_back(std::move(share));
       return;
     }
@@ -135,7 +135,7 @@ std::vector<std::string> limit_texts(const BalancingProblem& p,
     std::string text = limit_name(p, a);
     if (a.kind == optimise::LimitKind::objective)
       text += fmt::format(" (share {:.2f})", a.price);
-    else if (std::abs(a.price_per_cent) > least_price)
+    else if (std::abs(a.price_per_cent) > min_price)
       text += fmt::format(" (relaxed by 1 %: {:.3g} less)", a.price_per_cent);
     out.push_back(std::move(text));
   }
@@ -259,7 +259,7 @@ class Answers {
       for (std::size_t j = 0; j < m; ++j) {
         const double target = p_.task.objectives[j].target;
         // Later objectives hardly count: they only separate equals.
-        q.weights[j] = (k == m || j == k ? 1 : least_share * least_share) / target;
+        q.weights[j] = (k == m || j == k ? 1 : min_share * min_share) / target;
         if (j < k) q.caps[j] = std::min(q.caps[j], target);
       }
       BalancedDesign design = solve(q, static_cast<std::uint32_t>(k), last.x);
@@ -464,19 +464,19 @@ Value kept(const BalancingRun& run) {
 BalancingRun restored(const Value& value, const BalancingProblem& p, const BalancingOptimiser& o,
                       std::string_view what) {
   BalancingRun run;
-  const Value& feasible = kept_member(value, "feasible", what);
-  const Value& designs = kept_member(value, "designs", what);
+  const Value& feasible = load_member(value, "feasible", what);
+  const Value& designs = load_member(value, "designs", what);
   if (!feasible.is_bool() || !designs.is_array())
     throw CheckpointError(fmt::format("{}: is not a balancing run", what));
   run.status = feasible.as_bool() ? Status::done : Status::infeasible;
-  run.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
+  run.evaluations = load_integer(value, "evaluations", 0, max_evaluations, what);
   for (const Value& kept : designs.as_array()) {
-    const std::vector<double> x = unpack_numbers(kept_member(kept, "x", what), what);
+    const std::vector<double> x = unpack_numbers(load_member(kept, "x", what), what);
     if (x.size() != p.task.variables.size() ||
         !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); }))
       throw CheckpointError(fmt::format("{}: a design is none of this study", what));
     BalancedDesign design = design_of(p, o, x);
-    const Value &active = kept_member(kept, "active", what), &proof = kept_member(kept, "proof", what);
+    const Value &active = load_member(kept, "active", what), &proof = load_member(kept, "proof", what);
     if (!active.is_array() || !proof.is_string())
       throw CheckpointError(fmt::format("{}: a design lacks its texts", what));
     for (const Value& limit : active.as_array()) {
@@ -486,10 +486,10 @@ BalancingRun restored(const Value& value, const BalancingProblem& p, const Balan
     design.proof = proof.as_string();
     run.designs.push_back(std::move(design));
   }
-  const std::vector<double> history = unpack_numbers(kept_member(value, "history", what), what);
+  const std::vector<double> history = unpack_numbers(load_member(value, "history", what), what);
   if (history.size() % 2 != 0) throw CheckpointError(fmt::format("{}: has half a step", what));
   for (std::size_t i = 0; i < history.size(); i += 2) {
-    if (!(history[i] >= 0 && history[i] <= static_cast<double>(most_evaluations)))
+    if (!(history[i] >= 0 && history[i] <= static_cast<double>(max_evaluations)))
       throw CheckpointError(fmt::format("{}: a step has {} evaluations", what, history[i]));
     run.history.push_back({static_cast<std::int64_t>(history[i]), history[i + 1]});
   }

@@ -220,7 +220,7 @@ class Finder {
         }
       }
       // Many designs of a sweep have the same defect: a few show which.
-      if (out_.swept && design.passage.defect != PoseDefect::none && kept_defective_++ >= p_.most_designs)
+      if (out_.swept && design.passage.defect != PoseDefect::none && kept_defective_++ >= p_.max_designs)
         continue;
       out_.designs.push_back(std::move(design));
     }
@@ -230,7 +230,7 @@ class Finder {
     const double apart = size_ * (out_.swept ? same_swept : p_.exact ? 0 : same_fitted);
     std::vector<PoseDesign> kept;
     for (PoseDesign& design : out_.designs) {
-      if (kept.size() == static_cast<std::size_t>(p_.most_designs)) break;
+      if (kept.size() == static_cast<std::size_t>(p_.max_designs)) break;
       if (std::none_of(kept.begin(), kept.end(),
                        [&](const PoseDesign& k) { return distance_between(k, design) < apart; }))
         kept.push_back(std::move(design));
@@ -261,14 +261,14 @@ int freedoms(const PoseProblem& problem, std::size_t dyad) {
 PoseAnswer find_pose_designs(const PoseProblem& problem, RunContext& context) {
   for (const std::size_t dyad : {std::size_t{0}, std::size_t{1}})
     LINKWRIGHT_REQUIRE(
-        !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= most_open_numbers),
+        !problem.exact || (freedoms(problem, dyad) >= 0 && freedoms(problem, dyad) <= max_open_numbers),
         "dyad {} has {} freedoms", dyad + 1, freedoms(problem, dyad));
   LINKWRIGHT_REQUIRE(problem.exact || problem.poses.size() >= 5, "{} poses", problem.poses.size());
   LINKWRIGHT_REQUIRE(problem.demands.empty() || problem.demands.size() == problem.poses.size(), "{} demands",
                      problem.demands.size());
   LINKWRIGHT_REQUIRE(std::count_if(problem.demands.begin(), problem.demands.end(),
-                                   [](const PoseDemand& d) { return d.exact; }) <= most_exact_demands,
-                     "more than {} poses are to be met exactly", most_exact_demands);
+                                   [](const PoseDemand& d) { return d.exact; }) <= max_exact_demands,
+                     "more than {} poses are to be met exactly", max_exact_demands);
   return Finder(problem, context).find();
 }
 

@@ -22,15 +22,15 @@ struct PoseProblem {
   bool exact = true;                ///< every pose is met; else as near as can be, without prescriptions
   std::vector<PoseDemand> demands;  ///< one for each pose, or none (not exact)
   double angle_length = 0;  ///< m: what a rotation of a radian counts as (not exact); 0 = size of the motion
-  int most_designs = 12;
+  int max_designs = 12;
   bool drive_turns = false;  ///< only linkages whose driven dyad can turn round
 };
-/// Number of conditions that a dyad lacks for a finite number of solutions; up to most_open_numbers are
+/// Number of conditions that a dyad lacks for a finite number of solutions; up to max_open_numbers are
 /// swept.
 int freedoms(const PoseProblem& problem, std::size_t dyad);
 
 /// Largest number of poses that may be met exactly beside others; five leave nothing to choose.
-inline constexpr int most_exact_demands = 4;
+inline constexpr int max_exact_demands = 4;
 
 struct PoseDesign {
   GuidingDyad driver, other;

@@ -147,7 +147,7 @@ int open_numbers(std::size_t poses, const Prescription& prescription) {
 
 DyadFamily dyad_family(std::span<const BodyPose> poses, const Prescription& given, const DyadSweep& sweep) {
   const int missing = open_numbers(poses.size(), given);
-  LINKWRIGHT_REQUIRE(missing >= 0 && missing <= most_open_numbers, "{} numbers are open", missing);
+  LINKWRIGHT_REQUIRE(missing >= 0 && missing <= max_open_numbers, "{} numbers are open", missing);
   const Complex middle = middle_of(poses);
   const double size = size_of_motion(poses);
   const double reach = swept_reach * size;

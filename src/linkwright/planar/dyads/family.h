@@ -18,7 +18,7 @@ bool in_regions(const GuidingDyad& dyad, const Prescription& prescription);
 
 /// Number of open parameters of a dyad for so many poses and a prescription: 5 - poses - what is prescribed.
 int open_numbers(std::size_t poses, const Prescription& prescription);
-inline constexpr int most_open_numbers = 2;
+inline constexpr int max_open_numbers = 2;
 
 /// Number of lines or points taken for a pivot with one open parameter, and in each direction with two.
 struct DyadSweep {
@@ -38,7 +38,7 @@ struct DyadFamily {
 /// outside its region are left out, and so are those without the pivot that has one; of a sweep, those with
 /// pivots farther than five times the size of the motion, unless these are in a region.
 ///
-/// Throws ContractError unless open_numbers are 0 to most_open_numbers.
+/// Throws ContractError unless open_numbers are 0 to max_open_numbers.
 DyadFamily dyad_family(std::span<const BodyPose> poses, const Prescription& prescription,
                        const DyadSweep& sweep);
 

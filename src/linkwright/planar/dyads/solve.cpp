@@ -16,7 +16,7 @@ using Vector8 = std::array<double, 8>;
 using Vector3 = std::array<Complex, 3>;
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-constexpr std::size_t most_rows = 7;
+constexpr std::size_t max_rows = 7;
 // A direction of the rows that is shorter than this, of rows of length one, is rounding of the others.
 constexpr double dependent_rows = 1e-10;
 // A point is on both conics if its residual for the conics, of norm one, is at most this.
@@ -63,7 +63,7 @@ Vector8 row_of(const BodyPose& pose, const Frame& frame) {
 }
 
 struct Rows {
-  std::array<Vector8, most_rows> rows;
+  std::array<Vector8, max_rows> rows;
   std::size_t count = 0;
   void add(const Vector8& row) { rows[count++] = normalised(row); }
 };
@@ -97,7 +97,7 @@ void prescribe(const Prescription& p, const Frame& frame, Rows& rows) {
 // An orthonormal basis of what is perpendicular to the rows, by Householder reflections with pivoting. False
 // when the rows depend on each other.
 bool null_space(Rows& a, std::array<Vector8, 8>& basis) {
-  std::array<Vector8, most_rows> reflections;
+  std::array<Vector8, max_rows> reflections;
   for (std::size_t k = 0; k < a.count; ++k) {
     const auto tail = [&](const Vector8& row) {
       double sum = 0;

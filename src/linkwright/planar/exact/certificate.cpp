@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t n = four_bar_unknowns;
 // Radius relative to the correction, and to a radius that was too small.
 constexpr double first_radius = 2, wider = 6;
-constexpr int most_radii = 5;
+constexpr int max_radii = 5;
 
 // An identity proved to this share of its size decides between two classes.
 constexpr double sharp_identity = 1e-9;
@@ -71,7 +71,7 @@ std::optional<SolutionBall> certify_scaled(const math::Ball<T> (&data)[NinePoint
   if (!(largest < 1e-2)) return std::nullopt;
 
   double radius = first_radius * std::max(largest, 1e-300);
-  for (int trial = 0; trial < most_radii && radius < 0.1; ++trial, radius *= wider) {
+  for (int trial = 0; trial < max_radii && radius < 0.1; ++trial, radius *= wider) {
     for (std::size_t i = 0; i < n; ++i) at[i] = B(z[i], radius * scale[i] * (1 + 1e-12));
     NinePoints().evaluate(at, data, values, jacobian);
     bool inside = true;

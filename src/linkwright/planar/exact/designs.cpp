@@ -215,7 +215,7 @@ std::vector<ExactDesign> designs_that_differ(const PathProblem& problem, std::ve
   const double apart = same_swept_design * path_size(problem);
   std::vector<ExactDesign> kept;
   for (ExactDesign& design : designs) {
-    if (kept.size() == most_swept_designs) break;
+    if (kept.size() == max_swept_designs) break;
     if (std::none_of(kept.begin(), kept.end(), [&](const ExactDesign& k) {
           return distance_between(k.design.linkage, design.design.linkage) < apart;
         }))

@@ -34,11 +34,11 @@ std::vector<ExactDesign> exact_designs(const PathProblem& problem, const NinePoi
 /// The same of five points, where the pivots say which link drives.
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const FourBarSolutions& solutions);
 /// The same where the problem has a timing, whose rotations times `sense` they were solved for. Of a sweep
-/// those that differ, `most_swept_designs` at most.
+/// those that differ, `max_swept_designs` at most.
 std::vector<ExactDesign> exact_designs(const PathProblem& problem, const TimedPointSolutions& solutions,
                                        double sense);
-inline constexpr std::size_t most_swept_designs = 60;
-/// The different designs of a sweep, best first, `most_swept_designs` at most.
+inline constexpr std::size_t max_swept_designs = 60;
+/// The different designs of a sweep, best first, `max_swept_designs` at most.
 std::vector<ExactDesign> designs_that_differ(const PathProblem& problem, std::vector<ExactDesign> designs);
 
 /// The severity of a design's defects: 0 without defects, 1 order, 2 circuit, 3 branch or assembly.

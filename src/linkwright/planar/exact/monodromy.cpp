@@ -17,7 +17,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr int most_monodromy_loops = 80, first_mechanisms = 40;
+constexpr int max_monodromy_loops = 80, first_mechanisms = 40;
 constexpr std::uint64_t first_seed = 1;
 constexpr double identity_tolerance = 1e-9;
 
@@ -156,7 +156,7 @@ StartSet<System> find_starts(std::uint64_t seed, std::size_t expected, RunContex
   };
   take(known);
   for (std::size_t quiet = 0; quiet < 1 || out.points.size() < expected;) {
-    if (context.interrupted() || out.points.empty() || out.loops == most_monodromy_loops) break;
+    if (context.interrupted() || out.points.empty() || out.loops == max_monodromy_loops) break;
     SystemData<System> a = random_data<System>(stream), b = random_data<System>(stream);
     scale_towards<System>(out.base, a);
     scale_towards<System>(out.base, b);

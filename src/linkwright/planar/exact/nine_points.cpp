@@ -29,7 +29,7 @@ constexpr double nearly_real = 1e-7;
 constexpr double perhaps_same = 1e-6, surely_same = 1e-10;
 
 // More classes than these that are missing are those of special points: they are not sought by other means.
-constexpr std::size_t most_sought = 24;
+constexpr std::size_t max_sought = 24;
 
 // A solution in the units of the target, where conjugates are exact.
 struct FoundClass {
@@ -213,7 +213,7 @@ class NineSearch {
     last_attempt(open, out);
     classes.add_conjugates(target_);
     const std::size_t missing = nine_point_classes - std::min(nine_point_classes, classes.found().size());
-    if (missing == 0 || missing > most_sought || context_.interrupted()) return;
+    if (missing == 0 || missing > max_sought || context_.interrupted()) return;
     by_another_way();
     classes.add_conjugates(target_);
   }

@@ -48,7 +48,7 @@ std::vector<int> curves_of(const std::vector<TracingFourBar>& found, TimedComple
 
 TimedPointSolutions solve_timed_points(const TimedPoints& target, RunContext& context) {
   const std::size_t n = target.points.size();
-  LINKWRIGHT_REQUIRE(n >= least_timed_points && n <= most_timed_points && target.turns.size() == n,
+  LINKWRIGHT_REQUIRE(n >= min_timed_points && n <= max_timed_points && target.turns.size() == n,
                      "{} points, {} rotations", n, target.turns.size());
   const auto& [crank_pivot, rocker_pivot] = target.pivots;
   LINKWRIGHT_REQUIRE(n == 3 || (!crank_pivot && !rocker_pivot), "{} points beside a given pivot", n);

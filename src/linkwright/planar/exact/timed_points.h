@@ -12,7 +12,7 @@
 
 namespace linkwright::planar {
 
-inline constexpr std::size_t least_timed_points = 3, most_timed_points = 5;
+inline constexpr std::size_t min_timed_points = 3, max_timed_points = 5;
 
 struct TimedPoints {
   std::vector<std::complex<double>> points;  ///< three to five (m)

@@ -11,11 +11,11 @@
 namespace linkwright::planar {
 
 void require_lengths(const FourBar& linkage) {
-  const auto usable = [](double length) { return length >= shortest_link && length <= longest_link; };
+  const auto usable = [](double length) { return length >= shortest_link && length <= max_link; };
   LINKWRIGHT_REQUIRE(
       usable(linkage.ground) && usable(linkage.crank) && usable(linkage.coupler) && usable(linkage.rocker),
       "link lengths must be positive and finite ({} to {} m), got ground {}, crank {}, coupler {}, rocker {}",
-      shortest_link, longest_link, linkage.ground, linkage.crank, linkage.coupler, linkage.rocker);
+      shortest_link, max_link, linkage.ground, linkage.crank, linkage.coupler, linkage.rocker);
 }
 
 std::complex<double> crank_pivot(const FourBar& linkage) { return {linkage.pivot_x, linkage.pivot_y}; }

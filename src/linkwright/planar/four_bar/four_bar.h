@@ -82,9 +82,9 @@ struct FourBarPosition {
 FourBarPosition position(const FourBar& linkage, double crank_angle);
 
 /// Shortest and longest link (m): between them no product of four lengths leaves the range of a double.
-inline constexpr double shortest_link = 1e-70, longest_link = 1e70;
+inline constexpr double shortest_link = 1e-70, max_link = 1e70;
 
-/// Throws ContractError unless all link lengths are positive and finite, from shortest_link to longest_link.
+/// Throws ContractError unless all link lengths are positive and finite, from shortest_link to max_link.
 void require_lengths(const FourBar& linkage);
 
 /// Points O and B0 in the global frame.

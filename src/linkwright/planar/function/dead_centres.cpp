@@ -78,13 +78,13 @@ double imbalance_of(double time_ratio) {
 
 double time_ratio_of(double imbalance) { return (pi + std::abs(imbalance)) / (pi - std::abs(imbalance)); }
 
-double most_imbalance(double swing, bool with_crank) { return (pi + (with_crank ? swing : -swing)) / 2; }
+double max_imbalance(double swing, bool with_crank) { return (pi + (with_crank ? swing : -swing)) / 2; }
 
 std::optional<double> shortest_crank(const Strokes& strokes) {
   const auto [u, v] = halves(strokes);
   // At the limit, and within rounding of it, crank and coupler are equal.
   constexpr double below = 1 - 1e-12;
-  if (std::abs(strokes.imbalance) >= below * most_imbalance(strokes.swing, strokes.imbalance < 0))
+  if (std::abs(strokes.imbalance) >= below * max_imbalance(strokes.swing, strokes.imbalance < 0))
     return std::nullopt;
   return std::tan(std::abs(v)) * std::abs(std::tan(u + v));
 }
@@ -149,7 +149,7 @@ std::optional<double> crank_of_ratio(const Strokes& strokes, StrokeLength one, S
   return std::sqrt(x);
 }
 
-double least_transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion) {
+double min_transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion) {
   double least = pi / 2;
   for (std::size_t g = 0; g < plan.groups.size(); ++g)
     least = std::min(least, transmission_angle(plan, motion, g));
@@ -173,7 +173,7 @@ std::optional<SweptStrokes> sweep_strokes(const Linkage& linkage, int body, bool
   for (int k = 1; k <= samples; ++k) {
     const double rate = rate_at(input(k));
     if (!std::isfinite(rate) || !std::isfinite(before)) return std::nullopt;
-    least = std::min(least, least_transmission_angle(planned.plan, motion));
+    least = std::min(least, min_transmission_angle(planned.plan, motion));
     if ((rate > 0) != (before > 0)) {
       const std::size_t end = rate > 0 ? 0 : 1;
       const double at = math::zero_between(rate_at, input(k - 1), input(k));

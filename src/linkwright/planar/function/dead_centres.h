@@ -22,7 +22,7 @@ struct Strokes {
 double imbalance_of(double time_ratio);
 double time_ratio_of(double imbalance);
 /// The largest |imbalance| (rad), not reached: (pi + swing) / 2 with the crank, (pi - swing) / 2 against it.
-double most_imbalance(double swing, bool with_crank);
+double max_imbalance(double swing, bool with_crank);
 
 /// A linkage by its lengths in couplers (rods). Dead-centre construction (Alt 1925; VDI 2130): seen from the
 /// crank's axis the dead centres of B lie in directions that differ by the imbalance, as all points of one
@@ -38,7 +38,7 @@ struct StrokeLinkage {
 };
 
 /// All linkages of two strokes: one for each length of the crank (in couplers) from `shortest` to 1, both
-/// excluded, because the linkage locks there. Nothing when there is none (see most_imbalance).
+/// excluded, because the linkage locks there. Nothing when there is none (see max_imbalance).
 ///
 /// Throws ContractError unless 0 <= swing < pi and |imbalance| < pi.
 std::optional<double> shortest_crank(const Strokes& strokes);
@@ -62,7 +62,7 @@ std::optional<double> crank_of_ratio(const Strokes& strokes, StrokeLength one, S
                                      double ratio);
 
 /// The least transmission angle (rad, 0 to pi/2) of the groups of a linkage that close a loop.
-double least_transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion);
+double min_transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion);
 
 /// Strokes of any linkage with one rotary input, by its motion over a turn.
 struct SweptStrokes {

@@ -28,7 +28,7 @@ using DwellDual = math::Dual<static_cast<int>(dwell_numbers)>;
 // Places of the turn and of the dwell where a search looks.
 constexpr std::size_t turn_places = 72, dwell_places = 25;
 // Starts that are refined, and designs that are kept.
-constexpr std::size_t most_refined = 24, most_kept = 5;
+constexpr std::size_t max_refined = 24, max_kept = 5;
 // Directions and lengths of the output that are tried about the centre of a circle.
 constexpr int output_directions = 24, output_lengths = 6;
 // Longest crank, in grounds: one as long as the ground link passes a change point.
@@ -121,7 +121,7 @@ FittedCircle fit_circle(std::span<const Complex> points) {
 class DwellFinder {
  public:
   DwellFinder(const DwellProblem& problem, RunContext& context)
-      : p_(problem), context_(context), most_cosine_(std::cos(problem.transmission + between_places)) {}
+      : p_(problem), context_(context), max_cosine_(std::cos(problem.transmission + between_places)) {}
 
   DwellAnswer find() {
     for (int k = 0; k < p_.starts; ++k) {
@@ -131,8 +131,8 @@ class DwellFinder {
     }
     std::stable_sort(starts_.begin(), starts_.end(),
                      [](const DwellStart& a, const DwellStart& b) { return a.score < b.score; });
-    for (std::size_t k = 0; k < std::min(most_refined, starts_.size()); ++k) {
-      if (stopped("refinement", static_cast<double>(k) / most_refined)) break;
+    for (std::size_t k = 0; k < std::min(max_refined, starts_.size()); ++k) {
+      if (stopped("refinement", static_cast<double>(k) / max_refined)) break;
       refine(starts_[k]);
     }
     rank();
@@ -151,7 +151,7 @@ class DwellFinder {
     for (const double crank : {l.crank, -l.crank}) {
       const double cosine = (l.coupler * l.coupler + l.rocker * l.rocker - (1 - crank) * (1 - crank)) /
                             (2 * l.coupler * l.rocker);
-      if (!(std::abs(cosine) < most_cosine_)) return;
+      if (!(std::abs(cosine) < max_cosine_)) return;
     }
     const double reach = length(0.2, p_.longest), direction = random.uniform(-pi, pi);
     l.point_u = reach * std::cos(direction), l.point_v = reach * std::sin(direction);
@@ -200,7 +200,7 @@ class DwellFinder {
           const Complex g = curve[k] - pivot;
           const double reach = std::norm(g);
           const double cosine = (l.link * l.link + l.output * l.output - reach) / (2 * l.link * l.output);
-          good = std::abs(cosine) < most_cosine_;
+          good = std::abs(cosine) < max_cosine_;
           if (!good) break;
           const double along = (reach + l.output * l.output - l.link * l.link) / (2 * reach);
           const double root = -l.side * std::sqrt(l.output * l.output / reach - along * along);
@@ -256,8 +256,8 @@ class DwellFinder {
       const auto& rocker = numbers[2];
       std::size_t row = 0;
       const auto below = [&](const DwellDual& cosine) {
-        store(cosine - most_cosine_, 1, row++, values, gradients);
-        store(-cosine - most_cosine_, 1, row++, values, gradients);
+        store(cosine - max_cosine_, 1, row++, values, gradients);
+        store(-cosine - max_cosine_, 1, row++, values, gradients);
       };
       for (const double sign : {1.0, -1.0}) {
         const DwellDual distance = 1.0 - sign * crank;
@@ -303,7 +303,7 @@ class DwellFinder {
         for (std::size_t j = 0; j < 9; ++j) apart += std::abs(x[j] - y[j]), size += std::abs(x[j]);
         return apart < same_dwell * size;
       });
-      if (!known && kept.size() < most_kept) kept.push_back(d);
+      if (!known && kept.size() < max_kept) kept.push_back(d);
     }
     out_.designs = std::move(kept);
   }
@@ -317,7 +317,7 @@ class DwellFinder {
 
   const DwellProblem& p_;
   RunContext& context_;
-  double most_cosine_;
+  double max_cosine_;
   std::vector<DwellStart> starts_;
   DwellAnswer out_;
 };

@@ -22,7 +22,7 @@ Complex coupler(const FunctionGenerator& g, double input, double output) {
 }
 
 // The squared sine that the pair angle has where the branches count as one.
-constexpr double least_square = 2 * branches_meet;
+constexpr double min_square = 2 * branches_meet;
 
 // Sine of the angle between coupler and output link, signed by the branch.
 double side(const FunctionGenerator& g, double input, double output) {
@@ -124,7 +124,7 @@ std::vector<FunctionGenerator> exact_generators(std::span<const FunctionPair> pa
     // The side is rounding where the branches meet.
     for (const FunctionPair& p : pairs) {
       const double here = side(g, p.input, p.output);
-      if (!(here * here > least_square)) continue;
+      if (!(here * here > min_square)) continue;
       g.branch = here < 0 ? -1 : 1;
       break;
     }

@@ -88,10 +88,10 @@ struct StephensonModel {
     return g;
   }
 
-  static void bounds(double most_link, std::span<double> lower, std::span<double> upper) {
+  static void bounds(double max_link, std::span<double> lower, std::span<double> upper) {
     // Points within a square of this half width are no farther than the longest link.
-    for (std::size_t j = 0; j < numbers; ++j) upper[j] = most_link / std::sqrt(2.0), lower[j] = -upper[j];
-    for (const std::size_t j : {2, 3, 8}) lower[j] = shortest_stephenson_link, upper[j] = most_link;
+    for (std::size_t j = 0; j < numbers; ++j) upper[j] = max_link / std::sqrt(2.0), lower[j] = -upper[j];
+    for (const std::size_t j : {2, 3, 8}) lower[j] = shortest_stephenson_link, upper[j] = max_link;
   }
 
   static std::vector<StephensonGenerator> starts(const FunctionProblem& p,
@@ -156,7 +156,7 @@ struct StephensonModel {
   static void from_random(const FunctionProblem& p, double pair_angle,
                           std::vector<StephensonGenerator>& out) {
     std::vector<std::pair<double, StephensonGenerator>> screened;
-    const double least = std::sin(0.8 * pair_angle), far = std::min(p.most_link, 4.5);
+    const double least = std::sin(0.8 * pair_angle), far = std::min(p.max_link, 4.5);
     std::array<double, screening_places> wanted;
     for (int k = 0; k < screening_places; ++k)
       wanted[static_cast<std::size_t>(k)] = p.output(static_cast<double>(k) / (screening_places - 1));

@@ -139,9 +139,9 @@ class GeneratorFinder {
 
   void fit(const FunctionGenerator& start) {
     std::array<double, 5> x = numbers_of(start), lower, upper;
-    lower.fill(-p_.most_link);
-    upper.fill(p_.most_link);
-    lower[4] = 1e-6 * p_.most_link;
+    lower.fill(-p_.max_link);
+    upper.fill(p_.max_link);
+    lower[4] = 1e-6 * p_.max_link;
     const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
       return errors(p_, with_numbers(start, at), wanted_, r, jacobian);
     };
@@ -159,7 +159,7 @@ class GeneratorFinder {
 
   void minimax() {
     rank(FunctionFit::least_squares);
-    const bool steep = p_.least_pair_angle > 0;
+    const bool steep = p_.min_pair_angle > 0;
     std::vector<FunctionDesign> starts = out_.designs;
     starts.resize(std::min(steep ? steep_starts : minimax_starts, starts.size()));
     if (steep) add_steep(starts);
@@ -185,11 +185,11 @@ class GeneratorFinder {
           }
       };
       std::array<double, 5> x = numbers_of(start), lower, upper;
-      lower.fill(-p_.most_link);
-      upper.fill(p_.most_link);
-      lower[4] = 1e-6 * p_.most_link;
+      lower.fill(-p_.max_link);
+      upper.fill(p_.max_link);
+      lower[4] = 1e-6 * p_.max_link;
       for (std::size_t j = 0; j < 5; ++j) x[j] = std::clamp(x[j], lower[j], upper[j]);
-      const double most_cosine = std::cos(p_.least_pair_angle + between_conditions);
+      const double max_cosine = std::cos(p_.min_pair_angle + between_conditions);
       const auto conditions = [&](std::span<const double> at, std::span<double> values,
                                   std::span<double> gradients) {
         const FunctionGenerator g = with_numbers(start, at);
@@ -197,7 +197,7 @@ class GeneratorFinder {
           const PairCosine pair = pair_cosine(g, p_.input_range * share_of(k, pair_conditions));
           for (std::size_t row = 2 * k; row < 2 * k + 2; ++row) {
             const double sign = row % 2 == 0 ? 1 : -1;
-            values[row] = sign * pair.value - most_cosine;
+            values[row] = sign * pair.value - max_cosine;
             for (std::size_t j = 0; j < 5 && !gradients.empty(); ++j)
               gradients[5 * row + j] = sign * pair.slopes[j];
           }
@@ -218,7 +218,7 @@ class GeneratorFinder {
   // error is none.
   void add_steep(std::vector<FunctionDesign>& starts) const {
     std::vector<std::pair<double, FunctionGenerator>> screened;
-    const double scale = p_.slider ? std::abs(p_.output(1)) : 1, least = std::sin(p_.least_pair_angle);
+    const double scale = p_.slider ? std::abs(p_.output(1)) : 1, least = std::sin(p_.min_pair_angle);
     for (int k = 0; k < screened_generators; ++k) {
       RandomStream random({.seed = 1, .run = 1, .individual = static_cast<std::uint32_t>(k)});
       const auto length = [&] { return scale * std::exp(random.uniform(-2, 2)); };
@@ -253,7 +253,7 @@ class GeneratorFinder {
   void rank(FunctionFit fit) {
     std::stable_sort(out_.designs.begin(), out_.designs.end(),
                      [&](const FunctionDesign& a, const FunctionDesign& b) {
-                       return better_generator(a, b, fit, p_.least_pair_angle);
+                       return better_generator(a, b, fit, p_.min_pair_angle);
                      });
     std::vector<FunctionDesign> kept;
     for (const FunctionDesign& d : out_.designs) {

@@ -33,8 +33,8 @@ struct FunctionProblem {
   std::vector<double> at;  ///< shares at which it is met (points)
   StartAngles given;       ///< points only
   /// rad, kept over the range by designs that come first (minimax); 0 = no limit.
-  double least_pair_angle = 0;
-  double most_link = 20;  ///< greatest |a|, |b| and c, in grounds or m (least_squares, minimax)
+  double min_pair_angle = 0;
+  double max_link = 20;  ///< greatest |a|, |b| and c, in grounds or m (least_squares, minimax)
 };
 
 /// Chebyshev's shares of a range: (1 - cos((2k - 1) pi / 2n)) / 2, k = 1 to n.

@@ -39,10 +39,10 @@ struct WattModel {
     return g;
   }
 
-  static void bounds(double most_link, std::span<double> lower, std::span<double> upper) {
+  static void bounds(double max_link, std::span<double> lower, std::span<double> upper) {
     // Pins within a square of this half width are no farther than the longest link.
-    for (std::size_t j = 0; j < numbers; ++j) upper[j] = most_link / std::sqrt(2.0), lower[j] = -upper[j];
-    for (const std::size_t j : {4, 9}) lower[j] = 1e-6 * most_link, upper[j] = most_link;
+    for (std::size_t j = 0; j < numbers; ++j) upper[j] = max_link / std::sqrt(2.0), lower[j] = -upper[j];
+    for (const std::size_t j : {4, 9}) lower[j] = 1e-6 * max_link, upper[j] = max_link;
   }
 
   static std::vector<WattGenerator> starts(const FunctionProblem& p,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int places = 64;  // within the reach of the input at which poses of unknown inputs are compared
 constexpr int steps_of_a_range = 720;  // from one end of what is asked for to the other
-constexpr std::size_t most_pairs = 6;  // groups whose modes are all listed
+constexpr std::size_t max_pairs = 6;   // groups whose modes are all listed
 
 std::vector<InputMotion> standing(std::span<const double> values) {
   std::vector<InputMotion> out;
@@ -29,7 +29,7 @@ std::optional<double> nearest_assembled(const LinkagePlan& plan, std::span<const
                                         double from, double to) {
   const auto pairs = std::count_if(plan.groups.begin(), plan.groups.end(),
                                    [](const Group& g) { return traits_of(g).has_modes; });
-  if (static_cast<std::size_t>(pairs) > most_pairs) return std::nullopt;
+  if (static_cast<std::size_t>(pairs) > max_pairs) return std::nullopt;
   if (periodic(plan, 0)) from = start - pi, to = start + pi;
   const InputLimits limits = input_limits(plan, std::span(&start, 1), 0, from, to);
   std::optional<double> best;

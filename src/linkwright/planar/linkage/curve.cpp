@@ -18,7 +18,7 @@ namespace {
 constexpr double longest_step = 0.15, shortest_step = 1e-10;
 // Curves that pass each other nearer than the square of this count as crossing.
 constexpr double crossing_step = 1e-5;
-constexpr int most_steps = 20000;
+constexpr int max_steps = 20000;
 constexpr double far_away = 1e3;  // sizes of the linkage
 
 double alike(const CurveNode& a, std::span<const PartState<double>> b, const CurveEquations& equations) {
@@ -114,7 +114,7 @@ struct ModeCurve::Memory {
     double step = 0.02;
     int turns = 0;
     bool widely_lost = false;
-    for (int i = 0; i < most_steps; ++i) {
+    for (int i = 0; i < max_steps; ++i) {
       if (step < shortest_step) {
         widely_lost = true;
         break;

@@ -15,7 +15,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t most_ranges = 4096;
+constexpr std::size_t max_ranges = 4096;
 // Ends are computed twice at most by different routes: rounding times a few.
 constexpr double same_place = 1e-9;
 
@@ -127,8 +127,8 @@ InputLimits input_limits(const LinkagePlan& plan, std::span<const double> inputs
           one.to = refined(r.to, s.to, s.to_kind, static_cast<int>(k));
           one.modes[k] = side == 0 ? 1 : -1;
           next.push_back(std::move(one));
-          LINKWRIGHT_REQUIRE(next.size() <= most_ranges, "more than {} ranges: too many groups with modes",
-                             most_ranges);
+          LINKWRIGHT_REQUIRE(next.size() <= max_ranges, "more than {} ranges: too many groups with modes",
+                             max_ranges);
         }
     out.ranges = std::move(next);
   }

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
 
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
-  if (plan.parts.size() > most_sweep_parts || plan.groups.size() > most_sweep_parts) return false;
+  if (plan.parts.size() > max_sweep_parts || plan.groups.size() > max_sweep_parts) return false;
   for (const Group& g : plan.groups)
     if (!g.as<Driver>() && !g.as<Dyad>()) return false;
   if (!forces) return true;

@@ -105,7 +105,7 @@ struct SweepTask {
   std::size_t good = 0;     ///< 1 where all groups assemble clear of dead points, else 0
 };
 /// Linkages with more parts or groups go sample by sample.
-inline constexpr std::size_t most_sweep_parts = 32;
+inline constexpr std::size_t max_sweep_parts = 32;
 
 /// Fills the rows; true when all samples are good. Compiled once for each instruction set; all but the
 /// baseline need the machine to have the instructions.

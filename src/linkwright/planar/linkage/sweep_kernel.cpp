@@ -46,9 +46,9 @@ inline constexpr std::size_t sweep_together = 4;
 template <class Batch>
 struct SweepBlock {
   struct Register {
-    PartState<Batch> parts[most_sweep_parts];
-    GroupState<Batch> states[most_sweep_parts];
-    Wrench<Batch> needed[most_sweep_parts];
+    PartState<Batch> parts[max_sweep_parts];
+    GroupState<Batch> states[max_sweep_parts];
+    Wrench<Batch> needed[max_sweep_parts];
     // Keeps the same place of two registers off the same place of the cache.
     Batch apart[24];
   };
@@ -108,7 +108,7 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
       const auto row = [&](std::size_t k) {
         return task.joints + 3 * static_cast<std::size_t>(pin.joints[k]);
       };
-      Vec<Batch> pairs[most_sweep_parts];
+      Vec<Batch> pairs[max_sweep_parts];
       for (std::size_t k = 0; k < pin.joints.size(); ++k)
         pairs[k] = {rows.load(row(k)), rows.load(row(k) + 1)};
       for (std::size_t i = 0; i < pin.joints.size(); ++i) {

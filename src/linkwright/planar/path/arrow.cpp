@@ -13,11 +13,11 @@ constexpr double regular_angle = 1e-14;
 
 ArrowEquations::ArrowEquations(std::span<const double> regular, std::size_t points, bool with_angles)
     : shared_(regular.size()), points_(points), with_angles_(with_angles) {
-  LINKWRIGHT_REQUIRE(shared_ <= most_shared && points >= 2, "{} shared unknowns, {} points", shared_, points);
+  LINKWRIGHT_REQUIRE(shared_ <= max_shared && points >= 2, "{} shared unknowns, {} points", shared_, points);
   std::copy(regular.begin(), regular.end(), regular_.begin());
   for (auto* v : {&diagonal_, &neighbour_, &angle_gradient_, &angle_step_, &pivots_}) v->resize(points);
-  coupling_.resize(points * most_shared);
-  eliminated_.resize(points * (most_shared + 1));
+  coupling_.resize(points * max_shared);
+  eliminated_.resize(points * (max_shared + 1));
 }
 
 void ArrowEquations::clear() {
@@ -32,7 +32,7 @@ void ArrowEquations::add_point(std::size_t point, double x, double y, const Shar
   for (std::size_t i = 0; i < shared_; ++i) {
     gradient_[i] += x_by[i] * x + y_by[i] * y;
     for (std::size_t j = 0; j < shared_; ++j) entry(i, j) += x_by[i] * x_by[j] + y_by[i] * y_by[j];
-    coupling_[point * most_shared + i] += x_by_angle * x_by[i] + y_by_angle * y_by[i];
+    coupling_[point * max_shared + i] += x_by_angle * x_by[i] + y_by_angle * y_by[i];
   }
   diagonal_[point] += x_by_angle * x_by_angle + y_by_angle * y_by_angle;
   angle_gradient_[point] += x_by_angle * x + y_by_angle * y;
@@ -43,7 +43,7 @@ void ArrowEquations::add_row(double weight, double r, const Shared& by, std::siz
     if (by[i] == 0) continue;
     gradient_[i] += weight * r * by[i];
     for (std::size_t j = 0; j < shared_; ++j) entry(i, j) += weight * by[i] * by[j];
-    coupling_[point * most_shared + i] += weight * by[i] * by_angle;
+    coupling_[point * max_shared + i] += weight * by[i] * by_angle;
   }
   angle_gradient_[point] += weight * r * by_angle;
   diagonal_[point] += weight * by_angle * by_angle;
@@ -65,21 +65,21 @@ void ArrowEquations::add_step(double weight, double r, std::size_t point, double
 }
 
 bool ArrowEquations::solve(double lambda, std::span<const bool> held) {
-  constexpr std::size_t columns = most_shared + 1;
+  constexpr std::size_t columns = max_shared + 1;
   // (T + lambda D) Z = [coupling, gradient] by elimination in the tridiagonal block.
   if (with_angles_) {
     double previous = 0;
     for (std::size_t k = 0; k < points_; ++k) {
       double* row = &eliminated_[k * columns];
-      for (std::size_t j = 0; j < shared_; ++j) row[j] = coupling_[k * most_shared + j];
-      row[most_shared] = angle_gradient_[k];
+      for (std::size_t j = 0; j < shared_; ++j) row[j] = coupling_[k * max_shared + j];
+      row[max_shared] = angle_gradient_[k];
       double pivot = diagonal_[k] * (1 + lambda) + regular_angle;
       if (k > 0) {
         const double factor = neighbour_[k - 1] / previous;
         pivot -= factor * neighbour_[k - 1];
         const double* above = row - columns;
         for (std::size_t j = 0; j < shared_; ++j) row[j] -= factor * above[j];
-        row[most_shared] -= factor * above[most_shared];
+        row[max_shared] -= factor * above[max_shared];
       }
       if (!(pivot > 0)) return false;
       pivots_[k] = previous = pivot;
@@ -92,19 +92,19 @@ bool ArrowEquations::solve(double lambda, std::span<const bool> held) {
         row[j] /= pivots_[k];
       };
       for (std::size_t j = 0; j < shared_; ++j) settle(j);
-      settle(most_shared);
+      settle(max_shared);
     }
   }
   // The shared block that is left, and its Cholesky factor in place.
-  std::array<double, most_shared* most_shared> a = hessian_;
+  std::array<double, max_shared* max_shared> a = hessian_;
   Shared b{};
-  const auto at = [&](std::size_t i, std::size_t j) -> double& { return a[i * most_shared + j]; };
+  const auto at = [&](std::size_t i, std::size_t j) -> double& { return a[i * max_shared + j]; };
   for (std::size_t i = 0; i < shared_; ++i) b[i] = -gradient_[i];
   if (with_angles_)
     for (std::size_t k = 0; k < points_; ++k) {
-      const double *c = &coupling_[k * most_shared], *row = &eliminated_[k * columns];
+      const double *c = &coupling_[k * max_shared], *row = &eliminated_[k * columns];
       for (std::size_t i = 0; i < shared_; ++i) {
-        b[i] += c[i] * row[most_shared];
+        b[i] += c[i] * row[max_shared];
         for (std::size_t j = 0; j < shared_; ++j) at(i, j) -= c[i] * row[j];
       }
     }
@@ -136,7 +136,7 @@ bool ArrowEquations::solve(double lambda, std::span<const bool> held) {
   step_ = b;
   if (with_angles_)
     for (std::size_t k = 0; k < points_; ++k) {
-      double sum = -eliminated_[k * columns + most_shared];
+      double sum = -eliminated_[k * columns + max_shared];
       for (std::size_t j = 0; j < shared_; ++j) sum -= eliminated_[k * columns + j] * b[j];
       angle_step_[k] = sum;
     }

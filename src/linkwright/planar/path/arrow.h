@@ -14,11 +14,11 @@ namespace linkwright::planar {
 /// costs O(points). Holds its memory; nothing is allocated after construction.
 class ArrowEquations {
  public:
-  static constexpr std::size_t most_shared = 10;
-  using Shared = std::array<double, most_shared>;  ///< entries beyond the number of shared unknowns are 0
+  static constexpr std::size_t max_shared = 10;
+  using Shared = std::array<double, max_shared>;  ///< entries beyond the number of shared unknowns are 0
 
   /// `regular`: what is added to the diagonal of each shared unknown, in the unit of its entry. Throws
-  /// ContractError for more than `most_shared` unknowns or fewer than two points.
+  /// ContractError for more than `max_shared` unknowns or fewer than two points.
   ArrowEquations(std::span<const double> regular, std::size_t points, bool with_angles);
 
   void clear();
@@ -42,12 +42,12 @@ class ArrowEquations {
   const std::vector<double>& angle_step() const { return angle_step_; }
 
  private:
-  double& entry(std::size_t i, std::size_t j) { return hessian_[i * most_shared + j]; }
+  double& entry(std::size_t i, std::size_t j) { return hessian_[i * max_shared + j]; }
 
   std::size_t shared_, points_;
   bool with_angles_;
   Shared regular_{}, gradient_{}, step_{};
-  std::array<double, most_shared * most_shared> hessian_{};
+  std::array<double, max_shared * max_shared> hessian_{};
   std::vector<double> coupling_, diagonal_, neighbour_, angle_gradient_, angle_step_;
   std::vector<double> eliminated_, pivots_;
 };

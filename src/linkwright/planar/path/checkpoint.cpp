@@ -14,13 +14,13 @@ namespace linkwright::planar {
 namespace {
 
 // Far more than a search makes, and few enough that the sum over the seeds of a study is an integer.
-constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
+constexpr std::int64_t max_evaluations = std::int64_t{1} << 46;
 // Crank angles are unwrapped over a turn, from a start angle that the study may have put anywhere sensible.
 constexpr double largest_angle = 1e6;
 
 }  // namespace
 
-Value kept_record(const SearchRecord& record, const std::vector<std::vector<double>>& designs) {
+Value saved_record(const SearchRecord& record, const std::vector<std::vector<double>>& designs) {
   Value value;
   value["feasible"] = record.status == Status::done;
   value["evaluations"] = record.evaluations;
@@ -37,18 +37,18 @@ Value kept_record(const SearchRecord& record, const std::vector<std::vector<doub
   return value;
 }
 
-SearchRecord restored_record(const Value& value, std::string_view what,
-                             const std::function<void(const std::vector<double>&)>& design) {
+SearchRecord load_record(const Value& value, std::string_view what,
+                         const std::function<void(const std::vector<double>&)>& design) {
   SearchRecord record;
-  const Value& feasible = kept_member(value, "feasible", what);
-  const Value& designs = kept_member(value, "designs", what);
-  const Value& evaluations = kept_member(value, "history_evaluations", what);
-  const std::vector<double> best = unpack_numbers(kept_member(value, "history_best", what), what);
+  const Value& feasible = load_member(value, "feasible", what);
+  const Value& designs = load_member(value, "designs", what);
+  const Value& evaluations = load_member(value, "history_evaluations", what);
+  const std::vector<double> best = unpack_numbers(load_member(value, "history_best", what), what);
   if (!feasible.is_bool() || !designs.is_array() || !evaluations.is_array() ||
       evaluations.as_array().size() != best.size())
     throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
   record.status = feasible.as_bool() ? Status::done : Status::infeasible;
-  record.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
+  record.evaluations = load_integer(value, "evaluations", 0, max_evaluations, what);
   for (const Value& numbers : designs.as_array()) design(unpack_numbers(numbers, what));
   for (std::size_t i = 0; i < best.size(); ++i) {
     const Value& at = evaluations.as_array()[i];
@@ -59,11 +59,11 @@ SearchRecord restored_record(const Value& value, std::string_view what,
   return record;
 }
 
-bool is_kept_sign(double x) { return x == 1 || x == -1; }
-bool is_kept_angle(double x) { return std::abs(x) <= largest_angle; }
+bool is_saved_sign(double x) { return x == 1 || x == -1; }
+bool is_saved_angle(double x) { return std::abs(x) <= largest_angle; }
 bool is_kept(const Field& field, double x) {
-  if (field.dimension == Dimension::angle) return is_kept_angle(x);
-  return std::abs(x) <= longest_link && (field.minimum < 0 || x >= shortest_link);
+  if (field.dimension == Dimension::angle) return is_saved_angle(x);
+  return std::abs(x) <= max_link && (field.minimum < 0 || x >= shortest_link);
 }
 
 }  // namespace linkwright::planar

@@ -20,15 +20,15 @@
 // what they achieve.
 namespace linkwright::planar {
 
-Value kept_record(const SearchRecord& record, const std::vector<std::vector<double>>& designs);
+Value saved_record(const SearchRecord& record, const std::vector<std::vector<double>>& designs);
 /// The numbers of the designs are handed over one after the other.
-SearchRecord restored_record(const Value& value, std::string_view what,
-                             const std::function<void(const std::vector<double>&)>& design);
+SearchRecord load_record(const Value& value, std::string_view what,
+                         const std::function<void(const std::vector<double>&)>& design);
 
 /// True if a number of a saved design is 1 or -1, an angle (rad), or a value that a field of a linkage
 /// allows.
-bool is_kept_sign(double x);
-bool is_kept_angle(double x);
+bool is_saved_sign(double x);
+bool is_saved_angle(double x);
 bool is_kept(const Field& field, double x);
 
 template <class M>
@@ -41,7 +41,7 @@ Value kept(const PathAnswer<M>& run) {
     numbers.insert(numbers.begin() + M::kept_sense, design.sense);
     numbers.insert(numbers.end(), design.angles.begin(), design.angles.end());
   }
-  return kept_record(run, designs);
+  return saved_record(run, designs);
 }
 
 /// The seed that was kept, with the same bits. Its designs are measured against the problem again, so that
@@ -51,7 +51,7 @@ template <class Problem>
 auto restored(const Value& value, const Problem& problem, std::string_view what) {
   using M = MechanismOf<Problem>;
   PathAnswer<M> run;
-  static_cast<SearchRecord&>(run) = restored_record(value, what, [&](std::vector<double> numbers) {
+  static_cast<SearchRecord&>(run) = load_record(value, what, [&](std::vector<double> numbers) {
     typename M::Linkage linkage;
     std::size_t count = 2 + problem.x.size();
     fields([&](const Field&, double&) { ++count; }, M::form(linkage));
@@ -60,7 +60,7 @@ auto restored(const Value& value, const Problem& problem, std::string_view what)
           fmt::format("{}: a design has {} numbers, must be {}", what, numbers.size(), count));
     const double sense = numbers[M::kept_sense];
     numbers.erase(numbers.begin() + M::kept_sense);
-    bool possible = is_kept_sign(numbers[0]) && is_kept_sign(sense);
+    bool possible = is_saved_sign(numbers[0]) && is_saved_sign(sense);
     linkage.branch = names(linkage.branch)[numbers[0] > 0 ? 0 : 1].value;
     std::size_t i = 1;
     fields(
@@ -70,7 +70,7 @@ auto restored(const Value& value, const Problem& problem, std::string_view what)
         },
         M::form(linkage));
     std::vector<double> angles(numbers.begin() + static_cast<std::ptrdiff_t>(i), numbers.end());
-    for (const double angle : angles) possible = possible && is_kept_angle(angle);
+    for (const double angle : angles) possible = possible && is_saved_angle(angle);
     if (!possible) throw CheckpointError(fmt::format("{}: a design is not a {}", what, M::words.name));
     run.designs.push_back(measure(problem, linkage, sense, std::move(angles)));
   });

@@ -8,8 +8,8 @@ namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr std::size_t most_compared = 24;  // target points that take part
-constexpr int open_arcs = 24;              // random arcs of a curve that is not laid on the path as a whole
+constexpr std::size_t max_compared = 24;  // target points that take part
+constexpr int open_arcs = 24;             // random arcs of a curve that is not laid on the path as a whole
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::vector<double> path_fractions(const std::vector<double>& x, const std::vect
 CurveOverlay::CurveOverlay(const std::vector<double>& x, const std::vector<double>& y, bool closed)
     : closed_(closed), fraction_(path_fractions(x, y, closed)) {
   const std::size_t n = x.size();
-  const std::size_t count = std::min(n, most_compared);
+  const std::size_t count = std::min(n, max_compared);
   for (std::size_t i = 0; i < count; ++i) compared_.push_back(count == n ? i : i * (n - 1) / (count - 1));
   for (std::size_t k : compared_) mean_ += Complex(x[k], y[k]);
   mean_ /= static_cast<double>(count);

@@ -18,7 +18,7 @@ void require_valid_task(const PathTask& p) {
   }
   if (p.timing == Timing::equal_steps)
     LINKWRIGHT_REQUIRE(p.step != 0 && std::isfinite(p.step), "the step must not be zero, got {}", p.step);
-  LINKWRIGHT_REQUIRE(p.least_step > 0 && p.least_step < 2 * pi, "the least step is {}", p.least_step);
+  LINKWRIGHT_REQUIRE(p.min_step > 0 && p.min_step < 2 * pi, "the least step is {}", p.min_step);
 }
 
 double point_angle(const PathTask& p, std::size_t k) {

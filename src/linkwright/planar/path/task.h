@@ -32,8 +32,8 @@ constexpr bool starts_anywhere(Timing t) { return t == Timing::equal_steps || t 
 /// A path for any mechanism to trace: targets, timing and the motion of the crank.
 struct PathTask : PathTargets {
   Timing timing = Timing::free;
-  double least_step = 1e-4;  ///< crank rotation that free timing keeps between two points (rad, > 0)
-  double step = 0;           ///< rad, equal_steps
+  double min_step = 1e-4;  ///< crank rotation that free timing keeps between two points (rad, > 0)
+  double step = 0;         ///< rad, equal_steps
   /// rad, one a point; increments: from the first point; given: from the reference of the mechanism's crank
   /// angle
   std::vector<double> angles;

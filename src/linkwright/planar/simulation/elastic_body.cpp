@@ -15,7 +15,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr int most_segments = 64;
+constexpr int max_segments = 64;
 
 bool positive(double x) { return x > 0 && std::isfinite(x); }
 bool not_negative(double x) { return x >= 0 && std::isfinite(x); }
@@ -93,8 +93,8 @@ class Builder {
                         "must be finite and above 0",
                         b.elastic_modulus, b.second_moment, b.area, b.density),
             {});
-    if (b.segments < 1 || b.segments > most_segments)
-      error(b, fmt::format("{} segments: 1 to {} are allowed", b.segments, most_segments),
+    if (b.segments < 1 || b.segments > max_segments)
+      error(b, fmt::format("{} segments: 1 to {} are allowed", b.segments, max_segments),
             "4 to 8 are enough for the first frequencies");
     if (!(not_negative(b.damping) && not_negative(b.fibre_distance)))
       error(b,
@@ -375,7 +375,7 @@ bool too_few_segments(int segments) {
 }
 
 int enough_segments() {
-  int n = most_segments;
+  int n = max_segments;
   while (n > 1 && !too_few_segments(n - 1)) --n;
   return n;
 }

@@ -39,14 +39,14 @@ void require(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSe
 
 // Turns after which all loads that go by the input repeat; 0 when there are none up to so many.
 int turns_of_cycle(const Linkage& l) {
-  constexpr int most_turns = 64;
+  constexpr int max_turns = 64;
   constexpr double same = 1e-9;
   const auto repeats = [](const auto& load, int turns) {
     if (load.factor.against != LoadArgument::input) return true;
     const double period = period_of(load.factor, true), count = full_turn * turns / period;
     return period == 0 || std::abs(count - std::round(count)) <= same * count;
   };
-  for (int turns = 1; turns <= most_turns; ++turns)
+  for (int turns = 1; turns <= max_turns; ++turns)
     if (std::all_of(l.forces.begin(), l.forces.end(), [&](const auto& f) { return repeats(f, turns); }) &&
         std::all_of(l.torques.begin(), l.torques.end(), [&](const auto& t) { return repeats(t, turns); }))
       return turns;
@@ -165,7 +165,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
   out.speed = speeds(out, 0, mean);
   out.fluctuation = spread(out.speed, mean);
   const auto excessive = [&](double flywheel) {
-    go_on(context);
+    throw_if_interrupted(context);
     out.with_flywheel = speeds(out, flywheel, mean);
     return spread(out.with_flywheel, mean) > setup.fluctuation;
   };

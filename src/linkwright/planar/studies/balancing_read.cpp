@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 5> table_keys = {"mechanism", "drive", "e
                                                         "trace"};
 
 // Every candidate is evaluated at all rows.
-constexpr std::size_t most_rows = 20000;
+constexpr std::size_t max_rows = 20000;
 
 // Adds the limit that keeps inertias physical: the radius of gyration of a link about its own joint, without
 // what is attached to it, is at most the distance of its material that is furthest away. Constant over the
@@ -47,9 +47,9 @@ Table linkage_columns_of(study::ObjectReader& document, const study::Common& com
                          std::span<const std::string> columns) {
   const auto s = read_linkage_study(document, common, type, nullptr);
   if (!s || document.document().has_errors()) return {};
-  if (const std::size_t rows = rows_of(*s).time.size(); rows > most_rows) {
+  if (const std::size_t rows = rows_of(*s).time.size(); rows > max_rows) {
     document.error(
-        "sweep", fmt::format("has {} rows, a balancing evaluates at most {} of each design", rows, most_rows),
+        "sweep", fmt::format("has {} rows, a balancing evaluates at most {} of each design", rows, max_rows),
         "take fewer samples; some hundred are enough");
     return {};
   }
@@ -224,10 +224,10 @@ BalancingStudy read_balancing_study(study::ObjectReader& document, const study::
     if (const auto bad = problem(s.optimiser, s.objectives.size()))
       optimiser->error("method", bad->message, bad->hint);
   }
-  constexpr std::size_t most_numbers = 200;
-  if (s.designed.numbers.size() > most_numbers)
+  constexpr std::size_t max_numbers = 200;
+  if (s.designed.numbers.size() > max_numbers)
     document.error("mechanism", fmt::format("{} design variables, at most {} are possible",
-                                            s.designed.numbers.size(), most_numbers));
+                                            s.designed.numbers.size(), max_numbers));
   else
     check_initial(document, common, s);
   if (s.designed.numbers.empty() && !document.document().has_errors())

@@ -25,7 +25,7 @@ namespace {
 // A seed succeeds when it comes this close to the best of all seeds, relative.
 constexpr double success_share = 1e-4;
 // Solutions with a drawing of their own.
-constexpr std::size_t most_drawn = 15;
+constexpr std::size_t max_drawn = 15;
 
 using Runs = study::SeedRuns<BalancingRun>;
 
@@ -166,7 +166,7 @@ class Report {
       designs_.clear();
       return;
     }
-    for (std::size_t i = 1; i < std::min(designs_.size(), most_drawn); ++i)
+    for (std::size_t i = 1; i < std::min(designs_.size(), max_drawn); ++i)
       others_.push_back(design_analysis(s, common, designs_[i].x, context));
   }
 
@@ -214,7 +214,7 @@ class Report {
     for (const std::string& limit : d.active) out.classification["active_bounds"].push_back(limit);
     if (d.violation > 0)
       out.defects.push_back(say("violates constraints by {}", plain_number(d.violation, 3)));
-    if (number <= most_drawn) {
+    if (number <= max_drawn) {
       out.scene = fmt::format("solution-{}", number);
       out.study = design_tables(s_, d.x);
     }

@@ -14,7 +14,7 @@ namespace linkwright::planar {
 namespace {
 
 // Far from the origin the differences of the points lose their digits.
-constexpr double least_spread = 1e-9;
+constexpr double min_spread = 1e-9;
 
 void add_count(Table& counts, const char* key, const std::string& label, int value) {
   counts.add(key, label, {static_cast<double>(value)});
@@ -46,7 +46,7 @@ void check_exact_points(study::ObjectReader& target, const char* key, const std:
       target.error(key,
                    fmt::format("point {} repeats point {}", blocked.points[1] + 1, blocked.points[0] + 1),
                    "give different points");
-  } else if (spread < least_spread * far) {
+  } else if (spread < min_spread * far) {
     target.warning(
         key,
         fmt::format("the points lie within {:.2g} of their distance from the origin: what they differ by "

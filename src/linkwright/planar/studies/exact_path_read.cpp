@@ -78,14 +78,14 @@ std::optional<int> read_pivots(study::ObjectReader& document, const FourBarPathS
 // Points with crank angles: three to five, three beside a pivot.
 void check_timed_count(study::ObjectReader& target, const FourBarPathStudy& s, bool with_pivots) {
   const std::size_t n = s.problem.x.size();
-  if (n < least_timed_points || n == timed_with_pivots || (n <= most_timed_points && !with_pivots)) return;
+  if (n < min_timed_points || n == timed_with_pivots || (n <= max_timed_points && !with_pivots)) return;
   target.error(
       key_of(s.target),
       fmt::format("{} points with crank angles{} are more than a four-bar passes exactly, which are {}", n,
                   with_pivots ? " and a given pivot" : "",
-                  with_pivots ? timed_with_pivots : most_timed_points),
+                  with_pivots ? timed_with_pivots : max_timed_points),
       fmt::format("{}leave some out, or use what searches: {}",
-                  with_pivots && n <= most_timed_points ? "leave the pivots free, " : "", search_instead));
+                  with_pivots && n <= max_timed_points ? "leave the pivots free, " : "", search_instead));
 }
 
 // So many points fit so many given pivots.

@@ -26,7 +26,7 @@ namespace linkwright::planar {
 namespace {
 
 // Solutions with a drawing and tables of their own: so many answers, or so many of the nearest to one.
-constexpr std::size_t most_exact_drawn = 15, least_exact_drawn = 6;
+constexpr std::size_t max_exact_drawn = 15, min_exact_drawn = 6;
 
 constexpr std::array<std::string_view, 4> severities = {"done", "order", "circuit", "branch"};
 
@@ -338,8 +338,8 @@ class ExactReport {
   // The answers, and where they are few those that another order of the points would make one; without either
   // the nearest.
   void show_designs() {
-    std::size_t shown = std::min(found_.answers, most_exact_drawn);
-    while (shown < std::min(designs_.size(), least_exact_drawn) &&
+    std::size_t shown = std::min(found_.answers, max_exact_drawn);
+    while (shown < std::min(designs_.size(), min_exact_drawn) &&
            (severity(designs_[shown].defects) < 2 || found_.answers == 0))
       ++shown;
     std::vector<PathDesign> drawn;

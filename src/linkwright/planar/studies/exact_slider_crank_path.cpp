@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t exact_slider_points = 8;
 constexpr const char* search_sliders = "fit = \"least_squares\" searches for the nearest slider-cranks";
 // Number of the nearest candidates that are drawn if there are no answers.
-constexpr std::size_t least_sliders_drawn = 6;
+constexpr std::size_t min_sliders_drawn = 6;
 
 bool is_answer(const ExactSliderDesign& d) { return d.defects.empty() && d.design.violations.empty(); }
 
@@ -164,9 +164,9 @@ study::Result SliderPathKind::run_exact(const SliderPathStudy& s, const study::C
   // The answers, and where they are few those that another order of the points would make one; without either
   // the nearest.
   std::vector<SliderPathDesign> drawn;
-  for (std::size_t i = 0; i < designs.size() && i < SliderPathKind::most_drawn; ++i) {
+  for (std::size_t i = 0; i < designs.size() && i < SliderPathKind::max_drawn; ++i) {
     const ExactSliderDesign& d = designs[i];
-    if (i >= found.answers && (i >= least_sliders_drawn || (severity(d.defects) > 1 && found.answers > 0)))
+    if (i >= found.answers && (i >= min_sliders_drawn || (severity(d.defects) > 1 && found.answers > 0)))
       break;
     drawn.push_back(d.design);
     add_exact_solution<SliderPathKind>(result, p, d,

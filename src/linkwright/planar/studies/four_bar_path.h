@@ -135,7 +135,7 @@ struct FourBarPathKind : FourBarPath {
 
   /// The cognate on the other branch has the same crank angles and the same error.
   static constexpr bool one_branch_is_enough = true;
-  static constexpr std::size_t most_drawn = 100;
+  static constexpr std::size_t max_drawn = 100;
   static bool shows_start(const PathProblem& problem) { return starts_anywhere(problem.timing); }
 
   static optimise::Problem population_problem(const FourBarPathStudy& study,

@@ -155,10 +155,10 @@ void FourBarPathKind::classify_design(const PathProblem& p, const PathDesign& d,
   out.classification["min_transmission_angle_rad"] = transmission.used;  // over the path
   out.classification["whole_motion_min_transmission_angle_rad"] = transmission.whole;
   out.classification["active_bounds"] = std::move(active_bounds);
-  const std::vector<Drawback> bad = drawbacks(p, d);
+  const std::vector<Weakness> bad = weaknesses(p, d);
   out.classification["usable"] = d.violations.empty() && bad.empty();
   out.classification["drawbacks"] = Value::array();
-  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(to_string(drawback.text));
+  for (const Weakness& weakness : bad) out.classification["drawbacks"].push_back(to_string(weakness.text));
 }
 
 void FourBarPathKind::add_cognates(study::Result& result, const PathDesign& best) {
@@ -207,11 +207,11 @@ void FourBarPathKind::add_published(study::Result& result, const FourBarPathStud
 
 Sentence FourBarPathKind::caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
   Sentence out;
-  for (const Drawback& drawback : drawbacks(p, designs[0]))
-    out += (out.empty() ? " But " : "; ") + drawback.text;
+  for (const Weakness& weakness : weaknesses(p, designs[0]))
+    out += (out.empty() ? " But " : "; ") + weakness.text;
   if (out.empty()) return out;
   for (std::size_t i = 1; i < designs.size(); ++i)
-    if (drawbacks(p, designs[i]).empty())
+    if (weaknesses(p, designs[i]).empty())
       return say("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
                  called(designs[i]), how_near(p, path_errors(p, designs[i]), designs[i].error));
   return out + ". No design without such drawbacks was found.";
@@ -231,8 +231,8 @@ void FourBarPathKind::add_facts(study::Result& result, const FourBarPathStudy& s
 void FourBarPathKind::add_warnings(study::Result& result, const PathProblem& p, const PathDesign& d) {
   std::string names;
   if (d.violations.empty())
-    for (const Drawback& drawback : drawbacks(p, d)) {
-      const std::string name(short_name(drawback.kind));
+    for (const Weakness& weakness : weaknesses(p, d)) {
+      const std::string name(short_name(weakness.kind));
       if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
     }
   if (!names.empty()) result.facts.push_back({"drawbacks", names, study::Fact::Verdict::bad});

@@ -168,7 +168,7 @@ study::Kind six_bar_function_kind();
 
 /// Reports the greatest error; one of more than a tenth of what the output moves is
 /// bad and warned of: the linkage does not follow the function.
-void tell_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result);
+void report_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result);
 
 study::Result run_six_bar_function_study(const FunctionStudy& study, const study::Common& common,
                                          RunContext& context);

@@ -248,7 +248,7 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
   p.output = [y, from, span, y0, y1, output_range](double share) {
     return output_range * (y(from + span * share) - y0) / (y1 - y0);
   };
-  if (p.slider) p.most_link = 20 * std::abs(output_range);
+  if (p.slider) p.max_link = 20 * std::abs(output_range);
 }
 
 template <class Target, class Mechanism>
@@ -262,7 +262,7 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
     s.mechanism = {.ground = 1, .input_start = mechanism.input_start, .output_start = {}, .transmission = {}};
   } else {
     s.mechanism.ground = mechanism.ground;
-    s.problem.most_link = mechanism.longest;
+    s.problem.max_link = mechanism.longest;
     s.transmission = mechanism.transmission;
     s.structure = mechanism.structure;
   }
@@ -277,7 +277,7 @@ FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mech
                      "write fit = \"minimax\" or \"least_squares\"");
     } else {
       set_points(*table, s);
-      s.problem.least_pair_angle = s.mechanism.transmission.value_or(0);
+      s.problem.min_pair_angle = s.mechanism.transmission.value_or(0);
       if (s.mechanism.transmission && s.target.fit != FunctionFit::minimax)
         table->error("fit", "least_transmission_angle is for fit \"minimax\"",
                      "write fit = \"minimax\", or remove the angle");

@@ -28,7 +28,7 @@ using Verdict = study::Fact::Verdict;
 
 // A pair angle below this passes force badly (rad).
 constexpr double flat_generator = 0.35;
-constexpr std::size_t most_generators = 8;
+constexpr std::size_t max_generators = 8;
 
 bool whole(const FunctionDesign& d) { return d.assembles && d.other_branch == 0; }
 
@@ -44,7 +44,7 @@ class FunctionReport {
                                                     : Status::infeasible;
     int good = 0;
     for (const FunctionDesign& d : answer_.designs) good += whole(d);
-    for (std::size_t i = 0; i < std::min(answer_.designs.size(), most_generators); ++i)
+    for (std::size_t i = 0; i < std::min(answer_.designs.size(), max_generators); ++i)
       if (!any || whole(answer_.designs[i])) solution(answer_.designs[i], i + 1);
     result_.statistics["generators"] = static_cast<int>(answer_.designs.size());
     result_.statistics["defect_free"] = good;
@@ -185,13 +185,13 @@ class FunctionReport {
     const Measured pair = degrees_of(best.pair_angle).fixed(1);
     result_.headline = say("A {} generates {} within {}, least pair angle {}.", what, s_.name,
                            amount(best.greatest_error), pair);
-    tell_greatest_error(p_, amount(best.greatest_error), result_);
+    report_greatest_error(p_, amount(best.greatest_error), result_);
     fact("root mean square error", amount(best.rms_error));
     fact("least pair angle", pair, best.pair_angle < flat_generator ? Verdict::bad : Verdict::plain);
-    if (best.pair_angle < p_.least_pair_angle) {
+    if (best.pair_angle < p_.min_pair_angle) {
       warn("mechanism",
            say("no {} was found with a pair angle of {} over the range", what,
-               degrees_of(p_.least_pair_angle, 3)),
+               degrees_of(p_.min_pair_angle, 3)),
            "take smaller ranges, or a six-bar: mechanism type = \"planar.six_bar\"");
       return;
     }
@@ -209,7 +209,7 @@ class FunctionReport {
 
 }  // namespace
 
-void tell_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result) {
+void report_greatest_error(const FunctionProblem& problem, const Measured& greatest, study::Result& result) {
   double least = problem.output(0), most = least;
   for (int k = 1; k <= 100; ++k) {
     const double output = problem.output(0.01 * k);

@@ -147,7 +147,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
                                                bool needs_masses, const study::DisplayUnits& units,
                                                bool lists_quantities = false);
 /// Adds to the facts the inertias and mass centres that the study leaves out, as they were taken.
-void tell_assumed_masses(const Linkage& linkage, study::Result& result);
+void report_assumed_masses(const Linkage& linkage, study::Result& result);
 /// True if every body has its mass; says which do not.
 bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan,
                     bool lists_quantities = false);

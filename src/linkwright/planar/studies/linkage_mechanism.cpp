@@ -288,7 +288,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   return out;
 }
 
-void tell_assumed_masses(const Linkage& l, study::Result& result) {
+void report_assumed_masses(const Linkage& l, study::Result& result) {
   constexpr std::size_t most = 8;
   Sentence text;
   std::size_t told = 0, more = 0;

@@ -52,7 +52,7 @@ constexpr Field change_point_field =
     field::entry("at_change_point", "grid over one input: how the linkage continues at a change point");
 constexpr Field crank_angle_field =
     field::entry("crank_angle", "the axis of a four-bar: crank angles from the ground link");
-constexpr double most_rows = 1e6;
+constexpr double max_rows = 1e6;
 
 /// The link that the drive of a four-bar turns.
 enum class DriveInput { crank };
@@ -209,8 +209,8 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
           fmt::format("joint '{}' is driven, but the sweep has no input for it", input_joint(l, i).name),
           "add a [[sweep.input]] for it");
   }
-  if (rows > most_rows)
-    sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
+  if (rows > max_rows)
+    sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, max_rows),
                 "take fewer samples");
   sweep(change_point_field, s.at_change_point);
   sweep(circuits_field, s.circuits);

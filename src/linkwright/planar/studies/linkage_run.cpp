@@ -306,7 +306,7 @@ class Runner {
              say("{} at {}", study::torque_or_force(drives_[k].value, s_.plan.rotary[k], 5),
                  where(drives_[k].row)));
     facts_of_turn(fact);
-    if (s_.quantities.dynamic()) tell_assumed_masses(s_.linkage, result_);
+    if (s_.quantities.dynamic()) report_assumed_masses(s_.linkage, result_);
     if (s_.quantities.reactions && strongest() < joints_.size())
       fact("largest joint force", say("{} at {}, {}", newtons(joints_[strongest()].value, 5),
                                       s_.linkage.joints[strongest()].name, where(joints_[strongest()].row)));

@@ -20,7 +20,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t most_points = 2000;
+constexpr std::size_t max_points = 2000;
 
 // The lengths of a CSV file by the name of their column, in metres; any length unit.
 class LengthColumns {
@@ -156,8 +156,8 @@ void check_targets(study::ObjectReader& target, const char* key, const PathTarge
                  "add points between them");
     return;
   }
-  if (n > most_points) {
-    target.error(key, fmt::format("{} points, at most {} are allowed", n, most_points),
+  if (n > max_points) {
+    target.error(key, fmt::format("{} points, at most {} are allowed", n, max_points),
                  "keep every second or third point");
     return;
   }

@@ -267,7 +267,7 @@ void add_path_solution(study::Result& result, const typename D::Problem& p, cons
   for (const auto& violation : d.violations) out.defects.push_back(violation_text(violation));
   for (const Defect& defect : defects(p, d))
     out.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
-  if (number <= D::most_drawn) {
+  if (number <= D::max_drawn) {
     out.scene = fmt::format("solution-{}", number);
     result.scenes.push_back(path_scene<D>(p, d, out.scene, say("{}: {}", number, out.label), samples));
     out.study = motion_study(D::key, D::analysis_form(d.linkage), shown_angles<D>(d, samples), d.angles);
@@ -303,7 +303,7 @@ template <class D>
 void add_design_tables(study::Result& result, const typename D::Problem& p,
                        const std::vector<typename D::Design>& designs, int samples) {
   using Style = study::Plot::Style;
-  for (std::size_t i = 0; i < std::min(designs.size(), D::most_drawn); ++i) {
+  for (std::size_t i = 0; i < std::min(designs.size(), D::max_drawn); ++i) {
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
     result.tables.push_back(point_table(p, designs[i].angles, path_errors(p, designs[i]), "points" + suffix));
     result.tables.push_back(path_motion<D>(designs[i], "motion" + suffix, samples));

@@ -25,7 +25,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t most_poses = 200;
+constexpr std::size_t max_poses = 200;
 // Places and angles that agree to this share of the size of the motion, and of a radian, are one.
 constexpr double same_pose = 1e-9;
 
@@ -111,10 +111,10 @@ void set_demands(study::ObjectReader& target, PoseStudy& s) {
         "pose",
         fmt::format("{} of {} poses have an angle, a motion needs 2 at least", with_angle, forms.size()),
         "points alone are a path: target type \"path_points\"");
-  if (exact > most_exact_demands)
+  if (exact > max_exact_demands)
     target.error("pose",
                  fmt::format("{} poses are to be met exactly beside others, at most {} can be", exact,
-                             most_exact_demands),
+                             max_exact_demands),
                  "five poses alone are met exactly by fit = \"exact\"");
   guess_rotations(s.problem);
 }
@@ -128,8 +128,8 @@ void check_poses(study::ObjectReader& target, const char* key, PoseProblem& p) {
                  "write a [[target.pose]] for each");
     return;
   }
-  if (n > most_poses) {
-    target.error(key, fmt::format("{} poses, at most {} are allowed", n, most_poses),
+  if (n > max_poses) {
+    target.error(key, fmt::format("{} poses, at most {} are allowed", n, max_poses),
                  "keep every second or third");
     return;
   }
@@ -295,7 +295,7 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
           fmt::format("{} poses and what is given of the pivots of dyad {} are {} conditions, a dyad meets 5",
                       n, dyad + 1, 5 - free),
           "a pivot that is given counts as two poses, one on a line as one: remove a pose or a pivot");
-    if (free > most_open_numbers) {
+    if (free > max_open_numbers) {
       target.error("pose", fmt::format("{} poses leave {} numbers of dyad {} open", n, free, dyad + 1),
                    "add a pose, or [[mechanism.pivot]] with a pivot of it or a line for one; a region is no "
                    "condition");
@@ -334,7 +334,7 @@ PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& co
   s.problem.types = s.mechanism.dyads;
   s.problem.drive_turns = s.mechanism.crank_rotates_fully.value_or(false);
   s.problem.angle_length = s.target.angle_length.value_or(0);
-  s.problem.most_designs = s.search.max_solutions;
+  s.problem.max_designs = s.search.max_solutions;
   return s;
 }
 

@@ -142,7 +142,7 @@ class SimulationRunner {
     for (std::size_t k = 0; k < s_.drives.size(); ++k) free += is_free(k);
     fact("degrees of freedom",
          say("{}, {} free and {} driven", mobility(s_.linkage), free, s_.drives.size() - free));
-    tell_assumed_masses(s_.linkage, result_);
+    report_assumed_masses(s_.linkage, result_);
     if (!times_.empty()) {
       const bool poor = balance().poor();
       fact("energy balance", balance().text(), poor ? Verdict::bad : Verdict::good);

@@ -171,7 +171,7 @@ class SixBarFunctionReport {
     const bool steep = best.pair_angle >= s_.transmission;
     const Measured greatest = degrees_of(best.greatest_error, 3), pair = degrees_of(best.pair_angle).fixed(1);
     result_.headline = say("A six-bar generates {} within {}, least pair angle {}.", s_.name, greatest, pair);
-    tell_greatest_error(p_, greatest, result_);
+    report_greatest_error(p_, greatest, result_);
     fact("root mean square error", degrees_of(best.rms_error, 3));
     fact("least pair angle", pair, steep ? Verdict::plain : Verdict::bad);
     if (answer_.four_bar) {

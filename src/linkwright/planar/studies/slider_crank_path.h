@@ -156,7 +156,7 @@ struct SliderPathKind : SliderCrankPath {
                                  RunContext& context);
 
   static constexpr bool one_branch_is_enough = false;
-  static constexpr std::size_t most_drawn = 15;
+  static constexpr std::size_t max_drawn = 15;
   static bool shows_start(const SliderPathProblem& problem);
 
   static optimise::Problem population_problem(const SliderPathStudy& study,

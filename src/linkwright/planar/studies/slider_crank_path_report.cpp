@@ -100,13 +100,13 @@ std::vector<double> SliderPathKind::shortfalls(const PathRuns<SliderPathKind>& r
                                                const std::vector<SliderPathDesign>& designs) {
   std::vector<double> out(runs.answers.size(), 1);
   if (!designs[0].violations.empty()) return out;
-  const double most_error = 1.1 * designs.back().error, most_stroke = 1.1 * designs.front().stroke;
+  const double max_error = 1.1 * designs.back().error, max_stroke = 1.1 * designs.front().stroke;
   const auto area = [&](const std::vector<SliderPathDesign>& front) {
-    double sum = 0, above = most_stroke;
+    double sum = 0, above = max_stroke;
     // By rising error: each point adds the strip between its stroke and the one before it.
     for (const SliderPathDesign& d : front) {
-      if (!d.violations.empty() || d.error >= most_error || d.stroke >= above) continue;
-      sum += (most_error - d.error) * (above - d.stroke);
+      if (!d.violations.empty() || d.error >= max_error || d.stroke >= above) continue;
+      sum += (max_error - d.error) * (above - d.stroke);
       above = d.stroke;
     }
     return sum;

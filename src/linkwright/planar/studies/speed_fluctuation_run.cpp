@@ -60,7 +60,7 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   fact("constant motor torque",
        say("{} ({} at {})", newton_metres(cycle.motor_torque, 6),
            measured("W", cycle.motor_torque * s.setup.mean_speed, 5), at_place("mean_speed", mean_speed)));
-  tell_assumed_masses(s.linkage, result);
+  report_assumed_masses(s.linkage, result);
   fact("fluctuation of energy", measured("J", cycle.energy_fluctuation, 6));
   fact("coefficient of fluctuation without flywheel", plain_number(cycle.fluctuation, 5));
   const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel

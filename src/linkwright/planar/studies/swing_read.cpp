@@ -44,7 +44,7 @@ std::optional<double> read_imbalance(study::ObjectReader& target, const std::opt
 // Says why strokes cannot be made by any linkage, and what can.
 void say_impossible(study::ObjectReader& target, const SwingStudy& s, std::optional<SlowSwing> slow) {
   const std::string_view key = target.has("time_ratio") ? "time_ratio" : "imbalance_angle";
-  const double with = most_imbalance(s.swing, true), against = most_imbalance(s.swing, false);
+  const double with = max_imbalance(s.swing, true), against = max_imbalance(s.swing, false);
   if (s.slider) {
     target.error(
         key,

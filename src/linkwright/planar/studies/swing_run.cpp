@@ -61,10 +61,9 @@ class SwingReport {
     ratio_table();
     result_.status = designs_[0].swept ? Status::done : Status::singular;
     result_.statistics["imbalance_angle_rad"] = s_.imbalance;
-    result_.statistics["greatest_time_ratio"] = time_ratio_of(most_imbalance(s_.swing, true));
+    result_.statistics["greatest_time_ratio"] = time_ratio_of(max_imbalance(s_.swing, true));
     if (!s_.slider)
-      result_.statistics["greatest_time_ratio_against_crank"] =
-          time_ratio_of(most_imbalance(s_.swing, false));
+      result_.statistics["greatest_time_ratio_against_crank"] = time_ratio_of(max_imbalance(s_.swing, false));
     findings();
     return std::move(result_);
   }
@@ -155,7 +154,7 @@ class SwingReport {
       const PartState<double> state = body_state(planned.plan, moving, output_body);
       place.push_back(s_.slider ? state.origin.x : std::atan2(state.direction.y, state.direction.x));
       speed.push_back(s_.slider ? state.velocity.x : state.speed);
-      transmission.push_back(least_transmission_angle(planned.plan, moving));
+      transmission.push_back(min_transmission_angle(planned.plan, moving));
     }
     if (!s_.slider) math::unwrap_angles(place);
     Table table;
@@ -255,7 +254,7 @@ class SwingReport {
   void ratio_table() {
     Table table;
     table.name = "time_ratios";
-    const double most = most_imbalance(s_.swing, true);
+    const double most = max_imbalance(s_.swing, true);
     std::vector<double> ratio, with, against;
     const auto best = [&](const Strokes& strokes) {
       if (!shortest_crank(strokes)) return nan;
@@ -312,8 +311,8 @@ class SwingReport {
     fact(s_.slider ? "greatest time ratio" : "greatest time ratio with this swing",
          s_.slider ? say("{}", 3)
                    : say("below {}, or {} against the crank",
-                         plain_number(time_ratio_of(most_imbalance(s_.swing, true))),
-                         plain_number(time_ratio_of(most_imbalance(s_.swing, false)))));
+                         plain_number(time_ratio_of(max_imbalance(s_.swing, true))),
+                         plain_number(time_ratio_of(max_imbalance(s_.swing, false)))));
     const double expected = s_.slider ? s_.given[0].length : s_.swing;
     const double loose = same_strokes / transmission.si;
     if (std::abs(best.swept->swing - expected) > loose * expected ||

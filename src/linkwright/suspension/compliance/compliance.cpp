@@ -195,10 +195,10 @@ MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
   MatrixXd out = MatrixXd::Zero(saddle.size(), 7);
   out.topLeftCorner<6, 6>().setIdentity();
   for (const ElasticJoint& joint : of.joints) {
-    if (joint.first != ground || !of.guide->links[joint.link].moved_by_rack) continue;
+    if (joint.first != ground || !of.suspension->links[joint.link].moved_by_rack) continue;
     for (int i = 0; i < 6; ++i) {
       const auto along = [&](int k) {
-        return k < 3 ? dot(joint.axes.row[k], of.guide->rack_direction) : 0.0;
+        return k < 3 ? dot(joint.axes.row[k], of.suspension->rack_direction) : 0.0;
       };
       if (joint.multiplier[i] >= 0) {
         out(joint.multiplier[i], 6) = along(i);
@@ -231,10 +231,10 @@ double tension(const ElasticAssembly& of, const ElasticBar& bar, const Solution&
 std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
                                 double rack) {
   std::array<double, 6> relative{};
-  const bool moved = joint.first == ground && of.guide->links[joint.link].moved_by_rack;
+  const bool moved = joint.first == ground && of.suspension->links[joint.link].moved_by_rack;
   for (int i = 0; i < 6; ++i) {
     relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x);
-    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.guide->rack_direction);
+    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.suspension->rack_direction);
   }
   std::array<Vec3, 2> out{};
   for (int i = 0; i < 6; ++i) {
@@ -331,22 +331,22 @@ Matrix6 plain(const Block& from) {
 
 }  // namespace
 
-Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, double rack,
-                            const GuideElasticity& elasticity, Support support,
+Compliance solve_compliance(const Suspension& suspension, const CornerPlace& place, double rack,
+                            const CornerElasticity& elasticity, Support support,
                             const std::optional<PointLoad>& preload) {
-  for (const Diagnostics& problems : {check(guide), check(guide, elasticity)})
+  for (const Diagnostics& problems : {check(suspension), check(suspension, elasticity)})
     LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                        to_string(problems.front()));
   const bool by_spring = support == Support::spring || support == Support::spring_held;
-  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the suspension has no spring",
+  LINKWRIGHT_REQUIRE(suspension.spring || !by_spring, "the support is '{}', and the suspension has no spring",
                      name_of(support));
-  LINKWRIGHT_REQUIRE(guide.spring || !preload, "the preload needs a spring that carries it");
+  LINKWRIGHT_REQUIRE(suspension.spring || !preload, "the preload needs a spring that carries it");
 
-  Compliance out{.support = support, .side = guide.side, .centre = place.carrier.centre};
-  out.angles = wheel_angles(guide.side, guide.wheel, place.carrier.rotation);
-  const Vec3 to_contact = contact_offset(guide.side, guide.wheel.tyre_diameter, out.angles);
+  Compliance out{.support = support, .side = suspension.side, .centre = place.carrier.centre};
+  out.angles = wheel_angles(suspension.side, suspension.wheel, place.carrier.rotation);
+  const Vec3 to_contact = contact_offset(suspension.side, suspension.wheel.tyre_diameter, out.angles);
   out.contact = out.centre + to_contact;
-  ElasticAssembly assembly = assemble(guide, place, rack, elasticity);
+  ElasticAssembly assembly = assemble(suspension, place, rack, elasticity);
   if (support == Support::contact_held) assembly.height_arm = to_contact;
   const auto fail = [&](std::string reason) {
     out.status = Status::singular;
@@ -395,8 +395,8 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
       const std::array<double, 6> all{force.x, force.y, force.z, moment.x, moment.y, moment.z};
       for (int k = 0; k < 6; ++k) transfer.by[k][load] = all[k];
       // The rack pushes with what the links give to it.
-      if (load == 6 && joint.first == ground && guide.links[joint.link].moved_by_rack)
-        out.rack_stiffness += dot(force, guide.rack_direction);
+      if (load == 6 && joint.first == ground && suspension.links[joint.link].moved_by_rack)
+        out.rack_stiffness += dot(force, suspension.rack_direction);
     }
   }
   constexpr double none = nan;

@@ -8,8 +8,8 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/compliance/elasticity.h"
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/wheel.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/wheel.h"
 
 /// Elasto-kinematics: how a wheel moves under load because the joints of its links yield. Linear, about a
 /// position of the rigid suspension: small motions of the carrier and of every link as rigid bodies, joints
@@ -90,8 +90,8 @@ struct Compliance {
 /// known and not in it.
 ///
 /// Throws ContractError for what `check` finds, and for a support that needs a spring when there is none.
-Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, double rack,
-                            const GuideElasticity& elasticity, Support support,
+Compliance solve_compliance(const Suspension& suspension, const CornerPlace& place, double rack,
+                            const CornerElasticity& elasticity, Support support,
                             const std::optional<PointLoad>& preload = std::nullopt);
 
 /// The first-order effect of a load and a rack displacement (m). Changes from the position without them.

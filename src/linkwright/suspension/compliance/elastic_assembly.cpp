@@ -34,42 +34,43 @@ bool resists_turning(const ElasticJoint& joint, const Vec3& about) {
 
 class Builder {
  public:
-  Builder(const WheelGuide& guide, const GuidePlace& place, double rack, const GuideElasticity& elasticity)
-      : of_{.guide = &guide}, place_(place), rack_(rack) {
+  Builder(const Suspension& suspension, const CornerPlace& place, double rack,
+          const CornerElasticity& elasticity)
+      : of_{.suspension = &suspension}, place_(place), rack_(rack) {
     of_.origin.push_back(place.carrier.centre);
     of_.labels.push_back("the carrier");
-    poses_ = link_poses(guide, place, rack);
-    for (int i = 0; i < static_cast<int>(guide.links.size()); ++i)
+    poses_ = link_poses(suspension, place, rack);
+    for (int i = 0; i < static_cast<int>(suspension.links.size()); ++i)
       add_link(i, elasticity.links.empty() ? LinkElasticity{} : elasticity.links[i]);
-    for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
-      const Coupler& coupler = guide.couplers[i];
+    for (std::size_t i = 0; i < suspension.couplers.size(); ++i) {
+      const Coupler& coupler = suspension.couplers[i];
       of_.couplers.push_back({body_[coupler.first], body_[coupler.second],
-                              coupler_begin(guide, coupler, place, rack),
+                              coupler_begin(suspension, coupler, place, rack),
                               placed(poses_[coupler.second], coupler.point),
                               elasticity.couplers.empty() ? rigid : elasticity.couplers[i]});
     }
-    if (guide.spring)
-      of_.spring = {ground, guide.spring->link < 0 ? 0 : body_[guide.spring->link], guide.spring->body,
-                    spring_end(guide, place, rack), elasticity.spring};
+    if (suspension.spring)
+      of_.spring = {ground, suspension.spring->link < 0 ? 0 : body_[suspension.spring->link],
+                    suspension.spring->body, spring_end(suspension, place, rack), elasticity.spring};
   }
 
   ElasticAssembly take() { return std::move(of_); }
 
  private:
   void add_link(int index, const LinkElasticity& elasticity) {
-    const GuideLink& link = of_.guide->links[index];
+    const CornerLink& link = of_.suspension->links[index];
     const bool direct = carrier_points(link.type) == 0;
     const std::size_t first_joint = of_.joints.size();
     std::vector<Vec3> at_body, at_carrier;
     for (int k = 0; k < body_points(link.type); ++k)
-      at_body.push_back(body_point(*of_.guide, index, k, rack_));
+      at_body.push_back(body_point(*of_.suspension, index, k, rack_));
     for (int k = 0; k < carrier_points(link.type); ++k)
-      at_carrier.push_back(carrier_point(*of_.guide, index, k, place_.carrier));
+      at_carrier.push_back(carrier_point(*of_.suspension, index, k, place_.carrier));
     int body = 0;
     if (!direct) {
       body = static_cast<int>(of_.origin.size());
       of_.origin.push_back(at_body[0]);
-      of_.labels.push_back(link_label(*of_.guide, index));
+      of_.labels.push_back(link_label(*of_.suspension, index));
     }
     body_.push_back(body);
     const Vec3 line = direct ? Vec3{0, 0, 1} : unit(at_carrier[0] - at_body[0]);
@@ -105,7 +106,7 @@ class Builder {
     if (held) return;
     HeldTurn turn{.body = body, .about = line};
     if (link.type == LinkType::US) {
-      const auto [standing, turning] = cross_axes(*of_.guide, index, place_.carrier, rack_);
+      const auto [standing, turning] = cross_axes(*of_.suspension, index, place_.carrier, rack_);
       turn = {.body = body,
               .about = cross(turning, standing),
               .link = index,
@@ -116,7 +117,7 @@ class Builder {
   }
 
   ElasticAssembly of_;
-  const GuidePlace& place_;
+  const CornerPlace& place_;
   double rack_;
   std::vector<LinkPose> poses_;
   std::vector<int> body_;  ///< body of each link; R and S are joints of the carrier
@@ -124,9 +125,9 @@ class Builder {
 
 }  // namespace
 
-ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
-                         const GuideElasticity& elasticity) {
-  return Builder(guide, place, rack, elasticity).take();
+ElasticAssembly assemble(const Suspension& suspension, const CornerPlace& place, double rack,
+                         const CornerElasticity& elasticity) {
+  return Builder(suspension, place, rack, elasticity).take();
 }
 
 }  // namespace linkwright::suspension

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/suspension/compliance/elasticity.h"
-#include "linkwright/suspension/guide/constraints.h"
+#include "linkwright/suspension/corner/constraints.h"
 
 /// The bodies and elastic elements of a suspension at a position, as `solve_compliance` puts them together.
 namespace linkwright::suspension {
@@ -48,7 +48,7 @@ struct HeldTurn {
 };
 
 struct ElasticAssembly {
-  const WheelGuide* guide = nullptr;
+  const Suspension* suspension = nullptr;
   std::vector<Vec3> origin;         ///< origins of the bodies: 0 is the carrier
   std::vector<std::string> labels;  ///< names of the bodies
   std::vector<ElasticJoint> joints;
@@ -64,7 +64,7 @@ struct ElasticAssembly {
 /// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
 /// first body point in the present position. The stiffnesses have to be free of what `check` finds. The
 /// suspension has to outlive the assembly.
-ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
-                         const GuideElasticity& elasticity);
+ElasticAssembly assemble(const Suspension& suspension, const CornerPlace& place, double rack,
+                         const CornerElasticity& elasticity);
 
 }  // namespace linkwright::suspension

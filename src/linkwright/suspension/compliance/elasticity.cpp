@@ -63,39 +63,40 @@ JointStiffness ideal_joint(char letter) {
   return {};
 }
 
-GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>& rods, double spring) {
-  LINKWRIGHT_REQUIRE(rods.size() == guide.links.size(), "{} stiffnesses for {} rods", rods.size(),
-                     guide.links.size());
-  GuideElasticity out{.spring = spring};
+CornerElasticity elastic_rods(const Suspension& suspension, const std::vector<double>& rods, double spring) {
+  LINKWRIGHT_REQUIRE(rods.size() == suspension.links.size(), "{} stiffnesses for {} rods", rods.size(),
+                     suspension.links.size());
+  CornerElasticity out{.spring = spring};
   for (std::size_t i = 0; i < rods.size(); ++i) {
-    const LinkType type = guide.links[i].type;
+    const LinkType type = suspension.links[i].type;
     LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is not a rod",
-                       link_label(guide, static_cast<int>(i)));
+                       link_label(suspension, static_cast<int>(i)));
     out.links.push_back({.body = {{.translation = {rods[i], rigid, rigid}}}});
   }
   return out;
 }
 
-Diagnostics check(const WheelGuide& guide, const GuideElasticity& elasticity) {
+Diagnostics check(const Suspension& suspension, const CornerElasticity& elasticity) {
   Diagnostics found;
   const auto count = [&](const char* key, std::size_t has, std::size_t needs) {
     if (has == 0 || has == needs) return true;
     found.push_back({.key = key, .message = fmt::format("{} of them for {}", has, needs)});
     return false;
   };
-  if (count("links", elasticity.links.size(), guide.links.size()))
+  if (count("links", elasticity.links.size(), suspension.links.size()))
     for (int i = 0; i < static_cast<int>(elasticity.links.size()); ++i) {
-      const LinkType type = guide.links[i].type;
-      const std::string key = "link." + link_label(guide, i);
+      const LinkType type = suspension.links[i].type;
+      const std::string key = "link." + link_label(suspension, i);
       check_joints(key, "body", elasticity.links[i].body, body_points(type), found);
       check_joints(key, "carrier", elasticity.links[i].carrier, carrier_points(type), found);
     }
-  if (count("couplers", elasticity.couplers.size(), guide.couplers.size()))
+  if (count("couplers", elasticity.couplers.size(), suspension.couplers.size()))
     for (std::size_t i = 0; i < elasticity.couplers.size(); ++i)
       if (!usable(elasticity.couplers[i]))
-        found.push_back({.key = "coupler." + (guide.couplers[i].name.empty() ? std::to_string(i + 1)
-                                                                             : guide.couplers[i].name),
-                         .message = fmt::format("stiffness {} N/m", elasticity.couplers[i])});
+        found.push_back(
+            {.key = "coupler." + (suspension.couplers[i].name.empty() ? std::to_string(i + 1)
+                                                                      : suspension.couplers[i].name),
+             .message = fmt::format("stiffness {} N/m", elasticity.couplers[i])});
   if (!usable(elasticity.spring) || !std::isfinite(elasticity.spring))
     found.push_back({.key = "spring",
                      .message = fmt::format("stiffness {} N/m", elasticity.spring),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 /// Stiffness of the joints of a wheel suspension. Links are rigid; what is elastic lies in their joints.
 namespace linkwright::suspension {
@@ -47,20 +47,20 @@ struct LinkElasticity {
   std::vector<JointStiffness> body, carrier;
 };
 
-struct GuideElasticity {
+struct CornerElasticity {
   std::vector<LinkElasticity> links;  ///< none (all rigid), or one a link
   std::vector<double> couplers;       ///< along their line (N/m); none (rigid), or one a coupler
   double spring = 0;                  ///< along its line, N/m
 };
 
 /// Rods that yield along their line only (rod and both joints in series, N/m); every link has to be a rod.
-GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>& rods, double spring);
+CornerElasticity elastic_rods(const Suspension& suspension, const std::vector<double>& rods, double spring);
 
 /// An ideal joint: 'R' hinge, 'S' ball joint, 'P' slide along its first axis.
 JointStiffness ideal_joint(char letter);
 
 /// Checks the stiffnesses for this suspension: counts, negative numbers, matrices that are not symmetric.
 /// Keys are "link.<name>", "coupler.<name>" and "spring".
-Diagnostics check(const WheelGuide& guide, const GuideElasticity& elasticity);
+Diagnostics check(const Suspension& suspension, const CornerElasticity& elasticity);
 
 }  // namespace linkwright::suspension

@@ -8,14 +8,14 @@
 
 namespace linkwright::suspension {
 
-WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
+WheelRate wheel_rate(const Suspension& suspension, const CornerPlan& plan, const CornerPosition& position,
                      const SpringLaw& law) {
   LINKWRIGHT_REQUIRE(plan.spring, "the suspension has no spring");
   LINKWRIGHT_REQUIRE(law.stiffness >= 0 && std::isfinite(law.stiffness), "stiffness {} N/m", law.stiffness);
   const double rack = position.input.rack;
   WheelRate out;
   out.spring_force = law.preload - law.stiffness * driver_value(plan, position.place, rack, Driver::spring);
-  const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
+  const CornerRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   out.status = rates.status;
   if (out.status != Status::done) return out;
   out.motion_ratio = -driver_rate(plan, position.place, rack, Driver::spring, rates.bump, 0);
@@ -24,7 +24,7 @@ WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const Guide
   constexpr double stiffness = 100, force = 1;
   const PointLoad load{position.place.carrier.centre, {0, 0, force * out.motion_ratio}};
   const Compliance found =
-      solve_compliance(guide, position.place, rack, {.spring = stiffness}, Support::spring, load);
+      solve_compliance(suspension, position.place, rack, {.spring = stiffness}, Support::spring, load);
   out.status = found.status;
   if (out.status != Status::done) return out;
   out.motion_ratio_by_travel =

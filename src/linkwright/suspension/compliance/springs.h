@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/corner/position.h"
 
 namespace linkwright::suspension {
 
@@ -27,7 +27,7 @@ struct WheelRate {
 
 /// Exact, with the second derivatives of all constraints. `plan` is that of the suspension, which needs a
 /// spring.
-WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
+WheelRate wheel_rate(const Suspension& suspension, const CornerPlan& plan, const CornerPosition& position,
                      const SpringLaw& law);
 
 }  // namespace linkwright::suspension

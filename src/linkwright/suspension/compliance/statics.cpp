@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/guide/detail/constraints_kernel.h"
-#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/corner/detail/constraints_kernel.h"
+#include "linkwright/suspension/corner/structure.h"
 #include "linkwright/suspension/indirect/link_poses.h"
 
 namespace linkwright::suspension {
@@ -29,15 +29,15 @@ Vec3 middle(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
-                         const WheelLoad& load, Support support) {
+CornerForces solve_forces(const Suspension& suspension, const CornerPlan& plan,
+                          const CornerPosition& position, const WheelLoad& load, Support support) {
   const bool by_spring = support == Support::spring || support == Support::spring_held;
   const Driver held = by_spring                          ? Driver::spring
                       : support == Support::contact_held ? Driver::contact_z
                                                          : Driver::wheel_centre_z;
   const int n = plan.unknowns;
   const double rack = position.input.rack;
-  GuideEquations equations;
+  CornerEquations equations;
   evaluate(plan, position.place, rack, held, 0, equations);
   Eigen::MatrixXd transposed(n, n);
   for (int i = 0; i < n; ++i)
@@ -47,7 +47,7 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
   right.head<6>() << -load.force.x, -load.force.y, -load.force.z, -load.moment.x, -load.moment.y,
       -load.moment.z;
   const Eigen::VectorXd factor = lu.solve(right);
-  GuideForces out;
+  CornerForces out;
   // The same bound as for rates: a force a million times the load is none.
   if (!(lu.rcond() > 1e-12) || !factor.allFinite()) {
     out.status = Status::singular;
@@ -61,12 +61,13 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
 
   // On the carrier by each link: the forces of its equations, and what springs and couplers on it pass on.
   const CarrierPose& carrier = position.place.carrier;
-  const int links = static_cast<int>(guide.links.size());
+  const int links = static_cast<int>(suspension.links.size());
   std::vector<Wrench> on_carrier(links),
       on_link(links);  // on_link: by springs and couplers, in the present position
   int row = 0;
   for (int i = 0; i < links; ++i) {
-    const int rows = constraints(guide.links[i].type) + (guide.links[i].type == LinkType::RR ? 1 : 0);
+    const int rows =
+        constraints(suspension.links[i].type) + (suspension.links[i].type == LinkType::RR ? 1 : 0);
     for (int k = 0; k < rows; ++k, ++row) {
       const Wrench of = wrench(row);
       on_carrier[i].force += of.force;
@@ -74,10 +75,10 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
     }
   }
   const kernel::Placed<double> placed_plan{plan, position.place, rack};
-  const std::vector<LinkPose> poses = link_poses(guide, position.place, rack);
-  for (const Coupler& coupler : guide.couplers) {
-    const Vec3 end = carrier_point(guide, coupler.first, 0, carrier);
-    const Vec3 at_rod = coupler_begin(guide, coupler, position.place, rack);
+  const std::vector<LinkPose> poses = link_poses(suspension, position.place, rack);
+  for (const Coupler& coupler : suspension.couplers) {
+    const Vec3 end = carrier_point(suspension, coupler.first, 0, carrier);
+    const Vec3 at_rod = coupler_begin(suspension, coupler, position.place, rack);
     const Vec3 at_second = placed(poses[coupler.second], coupler.point);
     const Vec3 pull = -factor(row) * unit(at_second - at_rod);  // on the rod, of a coupler in tension
     Wrench passed;
@@ -97,21 +98,21 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
     ++row;
   }
   out.support = factor(row);
-  if (by_spring && guide.spring->link >= 0) {
-    const int at = guide.spring->link;
+  if (by_spring && suspension.spring->link >= 0) {
+    const int at = suspension.spring->link;
     const Wrench all = wrench(row);
     on_carrier[at].force += all.force;
     on_carrier[at].moment += all.moment;
-    const Vec3 end = spring_end(guide, position.place, rack);
-    add(on_link[at], factor(row) * unit(end - guide.spring->body), end - carrier.centre);
+    const Vec3 end = spring_end(suspension, position.place, rack);
+    add(on_link[at], factor(row) * unit(end - suspension.spring->body), end - carrier.centre);
   }
 
   for (int i = 0; i < links; ++i) {
     std::vector<Vec3> at_body, at_carrier;
-    for (int k = 0; k < body_points(guide.links[i].type); ++k)
-      at_body.push_back(body_point(guide, i, k, rack));
-    for (int k = 0; k < carrier_points(guide.links[i].type); ++k)
-      at_carrier.push_back(carrier_point(guide, i, k, carrier));
+    for (int k = 0; k < body_points(suspension.links[i].type); ++k)
+      at_body.push_back(body_point(suspension, i, k, rack));
+    for (int k = 0; k < carrier_points(suspension.links[i].type); ++k)
+      at_carrier.push_back(carrier_point(suspension, i, k, carrier));
     // The body gives to the link what the link gives to the carrier, less what springs and couplers give to
     // the link.
     const Vec3 body = middle(at_body);
@@ -129,12 +130,12 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
   return out;
 }
 
-double rod_force(const WheelGuide& guide, const GuidePosition& position, const JointForce& joint) {
-  const LinkType type = guide.links.at(joint.link).type;
+double rod_force(const Suspension& suspension, const CornerPosition& position, const JointForce& joint) {
+  const LinkType type = suspension.links.at(joint.link).type;
   LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is not a rod",
-                     link_label(guide, joint.link));
-  return dot(joint.force, unit(carrier_point(guide, joint.link, 0, position.place.carrier) -
-                               body_point(guide, joint.link, 0, position.input.rack)));
+                     link_label(suspension, joint.link));
+  return dot(joint.force, unit(carrier_point(suspension, joint.link, 0, position.place.carrier) -
+                               body_point(suspension, joint.link, 0, position.input.rack)));
 }
 
 }  // namespace linkwright::suspension

@@ -44,7 +44,7 @@ void set_angle_tolerances(TargetObjective& of) {
 DirectTask published_direct_task() {
   DirectTask task;
   const Vec3 centre{0.001, 0.747, 0.0006}, axis = unit(centre - Vec3{0.0005, 0.647, 0.0011});
-  task.guide.wheel = {centre, std::atan2(axis.x, axis.y), -std::asin(axis.z), 0.604};
+  task.suspension.wheel = {centre, std::atan2(axis.x, axis.y), -std::asin(axis.z), 0.604};
   const std::array<Vec3, 5> body{{{0.1441, 0.3452, -0.0922},
                                   {-0.2292, 0.3622, -0.1017},
                                   {-0.102012769207, 0.399822349681, 0.305914089595},
@@ -58,12 +58,12 @@ DirectTask published_direct_task() {
   const std::array<double, 5> length{norm(carrier[0] - body[0]), norm(carrier[1] - body[1]), 0.2209, 0.25,
                                      0.273};
   for (std::size_t i = 0; i < 5; ++i)
-    task.guide.links.push_back({.name = "link " + std::to_string(i + 1),
-                                .type = LinkType::US,
-                                .body = {body[i]},
-                                .carrier = {carrier[i]},
-                                .length = length[i],
-                                .moved_by_rack = i == 2});
+    task.suspension.links.push_back({.name = "link " + std::to_string(i + 1),
+                                     .type = LinkType::US,
+                                     .body = {body[i]},
+                                     .carrier = {carrier[i]},
+                                     .length = length[i],
+                                     .moved_by_rack = i == 2});
   task.objectives = {objective("toe", WheelQuantity::toe, toe_targets),
                      objective("camber", WheelQuantity::camber, camber_targets),
                      objective("track", WheelQuantity::track, relative_track_targets)};
@@ -84,7 +84,7 @@ void place_published_boxes(DirectTask& task, std::uint64_t seed) {
   for (int link = 2; link < 5; ++link)
     for (int axis = 0; axis < 3; ++axis) {
       const DesignNumber number{DesignKind::body, link, 0, axis};
-      const double middle = design_value(task.guide, number) + random.uniform(-edge / 2, edge / 2);
+      const double middle = design_value(task.suspension, number) + random.uniform(-edge / 2, edge / 2);
       task.designed.push_back({number, middle - edge / 2, middle + edge / 2});
     }
 }

@@ -21,7 +21,7 @@ void place_published_boxes(DirectTask& task, std::uint64_t seed);
 /// Medians of the objectives over the source's runs, toe, camber, track (Tab. 6-19).
 inline constexpr std::array published_medians{0.9183, 0.9176, 0.3744};
 /// The smallest largest deviation there is (computed; both toe and camber have it).
-inline constexpr double least_largest_deviation = 0.9177826;
+inline constexpr double min_largest_deviation = 0.9177826;
 
 /// Deviations of figure 6-13, travel -0.1 to 0.1 m by 0.025: deg, deg, and relative.
 inline constexpr std::array<std::array<double, 9>, 3> published_target_deviations{

@@ -61,13 +61,13 @@ bool better(const DirectOptions& options, const DirectSynthesis& a, const Direct
 /// Everything about a design but starts and directions.
 DirectSynthesis assessed(const DirectModel& model, std::span<const double> u) {
   DirectSynthesis out;
-  out.guide = model.guide(u);
+  out.suspension = model.suspension(u);
   out.x = model.values(u);
   out.shares.assign(u.begin(), u.end());
   out.positions = model.positions();
-  out.answer = answer(out.guide, model.task().objectives, model.positions(), {});
+  out.answer = answer(out.suspension, model.task().objectives, model.positions(), {});
   if (!out.answer.assembled) return out;
-  out.limits = limit_answers(out.guide, model.task().limits, out.answer.positions, {}, {});
+  out.limits = limit_answers(out.suspension, model.task().limits, out.answer.positions, {}, {});
   out.objectives = objective_values(model.task().objectives, model.positions(), out.answer.deviations);
   out.largest = *std::max_element(out.objectives.begin(), out.objectives.end());
   out.half_sum_of_squares = 0;
@@ -371,8 +371,8 @@ Sentence why_infeasible(const DirectTask& task, const DirectOptions& options, co
 
 }  // namespace
 
-DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide) {
-  return assess(task, options, DirectModel(task, options).shares(guide));
+DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const Suspension& suspension) {
+  return assess(task, options, DirectModel(task, options).shares(suspension));
 }
 
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> u) {

@@ -11,19 +11,19 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/sentence.h"
 #include "linkwright/optimise/priorities.h"
-#include "linkwright/suspension/direct/guide_targets.h"
-#include "linkwright/suspension/guide/limits.h"
+#include "linkwright/suspension/corner/limits.h"
+#include "linkwright/suspension/direct/corner_targets.h"
 
 /// Wheel suspensions from what their wheels are to do (Poznanovic 2016, section 5.4).
 namespace linkwright::suspension {
 
 /// A wheel suspension to be found: objectives, most important first, and limits.
 struct DirectTask {
-  WheelGuide guide;  ///< the suspension as given; its design variables are where a search may begin
+  Suspension suspension;  ///< the suspension as given; its design variables are where a search may begin
   std::vector<DesignVariable> designed;
   Driver driver = Driver::wheel_centre_z;
   std::vector<TargetObjective> objectives;
-  GuideLimits limits;  ///< at the positions of the targets
+  CornerLimits limits;  ///< at the positions of the targets
 };
 
 enum class DirectGoal { largest, least_squares, priorities, one };
@@ -65,7 +65,7 @@ struct DirectSynthesis {
   /// deadline, cancelled.
   Status status = Status::infeasible;
   Sentence reason;  ///< empty, or why it is infeasible
-  WheelGuide guide;
+  Suspension suspension;
   std::vector<double> x;  ///< values of the design variables
   /// The same in shares of their ranges: what the design is made from, to the bit.
   std::vector<double> shares;
@@ -96,7 +96,7 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
                            RunContext& context);
 
 /// The goal at a given design: everything of the report but starts.
-DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide);
+DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const Suspension& suspension);
 /// Assesses a design given by its shares, one a design variable.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> shares);
 

@@ -18,14 +18,14 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
   optimise::Problem problem;
   problem.objectives = count;
   for (const auto& [number, lower, upper] : task.designed)
-    problem.variables.push_back({label(task.guide, number), lower, upper});
+    problem.variables.push_back({label(task.suspension, number), lower, upper});
   problem.evaluate = [&](const optimise::PopulationView& candidates, std::span<double> cost,
                          std::span<double> violation) {
-    WheelGuide guide = task.guide;
+    Suspension suspension = task.suspension;
     for (std::size_t i = 0; i < candidates.size; ++i) {
       for (std::size_t j = 0; j < model.size(); ++j)
-        design_value(guide, task.designed[j].number) = candidates(j, i);
-      const TargetAnswer found = answer(guide, task.objectives, model.positions(), {});
+        design_value(suspension, task.designed[j].number) = candidates(j, i);
+      const TargetAnswer found = answer(suspension, task.objectives, model.positions(), {});
       violation[i] = 0;
       if (!found.assembled) {
         // More than any limit of an assembled design is missed by, and less the further it gets.
@@ -36,7 +36,7 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
       const std::vector<double> values =
           objective_values(task.objectives, model.positions(), found.deviations);
       std::copy(values.begin(), values.end(), cost.begin() + static_cast<std::ptrdiff_t>(i * count));
-      for (const LimitAnswer& limit : limit_answers(guide, task.limits, found.positions, {}, {}))
+      for (const LimitAnswer& limit : limit_answers(suspension, task.limits, found.positions, {}, {}))
         violation[i] += std::max(0.0, limit.excess);
     }
   };
@@ -51,9 +51,10 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
       options.goal == DirectGoal::priorities ? optimise::by_priority(problem) : optimise::largest(problem);
   const optimise::Report report = optimise::minimise(single, method, stop, {.seed = seed}, context);
   DirectEvolution out;
-  WheelGuide guide = task.guide;
-  for (std::size_t j = 0; j < model.size(); ++j) design_value(guide, task.designed[j].number) = report.x[j];
-  out.found = assess(task, options, guide);
+  Suspension suspension = task.suspension;
+  for (std::size_t j = 0; j < model.size(); ++j)
+    design_value(suspension, task.designed[j].number) = report.x[j];
+  out.found = assess(task, options, suspension);
   out.found.evaluations = report.evaluations;
   out.generations = report.generations;
   if (report.status == Status::deadline || report.status == Status::cancelled)

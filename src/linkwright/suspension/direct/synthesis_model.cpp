@@ -25,17 +25,17 @@ DirectModel::DirectModel(const DirectTask& task, const DirectOptions& options) :
                      "objective {} of {}", options.one, task.objectives.size());
   for (const auto& [number, lower, upper] : task.designed) {
     LINKWRIGHT_REQUIRE(std::isfinite(lower) && std::isfinite(upper) && lower < upper, "{} from {} to {}",
-                       label(task.guide, number), lower, upper);
+                       label(task.suspension, number), lower, upper);
     LINKWRIGHT_REQUIRE(std::find(numbers_.begin(), numbers_.end(), number) == numbers_.end(),
-                       "{} is designed twice", label(task.guide, number));
+                       "{} is designed twice", label(task.suspension, number));
     numbers_.push_back(number);
   }
   positions_ = target_positions(task.objectives, task.driver);
-  limits_ = limit_answers(task.guide, task.limits, {}, {}, {}).size();
+  limits_ = limit_answers(task.suspension, task.limits, {}, {}, {}).size();
 }
 
-WheelGuide DirectModel::guide(std::span<const double> u) const {
-  WheelGuide out = task_.guide;
+Suspension DirectModel::suspension(std::span<const double> u) const {
+  Suspension out = task_.suspension;
   for (std::size_t j = 0; j < size(); ++j) {
     const auto& [number, lower, upper] = task_.designed[j];
     design_value(out, number) = lower + u[j] * (upper - lower);
@@ -50,17 +50,17 @@ std::vector<double> DirectModel::values(std::span<const double> u) const {
   return out;
 }
 
-std::vector<double> DirectModel::shares(const WheelGuide& guide) const {
+std::vector<double> DirectModel::shares(const Suspension& suspension) const {
   std::vector<double> out(size());
   for (std::size_t j = 0; j < size(); ++j) {
     const auto& [number, lower, upper] = task_.designed[j];
-    out[j] = (design_value(guide, number) - lower) / (upper - lower);
+    out[j] = (design_value(suspension, number) - lower) / (upper - lower);
   }
   return out;
 }
 
 std::vector<double> DirectModel::given() const {
-  std::vector<double> out = shares(task_.guide);
+  std::vector<double> out = shares(task_.suspension);
   for (double& share : out) share = std::clamp(share, 0.0, 1.0);
   return out;
 }
@@ -72,7 +72,7 @@ double DirectModel::reached(std::span<const double> u) const {
 }
 
 void DirectModel::evaluate(std::span<const double> u, bool derivatives, DirectPoint& out) const {
-  const WheelGuide made = guide(u);
+  const Suspension made = suspension(u);
   std::span<const DesignNumber> numbers;
   if (derivatives) numbers = numbers_;
   TargetAnswer found = answer(made, task_.objectives, positions_, numbers);

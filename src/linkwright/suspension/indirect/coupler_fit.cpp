@@ -31,11 +31,11 @@ Mat3 link_frame(const Vec3& ball, const Vec3& hinge, const Vec3& other) {
   return {{cross(y, z), y, z}};
 }
 
-Track coupler_track(const CarrierTargets& targets, const GuideLink& first, const GuideLink& second) {
+Track coupler_track(const CarrierTargets& targets, const CornerLink& first, const CornerLink& second) {
   Track track;
   const auto add = [&](const Mat3& rotation, const Vec3& centre, double rack) {
     const auto moved = [&](const Vec3& p) { return centre + rotation * (p - targets.wheel.centre); };
-    const auto body = [&](const GuideLink& link) {
+    const auto body = [&](const CornerLink& link) {
       return link.moved_by_rack ? link.body[0] + rack * targets.rack_direction : link.body[0];
     };
     const Vec3 hinge = moved(second.carrier[0]);
@@ -169,23 +169,23 @@ constexpr double exact_rms = 1e-14;  // m: nothing left to gain
 
 }  // namespace
 
-CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
+CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const CornerLink> links,
                        const CouplerTask& task, double tolerance) {
-  const auto link = [&](int index, LinkType type, LinkType same) -> const GuideLink& {
+  const auto link = [&](int index, LinkType type, LinkType same) -> const CornerLink& {
     LINKWRIGHT_REQUIRE(index >= 0 && index < static_cast<int>(links.size()), "coupler '{}': link {} of {}",
                        task.name, index, links.size());
-    const GuideLink& found = links[static_cast<std::size_t>(index)];
+    const CornerLink& found = links[static_cast<std::size_t>(index)];
     LINKWRIGHT_REQUIRE(found.type == type || found.type == same,
                        "coupler '{}': link {} is of type {}, needs {}", task.name, index, name_of(found.type),
                        name_of(type));
     return found;
   };
-  const GuideLink& first = link(task.first, LinkType::US, LinkType::SS);
-  const GuideLink& second = link(task.second, LinkType::SR, LinkType::SR);
-  const double rod = norm(first.carrier[0] - first.body[0]), length = std::min(rod, task.most_offset);
-  LINKWRIGHT_REQUIRE(task.least_offset >= 0 && task.least_offset < length,
+  const CornerLink& first = link(task.first, LinkType::US, LinkType::SS);
+  const CornerLink& second = link(task.second, LinkType::SR, LinkType::SR);
+  const double rod = norm(first.carrier[0] - first.body[0]), length = std::min(rod, task.max_offset);
+  LINKWRIGHT_REQUIRE(task.min_offset >= 0 && task.min_offset < length,
                      "coupler '{}': offset of at least {} m and at most {} m on a link of {} m", task.name,
-                     task.least_offset, task.most_offset, rod);
+                     task.min_offset, task.max_offset, rod);
   const Track track = coupler_track(targets, first, second);
   LINKWRIGHT_REQUIRE(track.size() >= 5, "coupler '{}': needs four positions besides the reference, got {}",
                      task.name, track.size() - 1);
@@ -195,7 +195,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
   // The best of a row of offsets, then Gauss-Newton with the exact derivative.
   double offset = length, least = infinity;
   for (int k = 0; k < offsets_tried; ++k) {
-    const double l = task.least_offset + (length - task.least_offset) * (k + 0.5) / offsets_tried;
+    const double l = task.min_offset + (length - task.min_offset) * (k + 0.5) / offsets_tried;
     const double square = fit_sphere(track, l).residual.squaredNorm();
     if (square < least) least = square, offset = l;
   }
@@ -211,7 +211,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
         if (!j.empty()) std::copy(s.derivative.begin(), s.derivative.end(), j.begin());
         return true;
       },
-      n, {&offset, 1}, {&task.least_offset, 1}, {&length, 1}, options, workspace);
+      n, {&offset, 1}, {&task.min_offset, 1}, {&length, 1}, options, workspace);
   const Eigen::Vector3d centre = fit_sphere(track, offset).centre;
   std::array x{offset, 0.0, 0.0, 0.0};
   const auto set_point = [&](const Vec3& p) { x[1] = p.x, x[2] = p.y, x[3] = p.z; };
@@ -228,7 +228,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
   };
   errors();
   if (!(fit.rms <= tolerance) || !inside(task.point, {x[1], x[2], x[3]}, in_box)) {
-    const std::array lower{task.least_offset, task.point.lower.x, task.point.lower.y, task.point.lower.z};
+    const std::array lower{task.min_offset, task.point.lower.x, task.point.lower.y, task.point.lower.z};
     const std::array upper{length, task.point.upper.x, task.point.upper.y, task.point.upper.z};
     options.max_iterations = 500;
     const auto search = [&] {
@@ -243,7 +243,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
     CouplerFit best = fit;
     std::array best_x = x;
     for (int k = 0; k <= offsets_tried && !(best.rms <= exact_rms); ++k) {
-      x[0] = task.least_offset + (length - task.least_offset) * k / offsets_tried;
+      x[0] = task.min_offset + (length - task.min_offset) * k / offsets_tried;
       set_point(best_in_box(track, x[0], task.point));
       search();
       if (fit.rms < best.rms) best = fit, best_x = x;

@@ -5,7 +5,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/guide/carrier_poses.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
 #include "linkwright/suspension/indirect/link_task.h"
 
 namespace linkwright::suspension {
@@ -24,7 +24,7 @@ struct CouplerFit {
 /// box, or the length changes by more than the tolerance, offset and point are searched together within their
 /// limits, from the best point in the box for each of a row of offsets; the best end is taken. Throws
 /// ContractError for links of other types and for a position without carrier pitch.
-CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
+CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const CornerLink> links,
                        const CouplerTask& task, double tolerance = 1e-8);
 
 }  // namespace linkwright::suspension

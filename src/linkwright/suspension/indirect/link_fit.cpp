@@ -48,7 +48,7 @@ class Search {
   bool can_project() const { return projection_.applicable(); }
   std::int64_t evaluations() const { return evaluations_; }
 
-  Errors errors(const GuideLink& link) {
+  Errors errors(const CornerLink& link) {
     Errors e;
     if (!structural_errors(motion_, link, errors_, unknowns_.columns(), {})) return e;
     const std::size_t n = motion_.size(),
@@ -68,7 +68,7 @@ class Search {
 
   /// Variable projection from `link`, whose eliminated points do not matter; as a polish it continues to
   /// rounding, across bounds.
-  bool project(GuideLink& link, bool polish) {
+  bool project(CornerLink& link, bool polish) {
     x_.clear();
     for (const int place : projection_.unknowns()) x_.push_back(unknowns_.get(link, place));
     math::LeastSquaresOptions o;
@@ -93,7 +93,7 @@ class Search {
   }
 
   /// All unknowns within the boxes.
-  bool fit(GuideLink& link, int iterations) {
+  bool fit(CornerLink& link, int iterations) {
     if (unknowns_.free().empty()) return true;  // a given link is what it is
     x_.clear();
     for (const int place : unknowns_.free()) x_.push_back(unknowns_.get(link, place));
@@ -104,8 +104,8 @@ class Search {
     o.decrease_tolerance = 0;
     o.relative_decrease_tolerance = 1e-5;
     o.cost_tolerance = exact_cost;
-    GuideLink trial = link;
-    const auto place_all = [&](GuideLink& to, std::span<const double> x) {
+    CornerLink trial = link;
+    const auto place_all = [&](CornerLink& to, std::span<const double> x) {
       for (std::size_t j = 0; j < x.size(); ++j) unknowns_.set(to, unknowns_.free()[j], x[j]);
     };
     const auto function = [&](std::span<const double> x, std::span<double> r, std::span<double> j) {
@@ -139,12 +139,12 @@ class Search {
 class LinkSearch {
  public:
   LinkSearch(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
-             std::span<const GuideLink> known, const LinkMotion& motion)
+             std::span<const CornerLink> known, const LinkMotion& motion)
       : origin_(targets.wheel.centre),
         options_(options),
         unknowns_(task, origin_),
         search_(motion, unknowns_) {
-    for (const GuideLink& link : known)
+    for (const CornerLink& link : known)
       if (link.type == task.type && link.moved_by_rack == task.moved_by_rack)
         known_.push_back(shifted(link, -origin_));
     fit_.link = unknowns_.middle();
@@ -156,12 +156,12 @@ class LinkSearch {
   }
 
   /// Takes a link as it is.
-  void take(const GuideLink& link) {
+  void take(const CornerLink& link) {
     link_ = link;
     consider();
   }
   /// Searches from a link: by projection first if so wanted.
-  void start(const GuideLink& from, bool project) {
+  void start(const CornerLink& from, bool project) {
     ++fit_.starts;
     link_ = from;
     if (project && search_.can_project()) {
@@ -186,8 +186,8 @@ class LinkSearch {
   }
 
  private:
-  bool is_known(const GuideLink& link) const {
-    return std::any_of(known_.begin(), known_.end(), [&](const GuideLink& other) {
+  bool is_known(const CornerLink& link) const {
+    return std::any_of(known_.begin(), known_.end(), [&](const CornerLink& other) {
       return largest_distance(other, link) <= options_.same_point;
     });
   }
@@ -196,7 +196,7 @@ class LinkSearch {
     Errors e = search_.errors(link_);
     const bool exact = e.rms <= options_.tolerance;
     if (exact && e.rms > polished_rms && search_.can_project()) {
-      const GuideLink before = link_;
+      const CornerLink before = link_;
       Errors after;
       if (search_.project(link_, true) && unknowns_.inside(link_)) after = search_.errors(link_);
       if (after.rms < e.rms)
@@ -220,8 +220,8 @@ class LinkSearch {
   LinkFitOptions options_;
   LinkCoordinates unknowns_;
   Search search_;
-  std::vector<GuideLink> known_;
-  GuideLink link_;
+  std::vector<CornerLink> known_;
+  CornerLink link_;
   LinkFit fit_;
   int first_exact_ = -1;
 };
@@ -238,7 +238,7 @@ LinkMotion motion_for(const CarrierTargets& targets, const LinkTask& task, const
 }  // namespace
 
 LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
-                 std::span<const GuideLink> known, std::uint64_t seed, RunContext& context,
+                 std::span<const CornerLink> known, std::uint64_t seed, RunContext& context,
                  std::uint32_t run) {
   const LinkMotion motion = motion_for(targets, task, options);
   LinkSearch search(targets, task, options, known, motion);
@@ -250,7 +250,7 @@ LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const Link
   // The first start always runs.
   for (int s = 0; s < options.starts && !search.found() && (s == 0 || !context.interrupted()); ++s) {
     RandomStream random({seed, run, 0, static_cast<std::uint32_t>(s)});
-    GuideLink link = unknowns.middle();
+    CornerLink link = unknowns.middle();
     for (const int place : unknowns.free())
       LinkCoordinates::set(link, place, random.uniform(unknowns.lower(place), unknowns.upper(place)));
     search.start(link, s % 2 == 0);
@@ -258,19 +258,19 @@ LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const Link
   return search.finish(context);
 }
 
-LinkFit fit_link_from(std::span<const GuideLink> starts, const CarrierTargets& targets, const LinkTask& task,
-                      const LinkFitOptions& options, std::span<const GuideLink> known, RunContext& context) {
+LinkFit fit_link_from(std::span<const CornerLink> starts, const CarrierTargets& targets, const LinkTask& task,
+                      const LinkFitOptions& options, std::span<const CornerLink> known, RunContext& context) {
   const LinkMotion motion = motion_for(targets, task, options);
   LinkSearch search(targets, task, options, known, motion);
-  for (const GuideLink& start : starts) {
-    const GuideLink link = shifted(start, -targets.wheel.centre);
+  for (const CornerLink& start : starts) {
+    const CornerLink link = shifted(start, -targets.wheel.centre);
     if (search.found() || context.interrupted()) break;
     if (link.type == task.type && search.unknowns().inside(link)) search.start(link, false);
   }
   return search.finish(context);
 }
 
-LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& task, const GuideLink& link) {
+LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& task, const CornerLink& link) {
   const LinkMotion motion = link_motion(targets, task.moved_by_rack, targets.wheel.centre);
   const LinkCoordinates unknowns(task, targets.wheel.centre);
   LINKWRIGHT_REQUIRE(link.type == task.type && link.body.size() == task.body.size() &&

@@ -10,8 +10,8 @@
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/guide/carrier_poses.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
 #include "linkwright/suspension/indirect/link_task.h"
 
@@ -40,7 +40,7 @@ struct LinkFit {
   /// there, the best place in the boxes is given; infeasible: nothing was found but known links; deadline,
   /// cancelled: as not_converged.
   Status status = Status::infeasible;
-  GuideLink link;
+  CornerLink link;
   double rms = infinity;      ///< m, of all equations and positions
   double largest = infinity;  ///< m
   int starts = 0;             ///< local searches made
@@ -56,13 +56,13 @@ struct LinkFit {
 /// Throws ContractError for a wrong number of points, empty boxes, a pose without carrier pitch, or options
 /// out of range.
 LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
-                 std::span<const GuideLink> known, std::uint64_t seed, RunContext& context,
+                 std::span<const CornerLink> known, std::uint64_t seed, RunContext& context,
                  std::uint32_t run = 0);
 
 /// The same from given links, of which those with all points in their boxes are starts, instead of random
 /// ones.
-LinkFit fit_link_from(std::span<const GuideLink> starts, const CarrierTargets& targets, const LinkTask& task,
-                      const LinkFitOptions& options, std::span<const GuideLink> known, RunContext& context);
+LinkFit fit_link_from(std::span<const CornerLink> starts, const CarrierTargets& targets, const LinkTask& task,
+                      const LinkFitOptions& options, std::span<const CornerLink> known, RunContext& context);
 
 /// The accuracy with which the positions determine the coordinates of a link: the derivatives of its
 /// structural errors, decomposed.
@@ -71,9 +71,9 @@ struct LinkConditioning {
   /// small one says that errors of the positions move the points along its direction by their inverse.
   std::vector<double> singular_values;
   /// Change of the points along the smallest one; the squares of all coordinates add up to 1.
-  GuideLink weakest;
+  CornerLink weakest;
 };
-LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& task, const GuideLink& link);
+LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& task, const CornerLink& link);
 
 /// Fewest positions that determine a synthesis, eq (38): unknowns / (equations + pose_parameters - 6) + 1,
 /// the reference included; below it there is a family of exact solutions. `pose_parameters` of the six are

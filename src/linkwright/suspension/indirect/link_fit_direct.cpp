@@ -93,7 +93,7 @@ std::size_t error_rows(LinkType type, std::size_t positions) {
   return positions * static_cast<std::size_t>(error_count(type)) * (vectors ? 3 : 1);
 }
 
-bool structural_errors(const LinkMotion& motion, const GuideLink& link, std::span<double> errors,
+bool structural_errors(const LinkMotion& motion, const CornerLink& link, std::span<double> errors,
                        LinkColumns columns, std::span<double> jacobian) {
   const std::size_t n = motion.size(), rows = error_rows(link.type, n);
   const auto to = [&](std::size_t point) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
 
 namespace linkwright::suspension {
@@ -23,7 +23,7 @@ std::size_t error_rows(LinkType type, std::size_t positions);
 ///
 /// `jacobian` is empty or holds their derivatives, column-major, for the coordinates that `columns` names.
 /// False when points coincide that must not.
-bool structural_errors(const LinkMotion& motion, const GuideLink& link, std::span<double> errors,
+bool structural_errors(const LinkMotion& motion, const CornerLink& link, std::span<double> errors,
                        LinkColumns columns, std::span<double> jacobian);
 
 }  // namespace linkwright::suspension

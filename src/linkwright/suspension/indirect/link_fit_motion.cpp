@@ -25,7 +25,7 @@ int error_count(LinkType type) {
   return 0;
 }
 
-double largest_distance(const GuideLink& a, const GuideLink& b) {
+double largest_distance(const CornerLink& a, const CornerLink& b) {
   LINKWRIGHT_REQUIRE(a.body.size() == b.body.size() && a.carrier.size() == b.carrier.size(),
                      "links of {} + {} and {} + {} points", a.body.size(), a.carrier.size(), b.body.size(),
                      b.carrier.size());

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "linkwright/suspension/guide/carrier_poses.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 
@@ -13,7 +13,7 @@ namespace linkwright::suspension {
 int error_count(LinkType type);
 
 /// Largest distance of two corresponding points of links of one type.
-double largest_distance(const GuideLink& a, const GuideLink& b);
+double largest_distance(const CornerLink& a, const CornerLink& b);
 
 /// Motion of the carrier as the body's points of a link see it: a point x of the carrier (reference
 /// coordinates) comes to shift + rotation x. The reference pose, identity, is not among the positions.

@@ -12,7 +12,7 @@ double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 }  // namespace
 
-LinkProjection::LinkProjection(const LinkMotion& motion, const GuideLink& given, LinkColumns columns)
+LinkProjection::LinkProjection(const LinkMotion& motion, const CornerLink& given, LinkColumns columns)
     : motion_(&motion), link_(given) {
   if (given.type == LinkType::S || given.type == LinkType::R) return;
   const std::size_t bodies = given.body.size();

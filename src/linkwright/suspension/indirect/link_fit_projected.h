@@ -18,7 +18,7 @@ class LinkProjection {
  public:
   /// `given` holds the coordinates that `columns` leaves out, and for the others a place nearby, which
   /// chooses the point of a strut. The motion must outlive the projection.
-  LinkProjection(const LinkMotion& motion, const GuideLink& given, LinkColumns columns);
+  LinkProjection(const LinkMotion& motion, const CornerLink& given, LinkColumns columns);
 
   /// True if the links of this type can be projected and there is an unknown left.
   bool applicable() const { return applicable_; }
@@ -29,7 +29,7 @@ class LinkProjection {
   /// Residuals in m2 (SP: m) and their exact derivatives, as math::ResidualFunction has them.
   bool evaluate(std::span<const double> x, std::span<double> residuals, std::span<double> jacobian);
   /// The link of the last evaluation.
-  const GuideLink& link() const { return link_; }
+  const CornerLink& link() const { return link_; }
 
  private:
   bool evaluate_strut(std::span<double> residuals, std::span<double> jacobian);
@@ -37,7 +37,7 @@ class LinkProjection {
 
   const LinkMotion* motion_;
   LinkMotion inverse_;
-  GuideLink link_;
+  CornerLink link_;
   Vec3 near_;  ///< the point of a strut
   bool applicable_ = false;
   std::vector<Vec3>*tracks_ = nullptr,

@@ -24,21 +24,21 @@ Mat3 turn_between(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-Vec3 body_point(const WheelGuide& guide, int link, int point, double rack) {
-  const GuideLink& of = guide.links.at(link);
-  return of.moved_by_rack ? of.body.at(point) + rack * guide.rack_direction : of.body.at(point);
+Vec3 body_point(const Suspension& suspension, int link, int point, double rack) {
+  const CornerLink& of = suspension.links.at(link);
+  return of.moved_by_rack ? of.body.at(point) + rack * suspension.rack_direction : of.body.at(point);
 }
 
-Vec3 carrier_point(const WheelGuide& guide, int link, int point, const CarrierPose& carrier) {
-  return place(carrier, guide.links.at(link).carrier.at(point), guide.wheel.centre);
+Vec3 carrier_point(const Suspension& suspension, int link, int point, const CarrierPose& carrier) {
+  return place(carrier, suspension.links.at(link).carrier.at(point), suspension.wheel.centre);
 }
 
-std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, double rack) {
+std::vector<LinkPose> link_poses(const Suspension& suspension, const CornerPlace& at, double rack) {
   std::vector<LinkPose> out;
-  for (int i = 0; i < static_cast<int>(guide.links.size()); ++i) {
-    const GuideLink& link = guide.links[i];
-    const auto body = [&](int k) { return body_point(guide, i, k, rack); };
-    const auto carrier = [&](int k) { return carrier_point(guide, i, k, at.carrier); };
+  for (int i = 0; i < static_cast<int>(suspension.links.size()); ++i) {
+    const CornerLink& link = suspension.links[i];
+    const auto body = [&](int k) { return body_point(suspension, i, k, rack); };
+    const auto carrier = [&](int k) { return carrier_point(suspension, i, k, at.carrier); };
     LinkPose pose{link.body[0], body(0), {}};
     switch (link.type) {
       case LinkType::US: {
@@ -76,11 +76,12 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, 
   return out;
 }
 
-std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack) {
-  const GuideLink& rod = guide.links.at(link);
-  LINKWRIGHT_REQUIRE(rod.type == LinkType::US, "{} has no universal joint", link_label(guide, link));
+std::array<Vec3, 2> cross_axes(const Suspension& suspension, int link, const CarrierPose& carrier,
+                               double rack) {
+  const CornerLink& rod = suspension.links.at(link);
+  LINKWRIGHT_REQUIRE(rod.type == LinkType::US, "{} has no universal joint", link_label(suspension, link));
   const Vec3 standing = standing_axis(rod.cross_axis, rod.carrier[0] - rod.body[0]);
-  const Vec3 line = carrier_point(guide, link, 0, carrier) - body_point(guide, link, 0, rack);
+  const Vec3 line = carrier_point(suspension, link, 0, carrier) - body_point(suspension, link, 0, rack);
   return {standing, unit(cross(standing, line))};
 }
 
@@ -88,31 +89,33 @@ namespace {
 
 /// A point fixed to a rod: a share of the rod, whose length need not be the distance of its reference points,
 /// and what lies off its line as the rod has turned.
-Vec3 rod_point(const WheelGuide& guide, int index, const Vec3& reference, const GuidePlace& at, double rack) {
-  const GuideLink& link = guide.links.at(index);
-  const Vec3 from = body_point(guide, index, 0, rack), along = link.carrier[0] - link.body[0];
+Vec3 rod_point(const Suspension& suspension, int index, const Vec3& reference, const CornerPlace& at,
+               double rack) {
+  const CornerLink& link = suspension.links.at(index);
+  const Vec3 from = body_point(suspension, index, 0, rack), along = link.carrier[0] - link.body[0];
   const double share = dot(reference - link.body[0], along) / dot(along, along);
-  const Vec3 on_line = from + share * (carrier_point(guide, index, 0, at.carrier) - from);
+  const Vec3 on_line = from + share * (carrier_point(suspension, index, 0, at.carrier) - from);
   if (link.type == LinkType::SS) return on_line;
-  return on_line + link_poses(guide, at, rack)[index].rotation * (reference - link.body[0] - share * along);
+  return on_line +
+         link_poses(suspension, at, rack)[index].rotation * (reference - link.body[0] - share * along);
 }
 
 }  // namespace
 
-Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuidePlace& at, double rack) {
-  if (coupler.begin) return rod_point(guide, coupler.first, *coupler.begin, at, rack);
-  const Vec3 from = body_point(guide, coupler.first, 0, rack);
-  return from + coupler.fraction * (carrier_point(guide, coupler.first, 0, at.carrier) - from);
+Vec3 coupler_begin(const Suspension& suspension, const Coupler& coupler, const CornerPlace& at, double rack) {
+  if (coupler.begin) return rod_point(suspension, coupler.first, *coupler.begin, at, rack);
+  const Vec3 from = body_point(suspension, coupler.first, 0, rack);
+  return from + coupler.fraction * (carrier_point(suspension, coupler.first, 0, at.carrier) - from);
 }
 
-Vec3 spring_end(const WheelGuide& guide, const GuidePlace& at, double rack) {
-  LINKWRIGHT_REQUIRE(guide.spring, "the suspension has no spring");
-  const GuideSpring& spring = *guide.spring;
-  if (spring.link < 0) return place(at.carrier, spring.moving, guide.wheel.centre);
-  const GuideLink& link = guide.links.at(spring.link);
+Vec3 spring_end(const Suspension& suspension, const CornerPlace& at, double rack) {
+  LINKWRIGHT_REQUIRE(suspension.spring, "the suspension has no spring");
+  const CornerSpring& spring = *suspension.spring;
+  if (spring.link < 0) return place(at.carrier, spring.moving, suspension.wheel.centre);
+  const CornerLink& link = suspension.links.at(spring.link);
   if (link.type != LinkType::US && link.type != LinkType::SS)
-    return placed(link_poses(guide, at, rack)[spring.link], spring.moving);
-  return rod_point(guide, spring.link, spring.moving, at, rack);
+    return placed(link_poses(suspension, at, rack)[spring.link], spring.moving);
+  return rod_point(suspension, spring.link, spring.moving, at, rack);
 }
 
 }  // namespace linkwright::suspension

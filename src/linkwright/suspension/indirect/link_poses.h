@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "linkwright/suspension/guide/constraints.h"
+#include "linkwright/suspension/corner/constraints.h"
 
 /// Poses of the links for a given pose of the carrier.
 namespace linkwright::suspension {
@@ -22,23 +22,25 @@ constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
 
 /// Body point and carrier point of a link in the present position, the body point moved by the rack (m) if it
 /// is on it.
-Vec3 body_point(const WheelGuide& guide, int link, int point, double rack);
-Vec3 carrier_point(const WheelGuide& guide, int link, int point, const CarrierPose& carrier);
+Vec3 body_point(const Suspension& suspension, int link, int point, double rack);
+Vec3 carrier_point(const Suspension& suspension, int link, int point, const CarrierPose& carrier);
 
 /// All links at a position of the carrier, `from` and `at` at the first body point. US links turn about their
 /// line as their U joint makes them, SS links do not, struts turn with the carrier, R and S are joints
 /// without a link and follow the carrier. Nothing is solved, so a suspension with any number of links
 /// will do; the links are taken to fit.
-std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& place, double rack);
+std::vector<LinkPose> link_poses(const Suspension& suspension, const CornerPlace& place, double rack);
 
 /// The axes of a US link's U joint in the present position, unit: the one that is fixed in the body and the
 /// one that turns with the rod.
-std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack);
+std::array<Vec3, 2> cross_axes(const Suspension& suspension, int link, const CarrierPose& carrier,
+                               double rack);
 
 /// The begin of a coupler on its first link.
-Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuidePlace& place, double rack);
+Vec3 coupler_begin(const Suspension& suspension, const Coupler& coupler, const CornerPlace& place,
+                   double rack);
 
 /// The end of the spring that moves, at a position of the carrier. The suspension has to have a spring.
-Vec3 spring_end(const WheelGuide& guide, const GuidePlace& place, double rack);
+Vec3 spring_end(const Suspension& suspension, const CornerPlace& place, double rack);
 
 }  // namespace linkwright::suspension

@@ -18,27 +18,27 @@ double objective_of(const ErrorTotals& t, ErrorTotal total) {
 /// Evaluators for as many threads as ask at once.
 class Evaluators {
  public:
-  explicit Evaluators(const GuideErrors& first) : first_(first) {}
+  explicit Evaluators(const CornerErrors& first) : first_(first) {}
 
-  std::unique_ptr<GuideErrors> take() {
+  std::unique_ptr<CornerErrors> take() {
     const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<GuideErrors>(first_);
+    if (free_.empty()) return std::make_unique<CornerErrors>(first_);
     auto out = std::move(free_.back());
     free_.pop_back();
     return out;
   }
-  void give_back(std::unique_ptr<GuideErrors> evaluator) {
+  void give_back(std::unique_ptr<CornerErrors> evaluator) {
     const std::lock_guard lock(mutex_);
     free_.push_back(std::move(evaluator));
   }
 
  private:
-  GuideErrors first_;
+  CornerErrors first_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<GuideErrors>> free_;
+  std::vector<std::unique_ptr<CornerErrors>> free_;
 };
 
-optimise::Problem problem_of(const GuideErrors& errors, ErrorTotal total) {
+optimise::Problem problem_of(const CornerErrors& errors, ErrorTotal total) {
   optimise::Problem problem;
   for (std::size_t j = 0; j < errors.unknowns(); ++j)
     problem.variables.push_back({errors.unknown_names()[j], errors.lower()[j], errors.upper()[j]});
@@ -73,23 +73,23 @@ optimise::Problem problem_of(const GuideErrors& errors, ErrorTotal total) {
 
 }  // namespace
 
-optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
-                                std::span<const CouplerTask> couplers, CarrierPitchTechnique technique,
-                                double largest_carrier_pitch, ErrorTotal total) {
-  return problem_of(GuideErrors(targets, links, couplers, technique, largest_carrier_pitch), total);
+optimise::Problem suspension_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
+                                     std::span<const CouplerTask> couplers, CarrierPitchTechnique technique,
+                                     double largest_carrier_pitch, ErrorTotal total) {
+  return problem_of(CornerErrors(targets, links, couplers, technique, largest_carrier_pitch), total);
 }
 
 optimise::Problem link_problem(const CarrierTargets& targets, const LinkTask& task, ErrorTotal total) {
   LINKWRIGHT_REQUIRE(carrier_pitch_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      task.name);
-  return guide_problem(targets, {&task, 1}, {}, CarrierPitchTechnique::each, 0.5, total);
+  return suspension_problem(targets, {&task, 1}, {}, CarrierPitchTechnique::each, 0.5, total);
 }
 
-double link_objective(const CarrierTargets& targets, const GuideLink& link, ErrorTotal total) {
+double link_objective(const CarrierTargets& targets, const CornerLink& link, ErrorTotal total) {
   LINKWRIGHT_REQUIRE(carrier_pitch_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      link.name);
   const LinkTask task = given_link(link);
-  GuideErrors errors(targets, {&task, 1});
+  CornerErrors errors(targets, {&task, 1});
   std::vector<double> rows(errors.rows());
   if (!errors.evaluate({}, rows, {})) return infinity;
   return objective_of(errors.totals(rows), total);
@@ -98,7 +98,7 @@ double link_objective(const CarrierTargets& targets, const GuideLink& link, Erro
 Evolution evolve_links(const CarrierTargets& targets, std::span<const LinkTask> links,
                        std::span<const CouplerTask> couplers, const EvolutionOptions& options,
                        const optimise::Seed& seed, RunContext& context) {
-  GuideErrors errors(targets, links, couplers, options.technique, options.largest_carrier_pitch);
+  CornerErrors errors(targets, links, couplers, options.technique, options.largest_carrier_pitch);
   optimise::MinimiseOptions minimise;
   minimise.stop.spread = options.spread > 0 ? options.spread : errors.unknowns() < 30 ? 1e-5 : 1e-4;
   minimise.log = false;

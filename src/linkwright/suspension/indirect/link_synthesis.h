@@ -9,7 +9,7 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/minimise.h"
-#include "linkwright/suspension/indirect/guide_errors.h"
+#include "linkwright/suspension/indirect/corner_errors.h"
 #include "linkwright/suspension/indirect/link_task.h"
 
 namespace linkwright::suspension {
@@ -29,16 +29,16 @@ optimise::Problem link_problem(const CarrierTargets& targets, const LinkTask& ta
                                ErrorTotal total = ErrorTotal::mean);
 
 /// The objective of a given link.
-double link_objective(const CarrierTargets& targets, const GuideLink& link,
+double link_objective(const CarrierTargets& targets, const CornerLink& link,
                       ErrorTotal total = ErrorTotal::mean);
 
-/// The objective of several links and couplers over all their unknowns, see GuideErrors: the mean or the sum
+/// The objective of several links and couplers over all their unknowns, see CornerErrors: the mean or the sum
 /// of all their errors. Where the dyad that determines the carrier pitch cannot be assembled the violation is
 /// what it misses by (m).
-optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
-                                std::span<const CouplerTask> couplers = {},
-                                CarrierPitchTechnique technique = CarrierPitchTechnique::each,
-                                double largest_carrier_pitch = 0.5, ErrorTotal total = ErrorTotal::mean);
+optimise::Problem suspension_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
+                                     std::span<const CouplerTask> couplers = {},
+                                     CarrierPitchTechnique technique = CarrierPitchTechnique::each,
+                                     double largest_carrier_pitch = 0.5, ErrorTotal total = ErrorTotal::mean);
 
 /// Differential evolution with the settings of the source: five members an unknown, F = 0.6, CR = 0.9, until
 /// all members are within 1e-5 m of the best (1e-4 m for thirty unknowns or more).
@@ -54,7 +54,7 @@ struct EvolutionOptions {
 /// The result of a common search for links and couplers.
 struct Evolution {
   Status status = Status::done;  ///< status of the search: done, infeasible, deadline, cancelled
-  std::vector<GuideLink> links;
+  std::vector<CornerLink> links;
   std::vector<Coupler> couplers;  ///< links counted as in the tasks
   CarrierTargets targets;         ///< targets with the carrier pitches found
   std::vector<ErrorTotals> link_errors, coupler_errors;

@@ -18,7 +18,7 @@ auto& point_of(Link& link, int place) {
 
 }  // namespace
 
-LinkTask given_link(const GuideLink& link) {
+LinkTask given_link(const CornerLink& link) {
   LinkTask task;
   task.name = link.name;
   task.type = link.type;
@@ -53,16 +53,16 @@ LinkCoordinates::LinkCoordinates(const LinkTask& task, const Vec3& origin) {
     }
 }
 
-double LinkCoordinates::get(const GuideLink& link, int place) {
+double LinkCoordinates::get(const CornerLink& link, int place) {
   return component(point_of(link, place), place % 3);
 }
 
-void LinkCoordinates::set(GuideLink& link, int place, double value) {
+void LinkCoordinates::set(CornerLink& link, int place, double value) {
   Vec3& p = point_of(link, place);
   (place % 3 == 0 ? p.x : place % 3 == 1 ? p.y : p.z) = value;
 }
 
-bool LinkCoordinates::inside(const GuideLink& link) const {
+bool LinkCoordinates::inside(const CornerLink& link) const {
   for (int i = 0; i < static_cast<int>(lower_.size()); ++i) {
     const double value = get(link, i);
     if (!(value >= lower(i) - in_box && value <= upper(i) + in_box)) return false;
@@ -70,7 +70,7 @@ bool LinkCoordinates::inside(const GuideLink& link) const {
   return true;
 }
 
-GuideLink shifted(GuideLink link, const Vec3& by) {
+CornerLink shifted(CornerLink link, const Vec3& by) {
   for (Vec3& p : link.body) p += by;
   for (Vec3& p : link.carrier) p += by;
   return link;

@@ -8,7 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/guide/wheel.h"
+#include "linkwright/suspension/corner/wheel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -17,18 +17,18 @@ double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 bool is_angle(PoseParameter p) { return p >= PoseParameter::toe; }
 
-void require_rod(const GuideLink& rod) {
+void require_rod(const CornerLink& rod) {
   LINKWRIGHT_REQUIRE((rod.type == LinkType::US || rod.type == LinkType::SS) && rod.body.size() == 1 &&
                          rod.carrier.size() == 1,
                      "link '{}' of type {}: only a US or SS link settles a parameter", rod.name,
                      name_of(rod.type));
 }
 
-double length_of(const GuideLink& rod) {
+double length_of(const CornerLink& rod) {
   return rod.length ? *rod.length : norm(rod.carrier[0] - rod.body[0]);
 }
 
-Vec3 body_at(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod) {
+Vec3 body_at(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod) {
   return rod.moved_by_rack ? rod.body[0] + pose.rack * targets.rack_direction : rod.body[0];
 }
 
@@ -39,7 +39,7 @@ struct Circle {
 
 /// The rotation is before * turn(angle) * after, the turn about the axis `axis` (0 x, 1 y, 2 z) by `sign`
 /// times the angle: the square of the rod's length says where on its circle the point is.
-Circle circle(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod,
+Circle circle(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod,
               PoseParameter parameter, double& sign) {
   const Mat3 reference = math::turn_x(targets.wheel.camber) * math::turn_z(targets.wheel.toe);
   Mat3 before, after;
@@ -124,7 +124,7 @@ void set_value(CarrierTarget& pose, PoseParameter parameter, double value) {
   }
 }
 
-RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod,
+RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod,
                       PoseParameter parameter, double expected) {
   require_rod(rod);
   for (const auto& other : names(PoseParameter{}))
@@ -228,7 +228,7 @@ std::vector<SettlingStep> settling_order(const CarrierTargets& targets, PosePara
   }
 }
 
-PoseCompletion complete(const CarrierTargets& targets, const GuideLink& rod, PoseParameter parameter) {
+PoseCompletion complete(const CarrierTargets& targets, const CornerLink& rod, PoseParameter parameter) {
   PoseCompletion out{.targets = targets};
   const double at_reference = value_of(reference_of(targets), parameter);
   const auto value = [&](int position) {
@@ -249,7 +249,7 @@ PoseCompletion complete(const CarrierTargets& targets, const GuideLink& rod, Pos
   return out;
 }
 
-RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod) {
+RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod) {
   require_rod(rod);
   const Vec3 u0 = wheel_axis(Side::left, targets.wheel.toe, targets.wheel.camber),
              u = wheel_axis(Side::left, pose.angles.toe, pose.angles.camber), axis = cross(u0, u);

@@ -8,8 +8,8 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/guide/carrier_poses.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 /// Positions of the carrier that leave one of their six parameters open, and a rod that determines it.
 namespace linkwright::suspension {
@@ -40,7 +40,7 @@ struct RodSolution {
 /// the length, which is missing there) in closed form: a quadratic for a coordinate of the centre, A cos + B
 /// sin = C for an angle. `expected` chooses between the solutions; NaN = the value of the reference pose.
 /// Throws ContractError for other links, and when another parameter is missing, too.
-RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod,
+RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod,
                       PoseParameter parameter, double expected = nan);
 
 /// In which order positions that miss a parameter are settled: each after the one that it is nearest to, the
@@ -68,7 +68,7 @@ struct PoseCompletion {
 
 /// Determines a parameter at every position where it is NaN by a rod whose points are adopted
 /// (section 5.3.5.1): what is left is a synthesis from complete positions, link by link.
-PoseCompletion complete(const CarrierTargets& targets, const GuideLink& rod, PoseParameter parameter);
+PoseCompletion complete(const CarrierTargets& targets, const CornerLink& rod, PoseParameter parameter);
 
 /// Carrier and one rod as a dyad of a revolute and a spherical joint (section 5.3.5.3, equations 69 to 74).
 struct RsDyad {
@@ -83,6 +83,6 @@ struct RsDyad {
 
 /// The dyad at one position, whose carrier pitch is not looked at. With atan2 instead of the arccosine
 /// (70) and of the quotient (73), which are inexact or undefined where the axis hardly turns and where g = e.
-RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod);
+RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const CornerLink& rod);
 
 }  // namespace linkwright::suspension

@@ -203,7 +203,7 @@ bool on_line(const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d& middle
 
 /// Collects families: solutions with the same point at one end and different ones at the other.
 void find_arms(const std::vector<Point<double>>& family, bool shared_carrier, const Vec3& origin,
-               bool moved_by_rack, std::vector<GuideLink>& arms) {
+               bool moved_by_rack, std::vector<CornerLink>& arms) {
   std::vector<bool> used(family.size(), false);
   for (std::size_t i = 0; i < family.size(); ++i) {
     if (used[i]) continue;
@@ -220,7 +220,7 @@ void find_arms(const std::vector<Point<double>>& family, bool shared_carrier, co
     const Eigen::Vector3d foot = middle + direction * direction.dot(shared - middle);
     const Eigen::Vector3d along = foot + direction * (0.1 / length_scale);
     const auto place = [&](const Eigen::Vector3d& p) { return plain(p * length_scale) + origin; };
-    GuideLink arm{.type = shared_carrier ? LinkType::RS : LinkType::SR, .moved_by_rack = moved_by_rack};
+    CornerLink arm{.type = shared_carrier ? LinkType::RS : LinkType::SR, .moved_by_rack = moved_by_rack};
     auto& one = shared_carrier ? arm.carrier : arm.body;
     auto& two = shared_carrier ? arm.body : arm.carrier;
     one = {place(shared)};

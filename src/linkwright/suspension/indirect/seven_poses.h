@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/guide/carrier_poses.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/carrier_poses.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
 
 namespace linkwright::suspension {
@@ -19,7 +19,7 @@ using SixPositions = std::array<std::size_t, 6>;
 
 /// A rod that fits seven positions of the carrier, the reference among them.
 struct SevenPoseRod {
-  GuideLink link;
+  CornerLink link;
   double rms = 0;      ///< m: structural errors at all positions of the motion
   double largest = 0;  ///< m
 };
@@ -42,7 +42,7 @@ struct SevenPoseReport {
   /// Families of rods that share a point at one end while the other goes along a line: an RS link (the line
   /// is its hinge axis in the body) or an SR link (in the carrier). Two points 0.1 m apart stand for the
   /// axis.
-  std::vector<GuideLink> arms;
+  std::vector<CornerLink> arms;
 };
 
 /// All rods between body and carrier that keep their length in seven positions, the reference and six of

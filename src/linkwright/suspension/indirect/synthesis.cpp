@@ -11,7 +11,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/corner/structure.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
 #include "linkwright/suspension/indirect/pose_completion.h"
 #include "linkwright/suspension/indirect/seven_poses.h"
@@ -30,8 +30,8 @@ class Assembly {
           c.first >= 0 && c.second >= 0 && std::max(c.first, c.second) < static_cast<int>(task.links.size()),
           "coupler '{}': links {} and {} of {}", c.name, c.first, c.second, task.links.size());
     result.targets = task.targets;
-    result.guide.wheel = task.targets.wheel;
-    result.guide.rack_direction = task.targets.rack_direction;
+    result.suspension.wheel = task.targets.wheel;
+    result.suspension.rack_direction = task.targets.rack_direction;
     result.links.resize(task.links.size());
     result.couplers.resize(task.couplers.size());
     if (!carrier_pitch_is_given(task.targets)) settle_carrier_pitch();
@@ -54,7 +54,7 @@ class Assembly {
       const CouplerTask& task = task_.couplers[couplers[k]];
       fit.coupler = joint.couplers[k];
       fit.coupler.first = task.first, fit.coupler.second = task.second;
-      const GuideLink& first = result.links[static_cast<std::size_t>(task.first)].link;
+      const CornerLink& first = result.links[static_cast<std::size_t>(task.first)].link;
       fit.offset = fit.coupler.fraction * norm(first.carrier[0] - first.body[0]);
       set_errors(fit, joint.coupler_errors[k], tolerance, joint.status);
     }
@@ -69,12 +69,12 @@ class Assembly {
         result.status = status;
     };
     for (const LinkFit& fit : result.links) {
-      result.guide.links.push_back(fit.link);
+      result.suspension.links.push_back(fit.link);
       result.largest = std::max(result.largest, fit.largest);
       worsen(fit.status);
     }
     for (const CouplerFit& fit : result.couplers) {
-      result.guide.couplers.push_back(fit.coupler);
+      result.suspension.couplers.push_back(fit.coupler);
       result.largest = std::max(result.largest, fit.largest);
       worsen(fit.status);
     }
@@ -85,7 +85,7 @@ class Assembly {
                           std::all_of(result.couplers.begin(), result.couplers.end(),
                                       [](const CouplerFit& fit) { return std::isfinite(fit.rms); });
     if (complete) {
-      const Diagnostics structure = check_structure(result.guide);
+      const Diagnostics structure = check_structure(result.suspension);
       result.findings.insert(result.findings.end(), structure.begin(), structure.end());
       if (result.status == Status::done && has_errors(structure)) result.status = Status::singular;
     }
@@ -209,7 +209,7 @@ class ExactRods {
  public:
   ExactRods(const CarrierTargets& targets, std::uint64_t seed) : targets_(targets), seed_(seed) {}
 
-  std::span<const GuideLink> of(bool moved_by_rack, std::vector<GuideLink>& arms) {
+  std::span<const CornerLink> of(bool moved_by_rack, std::vector<CornerLink>& arms) {
     auto& rods = rods_[moved_by_rack ? 1 : 0];
     if (!rods) {
       rods.emplace();
@@ -225,18 +225,18 @@ class ExactRods {
  private:
   const CarrierTargets& targets_;
   std::uint64_t seed_;
-  std::array<std::optional<std::vector<GuideLink>>, 2> rods_;
+  std::array<std::optional<std::vector<CornerLink>>, 2> rods_;
 };
 
 LinkFit find_link(const LinkTask& task, std::uint32_t run, const LinkFitOptions& options,
-                  std::span<const GuideLink> exact, ExactRods& rods, IndirectSynthesis& result,
+                  std::span<const CornerLink> exact, ExactRods& rods, IndirectSynthesis& result,
                   std::uint64_t seed, RunContext& context) {
   LinkFit fit = fit_link(result.targets, task, options, exact, seed, context, run);
   const bool rod = task.type == LinkType::US || task.type == LinkType::SS;
   if (fit.status == Status::done || !rod || context.interrupted()) return fit;
-  std::vector<GuideLink> starts(rods.of(task.moved_by_rack, result.arms).begin(),
-                                rods.of(task.moved_by_rack, result.arms).end());
-  for (GuideLink& start : starts) start.type = task.type, start.name = task.name;
+  std::vector<CornerLink> starts(rods.of(task.moved_by_rack, result.arms).begin(),
+                                 rods.of(task.moved_by_rack, result.arms).end());
+  for (CornerLink& start : starts) start.type = task.type, start.name = task.name;
   LinkFit second = fit_link_from(starts, result.targets, task, options, exact, context);
   second.starts += fit.starts;
   second.duplicates += fit.duplicates;
@@ -254,7 +254,7 @@ std::vector<std::size_t> all_places(std::size_t count) {
 
 /// A group of links and their couplers as one start found them.
 struct GroupStart {
-  std::vector<GuideLink> links;
+  std::vector<CornerLink> links;
   std::vector<Coupler> couplers;
 };
 
@@ -292,7 +292,7 @@ void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& a
     const std::vector<CouplerTask> couplers = assembly.couplers_of(group, places);
     if (couplers.empty()) continue;
     bool exact = true, there = true;
-    std::vector<GuideLink> links;
+    std::vector<CornerLink> links;
     std::vector<Coupler> found;
     for (const std::size_t l : group) {
       const LinkFit& fit = assembly.result.links[l];
@@ -342,7 +342,7 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
     for (LinkFit& link : result.links) link.starts = fit.starts, link.duplicates = fit.refused;
     return assembly.finish(context);
   }
-  std::vector<GuideLink> exact;
+  std::vector<CornerLink> exact;
   ExactRods rods(result.targets, seed);
   for (std::size_t l = 0; l < task.links.size(); ++l) {
     LinkFit& fit = result.links[l];
@@ -360,7 +360,7 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
                       .fraction = static_cast<double>(l + 1) / static_cast<double>(task.links.size()),
                       .best = std::isfinite(fit.rms) ? fit.rms : nan});
   }
-  std::vector<GuideLink> links;
+  std::vector<CornerLink> links;
   for (const LinkFit& fit : result.links) links.push_back(fit.link);
   for (std::size_t k = 0; k < task.couplers.size(); ++k) {
     const CouplerTask& coupler = task.couplers[k];

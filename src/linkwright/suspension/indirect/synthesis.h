@@ -6,7 +6,7 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/suspension/guide/suspension.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/coupler_fit.h"
 #include "linkwright/suspension/indirect/link_fit.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
@@ -30,11 +30,11 @@ struct IndirectSynthesis {
   Status status = Status::infeasible;
   std::vector<LinkFit> links;  ///< each with its own status
   std::vector<CouplerFit> couplers;
-  WheelGuide guide;             ///< suspension, as far as it was found
-  CarrierTargets targets;       ///< targets with the carrier pitches that were not prescribed
-  double largest = 0;           ///< m: structural error of all links and couplers
-  double fewest = 0;            ///< positions that determine all links, see fewest_positions
-  std::vector<GuideLink> arms;  ///< hinged arms that exact rods come from, where these were asked for
+  Suspension suspension;         ///< suspension, as far as it was found
+  CarrierTargets targets;        ///< targets with the carrier pitches that were not prescribed
+  double largest = 0;            ///< m: structural error of all links and couplers
+  double fewest = 0;             ///< positions that determine all links, see fewest_positions
+  std::vector<CornerLink> arms;  ///< hinged arms that exact rods come from, where these were asked for
   std::int64_t evaluations = 0;
   int generations = 0;   ///< generations of population methods, all links together
   Diagnostics findings;  ///< findings of check_structure, and a warning when there are fewer positions

@@ -27,7 +27,7 @@ void require_options(const CarrierPitchFitOptions& o) {
 /// A search for everything, with its memory.
 class JointSearch {
  public:
-  JointSearch(GuideErrors& problem, const CarrierPitchFitOptions& options)
+  JointSearch(CornerErrors& problem, const CarrierPitchFitOptions& options)
       : problem_(problem), options_(options) {
     // The valleys are long, narrow and curved: metres of coordinates, micrometres of errors.
     local_.damping = math::Damping::identity;
@@ -56,7 +56,7 @@ class JointSearch {
     if (!problem_.evaluate(x, errors_, {})) return infinity;
     const double rms = problem_.totals(errors_).rms();
     if (!(rms < fit.rms)) return rms;
-    const std::vector<GuideLink> links = problem_.links();
+    const std::vector<CornerLink> links = problem_.links();
     for (std::size_t a = 0; a < links.size(); ++a)
       for (std::size_t b = a + 1; b < links.size(); ++b)
         if (links[a].type == links[b].type && links[a].moved_by_rack == links[b].moved_by_rack &&
@@ -82,7 +82,7 @@ class JointSearch {
  private:
   double half_rows() const { return static_cast<double>(problem_.rows()) / 2; }
 
-  GuideErrors& problem_;
+  CornerErrors& problem_;
   CarrierPitchFitOptions options_;
   math::LeastSquaresOptions local_;
   math::LeastSquaresWorkspace workspace_;
@@ -95,7 +95,7 @@ CarrierPitchFit fit_with_unknown_carrier_pitch(const CarrierTargets& targets, st
                                                const CarrierPitchFitOptions& options, std::uint64_t seed,
                                                RunContext& context, std::span<const CouplerTask> couplers) {
   require_options(options);
-  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
+  CornerErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
   const std::size_t n = problem.unknowns();
   LINKWRIGHT_REQUIRE(n > 0, "nothing is unknown");
   JointSearch search(problem, options);
@@ -142,10 +142,10 @@ CarrierPitchFit fit_with_unknown_carrier_pitch(const CarrierTargets& targets, st
 }
 
 CarrierPitchFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> tasks,
-                             std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
+                             std::span<const CouplerTask> couplers, std::span<const CornerLink> start,
                              std::span<const Coupler> coupler_start, const CarrierPitchFitOptions& options) {
   require_options(options);
-  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
+  CornerErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
   LINKWRIGHT_REQUIRE(problem.unknowns() > 0, "nothing is unknown");
   LINKWRIGHT_REQUIRE(start.size() == tasks.size() && coupler_start.size() == couplers.size(),
                      "{} links and {} couplers to start {} and {} from", start.size(), coupler_start.size(),

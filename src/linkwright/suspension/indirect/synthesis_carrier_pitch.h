@@ -9,7 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/indirect/guide_errors.h"
+#include "linkwright/suspension/indirect/corner_errors.h"
 #include "linkwright/suspension/indirect/link_task.h"
 
 namespace linkwright::suspension {
@@ -47,7 +47,7 @@ struct CarrierPitchFit {
   /// done: within the tolerance; not_converged: the best of all starts; infeasible: every start ended in two
   /// equal links; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
-  std::vector<GuideLink> links;
+  std::vector<CornerLink> links;
   std::vector<Coupler> couplers;
   CarrierTargets targets;  ///< targets with the carrier pitches found, continuing those given
   std::vector<ErrorTotals> link_errors, coupler_errors;
@@ -72,7 +72,7 @@ CarrierPitchFit fit_with_unknown_carrier_pitch(const CarrierTargets& targets, st
 
 /// One search from a place nearby, for links that share couplers and positions that are not exact.
 CarrierPitchFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> links,
-                             std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
+                             std::span<const CouplerTask> couplers, std::span<const CornerLink> start,
                              std::span<const Coupler> coupler_start, const CarrierPitchFitOptions& options);
 
 }  // namespace linkwright::suspension

@@ -16,9 +16,9 @@
 namespace linkwright::suspension {
 namespace {
 
-bool is_steered(const WheelGuide& guide) {
-  return std::any_of(guide.links.begin(), guide.links.end(),
-                     [](const GuideLink& l) { return l.moved_by_rack; });
+bool is_steered(const Suspension& suspension) {
+  return std::any_of(suspension.links.begin(), suspension.links.end(),
+                     [](const CornerLink& l) { return l.moved_by_rack; });
 }
 
 /// Columns of rows that are there, NaN for the others.
@@ -133,9 +133,9 @@ void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::stri
 
 }  // namespace
 
-void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide) {
+void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspension& suspension) {
   auto table = document.table("axle");
-  if (std::abs(guide.wheel.centre.y) < 1e-9)
+  if (std::abs(suspension.wheel.centre.y) < 1e-9)
     table->error("roll", "the wheel centre lies in the middle of the vehicle: there is no axle",
                  "give the points in the vehicle's frame, y = 0 in its middle");
   if (axle.roll)
@@ -143,7 +143,7 @@ void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGui
       if (auto values = values_of(*roll, *axle.roll, "deg"))
         axle.roll = listed<AngleValues>(*std::move(values));
   if (axle.rack) {
-    if (!is_steered(guide))
+    if (!is_steered(suspension))
       table->error("rack", "no link is moved by the rack",
                    "write moved_by = \"rack\" in the tie rod's table");
     if (auto rack = table->table("rack"))
@@ -210,9 +210,9 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
        {brake + "_outboard_percent", brake + "_inboard_percent", drive + "_percent"});
 }
 
-void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& form,
+void add_axle(study::Result& result, const Suspension& suspension, const AxleForm& form,
               const std::optional<VehicleForm>& vehicle, const RunContext& context) {
-  const AxlePlan plan = prepare_axle(guide);
+  const AxlePlan plan = prepare_axle(suspension);
   const AxlePosition reference = reference_position(plan);
   if (reference.status != Status::done) return;  // the sweep says why
   const AxleParameters straight = axle_parameters(plan, reference);

@@ -52,7 +52,7 @@ void fields(Visitor&& visit, AxleForm& a) {
 }
 
 /// Checks what was read against the suspension; problems go to the reader. Values are replaced by their list.
-void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide);
+void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspension& suspension);
 /// True if the positions of complete_axle() have room in memory; an error at the reader if not.
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 
@@ -62,7 +62,7 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels, std::size_t stated, const Sentence& position);
 /// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
 /// stop.
-void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& axle,
+void add_axle(study::Result& result, const Suspension& suspension, const AxleForm& axle,
               const std::optional<VehicleForm>& vehicle, const RunContext& context);
 
 }  // namespace linkwright::suspension

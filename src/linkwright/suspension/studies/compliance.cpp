@@ -10,14 +10,14 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/corner/position.h"
 
 namespace linkwright::suspension {
 namespace {
 
-int link_index(const WheelGuide& guide, const std::string& name) {
-  for (std::size_t i = 0; i < guide.links.size(); ++i)
-    if (guide.links[i].name == name) return static_cast<int>(i);
+int link_index(const Suspension& suspension, const std::string& name) {
+  for (std::size_t i = 0; i < suspension.links.size(); ++i)
+    if (suspension.links[i].name == name) return static_cast<int>(i);
   return -1;
 }
 
@@ -31,13 +31,13 @@ JointStiffness stiffness_of(const JointForm& j) {
                  {axis[0], axis[1], axis[2]});
 }
 
-GuideElasticity elasticity_of(const GuideDescription& description, const ComplianceForm& form) {
-  const WheelGuide& guide = description.guide;
-  GuideElasticity out{.links = std::vector<LinkElasticity>(guide.links.size()),
-                      .couplers = {},
-                      .spring = description.spring ? description.spring->stiffness : 0};
+CornerElasticity elasticity_of(const CornerDescription& description, const ComplianceForm& form) {
+  const Suspension& suspension = description.suspension;
+  CornerElasticity out{.links = std::vector<LinkElasticity>(suspension.links.size()),
+                       .couplers = {},
+                       .spring = description.spring ? description.spring->stiffness : 0};
   for (const JointForm& j : form.joints) {
-    LinkElasticity& link = out.links[static_cast<std::size_t>(link_index(guide, j.link))];
+    LinkElasticity& link = out.links[static_cast<std::size_t>(link_index(suspension, j.link))];
     (j.end.value_or(LinkEnd::body) == LinkEnd::body ? link.body : link.carrier).push_back(stiffness_of(j));
   }
   return out;
@@ -45,7 +45,7 @@ GuideElasticity elasticity_of(const GuideDescription& description, const Complia
 
 /// "lower wishbone, body 2": several joints at one end are counted.
 template <class Joint, class Force>
-std::vector<std::string> joint_names(const WheelGuide& guide, const std::vector<Joint>& joints,
+std::vector<std::string> joint_names(const Suspension& suspension, const std::vector<Joint>& joints,
                                      Force&& force) {
   std::vector<std::string> out;
   const auto same = [&](const JointForce& a, const JointForce& b) {
@@ -56,7 +56,7 @@ std::vector<std::string> joint_names(const WheelGuide& guide, const std::vector<
     int number = 1, count = 0;
     for (std::size_t k = 0; k < joints.size(); ++k)
       if (same(force(joints[k]), joint)) ++count, number += k < i ? 1 : 0;
-    const std::string name = guide.links[static_cast<std::size_t>(joint.link)].name;
+    const std::string name = suspension.links[static_cast<std::size_t>(joint.link)].name;
     out.push_back(fmt::format("{}, {}{}", name, joint.at_carrier ? "carrier" : "body",
                               count > 1 ? fmt::format(" {}", number) : std::string()));
   }
@@ -130,9 +130,9 @@ constexpr std::array told_cases{LoadCase::lateral, LoadCase::brake_outboard, Loa
                                 LoadCase::vertical, LoadCase::aligning_torque};
 
 /// Sizes of the joint forces by a kilonewton or 100 N m of each standard case.
-Table forces_table(const WheelGuide& guide, const Compliance& compliance) {
+Table forces_table(const Suspension& suspension, const Compliance& compliance) {
   Table table{.name = "joint_forces"};
-  table.names = joint_names(guide, compliance.joints, [](const JointTransfer& t) { return t.joint; });
+  table.names = joint_names(suspension, compliance.joints, [](const JointTransfer& t) { return t.joint; });
   for (const LoadCase load : told_cases) {
     const bool torque = load == LoadCase::aligning_torque;
     const double size = torque ? per_100_newton_metres : per_kilonewton;
@@ -178,11 +178,11 @@ Table loads_table(const Compliance& compliance, const std::vector<LoadForm>& loa
 }
 
 /// Forces in the joints (x, y, z in the vehicle's frame) for the given loads: one table a load.
-Table load_forces_table(const WheelGuide& guide, const Compliance& compliance, const LoadForm& l,
+Table load_forces_table(const Suspension& suspension, const Compliance& compliance, const LoadForm& l,
                         std::size_t number) {
   Table table{.name = fmt::format("load_forces-{}", number)};
   const ElasticResponse r = respond(compliance, load_of(compliance, l));
-  table.names = joint_names(guide, r.joints, [](const JointForce& j) { return j; });
+  table.names = joint_names(suspension, r.joints, [](const JointForce& j) { return j; });
   std::array<std::vector<double>, 4> c;
   for (const JointForce& j : r.joints) {
     c[0].push_back(j.force.x);
@@ -200,12 +200,12 @@ Table load_forces_table(const WheelGuide& guide, const Compliance& compliance, c
 }  // namespace
 
 void check_compliance(study::ObjectReader& document, ComplianceForm& form,
-                      const GuideDescription& description) {
-  const WheelGuide& guide = description.guide;
+                      const CornerDescription& description) {
+  const Suspension& suspension = description.suspension;
   auto table = document.table("compliance");
   std::vector<study::ObjectReader> joints = table->tables("joint");
   std::vector<std::string_view> known;
-  for (const GuideLink& l : guide.links) known.emplace_back(l.name);
+  for (const CornerLink& l : suspension.links) known.emplace_back(l.name);
   bool good = true;
   for (std::size_t i = 0; i < form.joints.size() && i < joints.size(); ++i) {
     const JointForm& j = form.joints[i];
@@ -213,13 +213,13 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
       joints[i].error(key, std::move(message), std::move(hint));
       good = false;
     };
-    const int link = link_index(guide, j.link);
+    const int link = link_index(suspension, j.link);
     if (link < 0) {
       joints[i].no_such("link", "link", j.link, known);
       good = false;
       continue;
     }
-    const LinkType type = guide.links[static_cast<std::size_t>(link)].type;
+    const LinkType type = suspension.links[static_cast<std::size_t>(link)].type;
     if (!j.end && !is_rod(type))
       wrong("end", fmt::format("is missing: '{}' is not a rod", j.link),
             "write end = \"body\" or \"carrier\"");
@@ -239,7 +239,7 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
                  "write stiffness_N_per_mm in [mechanism.spring]");
     good = false;
   }
-  if (*form.support == Support::spring_held && !guide.spring) {
+  if (*form.support == Support::spring_held && !suspension.spring) {
     table->error("support", "there is no spring to hold", "add [mechanism.spring], or take contact_held");
     good = false;
   }
@@ -249,30 +249,30 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     good = false;
   }
   if (!good) return;
-  for (const Diagnostic& d : check(guide, elasticity_of(description, form)))
+  for (const Diagnostic& d : check(suspension, elasticity_of(description, form)))
     table->error("joint", to_string(d.message), to_string(d.hint));
 }
 
-void add_compliance(study::Result& result, const GuideDescription& description, const ComplianceForm& form) {
-  const WheelGuide& guide = description.guide;
-  const GuidePlan plan = prepare_guide(guide);
-  const GuidePosition reference = reference_position(plan);
+void add_compliance(study::Result& result, const CornerDescription& description, const ComplianceForm& form) {
+  const Suspension& suspension = description.suspension;
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition reference = reference_position(plan);
   const study::AddWarning warn{result.diagnostics};
   if (reference.status != Status::done)
     return warn("compliance", "no compliance: there is no reference position",
                 "see the remarks on positions");
   std::optional<PointLoad> preload;
   if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
-  const Compliance c =
-      solve_compliance(guide, reference.place, 0, elasticity_of(description, form), *form.support, preload);
+  const Compliance c = solve_compliance(suspension, reference.place, 0, elasticity_of(description, form),
+                                        *form.support, preload);
   if (c.status != Status::done)
     return warn("compliance", "no compliance: " + c.reason, "are all freedoms of the links held once?");
   result.tables.push_back(coefficients_table(c));
   result.tables.push_back(matrix_table(c));
-  result.tables.push_back(forces_table(guide, c));
+  result.tables.push_back(forces_table(suspension, c));
   if (!form.loads.empty()) result.tables.push_back(loads_table(c, form.loads));
   for (std::size_t i = 0; i < form.loads.size(); ++i)
-    result.tables.push_back(load_forces_table(guide, c, form.loads[i], i + 1));
+    result.tables.push_back(load_forces_table(suspension, c, form.loads[i], i + 1));
   const ComplianceCoefficients k = compliance_coefficients(c);
   const std::string held = fmt::format(" ({})", name_of(c.support));
   const auto fact = [&](std::string label, const Unit& unit, double value) {

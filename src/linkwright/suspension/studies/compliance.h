@@ -11,7 +11,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/compliance/coefficients.h"
 #include "linkwright/suspension/compliance/compliance.h"
-#include "linkwright/suspension/studies/guide.h"
+#include "linkwright/suspension/studies/corner.h"
 
 // The table `[compliance]`: loads and elastic joints in an analysis of a wheel suspension.
 namespace linkwright::suspension {
@@ -92,11 +92,11 @@ void fields(Visitor&& visit, ComplianceForm& c) {
 
 /// Checks what was read against the suspension; problems go to the reader.
 void check_compliance(study::ObjectReader& document, ComplianceForm& compliance,
-                      const GuideDescription& description);
+                      const CornerDescription& description);
 
 /// The tables `compliance` (coefficients), `compliance_matrix`, `joint_forces` (by load case) and `loads`, at
 /// the reference position.
-void add_compliance(study::Result& result, const GuideDescription& description,
+void add_compliance(study::Result& result, const CornerDescription& description,
                     const ComplianceForm& compliance);
 
 }  // namespace linkwright::suspension

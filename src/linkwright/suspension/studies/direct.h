@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "linkwright/suspension/direct/synthesis.h"
-#include "linkwright/suspension/studies/guide.h"
+#include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/studies/values.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 
 // The synthesis of a wheel suspension from what its wheel is to do: what its file holds, how it is read, run
 // and reported.
@@ -19,7 +19,7 @@ namespace linkwright::suspension {
 
 /// One curve of `[[target.curve]]` as read; what its numbers measure depends on the quantity.
 struct CurveForm {
-  const GuideColumn* column = nullptr;
+  const CornerColumn* column = nullptr;
   TargetMeasure measure = TargetMeasure::value;
   std::string objective;               ///< curves of one objective count together
   std::vector<double> travels, racks;  ///< m, one for each value
@@ -181,7 +181,7 @@ void fields(Visitor&& visit, DirectOptimiser& o) {
 
 /// A synthesis as read.
 struct DirectStudy {
-  GuideDescription description;
+  CornerDescription description;
   std::vector<CurveForm> curves;
   std::vector<DirectConstraint> constraints;
   DirectOptimiser optimiser;

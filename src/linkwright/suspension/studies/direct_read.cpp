@@ -23,7 +23,7 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::size_t most_targets = 5000;
+constexpr std::size_t max_targets = 5000;
 
 /// A point of a link by its label.
 struct PointAddress {
@@ -32,19 +32,20 @@ struct PointAddress {
   int point = 0;
 };
 
-std::string point_label(const GuideLink& link, bool carrier, std::size_t point) {
+std::string point_label(const CornerLink& link, bool carrier, std::size_t point) {
   const std::size_t count = (carrier ? link.carrier : link.body).size();
   return fmt::format("{}.{}{}", link.name, carrier ? "carrier" : "body",
                      count > 1 ? fmt::format("_{}", point + 1) : std::string());
 }
 
-std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGuide& guide,
+std::optional<PointAddress> find_point(study::ObjectReader& table, const Suspension& suspension,
                                        const std::string& label) {
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < guide.links.size(); ++i)
+  for (std::size_t i = 0; i < suspension.links.size(); ++i)
     for (const bool carrier : {false, true})
-      for (std::size_t k = 0; k < (carrier ? guide.links[i].carrier : guide.links[i].body).size(); ++k) {
-        known.push_back(point_label(guide.links[i], carrier, k));
+      for (std::size_t k = 0; k < (carrier ? suspension.links[i].carrier : suspension.links[i].body).size();
+           ++k) {
+        known.push_back(point_label(suspension.links[i], carrier, k));
         if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
       }
   const std::vector<std::string_view> words(known.begin(), known.end());
@@ -52,18 +53,18 @@ std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGu
   return std::nullopt;
 }
 
-std::optional<int> find_link(study::ObjectReader& table, std::string_view key, const WheelGuide& guide,
+std::optional<int> find_link(study::ObjectReader& table, std::string_view key, const Suspension& suspension,
                              const std::string& name) {
   std::vector<std::string_view> known;
-  for (std::size_t i = 0; i < guide.links.size(); ++i) {
-    if (guide.links[i].name == name) return static_cast<int>(i);
-    known.emplace_back(guide.links[i].name);
+  for (std::size_t i = 0; i < suspension.links.size(); ++i) {
+    if (suspension.links[i].name == name) return static_cast<int>(i);
+    known.emplace_back(suspension.links[i].name);
   }
   table.no_such(key, "link", name, known);
   return std::nullopt;
 }
 
-Dimension dimension_of(const GuideColumn& c, TargetMeasure measure) {
+Dimension dimension_of(const CornerColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
   return parts && measure != TargetMeasure::relative_change ? parts->dimension : Dimension::none;
 }
@@ -93,8 +94,8 @@ class TargetReader {
         count += curve->values.size();
         s_.curves.push_back(*std::move(curve));
       }
-    if (count > most_targets)
-      target_.error("curve", fmt::format("{} targets, at most {} are allowed", count, most_targets));
+    if (count > max_targets)
+      target_.error("curve", fmt::format("{} targets, at most {} are allowed", count, max_targets));
   }
 
  private:
@@ -117,7 +118,7 @@ class TargetReader {
   std::optional<CurveForm> read_curve(study::ObjectReader& table) {
     CurveForm c;
     std::vector<std::string> bases;
-    for (const GuideColumn& column : guide_columns())
+    for (const CornerColumn& column : corner_columns())
       if (quantity_of(column, s_.lock)) bases.push_back(study::base_of(column.key));
     std::vector<Word> words;
     for (const std::string& b : bases) words.push_back({b});
@@ -129,9 +130,9 @@ class TargetReader {
       table.members();  // the meaning of the other keys depends on the quantity
       return std::nullopt;
     }
-    c.column = guide_column(bases[*which]);
-    if (!s_.description.guide.links.empty())
-      if (const std::string why = why_missing(s_.description.guide, *c.column); !why.empty())
+    c.column = corner_column(bases[*which]);
+    if (!s_.description.suspension.links.empty())
+      if (const std::string why = why_missing(s_.description.suspension, *c.column); !why.empty())
         table.error("quantity", fmt::format("this suspension has no '{}': {}", bases[*which], why));
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
@@ -201,7 +202,7 @@ void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<Des
   std::vector<DesignForm> forms;
   document(field::entry("design"), forms);
   std::vector<study::ObjectReader> tables = document.tables("design");
-  WheelGuide& guide = s.description.guide;
+  Suspension& suspension = s.description.suspension;
   for (std::size_t i = 0; i < forms.size() && i < tables.size(); ++i) {
     const DesignForm& d = forms[i];
     study::ObjectReader& table = tables[i];
@@ -211,20 +212,20 @@ void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<Des
       continue;
     }
     if (!d.point.empty()) {
-      const auto at = find_point(table, guide, d.point);
+      const auto at = find_point(table, suspension, d.point);
       if (!d.box)
         table.error("box", "this key is missing", "write box_mm = 40.0 for a cube around the point");
       if (!at || !d.box) continue;
       LinkTask& task = s.description.links[static_cast<std::size_t>(at->link)];
-      const GuideLink& link = guide.links[static_cast<std::size_t>(at->link)];
+      const CornerLink& link = suspension.links[static_cast<std::size_t>(at->link)];
       const auto point = static_cast<std::size_t>(at->point);
       (at->carrier ? task.carrier : task.body)[point] =
           box_of((at->carrier ? link.carrier : link.body)[point], *d.box, {}, d.given);
       continue;
     }
-    const auto link = find_link(table, "link", guide, d.link);
+    const auto link = find_link(table, "link", suspension, d.link);
     if (!link) continue;
-    GuideLink& l = guide.links[static_cast<std::size_t>(*link)];
+    CornerLink& l = suspension.links[static_cast<std::size_t>(*link)];
     if (l.type != LinkType::US && l.type != LinkType::SS) {
       table.error("link", fmt::format("'{}' is of type {}: only US links have a length to design", l.name,
                                       name_of(l.type)));
@@ -263,19 +264,19 @@ PointBox box_of(const Range& x, const Range& y, const Range& z) {
 }
 
 void add_limit(study::ObjectReader& table, const LengthConstraint& c, DirectStudy& s) {
-  const auto link = find_link(table, "link", s.description.guide, c.link);
+  const auto link = find_link(table, "link", s.description.suspension, c.link);
   if (!c.min && !c.max) table.error("min", "no limit is given", "write min_mm, max_mm or both");
   if (link) s.task.limits.lengths.push_back({*link, c.min.value_or(0), c.max.value_or(infinity)});
 }
 void add_limit(study::ObjectReader& table, const LinkClearanceConstraint& c, DirectStudy& s) {
-  const auto first = find_link(table, "first", s.description.guide, c.first);
-  const auto second = find_link(table, "second", s.description.guide, c.second);
+  const auto first = find_link(table, "first", s.description.suspension, c.first);
+  const auto second = find_link(table, "second", s.description.suspension, c.second);
   if (first && second && *first == *second) table.error("second", "is the same link", "name another one");
   if (first && second) s.task.limits.links.push_back({*first, *second, c.min});
 }
 void add_limit(study::ObjectReader& table, const TyreClearanceConstraint& c, DirectStudy& s) {
-  const auto link = find_link(table, "link", s.description.guide, c.link);
-  const double outer = c.outer_diameter.value_or(s.description.guide.wheel.tyre_diameter);
+  const auto link = find_link(table, "link", s.description.suspension, c.link);
+  const double outer = c.outer_diameter.value_or(s.description.suspension.wheel.tyre_diameter);
   if (!(outer > c.inner_diameter))
     table.error("inner_diameter", fmt::format("is {}, must be less than the outer one, {}",
                                               s.units.text(c.inner_diameter, Dimension::length, 6),
@@ -283,11 +284,11 @@ void add_limit(study::ObjectReader& table, const TyreClearanceConstraint& c, Dir
   if (link) s.task.limits.tyres.push_back({*link, {c.inner_diameter, outer, c.width}, c.min});
 }
 void add_limit(study::ObjectReader& table, const BoxClearanceConstraint& c, DirectStudy& s) {
-  const auto link = find_link(table, "link", s.description.guide, c.link);
+  const auto link = find_link(table, "link", s.description.suspension, c.link);
   if (link) s.task.limits.boxes.push_back({*link, box_of(c.x, c.y, c.z), c.min});
 }
 void add_limit(study::ObjectReader& table, const KeepOutConstraint& c, DirectStudy& s) {
-  if (const auto at = find_point(table, s.description.guide, c.point))
+  if (const auto at = find_point(table, s.description.suspension, c.point))
     s.task.limits.keep_out.push_back({at->link, at->carrier, at->point, box_of(c.x, c.y, c.z)});
 }
 
@@ -335,10 +336,10 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
                                              Value& canonical) {
   DirectStudy s;
   s.units = common.units;
-  const auto description = read_guide(document, common, OpenPoints::boxes);
+  const auto description = read_suspension(document, common, OpenPoints::boxes);
   if (description) {
     s.description = *description;
-    s.lock = description->guide.spring ? Driver::spring : Driver::wheel_centre_z;
+    s.lock = description->suspension.spring ? Driver::spring : Driver::wheel_centre_z;
   }
   auto target = document.table(field::entry("target").required());
   if (target) {
@@ -346,7 +347,7 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
     target->operator()(field::entry("steering_lock"), lock);
     if (lock) s.lock = *lock;
     TargetReader(*target, common, s).read();
-    if (description && !description->guide.spring &&
+    if (description && !description->suspension.spring &&
         (s.lock == Driver::spring || s.task.driver == Driver::spring))
       target->error(s.lock == Driver::spring ? "steering_lock" : "coordinate", "there is no spring",
                     "add [mechanism.spring], or take wheel_centre_z");
@@ -382,9 +383,9 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
     }
   }
   if (document.document().has_errors()) return std::nullopt;
-  s.task.guide = s.description.guide;
+  s.task.suspension = s.description.suspension;
 
-  canonical["mechanism"] = write_guide(s.description);
+  canonical["mechanism"] = write_suspension(s.description);
   Value target_out;
   target_out["coordinate"] = name_of(s.task.driver);
   target_out["steering_lock"] = name_of(s.lock);
@@ -415,7 +416,7 @@ study::Kind direct_kind() {
   kind.seeded = true;
   kind.example = templates::synthesis_corner_wheel_parameters();
   kind.schema = [](study::SchemaWriter& document) {
-    describe_guide(document);
+    describe_suspension(document);
     study::SchemaWriter target, curve;
     curve.property(field::entry("quantity", "column of an analysis, without unit").required(), Value());
     curve.property(field::entry("measure", "value, change, relative_change"), Value());

@@ -15,10 +15,10 @@
 #include "linkwright/study/design_variables.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
-#include "linkwright/suspension/guide/hard_points.h"
-#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/studies/corner_scene.h"
 #include "linkwright/suspension/studies/direct.h"
-#include "linkwright/suspension/studies/guide_scene.h"
 #include "linkwright/suspension/studies/sweep.h"
 
 namespace linkwright::suspension {
@@ -69,7 +69,7 @@ using Runs = study::SeedRuns<DirectSynthesis>;
 /// A finished seed as a checkpoint saves it: the design, not what it achieves.
 Value kept(const DirectSynthesis& answer) {
   Value out;
-  out["status"] = study::kept_status(answer.status);
+  out["status"] = study::saved_status(answer.status);
   out["shares"] = pack_numbers(answer.shares);
   out["assembled"] = answer.assembled;
   out["reached_best"] = answer.reached_best;
@@ -79,19 +79,19 @@ Value kept(const DirectSynthesis& answer) {
 
 DirectSynthesis restored(const Value& value, const DirectStudy& s, std::string_view what) {
   constexpr double rounding = 1e-9;
-  const std::vector<double> shares = study::restored_numbers(value, "shares", s.task.designed.size(), what);
+  const std::vector<double> shares = study::load_numbers(value, "shares", s.task.designed.size(), what);
   if (!std::all_of(shares.begin(), shares.end(),
                    [](double u) { return std::abs(u - 0.5) <= 0.5 + rounding; }))
     throw CheckpointError(fmt::format("{}: its design lies outside of the ranges", what));
   DirectSynthesis out = assess(s.task, options_of(s), shares);
-  out.status = study::restored_status(value, what);
-  out.assembled = static_cast<int>(kept_integer(value, "assembled", 0, 1000000, what));
-  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.assembled, what));
-  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  out.status = study::load_status(value, what);
+  out.assembled = static_cast<int>(load_integer(value, "assembled", 0, 1000000, what));
+  out.reached_best = static_cast<int>(load_integer(value, "reached_best", 0, out.assembled, what));
+  out.evaluations = load_integer(value, "evaluations", 0, study::max_kept_evaluations, what);
   return out;
 }
 
-std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
+std::string unit_suffix(const CornerColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
   return parts && measure != TargetMeasure::relative_change ? "_" + std::string(parts->unit->suffix)
                                                             : std::string();
@@ -170,20 +170,20 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
 }
 
 /// The standard curves of a design over the travels of the targets.
-Table direct_sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string name,
+Table direct_sweep_table(const DirectStudy& s, const Suspension& suspension, std::string name,
                          std::span<const double> travels) {
   Table table{.name = std::move(name)};
   const std::array<double, 1> racks{0};
-  const GridPositions grid = solve_grid(prepare_guide(guide), s.task.driver, travels, racks);
+  const GridPositions grid = solve_grid(prepare_suspension(suspension), s.task.driver, travels, racks);
   table.add("travel_m", "travel (m)", {travels.begin(), travels.end()});
-  for (const GuideColumn& c : guide_columns()) {
+  for (const CornerColumn& c : corner_columns()) {
     std::vector<double> values;
     for (std::size_t i = 0; i < travels.size(); ++i)
       values.push_back(value_of(c, {grid.positions[i], grid.wheels[i], s.lock}));
     if (std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }))
       table.add(std::string(c.key), std::string(c.label), std::move(values));
   }
-  for (const GuidePosition& p : grid.positions) table.status.emplace_back(to_string(p.status));
+  for (const CornerPosition& p : grid.positions) table.status.emplace_back(to_string(p.status));
   return table;
 }
 
@@ -215,9 +215,9 @@ Range1 range_of(const DirectStudy& s) {
 void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthesis& best,
                  const DirectSynthesis& before) {
   const Range1 range = range_of(s);
-  result.tables.push_back(direct_sweep_table(s, best.guide, "sweep", range.travels));
+  result.tables.push_back(direct_sweep_table(s, best.suspension, "sweep", range.travels));
   if (before.answer.assembled)
-    result.tables.push_back(direct_sweep_table(s, s.task.guide, "initial", range.travels));
+    result.tables.push_back(direct_sweep_table(s, s.task.suspension, "initial", range.travels));
   const study::AddPlot plot{result,
                             {.table = "sweep",
                              .x = "travel_m",
@@ -231,18 +231,19 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
            {"caster_rad", "Caster over travel"},
            {"motion_ratio", "Motion ratio of the spring over travel"}})
     plot(std::string("sweep-") + key, title, {key});
-  const GridPositions grid = solve_grid(prepare_guide(best.guide), s.task.driver, range.travels, range.racks);
+  const GridPositions grid =
+      solve_grid(prepare_suspension(best.suspension), s.task.driver, range.travels, range.racks);
   result.scenes.push_back(
-      guide_scene(best.guide, "solution-1", "the design found",
-                  {s.task.driver, range.travels, range.racks, grid.positions, grid.wheels, s.lock}));
+      corner_scene(best.suspension, "solution-1", "the design found",
+                   {s.task.driver, range.travels, range.racks, grid.positions, grid.wheels, s.lock}));
 }
 
 study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
   study::Solution out;
-  out.label = structure_name(structure_of(best.guide));
+  out.label = structure_name(structure_of(best.suspension));
   for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
     const DesignVariable& d = s.task.designed[i];
-    const std::string name = label(s.task.guide, d.number);
+    const std::string name = label(s.task.suspension, d.number);
     out.parameters.push_back({plain_name(name) + "_m", name, best.x.at(i), d.lower, d.upper});
   }
   for (std::size_t i = 0; i < best.objectives.size(); ++i)
@@ -258,7 +259,7 @@ study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
     if (l.excess > 1e-9) out.defects.push_back(say("{}: missed by {}", l.name, millimetres(l.excess)));
   out.scene = best.answer.assembled ? "solution-1" : "";
   const Range1 range = range_of(s);
-  out.study = sweep_of_found(s.description, best.guide, s.task.driver, range.travels,
+  out.study = sweep_of_found(s.description, best.suspension, s.task.driver, range.travels,
                              {range.racks.front(), 0, range.racks.back()}, s.lock);
   return out;
 }
@@ -297,7 +298,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
 
 Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {
   Table table{.name = "weak_directions"};
-  for (const DesignVariable& d : s.task.designed) table.names.push_back(label(s.task.guide, d.number));
+  for (const DesignVariable& d : s.task.designed) table.names.push_back(label(s.task.suspension, d.number));
   for (std::size_t k = best.singular_values.size(); k-- > 0;)
     table.add(fmt::format("direction_{}", k + 1),
               fmt::format("direction {} (share of its range), singular value {:.3g}", k + 1,
@@ -311,7 +312,7 @@ Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {
 study::Result run_direct_study(const DirectStudy& s, const study::Common& common, RunContext& context) {
   study::Result result;
   const DirectOptions& options = options_of(s);
-  const DirectSynthesis before = assess(s.task, options, s.task.guide);
+  const DirectSynthesis before = assess(s.task, options, s.task.suspension);
   const Runs runs = study::run_seeds(
       common.seeds, context, "designs",
       [&](std::uint64_t seed) {
@@ -340,7 +341,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   result.solutions.push_back(solution_of(s, best));
   add_curves(result, s, best, before);
   add_designs(result, s, best, before);
-  result.tables.push_back(hard_point_table(points_of(best.guide)));
+  result.tables.push_back(hard_point_table(points_of(best.suspension)));
   result.tables.push_back(directions_table(s, best));
   add_statistics(result, s, runs, cost_of(best, options));
   for (std::size_t i = 0; i < best.objectives.size(); ++i)
@@ -381,7 +382,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
     const DesignVariable& d = s.task.designed[i];
     const double span = d.upper - d.lower;
     if (best.x[i] - d.lower < 1e-6 * span || d.upper - best.x[i] < 1e-6 * span)
-      warn(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),
+      warn(fmt::format("{} lies at its limit, {}", label(s.task.suspension, d.number),
                        d.number.kind == DesignKind::coupler_fraction
                            ? fmt::format("{:.6g}", best.x[i])
                            : common.units.text(best.x[i], Dimension::length, 6)),

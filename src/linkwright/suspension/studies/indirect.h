@@ -10,7 +10,7 @@
 
 #include "linkwright/study/bind.h"
 #include "linkwright/suspension/indirect/synthesis.h"
-#include "linkwright/suspension/studies/guide.h"
+#include "linkwright/suspension/studies/corner.h"
 
 // The synthesis of a wheel suspension from positions of its carrier: what its file holds, how it is read, run
 // and reported.
@@ -90,7 +90,7 @@ void fields(Visitor&& visit, IndirectOptimiser& o) {
 
 /// A synthesis as read.
 struct IndirectStudy {
-  GuideDescription description;
+  CornerDescription description;
   IndirectTask task;  ///< task for a left wheel: a right one is mirrored, and its answer mirrored back
   IndirectOptimiser optimiser;
 };

@@ -10,14 +10,14 @@
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
-#include "linkwright/suspension/guide/plausibility.h"
+#include "linkwright/suspension/corner/plausibility.h"
 #include "linkwright/suspension/studies/indirect.h"
 #include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::size_t most_poses = 2000;
+constexpr std::size_t max_poses = 2000;
 
 bool open_box(const PointBox& box) { return !(box.lower == box.upper); }
 
@@ -38,7 +38,7 @@ bool fully_open(const PointBox& b) {
 
 /// Two points of an axis, and the point of a strut, may slide along it: where a study leaves all their
 /// coordinates open, the one along the axis stays where the box is.
-void settle_axes(LinkTask& task, const GuideLink& start) {
+void settle_axes(LinkTask& task, const CornerLink& start) {
   for (auto [boxes, points] : {std::pair{&task.body, &start.body}, std::pair{&task.carrier, &start.carrier}})
     if (points->size() == 2)
       for (std::size_t i = 0; i < 2; ++i)
@@ -88,9 +88,9 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
                                     {p.toe, p.camber, p.carrier_pitch.value_or(std::nan(""))}});
   }
   const char* key = form.file ? "file" : "pose";
-  if (task.targets.poses.size() > most_poses)
+  if (task.targets.poses.size() > max_poses)
     target.error(key,
-                 fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), most_poses));
+                 fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), max_poses));
   for (const Diagnostic& d : implausible(task.targets))
     d.severity == Diagnostic::Severity::error ? target.error(key, to_string(d.message), to_string(d.hint))
                                               : target.warning(key, to_string(d.message), to_string(d.hint));
@@ -106,19 +106,19 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
 std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, const study::Common& common,
                                                  Value& canonical) {
   IndirectStudy s;
-  const auto description = read_guide(document, common, OpenPoints::boxes);
+  const auto description = read_suspension(document, common, OpenPoints::boxes);
   PosesTarget form;
   if (description) {
     s.description = *description;
-    const WheelGuide& guide = description->guide;
-    s.task.targets.wheel = guide.wheel;
-    s.task.targets.rack_direction = guide.rack_direction;
+    const Suspension& suspension = description->suspension;
+    s.task.targets.wheel = suspension.wheel;
+    s.task.targets.rack_direction = suspension.rack_direction;
     s.task.links = description->links;
     s.task.couplers = description->couplers;
     bool open = std::any_of(s.task.couplers.begin(), s.task.couplers.end(),
                             [](const CouplerTask& c) { return open_box(c.point); });
     for (std::size_t i = 0; i < s.task.links.size(); ++i) {
-      settle_axes(s.task.links[i], guide.links[i]);
+      settle_axes(s.task.links[i], suspension.links[i]);
       const LinkTask& l = s.task.links[i];
       open = open || std::any_of(l.body.begin(), l.body.end(), open_box) ||
              std::any_of(l.carrier.begin(), l.carrier.end(), open_box);
@@ -127,14 +127,14 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
     if (!open)
       mechanism->error("link", "there is no design variable: all points are given",
                        "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
-    for (const Coupler& c : guide.couplers)
+    for (const Coupler& c : suspension.couplers)
       if (c.begin)
         mechanism->error(
             "coupler",
             fmt::format("'{}' begins off the line of its first link: this synthesis takes it on the line",
                         c.name),
             "give fraction or offset instead of first_point");
-    for (const GuideLink& l : guide.links)
+    for (const CornerLink& l : suspension.links)
       if (l.length)
         mechanism->error(
             "link", fmt::format("'{}' has a length: in this synthesis it follows from its points", l.name),
@@ -145,7 +145,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (!description || document.document().has_errors()) return std::nullopt;
 
-  canonical["mechanism"] = write_guide(s.description);
+  canonical["mechanism"] = write_suspension(s.description);
   PosesTarget resolved{.file = {}, .poses = std::vector<PoseEntry>{}};
   for (const CarrierTarget& p : s.task.targets.poses) {
     PoseEntry entry{.rack = p.rack,
@@ -159,7 +159,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
   canonical["target"] = study::write_fields(resolved);
   canonical["optimiser"] = study::write_fields(s.optimiser);
   s.description.links = s.task.links;
-  if (s.description.guide.side == Side::right) mirror(s.task);
+  if (s.description.suspension.side == Side::right) mirror(s.task);
   return s;
 }
 
@@ -172,7 +172,7 @@ study::Kind indirect_kind() {
   kind.seeded = true;
   kind.example = templates::synthesis_corner_carrier_poses();
   kind.schema = [](study::SchemaWriter& document) {
-    describe_guide(document);
+    describe_suspension(document);
     document.property(field::entry("target", "positions of the carrier").required(),
                       study::schema_fields<PosesTarget>());
     document.property(field::entry("optimiser", "how links are searched"),

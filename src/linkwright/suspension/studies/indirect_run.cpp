@@ -14,10 +14,10 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
-#include "linkwright/suspension/guide/hard_points.h"
-#include "linkwright/suspension/guide/structure.h"
-#include "linkwright/suspension/indirect/guide_deviations.h"
-#include "linkwright/suspension/studies/guide_scene.h"
+#include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/indirect/corner_deviations.h"
+#include "linkwright/suspension/studies/corner_scene.h"
 #include "linkwright/suspension/studies/indirect.h"
 #include "linkwright/suspension/studies/seven_pose_tables.h"
 #include "linkwright/suspension/studies/sweep.h"
@@ -52,9 +52,9 @@ SeedRun seed_run_of(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
   out.answer = std::move(answer);
   // Measured by the equations of the mechanism, not by the fit.
-  if (!has_errors(check_structure(out.answer.guide)))
-    out.error = constraint_error(out.answer.guide, out.answer.targets).gap;
-  if (s.description.guide.side == Side::right) out.answer.guide = mirrored(out.answer.guide);
+  if (!has_errors(check_structure(out.answer.suspension)))
+    out.error = constraint_error(out.answer.suspension, out.answer.targets).gap;
+  if (s.description.suspension.side == Side::right) out.answer.suspension = mirrored(out.answer.suspension);
   return out;
 }
 
@@ -83,7 +83,7 @@ Value kept(const SeedRun& run) {
     Value out = Value::array();
     for (const auto& fit : all) {
       Value one;
-      one["status"] = study::kept_status(fit.status);
+      one["status"] = study::saved_status(fit.status);
       one["numbers"] = pack_numbers(numbers_of(fit));
       if constexpr (std::is_same_v<std::decay_t<decltype(fit)>, CouplerFit>)
         one["looked_for"] = !fit.coupler.name.empty();  // not without the links that it joins
@@ -104,8 +104,8 @@ Value kept(const SeedRun& run) {
 }
 
 /// Errors (not less than 0, infinite where nothing was found) and `count` finite numbers, or none.
-std::vector<double> restored_fit(const Value& value, std::size_t count, std::string_view what) {
-  const std::vector<double> numbers = unpack_numbers(kept_member(value, "numbers", what), what);
+std::vector<double> load_fit(const Value& value, std::size_t count, std::string_view what) {
+  const std::vector<double> numbers = unpack_numbers(load_member(value, "numbers", what), what);
   const auto is_error = [](double e) { return e >= 0; };
   const bool sound =
       (numbers.size() == 2 || numbers.size() == 2 + count) && is_error(numbers[0]) && is_error(numbers[1]) &&
@@ -119,15 +119,15 @@ std::vector<double> restored_fit(const Value& value, std::size_t count, std::str
 SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view what) {
   IndirectSynthesis ended;
   ended.targets = s.task.targets;
-  const Value &links = kept_member(value, "links", what), &couplers = kept_member(value, "couplers", what);
+  const Value &links = load_member(value, "links", what), &couplers = load_member(value, "couplers", what);
   if (!links.is_array() || links.as_array().size() != s.task.links.size() || !couplers.is_array() ||
       couplers.as_array().size() != s.task.couplers.size())
     throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
   for (std::size_t l = 0; l < s.task.links.size(); ++l) {
     const LinkTask& task = s.task.links[l];
     const Value& one = links.as_array()[l];
-    const std::vector<double> v = restored_fit(one, 3 * (task.body.size() + task.carrier.size()), what);
-    LinkFit fit{.status = study::restored_status(one, what), .link = {}, .rms = v[0], .largest = v[1]};
+    const std::vector<double> v = load_fit(one, 3 * (task.body.size() + task.carrier.size()), what);
+    LinkFit fit{.status = study::load_status(one, what), .link = {}, .rms = v[0], .largest = v[1]};
     if (v.size() > 2) {
       fit.link.name = task.name;
       fit.link.type = task.type;
@@ -141,9 +141,9 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
   for (std::size_t k = 0; k < s.task.couplers.size(); ++k) {
     const CouplerTask& task = s.task.couplers[k];
     const Value& one = couplers.as_array()[k];
-    const std::vector<double> v = restored_fit(one, 5, what);
-    CouplerFit fit{.status = study::restored_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
-    const Value& looked_for = kept_member(one, "looked_for", what);
+    const std::vector<double> v = load_fit(one, 5, what);
+    CouplerFit fit{.status = study::load_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
+    const Value& looked_for = load_member(one, "looked_for", what);
     if (!looked_for.is_bool() || v.size() == 2)
       throw CheckpointError(fmt::format("{}: coupler '{}' is incomplete", what, task.name));
     if (looked_for.as_bool()) fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
@@ -153,7 +153,7 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
     ended.couplers.push_back(std::move(fit));
   }
   const std::vector<double> carrier_pitches =
-      unpack_numbers(kept_member(value, "carrier_pitches", what), what);
+      unpack_numbers(load_member(value, "carrier_pitches", what), what);
   if (carrier_pitches.size() != ended.targets.poses.size())
     throw CheckpointError(fmt::format("{}: {} carrier pitches of {} positions", what, carrier_pitches.size(),
                                       ended.targets.poses.size()));
@@ -165,8 +165,8 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
           fmt::format("{}: carrier pitch {} does not belong to this position", what, carrier_pitches[i]));
     carrier_pitch = carrier_pitches[i];
   }
-  ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
-  ended.generations = static_cast<int>(kept_integer(value, "generations", 0, 1000000000, what));
+  ended.evaluations = load_integer(value, "evaluations", 0, study::max_kept_evaluations, what);
+  ended.generations = static_cast<int>(load_integer(value, "generations", 0, 1000000000, what));
   return seed_run_of(s, completed(s.task, ended));
 }
 
@@ -180,9 +180,9 @@ bool better_run(const SeedRun& a, const SeedRun& b) {
 
 /// Calls visit(name, point, box) for every point of the links.
 template <class Visit>
-void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) {
-  for (std::size_t i = 0; i < guide.links.size(); ++i) {
-    const GuideLink& link = guide.links[i];
+void each_point(const IndirectStudy& s, const Suspension& suspension, Visit&& visit) {
+  for (std::size_t i = 0; i < suspension.links.size(); ++i) {
+    const CornerLink& link = suspension.links[i];
     const LinkTask& task = s.description.links[i];
     const auto one_end = [&](const std::vector<Vec3>& points, const std::vector<PointBox>& boxes,
                              std::string_view end) {
@@ -194,25 +194,26 @@ void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) 
     one_end(link.body, task.body, "body");
     one_end(link.carrier, task.carrier, "carrier");
   }
-  for (std::size_t i = 0; i < guide.couplers.size() && i < s.description.couplers.size(); ++i)
-    visit(guide.couplers[i].name + ", second end", guide.couplers[i].point, s.description.couplers[i].point);
+  for (std::size_t i = 0; i < suspension.couplers.size() && i < s.description.couplers.size(); ++i)
+    visit(suspension.couplers[i].name + ", second end", suspension.couplers[i].point,
+          s.description.couplers[i].point);
 }
 
 /// The study that analyses the wheel at the prescribed positions, by their travels and racks.
-Value study_of(const IndirectStudy& s, const WheelGuide& guide) {
+Value study_of(const IndirectStudy& s, const Suspension& suspension) {
   std::vector<double> travels{0}, racks{0};
   for (const CarrierTarget& t : s.task.targets.poses) {
     travels.push_back(t.centre.z - s.task.targets.wheel.centre.z);
     racks.push_back(t.rack);
   }
-  return sweep_of_found(s.description, guide, Driver::wheel_centre_z, std::move(travels), std::move(racks),
-                        Driver::wheel_centre_z);
+  return sweep_of_found(s.description, suspension, Driver::wheel_centre_z, std::move(travels),
+                        std::move(racks), Driver::wheel_centre_z);
 }
 
 study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::string scene) {
   study::Solution out;
-  out.label = structure_name(structure_of(run.answer.guide));
-  each_point(s, run.answer.guide, [&](const std::string& name, const Vec3& at, const PointBox& box) {
+  out.label = structure_name(structure_of(run.answer.suspension));
+  each_point(s, run.answer.suspension, [&](const std::string& name, const Vec3& at, const PointBox& box) {
     for (std::size_t i = 0; i < 3; ++i)
       out.parameters.push_back({fmt::format("{}_{}_m", plain_name(name), axes[i]),
                                 fmt::format("{} {}", name, axes[i]), coordinate(at, i),
@@ -224,16 +225,16 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
   out.classification["status"] = to_string(run.answer.status);
   for (const Diagnostic& d : run.answer.findings)
     if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
-  if (!scene.empty()) out.study = study_of(s, run.answer.guide);
+  if (!scene.empty()) out.study = study_of(s, run.answer.suspension);
   out.scene = std::move(scene);
   return out;
 }
 
 /// Prescribed positions and what the wheel does there at the height and rack of each.
-Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
+Table poses_table(const CarrierTargets& targets, const Suspension& left) {
   Table table{.name = "poses"};
-  const GuidePlan plan = prepare_guide(left);
-  const GuidePosition reference = reference_position(plan);
+  const CornerPlan plan = prepare_suspension(left);
+  const CornerPosition reference = reference_position(plan);
   const std::array<std::pair<const char*, const char*>, 6> keys{{{"centre_x_m", "wheel centre x"},
                                                                  {"centre_y_m", "wheel centre y"},
                                                                  {"centre_z_m", "wheel centre z"},
@@ -243,9 +244,9 @@ Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
   std::vector<std::vector<double>> columns(2 + 3 * keys.size());
   for (const CarrierTarget& t : targets.poses) {
     const double travel = t.centre.z - targets.wheel.centre.z;
-    const GuidePosition p = reference.status == Status::done
-                                ? solve_position(plan, Driver::wheel_centre_z, {travel, t.rack}, reference)
-                                : reference;
+    const CornerPosition p = reference.status == Status::done
+                                 ? solve_position(plan, Driver::wheel_centre_z, {travel, t.rack}, reference)
+                                 : reference;
     const WheelAngles a = wheel_angles(Side::left, left.wheel, p.place.carrier.rotation);
     const Vec3 c = p.place.carrier.centre;
     const std::array<double, 6> wanted{t.centre.x,   t.centre.y,      t.centre.z,
@@ -316,7 +317,7 @@ Table seeds_table(const IndirectRuns& runs) {
   return table;
 }
 
-study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std::string& name) {
+study::Scene scene_of(const IndirectStudy& s, const Suspension& suspension, const std::string& name) {
   double low = 0, high = 0;
   std::vector<double> racks{0};
   const double height = s.task.targets.wheel.centre.z;
@@ -331,9 +332,10 @@ study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std
   constexpr int steps = 20;  // each way
   for (int i = -steps; i <= steps; ++i) travels.push_back((i < 0 ? -low : high) * i / steps);
   travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
-  const GridPositions grid = solve_grid(prepare_guide(guide), Driver::wheel_centre_z, travels, racks);
-  return guide_scene(
-      guide, name, "wheel travel and rack",
+  const GridPositions grid =
+      solve_grid(prepare_suspension(suspension), Driver::wheel_centre_z, travels, racks);
+  return corner_scene(
+      suspension, name, "wheel travel and rack",
       {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});
 }
 
@@ -373,16 +375,16 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     return result;
   }
   const SeedRun& best = *std::min_element(runs.answers.begin(), runs.answers.end(), better_run);
-  const WheelGuide& guide = best.answer.guide;
+  const Suspension& suspension = best.answer.suspension;
   const bool assembled = std::isfinite(best.error);
   if (result.status == Status::done) result.status = best.answer.status;
   add_statistics(result, s, runs);
   const std::string scene = assembled ? "solution-1" : "";
   result.solutions.push_back(solution_of(s, best, scene));
   if (assembled) {
-    const WheelGuide left = guide.side == Side::left ? guide : mirrored(guide);
+    const Suspension left = suspension.side == Side::left ? suspension : mirrored(suspension);
     result.tables.push_back(poses_table(best.answer.targets, left));
-    result.scenes.push_back(scene_of(s, guide, scene));
+    result.scenes.push_back(scene_of(s, suspension, scene));
     const study::AddPlot deviations{result,
                                     {.table = "poses", .x = "travel_m", .style = study::Plot::Style::points}};
     deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
@@ -390,7 +392,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
                {"deviation_toe_rad", "deviation_camber_rad", "deviation_carrier_pitch_rad"});
   }
-  result.tables.push_back(hard_point_table(points_of(guide)));
+  result.tables.push_back(hard_point_table(points_of(suspension)));
   result.tables.push_back(conditioning_table(s, best));
   result.tables.push_back(seeds_table(runs));
 
@@ -399,7 +401,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
       good ? say("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
-                 structure_name(structure_of(guide)), poses, error_of(best.error))
+                 structure_name(structure_of(suspension)), poses, error_of(best.error))
       : assembled
           ? say("No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
                 to_string(best.answer.status), poses, error_of(best.error))
@@ -407,7 +409,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   result.facts = {
       {"largest constraint error at the positions", assembled ? Sentence(error_of(best.error)) : "-",
        good ? Verdict::good : Verdict::bad},
-      {"structure", structure_name(structure_of(guide))},
+      {"structure", structure_name(structure_of(suspension))},
       {"positions", say("{} (at least {} determine the links)", poses, plain_number(best.answer.fewest, 2))},
       {"method", std::string(result.statistics.find("method")->as_string())}};
   study::add_seed_facts(result, "seeds that found exact links", runs.answers.size());

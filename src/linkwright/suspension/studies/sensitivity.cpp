@@ -11,7 +11,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
 #include "linkwright/study/remarks.h"
-#include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/corner/hard_points.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
@@ -20,29 +20,29 @@ namespace {
 
 const std::vector<std::string> default_quantities{"toe", "camber", "half_track_change", "roll_centre_height"};
 /// Curves in a diagram of sensitivities.
-constexpr std::size_t most_curves = 6;
-constexpr std::size_t most_travels = 1000;
+constexpr std::size_t max_curves = 6;
+constexpr std::size_t max_travels = 1000;
 
-std::string unit_of_column(const GuideColumn& c) {
+std::string unit_of_column(const CornerColumn& c) {
   const auto parts = split_unit(c.key);
   return parts ? readable_unit(parts->unit->suffix) : "1";
 }
 /// Suffix of a key for the quantity by metre: angles by length have a unit of their own.
-std::string by_metre(const GuideColumn& c) {
+std::string by_metre(const CornerColumn& c) {
   const auto parts = split_unit(c.key);
   return parts && parts->dimension == Dimension::angle ? "_rad_per_m" : "";
 }
 
 void complete_quantities(study::ObjectReader& table, std::vector<std::string>& quantities,
-                         const WheelGuide& guide) {
+                         const Suspension& suspension) {
   if (quantities.empty()) quantities = default_quantities;
-  const Driver lock = guide.spring ? Driver::spring : Driver::wheel_centre_z;
+  const Driver lock = suspension.spring ? Driver::spring : Driver::wheel_centre_z;
   std::vector<std::string> known;
-  for (const GuideColumn& c : guide_columns())
+  for (const CornerColumn& c : corner_columns())
     if (quantity_of(c, lock)) known.push_back(study::base_of(c.key));
   for (const std::string& q : quantities) {
     if (std::find(known.begin(), known.end(), q) != known.end()) {
-      if (const std::string why = why_missing(guide, *guide_column(q)); !why.empty())
+      if (const std::string why = why_missing(suspension, *corner_column(q)); !why.empty())
         table.error("quantities", fmt::format("this suspension has no '{}': {}", q, why));
       continue;
     }
@@ -56,16 +56,16 @@ void complete_quantities(study::ObjectReader& table, std::vector<std::string>& q
 /// The positions of a travel sweep that are reached, and their travels.
 struct Way {
   std::vector<double> travels;
-  std::vector<GuidePosition> positions;
+  std::vector<CornerPosition> positions;
 };
-Way solve_way(const GuidePlan& plan, const SensitivityInputs& inputs) {
+Way solve_way(const CornerPlan& plan, const SensitivityInputs& inputs) {
   Way out;
-  const std::size_t step = (inputs.travels.size() + most_travels - 1) / most_travels;
-  const GuidePosition reference = reference_position(plan, inputs.travel);
+  const std::size_t step = (inputs.travels.size() + max_travels - 1) / max_travels;
+  const CornerPosition reference = reference_position(plan, inputs.travel);
   if (reference.status != Status::done) return out;
-  GuidePosition last = reference;
+  CornerPosition last = reference;
   for (std::size_t i = 0; i < inputs.travels.size(); i += step) {
-    GuidePosition p = solve_position(plan, inputs.travel, {inputs.travels[i], inputs.rack}, last);
+    CornerPosition p = solve_position(plan, inputs.travel, {inputs.travels[i], inputs.rack}, last);
     if (p.status != Status::done)
       p = solve_position(plan, inputs.travel, {inputs.travels[i], inputs.rack}, reference);
     if (p.status != Status::done) continue;
@@ -78,19 +78,20 @@ Way solve_way(const GuidePlan& plan, const SensitivityInputs& inputs) {
 
 }  // namespace
 
-void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide) {
+void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form,
+                          const Suspension& suspension) {
   auto table = document.table("sensitivity");
-  complete_quantities(*table, form.quantities, guide);
+  complete_quantities(*table, form.quantities, suspension);
 }
 
-void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const WheelGuide& guide) {
+void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const Suspension& suspension) {
   auto table = document.table("tolerances");
-  complete_quantities(*table, form.quantities, guide);
+  complete_quantities(*table, form.quantities, suspension);
   if (form.points.empty() && !(form.tolerance > 0))
     table->error("tolerance", "no point has a tolerance", "write tolerance_mm = 0.5");
   std::vector<study::ObjectReader> tables = table->tables("point");
   std::vector<std::string> known;
-  for (const DesignNumber& n : hard_points(guide)) known.push_back(label(guide, n));
+  for (const DesignNumber& n : hard_points(suspension)) known.push_back(label(suspension, n));
   for (std::size_t i = 0; i < form.points.size() && i < tables.size(); ++i) {
     const std::string& asked = form.points[i].coordinate;
     if (std::any_of(known.begin(), known.end(),
@@ -102,23 +103,23 @@ void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, co
   }
 }
 
-void add_sensitivity(study::Result& result, const WheelGuide& guide, const SensitivityForm& form,
+void add_sensitivity(study::Result& result, const Suspension& suspension, const SensitivityForm& form,
                      const SensitivityInputs& inputs) {
-  const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
+  const DerivativePlan plan = prepare_derivatives(suspension, hard_points(suspension));
   const Way way = solve_way(plan.plan, inputs);
   if (way.positions.empty())
     return study::AddWarning{result.diagnostics}("no sensitivities: no position of the sweep is reached");
   std::vector<std::string> names;
-  for (const DesignNumber& n : plan.numbers) names.push_back(label(guide, n));
+  for (const DesignNumber& n : plan.numbers) names.push_back(label(suspension, n));
   std::vector<WheelDerivatives> derivatives;
-  for (const GuidePosition& p : way.positions) derivatives.push_back(wheel_derivatives(plan, p));
+  for (const CornerPosition& p : way.positions) derivatives.push_back(wheel_derivatives(plan, p));
   const std::size_t middle = next_to_zero(way.travels);
 
   Table here{.name = "sensitivity"};
   here.names = names;
   std::vector<Table> over_travel;
   for (const std::string& q : form.quantities) {
-    const GuideColumn& column = *guide_column(q);
+    const CornerColumn& column = *corner_column(q);
     const WheelQuantity quantity = *quantity_of(column, inputs.lock);
     const auto by = [&](std::size_t position, std::size_t number) {
       return value_of(derivatives[position].by[number], quantity);
@@ -145,7 +146,7 @@ void add_sensitivity(study::Result& result, const WheelGuide& guide, const Sensi
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return largest[a] > largest[b]; });
     std::vector<std::string> y;
-    for (std::size_t k = 0; k < std::min(order.size(), most_curves); ++k)
+    for (std::size_t k = 0; k < std::min(order.size(), max_curves); ++k)
       y.push_back(table.columns[1 + order[k]].key);
     result.plots.push_back(
         {.name = table.name,
@@ -162,12 +163,13 @@ void add_sensitivity(study::Result& result, const WheelGuide& guide, const Sensi
   for (Table& t : over_travel) result.tables.push_back(std::move(t));
 }
 
-void add_tolerances(study::Result& result, const WheelGuide& guide, const TolerancesForm& form,
+void add_tolerances(study::Result& result, const Suspension& suspension, const TolerancesForm& form,
                     const SensitivityInputs& inputs, RunContext& context) {
-  ToleranceTask task{.guide = guide, .numbers = {}, .driver = inputs.travel, .inputs = {}, .curves = {}};
+  ToleranceTask task{
+      .suspension = suspension, .numbers = {}, .driver = inputs.travel, .inputs = {}, .curves = {}};
   std::vector<std::string> names;
-  for (const DesignNumber& n : hard_points(guide)) {
-    const std::string name = label(guide, n);
+  for (const DesignNumber& n : hard_points(suspension)) {
+    const std::string name = label(suspension, n);
     double tolerance = n.kind == DesignKind::coupler_fraction ? 0 : form.tolerance;
     for (const PointTolerance& p : form.points)
       if (name == p.coordinate || name.starts_with(p.coordinate + "_")) tolerance = p.tolerance;
@@ -175,20 +177,20 @@ void add_tolerances(study::Result& result, const WheelGuide& guide, const Tolera
     task.numbers.push_back({n, tolerance});
     names.push_back(name);
   }
-  const Way way = solve_way(prepare_guide(guide), inputs);
+  const Way way = solve_way(prepare_suspension(suspension), inputs);
   if (way.positions.empty() || task.numbers.empty())
     return study::AddWarning{result.diagnostics}(
         "no tolerance bands: no position of the sweep is reached, or no point has a tolerance");
   for (const double travel : way.travels) task.inputs.push_back({travel, inputs.rack});
   for (const std::string& q : form.quantities)
-    task.curves.push_back(*quantity_of(*guide_column(q), inputs.lock));
+    task.curves.push_back(*quantity_of(*corner_column(q), inputs.lock));
   const ToleranceBands bands = tolerance_bands(task, form.monte_carlo, context);
   if (result.status == Status::done && bands.status != Status::done) result.status = bands.status;
 
   Table shares{.name = "tolerance_shares"};
   shares.names = names;
   for (std::size_t c = 0; c < form.quantities.size(); ++c) {
-    const GuideColumn& column = *guide_column(form.quantities[c]);
+    const CornerColumn& column = *corner_column(form.quantities[c]);
     const std::string key(column.key), words(words_of(column));
     Table table{.name = "band-" + form.quantities[c]};
     const auto add = [&](std::string prefix, std::string text, auto&& value) {

@@ -8,7 +8,7 @@
 
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 #include "linkwright/suspension/wheel/tolerances.h"
 
 // The tables `[sensitivity]` and `[tolerances]`: hard points in an analysis of a wheel suspension.
@@ -61,8 +61,8 @@ void fields(Visitor&& visit, TolerancesForm& t) {
 }
 
 /// Check what was read against the suspension; problems go to the reader. Defaults are filled in.
-void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide);
-void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const WheelGuide& guide);
+void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const Suspension& suspension);
+void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const Suspension& suspension);
 
 /// The table `sensitivity` at the position next to the reference, and a table and a diagram over travel for
 /// each quantity; the rack next to the middle.
@@ -72,10 +72,10 @@ struct SensitivityInputs {
   double rack = 0;
   Driver lock = Driver::wheel_centre_z;
 };
-void add_sensitivity(study::Result& result, const WheelGuide& guide, const SensitivityForm& form,
+void add_sensitivity(study::Result& result, const Suspension& suspension, const SensitivityForm& form,
                      const SensitivityInputs& inputs);
 /// A table and a diagram with bands for each quantity, and the table `tolerance_shares`.
-void add_tolerances(study::Result& result, const WheelGuide& guide, const TolerancesForm& form,
+void add_tolerances(study::Result& result, const Suspension& suspension, const TolerancesForm& form,
                     const SensitivityInputs& inputs, RunContext& context);
 
 }  // namespace linkwright::suspension

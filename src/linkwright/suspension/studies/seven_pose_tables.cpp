@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "linkwright/study/remarks.h"
-#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/corner/structure.h"
 #include "linkwright/suspension/indirect/seven_poses.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
@@ -26,11 +26,11 @@ constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 double coordinate_of(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
 /// The name of the link of the task in whose boxes a rod lies; "-" of a rod that lies in none.
-std::string place_of(const IndirectStudy& s, const GuideLink& rod) {
+std::string place_of(const IndirectStudy& s, const CornerLink& rod) {
   for (const LinkTask& task : s.task.links) {
     if ((task.type != LinkType::US && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
       continue;
-    GuideLink as_asked = rod;
+    CornerLink as_asked = rod;
     as_asked.type = task.type;
     if (LinkCoordinates(task).inside(as_asked)) return task.name;
   }
@@ -40,7 +40,7 @@ std::string place_of(const IndirectStudy& s, const GuideLink& rod) {
 }  // namespace
 
 void add_seven_poses(study::Result& result, const IndirectStudy& s, const CarrierTargets& targets) {
-  const bool right = s.description.guide.side == Side::right;
+  const bool right = s.description.suspension.side == Side::right;
   const auto seen = [&](const Vec3& p) { return right ? math::mirrored(p) : p; };
   Table rods{.name = "seven_pose_rods"}, arms{.name = "seven_pose_arms"};
   constexpr std::array<std::string_view, 2> ends{"body", "carrier"};
@@ -75,7 +75,7 @@ void add_seven_poses(study::Result& result, const IndirectStudy& s, const Carrie
           parts[end][3 + k].push_back(real ? 0 : sign * at.imag());
         }
     }
-    for (const GuideLink& arm : found.arms) {
+    for (const CornerLink& arm : found.arms) {
       arms.names.emplace_back(name_of(arm.type));
       const bool wishbone = arm.type == LinkType::RS;
       const auto &ball = wishbone ? arm.carrier : arm.body, &hinge = wishbone ? arm.body : arm.carrier;

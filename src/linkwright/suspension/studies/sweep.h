@@ -9,7 +9,7 @@
 
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/compliance.h"
-#include "linkwright/suspension/studies/guide.h"
+#include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/studies/sensitivity.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
@@ -38,13 +38,13 @@ void fields(Visitor&& visit, GridSweep& s) {
 }
 constexpr Word choice_word(const GridSweep&) { return {"grid", "every travel with every rack displacement"}; }
 
-struct GuideSweep {
+struct CornerSweep {
   std::variant<GridSweep> type;
   std::optional<Driver> steering_lock;
   bool assemblies = false;
 };
 template <class Visitor>
-void fields(Visitor&& visit, GuideSweep& s) {
+void fields(Visitor&& visit, CornerSweep& s) {
   visit(field::entry("type", "which positions are taken"), s.type);
   visit(field::entry("steering_lock",
                      "what is held constant while steering, for the steering axis: spring, "
@@ -55,14 +55,14 @@ void fields(Visitor&& visit, GuideSweep& s) {
 
 /// An analysis as read.
 struct SweepStudy {
-  GuideDescription description;
+  CornerDescription description;
   Driver travel = Driver::wheel_centre_z;
-  std::vector<double> travels, racks;        ///< m, ascending
-  Driver lock = Driver::wheel_centre_z;      ///< coordinate held while the steering axis is found
-  std::vector<std::string> quantities;       ///< empty = all that the suspension has
-  bool assemblies = false;                   ///< the other assembly modes are looked for
-  bool drawn = true;                         ///< true if a scene is wanted: a grid may have many positions
-  std::optional<GuideDescription> baseline;  ///< another suspension, whose curves are laid behind
+  std::vector<double> travels, racks;         ///< m, ascending
+  Driver lock = Driver::wheel_centre_z;       ///< coordinate held while the steering axis is found
+  std::vector<std::string> quantities;        ///< empty = all that the suspension has
+  bool assemblies = false;                    ///< the other assembly modes are looked for
+  bool drawn = true;                          ///< true if a scene is wanted: a grid may have many positions
+  std::optional<CornerDescription> baseline;  ///< another suspension, whose curves are laid behind
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;
@@ -79,22 +79,22 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                            Value& canonical);
 
 /// Columns that are quantities of the study, whether its suspension has them or not, else all that it has.
-std::vector<const GuideColumn*> columns_of(const SweepStudy& study);
+std::vector<const CornerColumn*> columns_of(const SweepStudy& study);
 
 /// Positions of a grid: for each rack all travels. Each rack is gone to at the travel next to zero, and the
 /// travels outwards from there, each from the one before; a position that is not reached keeps its reason.
 struct GridPositions {
   std::size_t first_travel = 0, travels = 0;  ///< range of the positions among the travels of the study
-  std::vector<GuidePosition> positions;       ///< [rack * travels + travel]
+  std::vector<CornerPosition> positions;      ///< [rack * travels + travel]
   std::vector<WheelParameters> wheels;        ///< likewise; singular where there is no position
 };
 /// Interrupted: the racks so far; in the first of them the travels so far, about the one next to zero.
-GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+GridPositions solve_grid(const CornerPlan& plan, Driver travel, std::span<const double> travels,
                          std::span<const double> racks, const RunContext* context = nullptr);
 
 /// The tables of an analysis of a suspension that was found for a description, over these values (m); with
 /// the rack centred alone where it does not reach all of their combinations.
-Value sweep_of_found(const GuideDescription& description, const WheelGuide& found, Driver travel,
+Value sweep_of_found(const CornerDescription& description, const Suspension& found, Driver travel,
                      std::vector<double> travels, std::vector<double> racks, Driver steering_lock);
 
 /// Evaluates the grid and reports. Rows without a position hold NaN and their status; the status of the

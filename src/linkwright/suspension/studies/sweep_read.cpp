@@ -13,15 +13,15 @@
 #include "linkwright/study/read.h"
 #include "linkwright/suspension/studies/sweep.h"
 #include "linkwright/suspension/studies/templates.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::size_t most_rows = 1000000;
+constexpr std::size_t max_rows = 1000000;
 
 /// `[baseline]`: the mechanism of another study, or one beside this one.
-std::optional<GuideDescription> read_baseline(study::ObjectReader& document, const study::Common& common) {
+std::optional<CornerDescription> read_baseline(study::ObjectReader& document, const study::Common& common) {
   auto table = document.table("baseline");
   if (!table) return std::nullopt;
   std::string file;
@@ -34,18 +34,18 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   if (!named) {
     std::string type;
     if (auto mechanism = table->table("mechanism")) (*mechanism)(field::entry("type"), type);
-    return read_guide(*table, common, OpenPoints::none);
+    return read_suspension(*table, common, OpenPoints::none);
   }
   Diagnostics problems;
   study::Common there = common;
   const std::filesystem::path path = common.folder / file;
   there.folder = path.parent_path();
   const Value other = study::read_file(path, problems);
-  std::optional<GuideDescription> out;
+  std::optional<CornerDescription> out;
   if (!has_errors(problems)) {
     study::DocumentReader reader(other, file, problems);
     study::ObjectReader root = reader.root();
-    out = read_guide(root, there, OpenPoints::none);
+    out = read_suspension(root, there, OpenPoints::none);
     if (!out && !has_errors(problems))
       table->error("file", fmt::format("'{}' has no wheel suspension", file));
   }
@@ -60,7 +60,7 @@ bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
   const double columns = 3 + static_cast<double>(columns_of(s).size()) +
                          (s.description.spring ? of_rates : 0) + (s.vehicle ? of_anti_features : 0),
                positions = static_cast<double>(s.travels.size() * s.racks.size()),
-               position = sizeof(GuidePosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
+               position = sizeof(CornerPosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
   auto sweep = document.table("sweep");
   if (!study::require_memory(*sweep, "travel", positions * position * (s.baseline ? 2 : 1),
                              fmt::format("{} travels with {} racks", s.travels.size(), s.racks.size()),
@@ -98,8 +98,8 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   s.quantities = common.output.quantities;
   s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(),
                         [](study::Format f) { return f != study::Format::json && f != study::Format::csv; });
-  const auto description = read_guide(document, common, OpenPoints::none);
-  GuideSweep sweep;
+  const auto description = read_suspension(document, common, OpenPoints::none);
+  CornerSweep sweep;
   std::optional<std::vector<double>> travels, racks = std::vector{0.0};
   if (auto table = document.table(field::entry("sweep").required())) {
     table->read(sweep);
@@ -107,28 +107,28 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
     s.travel = grid.travel.coordinate;
     s.assemblies = sweep.assemblies;
     if (description)
-      s.lock =
-          sweep.steering_lock.value_or(description->guide.spring ? Driver::spring : Driver::wheel_centre_z);
+      s.lock = sweep.steering_lock.value_or(description->suspension.spring ? Driver::spring
+                                                                           : Driver::wheel_centre_z);
     if (auto travel = table->table("travel")) travels = values_of(*travel, grid.travel.values, "mm");
     if (auto rack = table->table("rack"); rack && grid.rack) racks = values_of(*rack, *grid.rack, "mm");
     if (description) {
-      const WheelGuide& guide = description->guide;
-      if (s.travel == Driver::spring && !guide.spring)
+      const Suspension& suspension = description->suspension;
+      if (s.travel == Driver::spring && !suspension.spring)
         if (auto travel = table->table("travel"))
           travel->error("coordinate", "there is no spring", "add [mechanism.spring], or take wheel_centre_z");
-      if (s.lock == Driver::spring && !guide.spring)
+      if (s.lock == Driver::spring && !suspension.spring)
         table->error("steering_lock", "there is no spring to hold",
                      "add [mechanism.spring], or take wheel_centre_z");
-      const bool steered = std::any_of(guide.links.begin(), guide.links.end(),
-                                       [](const GuideLink& l) { return l.moved_by_rack; });
+      const bool steered = std::any_of(suspension.links.begin(), suspension.links.end(),
+                                       [](const CornerLink& l) { return l.moved_by_rack; });
       if (!steered && racks && (racks->size() > 1 || (*racks)[0] != 0))
         table->error("rack", "no link is moved by the rack",
                      "write moved_by = \"rack\" in the tie rod's table");
     }
-    if (travels && racks && travels->size() * racks->size() > most_rows)
+    if (travels && racks && travels->size() * racks->size() > max_rows)
       table->error("travel",
                    fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
-                               travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
+                               travels->size(), racks->size(), travels->size() * racks->size(), max_rows));
   }
   s.baseline = read_baseline(document, common);
   document(field::entry("vehicle"), s.vehicle);
@@ -136,20 +136,20 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(field::entry("compliance"), s.compliance);
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
-  if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->guide);
-  if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->guide);
-  if (description && s.axle) complete_axle(document, *s.axle, description->guide);
+  if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
+  if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
+  if (description && s.axle) complete_axle(document, *s.axle, description->suspension);
   if (description && s.compliance) check_compliance(document, *s.compliance, *description);
   if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
   s.description = *description;
   s.travels = *travels;
   s.racks = *racks;
   if (!fits_memory(document, s)) return std::nullopt;
-  canonical["mechanism"] = write_guide(s.description);
+  canonical["mechanism"] = write_suspension(s.description);
   canonical["sweep"] = study::write_fields(
-      GuideSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
-                 s.lock, s.assemblies});
-  if (s.baseline) canonical["baseline"]["mechanism"] = write_guide(*s.baseline);
+      CornerSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
+                  s.lock, s.assemblies});
+  if (s.baseline) canonical["baseline"]["mechanism"] = write_suspension(*s.baseline);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
@@ -158,7 +158,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   return s;
 }
 
-Value sweep_of_found(const GuideDescription& description, const WheelGuide& found, Driver travel,
+Value sweep_of_found(const CornerDescription& description, const Suspension& found, Driver travel,
                      std::vector<double> travels, std::vector<double> racks, Driver steering_lock) {
   for (auto* values : {&travels, &racks}) {
     constexpr double same = 1e-9;
@@ -169,16 +169,16 @@ Value sweep_of_found(const GuideDescription& description, const WheelGuide& foun
         std::unique(values->begin(), values->end(), [](double a, double b) { return b - a < same; }),
         values->end());
   }
-  const GridPositions grid = solve_grid(prepare_guide(found), travel, travels, racks);
+  const GridPositions grid = solve_grid(prepare_suspension(found), travel, travels, racks);
   const bool all = grid.positions.size() == travels.size() * racks.size() &&
                    std::all_of(grid.positions.begin(), grid.positions.end(),
-                               [](const GuidePosition& p) { return p.status == Status::done; });
+                               [](const CornerPosition& p) { return p.status == Status::done; });
   if (!all) racks = {0};
   Value out;
   out["mechanism"]["type"] = "suspension.corner";
-  Value guide = write_guide(description, found);
-  for (Value::Member& member : guide.as_object()) out["mechanism"][member.key] = std::move(member.value);
-  out["sweep"] = study::write_fields(GuideSweep{
+  Value suspension = write_suspension(description, found);
+  for (Value::Member& member : suspension.as_object()) out["mechanism"][member.key] = std::move(member.value);
+  out["sweep"] = study::write_fields(CornerSweep{
       GridSweep{{travel, listed<LengthValues>(std::move(travels))}, std::nullopt}, steering_lock, false});
   if (racks != std::vector<double>{0})
     out["sweep"]["rack"] = study::write_fields(listed<LengthValues>(racks));
@@ -194,12 +194,12 @@ study::Kind sweep_kind() {
   kind.quantities = quantity_words();
   kind.example = templates::analysis_corner();
   kind.schema = [](study::SchemaWriter& document) {
-    describe_guide(document);
+    describe_suspension(document);
     document.property(field::entry("sweep", "positions that are taken").required(),
-                      study::schema_fields<GuideSweep>());
+                      study::schema_fields<CornerSweep>());
     study::SchemaWriter baseline;
     baseline.property(field::entry("file", "study whose mechanism it is"), Value());
-    baseline.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<GuideForm>());
+    baseline.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
     document.property(field::entry("baseline", "another wheel suspension to compare with"),
                       std::move(baseline).finish());
     document.property(field::entry("vehicle", "what the axle is part of: anti-dive, Ackermann"),

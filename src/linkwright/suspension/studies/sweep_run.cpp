@@ -12,28 +12,28 @@
 
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
-#include "linkwright/suspension/guide/assemblies.h"
-#include "linkwright/suspension/guide/constructions.h"
-#include "linkwright/suspension/guide/hard_points.h"
-#include "linkwright/suspension/guide/structure.h"
-#include "linkwright/suspension/studies/guide_scene.h"
+#include "linkwright/suspension/corner/assemblies.h"
+#include "linkwright/suspension/corner/constructions.h"
+#include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/studies/corner_scene.h"
 #include "linkwright/suspension/studies/sweep.h"
-#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/corner_columns.h"
 
 namespace linkwright::suspension {
 namespace {
 
 constexpr const char* scene_name = "travel";
 /// A scene is for looking at: so many samples at most.
-constexpr std::size_t most_scene_samples = 2500;
+constexpr std::size_t max_scene_samples = 2500;
 
 /// Reports why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
   const study::AddWarning warn{result.diagnostics};
   std::string_view told;
-  for (const GuideColumn* c : columns_of(s)) {
+  for (const CornerColumn* c : columns_of(s)) {
     if (c->group == told) continue;
-    const std::string why = why_missing(s.description.guide, *c);
+    const std::string why = why_missing(s.description.suspension, *c);
     if (why.empty()) continue;
     told = c->group;
     warn("output.quantities", fmt::format("'{}' has no values: {}", c->group, why), {});
@@ -55,7 +55,7 @@ struct Grid {
   std::size_t rows() const { return racks * study.travels.size(); }
   double travel(std::size_t row) const { return study.travels[row % study.travels.size()]; }
   double rack(std::size_t row) const { return study.racks[row / study.travels.size()]; }
-  GuideRow row(std::size_t i) const {
+  CornerRow row(std::size_t i) const {
     const WheelParameters& w = solved.wheels[i];
     return {solved.positions[i], w, study.lock};
   }
@@ -65,7 +65,7 @@ struct Grid {
 std::optional<double> rim_of(const SweepStudy& s) {
   const auto columns = columns_of(s);
   const bool wanted =
-      std::any_of(columns.begin(), columns.end(), [](const GuideColumn* c) { return c->key == "toe_rad"; });
+      std::any_of(columns.begin(), columns.end(), [](const CornerColumn* c) { return c->key == "toe_rad"; });
   return wanted ? s.description.rim_diameter : std::nullopt;
 }
 
@@ -81,7 +81,7 @@ Table sweep_table(const Grid& grid, std::string name) {
   };
   add("travel_m", "travel (m)", [&](std::size_t i) { return grid.travel(i); });
   add("rack_m", "rack (m)", [&](std::size_t i) { return grid.rack(i); });
-  for (const GuideColumn* c : columns_of(grid.study))
+  for (const CornerColumn* c : columns_of(grid.study))
     add(c->key, c->label, [&](std::size_t i) { return value_of(*c, grid.row(i)); });
   if (const auto rim = rim_of(grid.study))
     add("toe_at_rim_m", "toe at the rim (m)", [&](std::size_t i) {
@@ -91,9 +91,9 @@ Table sweep_table(const Grid& grid, std::string name) {
   add("closure_residual_m", "closure residual (m)",
       [&](std::size_t i) { return grid.solved.positions[i].residual; });
   const bool complete = std::all_of(grid.solved.positions.begin(), grid.solved.positions.end(),
-                                    [](const GuidePosition& p) { return p.status == Status::done; });
+                                    [](const CornerPosition& p) { return p.status == Status::done; });
   if (!complete)
-    for (const GuidePosition& p : grid.solved.positions) table.status.emplace_back(to_string(p.status));
+    for (const CornerPosition& p : grid.solved.positions) table.status.emplace_back(to_string(p.status));
   return table;
 }
 
@@ -116,7 +116,7 @@ Table bump_table(const Grid& grid, std::string name) {
     if (rim) at_rim.push_back(there ? toe_at(*rim, now) - toe_at(*rim, at_rest) : WheelParameters::missing);
   }
   table.add("travel_m", "travel (m)", grid.study.travels);
-  for (const GuideColumn* c : columns_of(grid.study)) {
+  for (const CornerColumn* c : columns_of(grid.study)) {
     if (c->key == "toe_rad") table.add("toe_change_rad", "change of toe (rad)", toe);
     if (c->key == "camber_rad") table.add("camber_change_rad", "change of camber (rad)", camber);
   }
@@ -140,7 +140,7 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
 }
 
 /// Adds columns for the effect of the spring at the wheel.
-void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan& plan, const Grid& grid,
+void add_wheel_rates(study::Result& result, const SweepStudy& s, const CornerPlan& plan, const Grid& grid,
                      const RunContext& context) {
   constexpr std::size_t between_looks = 256;
   std::vector<double> force, rate, by_ratio;
@@ -153,7 +153,7 @@ void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan
     }
     WheelRate w{.status = Status::no_assembly};
     if (!stopped && grid.solved.positions[i].status == Status::done)
-      w = wheel_rate(s.description.guide, plan, grid.solved.positions[i], *s.description.spring);
+      w = wheel_rate(s.description.suspension, plan, grid.solved.positions[i], *s.description.spring);
     const bool there = w.status == Status::done;
     force.push_back(there ? w.wheel_force : WheelParameters::missing);
     rate.push_back(there ? w.rate : WheelParameters::missing);
@@ -166,8 +166,8 @@ void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan
 }
 
 /// At the position next to the reference.
-void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan& plan) {
-  const GuideInput input{s.travels[next_to_zero(s.travels)], s.racks[next_to_zero(s.racks)]};
+void add_assemblies(study::Result& result, const SweepStudy& s, const CornerPlan& plan) {
+  const CornerInput input{s.travels[next_to_zero(s.travels)], s.racks[next_to_zero(s.racks)]};
   Table table{.name = "assemblies"};
   std::array<std::vector<double>, 7> c;
   for (const Assembly& a : assemblies(plan, s.travel, input)) {
@@ -228,13 +228,13 @@ void add_plots(study::Result& result, const SweepStudy& s) {
 void add_baseline(study::Result& result, const SweepStudy& s, RunContext& context) {
   SweepStudy other = s;
   other.description = *s.baseline;
-  if (!other.description.guide.spring) other.lock = Driver::wheel_centre_z;
-  if (s.travel == Driver::spring && !other.description.guide.spring) {
+  if (!other.description.suspension.spring) other.lock = Driver::wheel_centre_z;
+  if (s.travel == Driver::spring && !other.description.suspension.spring) {
     study::AddWarning{result.diagnostics}("baseline", "it has no spring to travel by", {});
     return;
   }
   GridPositions solved =
-      solve_grid(prepare_guide(other.description.guide), s.travel, s.travels, s.racks, &context);
+      solve_grid(prepare_suspension(other.description.suspension), s.travel, s.travels, s.racks, &context);
   const std::size_t positions = solved.positions.size();
   if (positions < s.travels.size() * s.racks.size()) result.status = context.interruption();
   if (positions == 0) return;
@@ -256,9 +256,9 @@ Measured angle_by_travel(double value) { return measured("deg_per_m", value).fix
 Measured length(double value) { return millimetres(value).fixed(2); }
 
 void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, const TravelLimits& limits) {
-  const WheelGuide& guide = s.description.guide;
+  const Suspension& suspension = s.description.suspension;
   const study::AddFact fact{result.facts};
-  fact("structure", structure_name(structure_of(guide)));
+  fact("structure", structure_name(structure_of(suspension)));
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
   const Sentence centred = s.racks[rack] == 0 ? Sentence() : say(" (rack {})", length(s.racks[rack]));
@@ -287,7 +287,7 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
     fact("bump steer" + here, angle_by_travel(w.toe_by_travel));
     fact("camber by travel" + here, angle_by_travel(w.camber_by_travel));
     fact("roll-centre height" + here, length(w.roll_centre_height));
-    if (guide.spring) fact("motion ratio" + here, plain_number(w.motion_ratio).fixed(4));
+    if (suspension.spring) fact("motion ratio" + here, plain_number(w.motion_ratio).fixed(4));
     if (std::isfinite(w.arms.roll_centre_height))
       fact("roll-centre height by arm planes" + here, length(w.arms.roll_centre_height));
     if (const SteeringAxis* axis = steering_axis_of(w, s.lock)) {
@@ -305,9 +305,9 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
            say("{}, {}", length(axis->trail), length(axis->scrub)));
     }
   }
-  if (const std::string why = why_no_axis(guide); !why.empty())
+  if (const std::string why = why_no_axis(suspension); !why.empty())
     fact("geometric steering axis", "none: " + why);
-  if (const std::string why = why_no_planes(guide); !why.empty())
+  if (const std::string why = why_no_planes(suspension); !why.empty())
     fact("roll centre by arm planes", "none: " + why);
   const auto limit = [&](int i) {
     return limits.status[static_cast<std::size_t>(i)] == Status::no_assembly
@@ -328,9 +328,9 @@ std::vector<std::size_t> thinned(std::span<const double> values, std::size_t mos
 
 study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
   const auto racks = thinned(std::span(s.racks).first(grid.racks), 41);
-  const auto travels = thinned(s.travels, std::max<std::size_t>(2, most_scene_samples / racks.size()));
+  const auto travels = thinned(s.travels, std::max<std::size_t>(2, max_scene_samples / racks.size()));
   std::vector<double> rack_values, travel_values;
-  std::vector<GuidePosition> positions;
+  std::vector<CornerPosition> positions;
   std::vector<WheelParameters> wheels;
   for (const std::size_t t : travels) travel_values.push_back(s.travels[t]);
   for (const std::size_t r : racks) {
@@ -340,36 +340,37 @@ study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
       wheels.push_back(grid.solved.wheels[r * s.travels.size() + t]);
     }
   }
-  return guide_scene(s.description.guide, scene_name, "wheel travel and rack",
-                     {s.travel, travel_values, rack_values, positions, wheels, s.lock});
+  return corner_scene(s.description.suspension, scene_name, "wheel travel and rack",
+                      {s.travel, travel_values, rack_values, positions, wheels, s.lock});
 }
 
 }  // namespace
 
-std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
-  std::vector<const GuideColumn*> out;
-  for (const GuideColumn& c : guide_columns()) {
+std::vector<const CornerColumn*> columns_of(const SweepStudy& s) {
+  std::vector<const CornerColumn*> out;
+  for (const CornerColumn& c : corner_columns()) {
     const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
-    if (listed || (s.quantities.empty() && why_missing(s.description.guide, c).empty())) out.push_back(&c);
+    if (listed || (s.quantities.empty() && why_missing(s.description.suspension, c).empty()))
+      out.push_back(&c);
   }
   return out;
 }
 
-GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+GridPositions solve_grid(const CornerPlan& plan, Driver travel, std::span<const double> travels,
                          std::span<const double> racks, const RunContext* context) {
   constexpr std::size_t between_looks = 256;
   GridPositions out;
-  const GuidePosition reference = reference_position(plan, travel);
+  const CornerPosition reference = reference_position(plan, travel);
   const auto middle = static_cast<std::ptrdiff_t>(next_to_zero(travels)),
              end = static_cast<std::ptrdiff_t>(travels.size());
-  std::vector<GuidePosition> row(travels.size());
+  std::vector<CornerPosition> row(travels.size());
   std::vector<WheelParameters> wheels(travels.size());
   std::size_t solved = 0;
   bool stopped = false;
   for (const double rack : racks) {
     if (context && context->interrupted()) break;
     std::ptrdiff_t first = middle, last = middle;  // positions that the row has, first <= i < last
-    const auto from = [&](const GuidePosition& start, std::ptrdiff_t at) {
+    const auto from = [&](const CornerPosition& start, std::ptrdiff_t at) {
       const auto i = static_cast<std::size_t>(at);
       row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;
       const bool there = row[i].status == Status::done;
@@ -386,10 +387,10 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
     };
     from(reference, middle);
     // Outwards, each from the last one that was reached.
-    const GuidePosition begin =
+    const CornerPosition begin =
         row[next_to_zero(travels)].status == Status::done ? row[next_to_zero(travels)] : reference;
     for (const int way : {-1, 1}) {
-      GuidePosition near = begin;
+      CornerPosition near = begin;
       for (std::ptrdiff_t i = middle + way; i >= 0 && i < end && !stopped; i += way)
         if (from(near, i)) near = row[static_cast<std::size_t>(i)];
     }
@@ -409,7 +410,7 @@ Table empty_sweep_table(const SweepStudy& study) { return sweep_table(Grid{study
 
 study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   study::Result result;
-  const GuidePlan plan = prepare_guide(asked.description.guide);
+  const CornerPlan plan = prepare_suspension(asked.description.suspension);
   GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, &context);
   const std::size_t positions = solved.positions.size();
   if (positions < asked.travels.size() * asked.racks.size()) result.status = context.interruption();
@@ -422,7 +423,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   result.tables.push_back(sweep_table(grid, "sweep"));
   if (s.description.spring) add_wheel_rates(result, s, plan, grid, context);
   std::vector<TravelLimits> limits;
-  const GuidePosition reference = reference_position(plan, s.travel);
+  const CornerPosition reference = reference_position(plan, s.travel);
   TravelLimits centred;
   if (reference.status == Status::done) {
     for (std::size_t i = 0; i < grid.racks && (i == 0 || !context.interrupted()); ++i)
@@ -431,7 +432,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     result.tables.push_back(limits_table(s.racks, limits));
   }
   if (s.assemblies) add_assemblies(result, s, plan);
-  result.tables.push_back(hard_point_table(points_of(s.description.guide)));
+  result.tables.push_back(hard_point_table(points_of(s.description.suspension)));
   if (Table bump = bump_table(grid, "bump"); bump.columns.size() > 1)
     result.tables.push_back(std::move(bump));
   add_plots(result, s);
@@ -445,10 +446,10 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                           ? Sentence()
                           : say(" (travel {})", length(grid.travel(middle))));
   }
-  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
+  if (s.axle) add_axle(result, s.description.suspension, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
-  if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
-  if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);
+  if (s.sensitivity) add_sensitivity(result, s.description.suspension, *s.sensitivity, inputs);
+  if (s.tolerances) add_tolerances(result, s.description.suspension, *s.tolerances, inputs, context);
   if (s.compliance) add_compliance(result, s.description, *s.compliance);
   if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
@@ -456,7 +457,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   std::size_t lost = 0;
   double worst = 0;
   for (std::size_t i = 0; i < grid.rows(); ++i) {
-    const GuidePosition& p = grid.solved.positions[i];
+    const CornerPosition& p = grid.solved.positions[i];
     if (p.status == Status::done) {
       worst = std::max(worst, p.residual);
       continue;
@@ -470,9 +471,9 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   if (lost > 5) warn(say("{} more positions are not reached", lost - 5));
   result.headline =
       lost == 0 ? say("{} wheel suspension: all {} positions reached (largest closure residual {}).",
-                      structure_name(structure_of(s.description.guide)), grid.rows(), metres(worst, 1))
+                      structure_name(structure_of(s.description.suspension)), grid.rows(), metres(worst, 1))
                 : say("{} wheel suspension: {} of {} positions are not reached.",
-                      structure_name(structure_of(s.description.guide)), lost, grid.rows());
+                      structure_name(structure_of(s.description.suspension)), lost, grid.rows());
   return result;
 }
 

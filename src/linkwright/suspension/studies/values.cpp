@@ -13,7 +13,7 @@
 
 namespace linkwright::suspension {
 
-constexpr std::size_t most_values = 100000;
+constexpr std::size_t max_values = 100000;
 
 bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
                 Numbers& member) {
@@ -58,8 +58,8 @@ std::optional<std::vector<double>> values_of(study::ObjectReader& table, const I
     }
     const double length = *v.to - *v.from;
     const double steps = v.step ? length / *v.step : *v.samples - 1;
-    if (!(steps < static_cast<double>(most_values))) {
-      table.error("step", fmt::format("makes {:.3g} values, at most {} are allowed", steps + 1, most_values));
+    if (!(steps < static_cast<double>(max_values))) {
+      table.error("step", fmt::format("makes {:.3g} values, at most {} are allowed", steps + 1, max_values));
       return std::nullopt;
     }
     // The last step may be the shorter one: both ends belong to the values.
@@ -72,8 +72,8 @@ std::optional<std::vector<double>> values_of(study::ObjectReader& table, const I
     // 0 and -0.09 are meant, not roundings of them.
     for (double& x : out) x = std::round(x * 1e12) / 1e12 + 0.0;
   }
-  if (out.size() > most_values) {
-    table.error("values", fmt::format("{} of them, at most {} are allowed", out.size(), most_values));
+  if (out.size() > max_values) {
+    table.error("values", fmt::format("{} of them, at most {} are allowed", out.size(), max_values));
     return std::nullopt;
   }
   std::sort(out.begin(), out.end());

@@ -9,14 +9,14 @@
 namespace linkwright::suspension {
 namespace {
 
-Vec3 contact_of(const GuidePlan& plan, const GuidePosition& position) {
+Vec3 contact_of(const CornerPlan& plan, const CornerPosition& position) {
   const CarrierPose& carrier = position.place.carrier;
   return carrier.centre + contact_offset(plan.side, plan.wheel.tyre_diameter,
                                          wheel_angles(plan.side, plan.wheel, carrier.rotation));
 }
 
 /// The axle's position from those of its wheels.
-AxlePosition joined(GuidePosition left, GuidePosition right) {
+AxlePosition joined(CornerPosition left, CornerPosition right) {
   AxlePosition out{.left = std::move(left), .right = std::move(right)};
   for (const auto& [wheel, name] : {std::pair{&out.left, "left"}, std::pair{&out.right, "right"}}) {
     if (wheel->status == Status::done) continue;
@@ -34,15 +34,15 @@ double road_camber(const WheelParameters& wheel, Side side, double road_angle) {
 
 }  // namespace
 
-AxlePlan prepare_axle(const WheelGuide& guide) {
-  const WheelGuide other = mirrored(guide);
-  return guide.side == Side::left ? prepare_axle(guide, other) : prepare_axle(other, guide);
+AxlePlan prepare_axle(const Suspension& suspension) {
+  const Suspension other = mirrored(suspension);
+  return suspension.side == Side::left ? prepare_axle(suspension, other) : prepare_axle(other, suspension);
 }
 
-AxlePlan prepare_axle(const WheelGuide& left, const WheelGuide& right) {
+AxlePlan prepare_axle(const Suspension& left, const Suspension& right) {
   LINKWRIGHT_REQUIRE(left.side == Side::left && right.side == Side::right,
                      "the first wheel is {}, the second {}", name_of(left.side), name_of(right.side));
-  return {prepare_guide(left), prepare_guide(right)};
+  return {prepare_suspension(left), prepare_suspension(right)};
 }
 
 AxlePosition reference_position(const AxlePlan& plan) {
@@ -117,7 +117,7 @@ AxleParameters axle_parameters(const AxlePlan& plan, const AxlePosition& positio
   out.roll_camber_left = camber_rate(out.left, Side::left, rise / v.z, out.road_camber_left);
   out.roll_camber_right = camber_rate(out.right, Side::right, -rise / w.z, out.road_camber_right);
 
-  const auto steering = [](const GuidePlan& wheel, const GuidePosition& at) {
+  const auto steering = [](const CornerPlan& wheel, const CornerPosition& at) {
     return steering_parameters(wheel, at, wheel.spring ? Driver::spring : Driver::contact_z);
   };
   out.steering_left = steering(plan.left, position.left);

@@ -15,12 +15,12 @@
 namespace linkwright::suspension {
 
 struct AxlePlan {
-  GuidePlan left, right;
+  CornerPlan left, right;
 };
-/// A symmetric axle from either wheel, and one of two wheels. Throw ContractError as `prepare_guide` does,
-/// and if the wheels are not a left and a right one.
-AxlePlan prepare_axle(const WheelGuide& guide);
-AxlePlan prepare_axle(const WheelGuide& left, const WheelGuide& right);
+/// A symmetric axle from either wheel, and one of two wheels. Throw ContractError as `prepare_suspension`
+/// does, and if the wheels are not a left and a right one.
+AxlePlan prepare_axle(const Suspension& suspension);
+AxlePlan prepare_axle(const Suspension& left, const Suspension& right);
 
 /// Travel of each wheel by the driver (m), and the rack they share (m, to the left).
 struct AxleInput {
@@ -32,7 +32,7 @@ struct AxleInput {
 struct AxlePosition {
   Status status = Status::done;  ///< status of the first wheel that is not done
   std::string reason;            ///< empty, or the wheel and its reason
-  GuidePosition left, right;
+  CornerPosition left, right;
 };
 AxlePosition reference_position(const AxlePlan& plan);
 AxlePosition solve_axle(const AxlePlan& plan, const AxleInput& input, const AxlePosition& start);

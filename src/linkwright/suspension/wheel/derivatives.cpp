@@ -23,12 +23,12 @@ std::vector<Vector3<T>> constants(const std::vector<Vec3>& points) {
   return out;
 }
 
-BasicWheelGuide<T> constant(const WheelGuide& guide) {
-  BasicWheelGuide<T> out{.side = guide.side,
-                         .wheel = {constant(guide.wheel.centre), T(guide.wheel.toe), T(guide.wheel.camber),
-                                   guide.wheel.tyre_diameter},
-                         .rack_direction = guide.rack_direction};
-  for (const GuideLink& link : guide.links) {
+BasicSuspension<T> constant(const Suspension& suspension) {
+  BasicSuspension<T> out{.side = suspension.side,
+                         .wheel = {constant(suspension.wheel.centre), T(suspension.wheel.toe),
+                                   T(suspension.wheel.camber), suspension.wheel.tyre_diameter},
+                         .rack_direction = suspension.rack_direction};
+  for (const CornerLink& link : suspension.links) {
     out.links.push_back({.type = link.type,
                          .body = constants(link.body),
                          .carrier = constants(link.carrier),
@@ -36,20 +36,21 @@ BasicWheelGuide<T> constant(const WheelGuide& guide) {
                          .cross_axis = link.cross_axis});
     if (link.length) out.links.back().length = T(*link.length);
   }
-  for (const Coupler& coupler : guide.couplers) {
+  for (const Coupler& coupler : suspension.couplers) {
     out.couplers.push_back({.first = coupler.first,
                             .fraction = T(coupler.fraction),
                             .second = coupler.second,
                             .point = constant(coupler.point)});
     if (coupler.begin) out.couplers.back().begin = constant(*coupler.begin);
   }
-  if (guide.spring)
-    out.spring = {constant(guide.spring->body), constant(guide.spring->moving), guide.spring->link};
+  if (suspension.spring)
+    out.spring = {constant(suspension.spring->body), constant(suspension.spring->moving),
+                  suspension.spring->link};
   return out;
 }
 
-BasicGuidePlace<T> constant(const GuidePlace& place) {
-  BasicGuidePlace<T> out;
+BasicCornerPlace<T> constant(const CornerPlace& place) {
+  BasicCornerPlace<T> out;
   out.carrier.centre = constant(place.carrier.centre);
   for (int i = 0; i < 3; ++i) out.carrier.rotation.row[i] = constant(place.carrier.rotation.row[i]);
   out.arm = T(place.arm);
@@ -101,8 +102,8 @@ Twist twist(const Column<N>& x) {
 template <int N>
 class Linearised {
  public:
-  Linearised(const GuidePlan& plan, const GuidePosition& position) : position_(position) {
-    GuideEquations equations;
+  Linearised(const CornerPlan& plan, const CornerPosition& position) : position_(position) {
+    CornerEquations equations;
     const double rack = position.input.rack;
     const auto factors = [&](Driver driver) {
       evaluate(plan, position.place, rack, driver, 0, equations);
@@ -126,8 +127,8 @@ class Linearised {
   const Column<N>& steer() const { return steer_; }
 
   /// Derivatives of the position by the numbers of `plan`.
-  Columns<N> shifts(const BasicGuidePlan<T>& plan) const {
-    BasicGuideEquations<T> equations;
+  Columns<N> shifts(const BasicCornerPlan<T>& plan) const {
+    BasicCornerEquations<T> equations;
     kernel::evaluate(plan, constant(position_.place), T(position_.input.rack), position_.driver,
                      T(position_.input.value), equations);
     Columns<N> right;
@@ -137,8 +138,8 @@ class Linearised {
   }
 
   /// The place with its derivatives.
-  BasicGuidePlace<T> moved(const Columns<N>& shifts) const {
-    BasicGuidePlace<T> out = constant(position_.place);
+  BasicCornerPlace<T> moved(const Columns<N>& shifts) const {
+    BasicCornerPlace<T> out = constant(position_.place);
     const Mat3& rotation = position_.place.carrier.rotation;
     for (int k = 0; k < W; ++k) {
       const Twist by = twist<N>(direction<N>(shifts, k));
@@ -161,9 +162,9 @@ class Linearised {
   }
 
   /// Adds what the motions show: J x = b gives J x' = b' - J' x.
-  void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+  void add_rates(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
                  BasicWheelParameters<T>& out) const {
-    BasicGuideEquations<T> equations;
+    BasicCornerEquations<T> equations;
     kernel::evaluate(plan, place, rack, Driver::wheel_centre_z, T(0), equations);
     const auto motion = [&](const Column<N>& x, bool steering) {
       Columns<N> right;
@@ -187,7 +188,7 @@ class Linearised {
   }
 
  private:
-  const GuidePosition& position_;
+  const CornerPosition& position_;
   math::SmallLu<N> by_height_, by_driver_;
   Column<N> bump_{}, steer_{};
   bool moves_ = true;
@@ -211,7 +212,7 @@ WheelParameters unknown(Status status) {
 }
 
 template <int N>
-WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& position, Extent extent) {
+WheelDerivatives by_numbers(const DerivativePlan& plan, const CornerPosition& position, Extent extent) {
   WheelDerivatives out;
   out.by.resize(plan.numbers.size());
   out.shift.resize(plan.numbers.size());
@@ -243,7 +244,7 @@ WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& pos
 }
 
 template <int N>
-InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& position) {
+InputDerivatives by_inputs(const DerivativePlan& plan, const CornerPosition& position) {
   InputDerivatives out;
   const Linearised<N> linear(plan.plan, position);
   if (!linear.moves()) {
@@ -271,9 +272,9 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
 
 }  // namespace
 
-DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers) {
-  DerivativePlan out{.plan = prepare_guide(guide), .numbers = std::move(numbers)};
-  const auto constants = constant(guide);
+DerivativePlan prepare_derivatives(const Suspension& suspension, std::vector<DesignNumber> numbers) {
+  DerivativePlan out{.plan = prepare_suspension(suspension), .numbers = std::move(numbers)};
+  const auto constants = constant(suspension);
   for (std::size_t first = 0; first < out.numbers.size(); first += derivative_width) {
     auto varied = constants;
     for (std::size_t k = first; k < out.numbers.size() && k < first + derivative_width; ++k)
@@ -284,12 +285,13 @@ DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNu
   return out;
 }
 
-WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const GuidePosition& position, Extent extent) {
+WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const CornerPosition& position,
+                                   Extent extent) {
   return plan.plan.unknowns == 7 ? by_numbers<7>(plan, position, extent)
                                  : by_numbers<6>(plan, position, extent);
 }
 
-InputDerivatives input_derivatives(const DerivativePlan& plan, const GuidePosition& position) {
+InputDerivatives input_derivatives(const DerivativePlan& plan, const CornerPosition& position) {
   return plan.plan.unknowns == 7 ? by_inputs<7>(plan, position) : by_inputs<6>(plan, position);
 }
 

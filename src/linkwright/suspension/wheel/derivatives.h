@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/math/dual.h"
-#include "linkwright/suspension/guide/design_numbers.h"
+#include "linkwright/suspension/corner/design_numbers.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 /// Exact derivatives of the wheel parameters with respect to the numbers of the design and to the inputs, by
@@ -17,13 +17,13 @@ inline constexpr int derivative_width = 4;
 
 /// A suspension and the numbers that derivatives are asked for. Make it with `prepare_derivatives`.
 struct DerivativePlan {
-  GuidePlan plan;
+  CornerPlan plan;
   std::vector<DesignNumber> numbers;
-  std::vector<BasicGuidePlan<math::Dual<derivative_width>>> passes;
-  BasicGuidePlan<math::Dual<derivative_width>> inputs;
+  std::vector<BasicCornerPlan<math::Dual<derivative_width>>> passes;
+  BasicCornerPlan<math::Dual<derivative_width>> inputs;
 };
-/// Throws ContractError as `prepare_guide` does, and for numbers that the suspension does not have.
-DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers);
+/// Throws ContractError as `prepare_suspension` does, and for numbers that the suspension does not have.
+DerivativePlan prepare_derivatives(const Suspension& suspension, std::vector<DesignNumber> numbers);
 
 struct WheelDerivatives {
   /// singular: at a limit of travel nothing has a derivative, and `by` has NaN.
@@ -36,7 +36,7 @@ struct WheelDerivatives {
   std::vector<Twist> shift;
 };
 /// At a position of `plan.plan`.
-WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const GuidePosition& position,
+WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const CornerPosition& position,
                                    Extent extent = Extent::all);
 
 /// Derivatives of every parameter along the motions, second derivatives of the position where the parameter
@@ -47,6 +47,6 @@ struct InputDerivatives {
   WheelParameters by_travel;  ///< per metre of wheel-centre height, the rack held
   WheelParameters by_rack;    ///< per metre of rack, the height of the wheel centre held
 };
-InputDerivatives input_derivatives(const DerivativePlan& plan, const GuidePosition& position);
+InputDerivatives input_derivatives(const DerivativePlan& plan, const CornerPosition& position);
 
 }  // namespace linkwright::suspension

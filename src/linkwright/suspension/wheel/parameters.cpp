@@ -5,7 +5,7 @@
 
 namespace linkwright::suspension {
 
-Twist steering_twist(const GuidePlan& plan, const GuidePosition& position, const GuideRates& rates,
+Twist steering_twist(const CornerPlan& plan, const CornerPosition& position, const CornerRates& rates,
                      Driver lock) {
   return kernel::steering_twist(plan, position.place, position.input.rack, rates.bump, rates.steer, lock);
 }
@@ -15,11 +15,11 @@ std::optional<SteeringAxis> steering_axis(Side side, const Vec3& centre, const V
   return kernel::steering_axis(side, centre, contact, toe, steering, lock);
 }
 
-WheelParameters wheel_parameters(const GuidePlan& plan, const GuidePosition& position) {
+WheelParameters wheel_parameters(const CornerPlan& plan, const CornerPosition& position) {
   const double rack = position.input.rack;
   WheelParameters out = kernel::parameters_at_rest(plan, position.place, rack);
   kernel::add_constructions(plan, position.place, rack, out);
-  const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
+  const CornerRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   out.status = rates.status;
   if (out.status == Status::done) kernel::add_rates(plan, position.place, rack, rates.bump, rates.steer, out);
   return out;

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/guide/position.h"
-#include "linkwright/suspension/guide/wheel.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/wheel.h"
 
 namespace linkwright::suspension {
 
@@ -37,7 +37,7 @@ using SteeringAxis = BasicSteeringAxis<double>;
 /// the wheel centre in the front centre and the longitudinal plane through it in the side centre; the line
 /// from the contact point to the front centre meets the middle plane of the vehicle in the roll centre. The
 /// motion itself (`front_centre`, `roll_centre_height`) differs by what the tie rod adds: bump steer. NaN for
-/// a suspension without two planes, see GuideConstruction; a centre of parallel arms lies at infinity.
+/// a suspension without two planes, see CornerConstruction; a centre of parallel arms lies at infinity.
 template <class T>
 struct BasicArmCentres {
   static constexpr double missing = nan;
@@ -173,11 +173,11 @@ enum class Extent { at_rest, all };
 
 /// Everything at a position, whatever its driver. The steer angle about +z is -toe on the left and +toe on
 /// the right.
-WheelParameters wheel_parameters(const GuidePlan& plan, const GuidePosition& position);
+WheelParameters wheel_parameters(const CornerPlan& plan, const CornerPosition& position);
 
 /// Steering motion (unit rate of the rack) with `lock` held, from the motions of `solve_rates` for any
 /// driver.
-Twist steering_twist(const GuidePlan& plan, const GuidePosition& position, const GuideRates& rates,
+Twist steering_twist(const CornerPlan& plan, const CornerPosition& position, const CornerRates& rates,
                      Driver lock);
 
 /// The axis of a steering motion (any rate) of a wheel with its centre, contact point and toe; nothing if the

@@ -90,7 +90,7 @@ enum class WheelQuantity {
 
 /// A row of the list of wheel quantities: all that reads, writes, draws or differentiates wheel parameters
 /// goes by this list. A further one is a member of the parameters with its line in `for_each_number`, its
-/// formula (detail/parameters_kernel.h), its name and row here, and a column (guide_columns.cpp) if tables
+/// formula (detail/parameters_kernel.h), its name and row here, and a column (corner_columns.cpp) if tables
 /// show it.
 struct WheelQuantityRow {
   WheelQuantity quantity;

@@ -15,17 +15,17 @@ constexpr double no_steering = 1e-9;
 
 }  // namespace
 
-bool is_steered(const GuidePlan& plan) {
+bool is_steered(const CornerPlan& plan) {
   return std::any_of(plan.links.begin(), plan.links.end(),
                      [](const auto& link) { return link.moved_by_rack; });
 }
 
-std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
+std::optional<SteeringParameters> steering_parameters(const CornerPlan& plan, const CornerPosition& position,
                                                       Driver lock) {
   LINKWRIGHT_REQUIRE(lock != Driver::spring || plan.spring,
                      "the spring is held, and the suspension has none");
   if (!is_steered(plan)) return std::nullopt;
-  const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
+  const CornerRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   if (rates.status != Status::done) return std::nullopt;
   const Twist twist = steering_twist(plan, position, rates, lock);
   const WheelAngles angles = wheel_angles(plan.side, plan.wheel, position.place.carrier.rotation);

@@ -33,11 +33,11 @@ struct SteeringParameters {
 
 /// Nothing for a suspension that no rack moves, at a limit of travel, and where the rack does not turn the
 /// wheel.
-std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
+std::optional<SteeringParameters> steering_parameters(const CornerPlan& plan, const CornerPosition& position,
                                                       Driver lock);
 
 /// True if any link of the suspension is on the rack.
-bool is_steered(const GuidePlan& plan);
+bool is_steered(const CornerPlan& plan);
 
 /// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the
 /// pinion (m, the C factor) and the steer angle by rack (rad/m, either sign).

@@ -18,14 +18,14 @@ namespace {
 
 // Designs are drawn in pieces of at most this many, unless there would be too many of them: each holds its
 // sums.
-constexpr int most_of_piece = 64;
+constexpr int max_of_piece = 64;
 constexpr int solved_by_piece = 2048;  ///< about so many positions, if one design has fewer
-constexpr double most_pieces = 1024, most_bytes = 1e8;
+constexpr double max_pieces = 1024, max_bytes = 1e8;
 
-std::vector<GuidePosition> solved(const GuidePlan& plan, const ToleranceTask& task) {
-  std::vector<GuidePosition> out;
-  GuidePosition at = reference_position(plan, task.driver);
-  for (const GuideInput& input : task.inputs) {
+std::vector<CornerPosition> solved(const CornerPlan& plan, const ToleranceTask& task) {
+  std::vector<CornerPosition> out;
+  CornerPosition at = reference_position(plan, task.driver);
+  for (const CornerInput& input : task.inputs) {
     out.push_back(at.status == Status::done ? solve_position(plan, task.driver, input, at) : at);
     if (out.back().status == Status::done) at = out.back();
   }
@@ -35,18 +35,18 @@ std::vector<GuidePosition> solved(const GuidePlan& plan, const ToleranceTask& ta
 /// Values of one drawn design from out[0] on, [curve][position]. The nominal positions are near, so that each
 /// is found in a few Newton steps.
 void draw(const ToleranceTask& task, const MonteCarlo& options, int sample,
-          const std::vector<GuidePosition>& nominal, std::span<double> out) {
+          const std::vector<CornerPosition>& nominal, std::span<double> out) {
   RandomStream random({options.seed, 0, 0, static_cast<std::uint32_t>(sample)});
-  WheelGuide guide = task.guide;
+  Suspension suspension = task.suspension;
   for (const auto& [number, tolerance] : task.numbers)
-    design_value(guide, number) +=
+    design_value(suspension, number) +=
         tolerance * (options.scatter == Scatter::uniform ? random.uniform(-1, 1) : random.normal() / 3);
   std::fill(out.begin(), out.end(), WheelParameters::missing);
-  if (!check(guide).empty()) return;
-  const GuidePlan plan = prepare_guide(guide);
+  if (!check(suspension).empty()) return;
+  const CornerPlan plan = prepare_suspension(suspension);
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     if (nominal[i].status != Status::done) continue;
-    const GuidePosition position = solve_position(plan, task.driver, task.inputs[i], nominal[i]);
+    const CornerPosition position = solve_position(plan, task.driver, task.inputs[i], nominal[i]);
     if (position.status != Status::done) continue;
     const WheelParameters parameters = wheel_parameters(plan, position);
     for (std::size_t c = 0; c < task.curves.size(); ++c)
@@ -124,11 +124,11 @@ ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& opti
   std::vector<DesignNumber> numbers;
   for (const auto& [number, tolerance] : task.numbers) {
     LINKWRIGHT_REQUIRE(tolerance >= 0 && std::isfinite(tolerance), "tolerance {} of {}", tolerance,
-                       label(task.guide, number));
+                       label(task.suspension, number));
     numbers.push_back(number);
   }
-  const DerivativePlan plan = prepare_derivatives(task.guide, numbers);
-  const std::vector<GuidePosition> nominal = solved(plan.plan, task);
+  const DerivativePlan plan = prepare_derivatives(task.suspension, numbers);
+  const std::vector<CornerPosition> nominal = solved(plan.plan, task);
   const std::size_t positions = nominal.size(), curves = task.curves.size();
 
   ToleranceBands out;
@@ -161,8 +161,8 @@ ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& opti
   if (options.samples == 0) return out;
   const std::size_t stride = curves * positions;
   const int most =
-      static_cast<int>(std::clamp(most_bytes / static_cast<double>(sizeof(Sums) * stride), 8.0, most_pieces));
-  const int size = std::max(std::clamp(solved_by_piece / static_cast<int>(positions), 1, most_of_piece),
+      static_cast<int>(std::clamp(max_bytes / static_cast<double>(sizeof(Sums) * stride), 8.0, max_pieces));
+  const int size = std::max(std::clamp(solved_by_piece / static_cast<int>(positions), 1, max_of_piece),
                             (options.samples + most - 1) / most);
   const auto count = static_cast<std::size_t>((options.samples + size - 1) / size);
   const auto samples_of = [&](std::size_t k) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/suspension/guide/design_numbers.h"
-#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/corner/design_numbers.h"
+#include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
 /// The scatter of the curves of a wheel suspension whose points are made within tolerances.
@@ -21,10 +21,10 @@ struct TolerancedNumber {
 };
 
 struct ToleranceTask {
-  WheelGuide guide;
+  Suspension suspension;
   std::vector<TolerancedNumber> numbers;
   Driver driver = Driver::wheel_centre_z;
-  std::vector<GuideInput> inputs;  ///< positions of the curves, in the order of a path
+  std::vector<CornerInput> inputs;  ///< positions of the curves, in the order of a path
   std::vector<WheelQuantity> curves;
 };
 

@@ -45,7 +45,7 @@ const FourBar pipi{
 
 TEST(PathUsability, ACrankRockerHasNoDrawbacks) {
   const PathProblem p = own_path(good, 0, pi / 12, 24, true);
-  EXPECT_THAT(drawbacks(p, own_design(p, good, 0, pi / 12)), IsEmpty());
+  EXPECT_THAT(weaknesses(p, own_design(p, good, 0, pi / 12)), IsEmpty());
 }
 
 // The transmission angle of an open path is that of the part used, of a closed one that of the turn.
@@ -71,7 +71,7 @@ TEST(PathUsability, TellsWhereTheCrankLocks) {
   const AngleInterval inputs = classify(pipi).inputs[0];
   const double first = inputs.to - 0.2, step = -0.05;
   const PathProblem p = own_path(pipi, first, step, 11, false);
-  const auto found = drawbacks(p, own_design(p, pipi, first, step));
+  const auto found = weaknesses(p, own_design(p, pipi, first, step));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].kind, DrawbackKind::locks);
   EXPECT_THAT(to_string(found[0].text), HasSubstr("locks 11.5° before the first point"));
@@ -81,15 +81,15 @@ TEST(PathUsability, TellsCrowdedPoints) {
   PathProblem p = own_path(good, 0, pi / 12, 24, true);
   PathDesign d = own_design(p, good, 0, pi / 12);
   d.angles[4] = d.angles[3] + 0.01;
-  const auto found = drawbacks(p, d);
+  const auto found = weaknesses(p, d);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].kind, DrawbackKind::crowded);
   EXPECT_EQ(found[0].text, "0.57° of crank rotation lie between points 4 and 5");
   // Many points share the turn: a tenth of an even share counts.
-  EXPECT_NEAR(least_usable_step(own_path(good, 0, pi / 100, 200, true)), 0.2 * pi / 200, 1e-15);
-  EXPECT_NEAR(least_usable_step(p), pi / 180, 1e-15);
+  EXPECT_NEAR(min_usable_step(own_path(good, 0, pi / 100, 200, true)), 0.2 * pi / 200, 1e-15);
+  EXPECT_NEAR(min_usable_step(p), pi / 180, 1e-15);
   p.timing = Timing::equal_steps;  // prescribed steps are as they are
-  EXPECT_THAT(drawbacks(p, d), IsEmpty());
+  EXPECT_THAT(weaknesses(p, d), IsEmpty());
 }
 
 TEST(PathUsability, OnlyBoundsThatNobodyGaveAreDrawbacks) {
@@ -100,11 +100,11 @@ TEST(PathUsability, OnlyBoundsThatNobodyGaveAreDrawbacks) {
   p.bounds = derive_bounds(p.x, p.y);
   const PathDesign d = measure(p, good, 1, {0.5, 1, 1.5});
   ASSERT_THAT(d.active_bounds, ::testing::Contains("ground"));
-  const auto found = drawbacks(p, d);
+  const auto found = weaknesses(p, d);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].text, "its ground link is as long as the search allows");
   p.bounds[0].lower = 0.1;
-  EXPECT_THAT(drawbacks(p, measure(p, good, 1, {0.5, 1, 1.5})), IsEmpty());
+  EXPECT_THAT(weaknesses(p, measure(p, good, 1, {0.5, 1, 1.5})), IsEmpty());
 }
 
 TEST(PathUsability, TheUsableProblemIsNarrower) {
@@ -158,14 +158,14 @@ TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
     // The order of a design is that of its angles; how far apart they stay is up to the search.
     double least = closed ? sense * (angles.front() - angles.back()) + 2 * pi : 2 * pi;
     for (std::size_t k = 0; k + 1 < count; ++k) least = std::min(least, sense * (angles[k + 1] - angles[k]));
-    if (!limited.violations.empty() || least < usable_problem(p).least_step) {
+    if (!limited.violations.empty() || least < usable_problem(p).min_step) {
       ++refused;
       continue;
     }
     ++allowed;
     EXPECT_THAT(design.violations, IsEmpty()) << seed;
-    for (const Drawback& drawback : drawbacks(p, design))
-      ADD_FAILURE() << seed << ": " << to_string(drawback.text);
+    for (const Weakness& weakness : weaknesses(p, design))
+      ADD_FAILURE() << seed << ": " << to_string(weakness.text);
   }
   EXPECT_GT(allowed, 300);
   EXPECT_GT(refused, 300);

@@ -26,7 +26,7 @@ struct PreparedLeg {
     double along = 0, aside = 0, across = 0;  ///< parts of `joint` along e, w and the axis
     double arm = 0, rod = 0;
   };
-  std::array<By, most_dimensions> by{};
+  std::array<By, max_dimensions> by{};
 };
 struct PreparedRobot {
   int count = 0;  ///< dimensions
@@ -35,7 +35,7 @@ struct PreparedRobot {
   double assembly = 1;  ///< sign of det J^-1 where the conditioning is positive
   double turned = 1;    ///< sign of det C where the constraint index is
   Vec3 origin;          ///< origin of the region
-  std::array<PreparedLeg, most_legs> leg{};
+  std::array<PreparedLeg, max_legs> leg{};
 };
 
 /// Velocity of a platform joint in a twist whose turning is multiplied by a length.
@@ -94,7 +94,7 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
   // Smooth minimum of the squares of an input index and of the leg it belongs to: beyond reach it continues
   // as an index that is less than 0, so that a search finds its way back.
   T least(0.0);
-  std::array<T, most_dimensions> least_by;
+  std::array<T, max_dimensions> least_by;
   for (int j = 0; j < n; ++j) least_by[j] = T(0.0);
   for (int i = 0; i < order; ++i) {
     const PreparedLeg& prepared = robot.leg[i];

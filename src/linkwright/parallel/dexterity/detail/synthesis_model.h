@@ -36,7 +36,7 @@ struct Extreme {
 /// Extremes of all nodes, a leg each: input_square, output, side; outward angles of the arms.
 struct Extremes {
   Extreme conditioning, constraint;
-  std::array<Extreme, most_legs> input_square, output, side, lowest, highest;
+  std::array<Extreme, max_legs> input_square, output, side, lowest, highest;
 };
 
 class DexterityModel {

@@ -285,7 +285,7 @@ using SevenPointsOnePivot = PointsAndPivots<1>;
 template <template <class> class Curve, class BarsOfSystem>
 struct PosesAndPoints {
   static constexpr std::size_t unknowns = std::tuple_size_v<BarsOfSystem>, places = unknowns / 2;
-  static constexpr std::size_t others = unknowns, half = others, most_poses = 3, data = 2 * half + most_poses;
+  static constexpr std::size_t others = unknowns, half = others, max_poses = 3, data = 2 * half + max_poses;
   static constexpr double largest_chart = 1e150;  // there is but one
   using Bars = BarsOfSystem;
 
@@ -333,7 +333,7 @@ struct PosesAndPoints {
                   const ComplexNumber* turns, SystemData<PosesAndPoints>& p, SystemPoint<PosesAndPoints>& z) {
     z = bars;
     for (std::size_t j = 0; j < others; ++j) p[j] = d[j], p[half + j] = D[j];
-    for (std::size_t j = 0; j < most_poses; ++j) p[2 * half + j] = turns[j];
+    for (std::size_t j = 0; j < max_poses; ++j) p[2 * half + j] = turns[j];
   }
   /// The same for both orders of two dyads of one type.
   static ComplexNumber identity(const SystemPoint<PosesAndPoints>& z) {

@@ -46,7 +46,7 @@ SystemPoint<System> conjugate_solution(const SystemPoint<System>& z) {
 // a place where some meet, does not. `z` has a size near 1.
 template <class System>
 bool stands_alone(const System& system, const SystemData<System>& p, const SystemPoint<System>& z) {
-  constexpr double most_moved = 1e13;
+  constexpr double max_moved = 1e13;
   constexpr std::size_t n = System::unknowns;
   ComplexNumber values[n], right[1][n];
   math::tracker::Lu<double, n> lu;
@@ -58,7 +58,7 @@ bool stands_alone(const System& system, const SystemData<System>& p, const Syste
     right[0][i] = std::sqrt(size) * ComplexNumber(1, 0.37 * static_cast<double>(i));
   }
   lu.solve(right);
-  return math::tracker::size(right[0]) < most_moved * most_moved * (1 + squared_size(z));
+  return math::tracker::size(right[0]) < max_moved * max_moved * (1 + squared_size(z));
 }
 
 }  // namespace solve_points_detail

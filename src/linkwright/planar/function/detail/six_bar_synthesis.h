@@ -21,7 +21,7 @@ namespace linkwright::planar {
 // Places of the range where errors are minimised.
 inline constexpr std::size_t six_bar_samples = 81;
 // Fits that the least greatest error is sought from, designs that are kept.
-inline constexpr std::size_t six_bar_minimax_starts = 6, most_six_bars = 5;
+inline constexpr std::size_t six_bar_minimax_starts = 6, max_six_bars = 5;
 inline constexpr int minimax_passes = 3;
 // Places of the range at which the pair angles are conditions of the least greatest error, and by how much
 // they may be less between these places (rad).
@@ -49,7 +49,7 @@ SixBarDesign<Generator> assess_six_bar(const FunctionProblem& problem, const Gen
 /// has
 /// - `Generator` and `numbers`: what it is, and how many numbers it has;
 /// - `numbers_of(generator)` and `with(generator, x)`: to and from these;
-/// - `bounds(most_link, lower, upper)`: of the numbers;
+/// - `bounds(max_link, lower, upper)`: of the numbers;
 /// - `starts(problem, four_bars, pair_angle)`: generators to begin from; `four_bars` are the best of the
 ///   same problem;
 /// - `output(generator, input, slopes)`: rad, with its slopes unless null; nothing where it does not
@@ -67,7 +67,7 @@ class SixBarFinder {
   SixBarFinder(const FunctionProblem& problem, double pair_angle, RunContext& context)
       : p_(problem), pair_angle_(pair_angle), context_(context) {
     for (std::size_t k = 0; k < six_bar_samples; ++k) wanted_.push_back(p_.output(share(k)));
-    Model::bounds(p_.most_link, lower_, upper_);
+    Model::bounds(p_.max_link, lower_, upper_);
   }
 
   SixBarAnswer<Generator> find() {
@@ -83,7 +83,7 @@ class SixBarFinder {
     }
     rank(FunctionFit::least_squares, six_bar_minimax_starts);
     if (p_.fit == FunctionFit::minimax) minimax();
-    rank(p_.fit, most_six_bars);
+    rank(p_.fit, max_six_bars);
     if (out_.status == Status::done && out_.designs.empty()) out_.status = Status::infeasible;
     return std::move(out_);
   }
@@ -173,7 +173,7 @@ class SixBarFinder {
               gradients[row * numbers + j] = there ? sign * jacobian[j * six_bar_samples + k] / unit : 0;
           }
       };
-      const double most_cosine = std::cos(pair_angle_ + between_pairs);
+      const double max_cosine = std::cos(pair_angle_ + between_pairs);
       const auto conditions = [&](std::span<const double> x, std::span<double> values,
                                   std::span<double> gradients) {
         const Generator g = Model::with(start, x);
@@ -185,7 +185,7 @@ class SixBarFinder {
           for (std::size_t row = 4 * k; row < 4 * k + 4; ++row) {
             const std::size_t pair = row % 4 / 2;
             const double sign = row % 2 == 0 ? 1 : -1;
-            values[row] = sign * pairs[pair] - most_cosine;
+            values[row] = sign * pairs[pair] - max_cosine;
             for (std::size_t j = 0; j < numbers && !gradients.empty(); ++j)
               gradients[numbers * row + j] = sign * slopes[numbers * pair + j];
           }

@@ -14,8 +14,8 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t grid = 720;        // crank angles, of a turn or of the interval of inputs
-constexpr std::size_t most_starts = 12;  // places of the first target that a search within a turn begins at
+constexpr std::size_t grid = 720;       // crank angles, of a turn or of the interval of inputs
+constexpr std::size_t max_starts = 12;  // places of the first target that a search within a turn begins at
 
 // Squared misses of all targets along the path, and the cheapest way through them in order.
 class OrderedSearch {
@@ -72,7 +72,7 @@ class OrderedSearch {
     for (std::size_t s = 0; s < samples_; ++s)
       if (cost(0, s) <= cost(0, s + 1) && cost(0, s) <= cost(0, s + samples_ - 1)) out.push_back(s);
     std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) { return cost(0, a) < cost(0, b); });
-    if (out.size() > most_starts) out.resize(most_starts);
+    if (out.size() > max_starts) out.resize(max_starts);
     return out;
   }
 

@@ -23,10 +23,10 @@ constexpr std::size_t crank_rows = 0, transmission_rows = 3, packaging_rows = 7,
                       order_rows = 15;
 
 // Largest number of times that a step is repeated because a variable would pass its bound.
-constexpr int most_stops_at_bounds = 4;
+constexpr int max_stops_at_bounds = 4;
 
 // Longest step: crank and frame angles in rad, lengths as a share of the length.
-constexpr double longest_turn = 0.5, longest_change = 0.6;
+constexpr double max_turn = 0.5, max_change = 0.6;
 
 constexpr std::size_t width = four_bar_parameter_count;
 static_assert(width % 2 == 0);
@@ -194,11 +194,11 @@ void PathFitter::evaluate_order(const std::vector<double>& angles, bool derivati
   const std::size_t n = angles.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t next = (k + 1) % n;
-    double value = problem_.least_step - sense_ * (angles[next] - angles[k]);
+    double value = problem_.min_step - sense_ * (angles[next] - angles[k]);
     // The last row closes the turn: a closed path leaves room for one more step, an open one stays within a
     // turn.
     if (next == 0)
-      value = (problem_.closed ? problem_.least_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
+      value = (problem_.closed ? problem_.min_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
     const std::size_t row = order_rows + k;
     values_[row] = value;
     const double c = value + multipliers_[row] / penalty_;
@@ -407,11 +407,11 @@ double PathFitter::shrink_to_longest() const {
   const auto limit = [&](double step, double longest) {
     if (std::abs(step) * shrink > longest) shrink = longest / std::abs(step);
   };
-  for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], longest_change * q_[i]);
-  limit(step_q_[index(P::frame_angle)], longest_turn);
-  limit(step_q_[index(P::start_angle)], longest_turn);
+  for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], max_change * q_[i]);
+  limit(step_q_[index(P::frame_angle)], max_turn);
+  limit(step_q_[index(P::start_angle)], max_turn);
   if (free_timing_)
-    for (double step : step_angles_) limit(step, longest_turn);
+    for (double step : step_angles_) limit(step, max_turn);
   return shrink;
 }
 
@@ -433,7 +433,7 @@ bool PathFitter::solve_within_bounds(double lambda) {
       held_[i] = passed = true;
       held_step_[i] = (end < lower_[i] ? lower_[i] : upper_[i]) - q_[i];
     }
-    if (!passed || !free_timing_ || stops == most_stops_at_bounds) return true;
+    if (!passed || !free_timing_ || stops == max_stops_at_bounds) return true;
   }
 }
 

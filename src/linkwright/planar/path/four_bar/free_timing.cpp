@@ -270,14 +270,14 @@ class LadderOfLimits {
     PathSynthesisOptions options = options_;
     options.progress = options.progress && answers_.size() == 1;
     out = TimingSearch(limited, options, context_).run();
-    if (!turns) go_on(limited, answer(true, transmits), out);
+    if (!turns) throw_if_interrupted(limited, answer(true, transmits), out);
     if (!transmits && problem_.min_transmission_angle < usual_transmission)
-      go_on(limited, answer(turns, true), out);
+      throw_if_interrupted(limited, answer(turns, true), out);
     rank(out.designs);
     return out;
   }
 
-  void go_on(const PathProblem& problem, const PathSynthesis& limited, PathSynthesis& out) {
+  void throw_if_interrupted(const PathProblem& problem, const PathSynthesis& limited, PathSynthesis& out) {
     if (limited.status == Status::deadline || limited.status == Status::cancelled)
       out.status = limited.status;
     out.evaluations += limited.evaluations;
@@ -326,8 +326,8 @@ PathDesign polish_free_timing(const PathProblem& problem, PathDesign design, std
     return true;
   };
   search(design.angles);
-  constexpr int most_rounds = 20;
-  for (int round = 0; round < most_rounds; ++round) {
+  constexpr int max_rounds = 20;
+  for (int round = 0; round < max_rounds; ++round) {
     const auto assigned = assign_crank_angles(problem, design.linkage, design.sense, design.angles[0]);
     if (!assigned || !search(assigned->angles)) break;
   }

@@ -33,11 +33,11 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
                       std::min(box.y_max, far)};
   }
   if (!o.free_timing) {
-    o.least_offset = infinity;
-    o.greatest_offset = -o.least_offset;
+    o.min_offset = infinity;
+    o.greatest_offset = -o.min_offset;
     for (std::size_t k = 0; k < o.x.size(); ++k) {
       const double offset = sense * point_angle(problem, k);
-      o.least_offset = std::min(o.least_offset, offset);
+      o.min_offset = std::min(o.min_offset, offset);
       o.greatest_offset = std::max(o.greatest_offset, offset);
       o.ux.push_back(std::cos(offset));
       o.uy.push_back(std::sin(offset));

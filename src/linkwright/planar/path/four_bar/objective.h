@@ -15,9 +15,9 @@ struct PathObjective : TargetLayout {
   std::size_t points = 0;  ///< number of target points; the arrays repeat the last one up to a multiple of 4
   std::vector<double> ux,
       uy;  ///< prescribed timing: direction e^(i angle) of each point before the start angle is added
-  double least_offset = 0, greatest_offset = 0;  ///< prescribed timing: extremes of those angles (rad)
-  bool free_timing = false;                      ///< else `ux`, `uy` are used
-  bool start_is_variable = false;                ///< equal steps: variable 9 is the start angle
+  double min_offset = 0, greatest_offset = 0;  ///< prescribed timing: extremes of those angles (rad)
+  bool free_timing = false;                    ///< else `ux`, `uy` are used
+  bool start_is_variable = false;              ///< equal steps: variable 9 is the start angle
   bool closed = true;
   double branch = 1;  ///< +1 open, -1 crossed
   double sense = 1;   ///< +1 or -1

@@ -104,7 +104,7 @@ LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, co
   if (o.max_transmission_cosine < 1) {
     if (!o.crank_rotates_fully) {
       // The extremes between the points: A and B0 are nearest at whole turns, farthest at half turns.
-      T start(0.0), low(o.least_offset), high(o.greatest_offset);
+      T start(0.0), low(o.min_offset), high(o.greatest_offset);
       if (free_timing || o.start_is_variable) start = load_row(first);
       if constexpr (free_timing) {
         low = S::min(T(0.0), T(o.sense) * turned);

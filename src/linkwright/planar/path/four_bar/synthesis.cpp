@@ -104,11 +104,11 @@ class Search : PathSearch<FourBarPath> {
 // True if the best design, or the best one whose crank turns fully, has no drawbacks: then no search under
 // limits has anything to add.
 bool best_turning_is_usable(const PathProblem& problem, const std::vector<PathDesign>& ranked) {
-  if (drawbacks(problem, ranked[0]).empty()) return true;
+  if (weaknesses(problem, ranked[0]).empty()) return true;
   for (const PathDesign& design : ranked) {
-    const std::vector<Drawback> found = drawbacks(problem, design);
+    const std::vector<Weakness> found = weaknesses(problem, design);
     if (std::none_of(found.begin(), found.end(),
-                     [](const Drawback& d) { return d.kind == DrawbackKind::locks; }))
+                     [](const Weakness& d) { return d.kind == DrawbackKind::locks; }))
       return found.empty();
   }
   return false;
@@ -118,7 +118,7 @@ bool best_turning_is_usable(const PathProblem& problem, const std::vector<PathDe
 // is none. Free timing has searched under limits and is likely to have one.
 bool improve_usable(const PathProblem& problem, PathSynthesis& answer) {
   const auto found = std::find_if(answer.designs.begin(), answer.designs.end(), [&](const PathDesign& d) {
-    return d.violations.empty() && drawbacks(problem, d).empty();
+    return d.violations.empty() && weaknesses(problem, d).empty();
   });
   if (!problem.free_timing() || found == answer.designs.end()) return false;
   const PathProblem usable = usable_problem(problem);

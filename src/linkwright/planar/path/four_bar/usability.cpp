@@ -26,7 +26,7 @@ bool derived(const PathProblem& problem, std::size_t j) {
   return problem.bounds[j] == derive_bounds(problem.x, problem.y)[j];
 }
 
-void add_locks(const PathDesign& design, const FourBarClass& type, std::vector<Drawback>& out) {
+void add_locks(const PathDesign& design, const FourBarClass& type, std::vector<Weakness>& out) {
   const auto [low, high] = std::minmax_element(design.angles.begin(), design.angles.end());
   for (const AngleInterval& interval : type.inputs) {
     const double middle = 0.5 * (*low + *high);
@@ -51,14 +51,14 @@ PathTransmission path_transmission(const PathProblem& problem, const PathDesign&
   return {transmission_angles(design.linkage, *low, *high).minimum, whole};
 }
 
-double least_usable_step(const PathProblem& problem) {
+double min_usable_step(const PathProblem& problem) {
   return std::min(pi / 180, 0.2 * pi / static_cast<double>(problem.x.size()));
 }
 
-std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& design) {
-  std::vector<Drawback> out;
+std::vector<Weakness> weaknesses(const PathProblem& problem, const PathDesign& design) {
+  std::vector<Weakness> out;
   const double mu = path_transmission(problem, design).used;
-  if (mu < least_usable_transmission - slack)
+  if (mu < min_usable_transmission - slack)
     out.push_back({DrawbackKind::transmission,
                    say("its transmission angle falls to {} on the path", degrees_of(mu).fixed(1))});
   if (problem.timing == Timing::free && design.angles.size() > 1) {
@@ -70,7 +70,7 @@ std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& de
       if (k + 1 == n) step += 2 * pi;
       if (step < least) least = step, at = k;
     }
-    if (least < least_usable_step(problem) - slack)
+    if (least < min_usable_step(problem) - slack)
       out.push_back(
           {DrawbackKind::crowded, say("{} of crank rotation lie between points {} and {}",
                                       degrees_of(std::max(0.0, least), 2), at + 1, (at + 1) % n + 1)});
@@ -92,8 +92,8 @@ std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& de
 
 PathProblem usable_problem(PathProblem p) {
   p.crank_rotates_fully = true;
-  p.min_transmission_angle = std::max(p.min_transmission_angle, least_usable_transmission);
-  p.least_step = std::max(p.least_step, least_usable_step(p));
+  p.min_transmission_angle = std::max(p.min_transmission_angle, min_usable_transmission);
+  p.min_step = std::max(p.min_step, min_usable_step(p));
   for (std::size_t j = 0; j < links; ++j)
     if (derived(p, j)) p.bounds[j] = {2 * p.bounds[j].lower, 0.5 * p.bounds[j].upper};
   return p;
@@ -102,7 +102,7 @@ PathProblem usable_problem(PathProblem p) {
 void keep_first(const PathProblem& problem, std::vector<PathDesign>& ranked, std::size_t most) {
   if (ranked.size() <= most) return;
   const auto usable = [&](const PathDesign& d) {
-    return d.violations.empty() && drawbacks(problem, d).empty();
+    return d.violations.empty() && weaknesses(problem, d).empty();
   };
   const auto end = ranked.begin() + static_cast<std::ptrdiff_t>(most);
   if (most > 1 && std::none_of(ranked.begin(), end, usable)) {

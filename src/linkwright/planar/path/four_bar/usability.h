@@ -18,24 +18,24 @@ PathTransmission path_transmission(const PathProblem& problem, const PathDesign&
 
 /// The reason why a linkage that meets its problem is hard to build or to drive.
 enum class DrawbackKind {
-  transmission,  ///< the transmission angle falls below least_usable_transmission on the path
-  crowded,       ///< two neighbouring points lie within least_usable_step of crank rotation (free timing)
+  transmission,  ///< the transmission angle falls below min_usable_transmission on the path
+  crowded,       ///< two neighbouring points lie within min_usable_step of crank rotation (free timing)
   bound,         ///< a link is at a bound that follows from the size of the path, not from the study
   locks,         ///< the crank does not rotate fully: at both ends of its motion the linkage locks
 };
-struct Drawback {
+struct Weakness {
   DrawbackKind kind;
   Sentence text;  ///< part of a sentence
 };
 
-inline constexpr double least_usable_transmission = 0.08726646259971647;  ///< rad, 5 degrees
+inline constexpr double min_usable_transmission = 0.08726646259971647;  ///< rad, 5 degrees
 
 /// Least crank rotation between two neighbouring points (rad): one degree, or a tenth of an even share of the
 /// turn when there are more than 36 points.
-double least_usable_step(const PathProblem& problem);
+double min_usable_step(const PathProblem& problem);
 
 /// Drawbacks of a design; empty = usable.
-std::vector<Drawback> drawbacks(const PathProblem& problem, const PathDesign& design);
+std::vector<Weakness> weaknesses(const PathProblem& problem, const PathDesign& design);
 
 /// The same problem with limits that keep the drawbacks away: what it allows, the problem allows.
 PathProblem usable_problem(PathProblem problem);

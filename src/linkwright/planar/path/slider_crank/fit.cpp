@@ -21,9 +21,9 @@ constexpr std::size_t count = slider_parameter_count;
 constexpr std::size_t rod_rows = 0, stroke_rows = 4, order_rows = 6;
 
 // Points are met one after the other with at least this much crank rotation between them (rad).
-constexpr double least_step = 1e-4;
+constexpr double min_step = 1e-4;
 // Longest step: angles in rad, lengths of links as a share of the length.
-constexpr double longest_turn = 0.5, longest_change = 0.6;
+constexpr double max_turn = 0.5, max_change = 0.6;
 
 std::array<double, count> regular_terms(double size) {
   std::array<double, count> out{};
@@ -143,10 +143,10 @@ void SliderPathFitter::keep_order(const std::vector<double>& angles, bool deriva
   const std::size_t n = angles.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t next = (k + 1) % n;
-    double value = least_step - sense_ * (angles[next] - angles[k]);
+    double value = min_step - sense_ * (angles[next] - angles[k]);
     // The last row closes the turn: a closed path leaves room for one more step, an open one stays within
     // one.
-    if (next == 0) value = (problem_.closed ? least_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
+    if (next == 0) value = (problem_.closed ? min_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
     const std::size_t row = order_rows + k;
     values_[row] = value;
     const double c = value + multipliers_[row] / penalty_;
@@ -230,10 +230,10 @@ double SliderPathFitter::descend(const PathFitOptions& options) {
     const auto limit = [&](double size, double longest) {
       if (std::abs(size) * shrink > longest) shrink = longest / std::abs(size);
     };
-    for (const P j : {P::crank, P::rod}) limit(step[index(j)], longest_change * q_[index(j)]);
-    for (const P j : {P::point_angle, P::guide_angle, P::start_angle}) limit(step[index(j)], longest_turn);
+    for (const P j : {P::crank, P::rod}) limit(step[index(j)], max_change * q_[index(j)]);
+    for (const P j : {P::point_angle, P::guide_angle, P::start_angle}) limit(step[index(j)], max_turn);
     if (problem_.free_timing())
-      for (const double turn : equations_.angle_step()) limit(turn, longest_turn);
+      for (const double turn : equations_.angle_step()) limit(turn, max_turn);
     for (std::size_t j = 0; j < count; ++j)
       trial_q_[j] = variable_[j] ? std::clamp(q_[j] + shrink * step[j], lower_[j], upper_[j]) : q_[j];
     if (problem_.free_timing())

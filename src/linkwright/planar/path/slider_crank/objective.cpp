@@ -20,15 +20,15 @@ SliderPathObjective slider_path_objective(const SliderPathProblem& problem, Slid
   o.sense = sense;
   o.crank_rotates_fully = problem.crank_rotates_fully;
   o.max_pressure_sine = std::sin(problem.max_pressure_angle);
-  o.least_stroke = problem.stroke.lower;
+  o.min_stroke = problem.stroke.lower;
   o.greatest_stroke = problem.stroke.upper;
   o.size = path_size(problem);
   if (!o.free_timing) {
-    o.least_offset = infinity;
-    o.greatest_offset = -o.least_offset;
+    o.min_offset = infinity;
+    o.greatest_offset = -o.min_offset;
     for (const double forward : problem.angles) {
       const double offset = sense * forward;
-      o.least_offset = std::min(o.least_offset, offset);
+      o.min_offset = std::min(o.min_offset, offset);
       o.greatest_offset = std::max(o.greatest_offset, offset);
       o.ux.push_back(std::cos(offset));
       o.uy.push_back(std::sin(offset));

@@ -15,14 +15,14 @@ namespace linkwright::planar {
 struct SliderPathObjective : TargetLayout {
   std::size_t points = 0;
   std::vector<double> ux, uy;  ///< prescribed timing: direction of the offset of each point, sense included
-  double least_offset = 0, greatest_offset = 0;  ///< extremes of those offsets (rad)
+  double min_offset = 0, greatest_offset = 0;  ///< extremes of those offsets (rad)
   bool free_timing = false;
   bool closed = true;
   double side = 1;   ///< +1 forward, -1 backward
   double sense = 1;  ///< +1 or -1
   bool crank_rotates_fully = true;
   double max_pressure_sine = 1;  ///< 1 = no limit
-  double least_stroke = 0, greatest_stroke = infinity;
+  double min_stroke = 0, greatest_stroke = infinity;
   double size = 1;           ///< size of the path (m)
   bool with_stroke = false;  ///< two costs a candidate: error and stroke over their scales
   SliderPathScales scales{};

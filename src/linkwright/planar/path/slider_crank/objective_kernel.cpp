@@ -73,15 +73,15 @@ LINKWRIGHT_KERNEL void evaluate_slider_candidates(const SliderPathObjective& o, 
     excess = S::positive_part(crank + across - rod) / (crank + rod + across);
     if (o.max_pressure_sine < 1) excess = excess + S::positive_part((crank + across) * inverse - sine);
     stroke = slider_stroke(crank, rod, offset);
-    excess = excess + (S::positive_part(stroke - T(o.greatest_stroke)) +
-                       S::positive_part(T(o.least_stroke) - stroke)) /
-                          T(o.size);
+    excess = excess +
+             (S::positive_part(stroke - T(o.greatest_stroke)) + S::positive_part(T(o.min_stroke) - stroke)) /
+                 T(o.size);
   } else {
     excess = S::positive_part(high_sine - T(1.0)) + S::positive_part(-(T(1.0) + low_sine));
     if (o.max_pressure_sine < 1) {
       // The extremes between the points: the crank pin is highest at a quarter turn from the guide, lowest at
       // three quarters.
-      T low(o.least_offset), high(o.greatest_offset);
+      T low(o.min_offset), high(o.greatest_offset);
       if constexpr (free_timing) {
         low = S::min(T(0.0), T(o.sense) * turned);
         high = S::max(T(0.0), T(o.sense) * turned);

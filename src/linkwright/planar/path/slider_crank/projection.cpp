@@ -18,7 +18,7 @@ using P = SliderParameter;
 constexpr double slider_rank_tolerance = 1e-10;
 constexpr double largest_ratio = 1e6;
 // The crank vanishes only for targets that need no motion of the crank pin; it stays a mechanism.
-constexpr double least_crank = 1e-9;
+constexpr double min_crank = 1e-9;
 
 // sum conj(x_k) y_k
 Complex inner(const std::vector<double>& xr, const std::vector<double>& xi, const double* yr,
@@ -125,7 +125,7 @@ bool SliderPathProjection::ratios(std::span<const double> q) {
 }
 
 bool SliderPathProjection::limits(Length& low, Length& high) const {
-  low = {std::max(crank_.lower, least_crank * size_), 0, 0};
+  low = {std::max(crank_.lower, min_crank * size_), 0, 0};
   high = {crank_.upper, 0, 0};
   const auto at_least = [&](const Length& l) {
     if (l.value > low.value) low = l;

@@ -29,9 +29,9 @@ class DirectModel {
   const DirectTask& task() const { return task_; }
   const TargetPositions& positions() const { return positions_; }
 
-  WheelGuide guide(std::span<const double> u) const;
+  Suspension suspension(std::span<const double> u) const;
   std::vector<double> values(std::span<const double> u) const;
-  std::vector<double> shares(const WheelGuide& guide) const;
+  std::vector<double> shares(const Suspension& suspension) const;
   /// The given design, moved into the ranges.
   std::vector<double> given() const;
   double reached(std::span<const double> u) const;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "linkwright/suspension/guide/detail/constraints_kernel.h"
+#include "linkwright/suspension/corner/detail/constraints_kernel.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 /// The wheel parameters, written once for numbers and for numbers with derivatives.
@@ -16,7 +16,7 @@ namespace linkwright::suspension::kernel {
 inline constexpr double no_steering = 1e-9;
 
 template <class T>
-BasicTwist<T> steering_twist(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+BasicTwist<T> steering_twist(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
                              const BasicTwist<T>& bump, const BasicTwist<T>& steer, Driver lock) {
   const T by_steering = kernel::driver_rate(plan, place, rack, lock, steer, 1);
   const T by = -by_steering / kernel::driver_rate(plan, place, rack, lock, bump, 0);
@@ -82,7 +82,7 @@ template <class T>
 std::optional<BasicSteeringAxis<T>> geometric_axis(const Placed<T>& placed,
                                                    const BasicWheelParameters<T>& at) {
   using std::abs;
-  const GuideConstruction& construction = placed.plan.construction;
+  const CornerConstruction& construction = placed.plan.construction;
   if (!construction.has_axis()) return std::nullopt;
   const Side side = placed.plan.side;
   const auto seen = [&](const Vector3<T>& a) { return side == Side::left ? a : math::mirrored(a); };
@@ -104,7 +104,7 @@ struct Plane {
 };
 
 template <class T>
-std::array<Plane<T>, 2> arm_planes(const Placed<T>& placed, const GuideConstruction& construction) {
+std::array<Plane<T>, 2> arm_planes(const Placed<T>& placed, const CornerConstruction& construction) {
   std::array<Plane<T>, 2> out;
   for (std::size_t i = 0; i < 2; ++i) {
     const Arm& arm = construction.arms[construction.arms.size() == 2 ? i : 0];
@@ -176,7 +176,7 @@ BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contac
 
 /// Adds the parameters that constructions give in a pose, without motion.
 template <class T>
-void add_constructions(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+void add_constructions(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
                        BasicWheelParameters<T>& out) {
   const Placed<T> placed{plan, place, rack};
   out.geometric_axis = geometric_axis(placed, out);
@@ -185,10 +185,10 @@ void add_constructions(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& 
 
 /// The parameters that a pose shows by itself.
 template <class T>
-BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place,
+BasicWheelParameters<T> parameters_at_rest(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place,
                                            const T& rack) {
   const BasicCarrierPose<T>& carrier = place.carrier;
-  const BasicGuideWheel<T>& wheel = plan.wheel;
+  const BasicCornerWheel<T>& wheel = plan.wheel;
   using std::atan;
   using std::cos;
   using std::sin;
@@ -209,7 +209,7 @@ BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const 
 /// Adds the parameters that follow from motions: `bump` at unit rate of the wheel centre's height, `steer` at
 /// unit rate of the rack.
 template <class T>
-void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+void add_rates(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
                const BasicTwist<T>& bump, const BasicTwist<T>& steer, BasicWheelParameters<T>& out) {
   using std::abs;
   using std::atan;

@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "linkwright/math/scalar.h"
+#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/detail/wheel_kernel.h"
+
+/// The equations of a wheel suspension, written once for numbers and for numbers with derivatives.
+namespace linkwright::suspension::kernel {
+
+/// One equation: a sum of weights on moving points.
+template <class T>
+struct Row {
+  std::array<T, max_unknowns>& of;
+  T& by_rack;
+
+  template <class W>
+  void add(const Vector3<W>& weight, const Vector3<T>& turn) {
+    of[0] += weight.x;
+    of[1] += weight.y;
+    of[2] += weight.z;
+    of[3] += turn.x;
+    of[4] += turn.y;
+    of[5] += turn.z;
+  }
+  /// weight . (shift of the carrier's point at `offset` from the wheel centre)
+  template <class W>
+  void point(const Vector3<W>& weight, const Vector3<T>& offset) {
+    add(weight, cross(offset, weight));
+  }
+  void turn(const Vector3<T>& weight) { add(Vec3{}, weight); }
+};
+
+template <class T>
+struct Writer {
+  BasicCornerEquations<T>& out;
+  int next = 0;
+  Row<T> row(const T& residual) {
+    out.residual[next] = residual;
+    out.jacobian[next] = {};
+    out.by_rack[next] = 0;
+    Row<T> made{out.jacobian[next], out.by_rack[next]};
+    ++next;
+    return made;
+  }
+};
+
+inline constexpr std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+
+/// A place with what many rows use.
+template <class T>
+struct Placed {
+  const BasicCornerPlan<T>& plan;
+  const BasicCornerPlace<T>& at;
+  T rack;
+
+  Vector3<T> offset(const Vector3<T>& reference) const { return at.carrier.rotation * reference; }
+  Vector3<T> point(const Vector3<T>& turned) const { return at.carrier.centre + turned; }
+  Vector3<T> body(const BasicLinkConstants<T>& link, int i) const {
+    return link.moved_by_rack ? link.body[i] + rack * plan.rack_direction : link.body[i];
+  }
+  Vec3 rack_speed(const BasicLinkConstants<T>& link) const {
+    return link.moved_by_rack ? plan.rack_direction : Vec3{};
+  }
+};
+
+template <class T>
+Vector3<T> affine(const BasicAffinePoint<T>& at, const Vector3<T>& p, const Vector3<T>& f1,
+                  const Vector3<T>& f2) {
+  return p + at.a * f1 + at.b * f2 + at.k * cross(f1, f2);
+}
+
+template <class T>
+BasicAffinePoint<T> affine_of(const Vector3<T>& point, const Vector3<T>& p, const Vector3<T>& q,
+                              const Vector3<T>& s) {
+  const Vector3<T> f1 = q - p, f2 = s - p, normal = cross(f1, f2), d = point - p;
+  const T area = dot(normal, normal);
+  return {dot(cross(d, f2), normal) / area, dot(cross(f1, d), normal) / area, dot(d, normal) / area};
+}
+
+/// Weights on f1 and f2 that give weight . (a f1 + b f2 + k f1 x f2) to first order.
+template <class T>
+std::array<Vector3<T>, 2> affine_weights(const BasicAffinePoint<T>& at, const Vector3<T>& weight,
+                                         const Vector3<T>& f1, const Vector3<T>& f2) {
+  return {at.a * weight + at.k * cross(f2, weight), at.b * weight + at.k * cross(weight, f1)};
+}
+
+/// A point of a link and how it moves: adds weight . (its shift) to a row.
+template <class T>
+struct LinkPoint {
+  Vector3<T> at;
+  const BasicLinkConstants<T>* link = nullptr;  ///< null = the carrier
+  Vector3<T> offset;                            ///< carrier
+  BasicRodPoint<T> rod;                         ///< US, SS
+  Vector3<T> line, turning;    ///< US: along the rod, and the U joint's axis that turns with it
+  BasicAffinePoint<T> affine;  ///< SR: from the first hinge point; RS: from the first body point
+  Vector3<T> f1, f2, r1, r2;
+};
+
+template <class T>
+LinkPoint<T> rod_point(const Placed<T>& placed, const BasicLinkConstants<T>& link,
+                       const BasicRodPoint<T>& rod) {
+  LinkPoint<T> out{.link = &link, .rod = rod};
+  out.r1 = placed.offset(link.offset[0]);
+  const Vector3<T> from = placed.body(link, 0);
+  out.line = placed.point(out.r1) - from;
+  out.at = from + rod.along * out.line;
+  if (!rod.held) return out;
+  out.turning = unit(cross(link.standing_axis, out.line));
+  out.at += rod.beside * out.turning + (rod.above / link.length[0]) * cross(out.line, out.turning);
+  return out;
+}
+
+/// Weight on the rod's carrier point that gives weight . (shift of the point) to first order, the body point
+/// standing still.
+template <class T>
+Vector3<T> rod_weight(const LinkPoint<T>& point, const Vector3<T>& weight) {
+  const BasicRodPoint<T>& rod = point.rod;
+  Vector3<T> out = rod.along * weight;
+  if (!rod.held) return out;
+  // The rod keeps its length, so that what the offset across both axes turns by is the line and the axis.
+  const T above = rod.above / point.link->length[0];
+  const Vector3<T>& b = point.turning;
+  const Vector3<T> by_axis = rod.beside * weight + above * cross(weight, point.line);
+  const T lever = norm(cross(point.link->standing_axis, point.line));
+  const Vector3<T> across = (1 / lever) * (by_axis - dot(by_axis, b) * b);
+  return out + above * cross(b, weight) + cross(across, point.link->standing_axis);
+}
+
+/// The point of a rod that is at `point` when the rod lies between `body` and `carrier`.
+template <class T>
+BasicRodPoint<T> rod_point_of(const Vector3<T>& point, const Vector3<T>& body, const Vector3<T>& carrier,
+                              LinkType type, const Vector3<T>& standing_axis) {
+  const Vector3<T> line = carrier - body, from = point - body;
+  BasicRodPoint<T> out{.along = dot(from, line) / dot(line, line)};
+  if (type != LinkType::US) return out;
+  const Vector3<T> turning = unit(cross(standing_axis, line));
+  out.held = true;
+  out.beside = dot(from, turning);
+  out.above = dot(from, cross(unit(line), turning));
+  return out;
+}
+
+template <class T>
+LinkPoint<T> frame_point(const Placed<T>& placed, const BasicLinkConstants<T>& link,
+                         const BasicAffinePoint<T>& point) {
+  LinkPoint<T> out{.link = &link, .affine = point};
+  out.r1 = placed.offset(link.offset[0]);
+  if (link.type == LinkType::SR) {  // P, Q, S = hinge point, ball joint at the body, other hinge point
+    out.r2 = placed.offset(link.offset[1]);
+    const Vector3<T> p = placed.point(out.r1);
+    out.f1 = placed.body(link, 0) - p;
+    out.f2 = out.r2 - out.r1;
+    out.at = affine(point, p, out.f1, out.f2);
+  } else {  // RS: hinge point, other hinge point, ball joint at the carrier
+    const Vector3<T> p = placed.body(link, 0);
+    out.f1 = link.body[1] - link.body[0];
+    out.f2 = placed.point(out.r1) - p;
+    out.at = affine(point, p, out.f1, out.f2);
+  }
+  return out;
+}
+
+template <class T>
+void add_point(const Placed<T>& placed, const LinkPoint<T>& point, const Vector3<T>& weight, Row<T>& row) {
+  const BasicLinkConstants<T>& link = *point.link;
+  const Vec3 speed = placed.rack_speed(link);
+  if (link.type == LinkType::SR) {
+    const auto [w1, w2] = affine_weights(point.affine, weight, point.f1, point.f2);
+    row.point(weight - w1 - w2, point.r1);
+    row.point(w2, point.r2);
+    row.by_rack += dot(w1, speed);
+  } else if (link.type == LinkType::RS) {
+    const Vector3<T> w2 = affine_weights(point.affine, weight, point.f1, point.f2)[1];
+    row.point(w2, point.r1);
+    row.by_rack += dot(weight - w2, speed);
+  } else {
+    const Vector3<T> w1 = rod_weight(point, weight);
+    row.point(w1, point.r1);
+    row.by_rack += dot(weight - w1, speed);
+  }
+}
+
+/// Residual of a distance that should be `length`, and the weight on the end that moves.
+template <class T>
+T distance_residual(const Vector3<T>& d, const T& length) {
+  return (dot(d, d) - length * length) / (2 * length);
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void write_distance(const Placed<T>& placed, const BasicLinkConstants<T>& link, int body,
+                                      int carrier, int which, Writer<T>& to) {
+  const Vector3<T> r = placed.offset(link.offset[carrier]);
+  const Vector3<T> d = placed.point(r) - placed.body(link, body);
+  const T length = link.length[which];
+  Row<T> row = to.row(distance_residual(d, length));
+  const Vector3<T> weight = (1 / length) * d;
+  row.point(weight, r);
+  row.by_rack = -dot(weight, placed.rack_speed(link));
+}
+
+template <class T>
+void write_meeting(const Placed<T>& placed, const BasicLinkConstants<T>& link, const Vector3<T>& r,
+                   const Vector3<T>& target, Writer<T>& to) {
+  const Vector3<T> miss = placed.point(r) - target;
+  const Vec3 speed = placed.rack_speed(link);
+  const std::array<T, 3> residual{miss.x, miss.y, miss.z};
+  const std::array<double, 3> by_rack{-speed.x, -speed.y, -speed.z};
+  for (int k = 0; k < 3; ++k) {
+    Row<T> row = to.row(residual[k]);
+    row.point(axes[k], r);
+    row.by_rack = by_rack[k];
+  }
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void write_link(const Placed<T>& placed, const BasicLinkConstants<T>& link, Writer<T>& to) {
+  switch (link.type) {
+    case LinkType::US:
+    case LinkType::SS:
+      write_distance(placed, link, 0, 0, 0, to);
+      return;
+    case LinkType::RS:
+      write_distance(placed, link, 0, 0, 0, to);
+      write_distance(placed, link, 1, 0, 1, to);
+      return;
+    case LinkType::SR:
+      write_distance(placed, link, 0, 0, 0, to);
+      write_distance(placed, link, 0, 1, 1, to);
+      return;
+    case LinkType::SP: {
+      const Vector3<T> r = placed.offset(link.offset[0]), d = placed.point(r) - placed.body(link, 0);
+      for (const Vector3<T>& normal : link.across) {
+        const Vector3<T> n = placed.offset(normal);
+        Row<T> row = to.row(dot(d, n));
+        row.point(n, r);
+        row.turn(cross(n, d));
+        row.by_rack = -dot(n, placed.rack_speed(link));
+      }
+      return;
+    }
+    case LinkType::S:
+      write_meeting(placed, link, placed.offset(link.offset[0]), placed.body(link, 0), to);
+      return;
+    case LinkType::R: {
+      write_meeting(placed, link, placed.offset(link.offset[0]), placed.body(link, 0), to);
+      const Vector3<T> w = placed.offset(link.carrier_axis);
+      for (const Vector3<T>& normal : link.across) to.row(dot(w, normal)).turn(cross(w, normal));
+      return;
+    }
+    case LinkType::RR: {
+      const Vector3<T> p0 = placed.body(link, 0);
+      const Matrix3<T> arm = math::turn_about(placed.at.arm * link.axis);
+      const Vector3<T> reach = arm * (placed.plan.wheel.centre + link.offset[0] - link.body[0]);
+      const int first = to.next;
+      write_meeting(placed, link, placed.offset(link.offset[0]), p0 + reach, to);
+      const Vector3<T> by_arm = cross(link.axis, reach);
+      to.out.jacobian[first][6] = -by_arm.x;
+      to.out.jacobian[first + 1][6] = -by_arm.y;
+      to.out.jacobian[first + 2][6] = -by_arm.z;
+      const Vector3<T> w = placed.offset(link.carrier_axis);
+      for (const Vector3<T>& normal : link.across) {
+        const Vector3<T> n = arm * normal;
+        Row<T> row = to.row(dot(w, n));
+        row.turn(cross(w, n));
+        row.of[6] = dot(w, cross(link.axis, n));
+      }
+      return;
+    }
+  }
+}
+
+template <class T>
+struct CouplerEnds {
+  LinkPoint<T> first, second;
+  Vector3<T> between;
+};
+
+template <class T>
+CouplerEnds<T> ends(const Placed<T>& placed, const BasicCouplerConstants<T>& coupler) {
+  CouplerEnds<T> out{rod_point(placed, placed.plan.links[coupler.first], coupler.begin),
+                     frame_point(placed, placed.plan.links[coupler.second], coupler.point),
+                     {}};
+  out.between = out.second.at - out.first.at;
+  return out;
+}
+
+template <class T>
+void write_coupler(const Placed<T>& placed, const BasicCouplerConstants<T>& coupler, Writer<T>& to) {
+  const CouplerEnds<T> at = ends(placed, coupler);
+  Row<T> row = to.row(distance_residual(at.between, coupler.length));
+  const Vector3<T> weight = (1 / coupler.length) * at.between;
+  add_point(placed, at.second, weight, row);
+  add_point(placed, at.first, -weight, row);
+}
+
+/// Length of the spring; adds its derivatives to the row.
+template <class T>
+T spring_length(const Placed<T>& placed, Row<T>& row) {
+  const BasicSpringConstants<T>& spring = *placed.plan.spring;
+  const BasicLinkConstants<T>* link = spring.link < 0 ? nullptr : &placed.plan.links[spring.link];
+  const auto pull = [&](const Vector3<T>& end) {
+    const Vector3<T> d = end - spring.body;
+    return std::pair{norm(d), unit(d)};
+  };
+  if (!link) {
+    const Vector3<T> r = placed.offset(spring.offset);
+    const auto [length, weight] = pull(placed.point(r));
+    row.point(weight, r);
+    return length;
+  }
+  if (link->type == LinkType::RR) {
+    const Vector3<T> reach = math::turn_about(placed.at.arm * link->axis) * spring.offset;
+    const auto [length, weight] = pull(placed.body(*link, 0) + reach);
+    row.of[6] += dot(weight, cross(link->axis, reach));
+    row.by_rack += dot(weight, placed.rack_speed(*link));
+    return length;
+  }
+  const bool rod = link->type == LinkType::US || link->type == LinkType::SS;
+  const LinkPoint<T> end =
+      rod ? rod_point(placed, *link, spring.on_rod) : frame_point(placed, *link, spring.point);
+  const auto [length, weight] = pull(end.at);
+  add_point(placed, end, weight, row);
+  return length;
+}
+
+/// Value of the driver's coordinate; its derivatives go to the row, which starts as zeros.
+template <class T>
+T write_driver(const Placed<T>& placed, Driver driver, Row<T>& row) {
+  using std::cos;
+  using std::sqrt;
+  const BasicCornerWheel<T>& wheel = placed.plan.wheel;
+  const T rise = placed.at.carrier.centre.z - wheel.centre.z;
+  switch (driver) {
+    case Driver::wheel_centre_z:
+      row.of[2] = 1;
+      return rise;
+    case Driver::contact_z: {
+      const Vector3<T> u = placed.offset(placed.plan.wheel_axis);
+      const double radius = wheel.tyre_diameter / 2;
+      const T cosine = sqrt(1 - u.z * u.z);
+      row.add(Vec3{0, 0, 1}, (radius * u.z / cosine) * cross(u, Vec3{0, 0, 1}));
+      return rise - radius * (cosine - cos(wheel.camber));
+    }
+    case Driver::spring:
+      return spring_length(placed, row) - placed.plan.spring->length;
+  }
+  return T(0);
+}
+
+/// `prepare_suspension` for a suspension that has been checked, without labels.
+template <class T>
+BasicCornerPlan<T> prepare(const BasicSuspension<T>& suspension) {
+  BasicCornerPlan<T> plan{
+      .side = suspension.side,
+      .wheel = suspension.wheel,
+      .wheel_axis = wheel_axis(suspension.side, suspension.wheel.toe, suspension.wheel.camber),
+      .rack_direction = suspension.rack_direction,
+      .construction = construction_of(suspension.links)};
+  const Vector3<T>& centre = suspension.wheel.centre;
+  plan.contact =
+      centre + contact_offset(suspension.side, suspension.wheel.tyre_diameter,
+                              BasicWheelAngles<T>{suspension.wheel.toe, suspension.wheel.camber, T(0)});
+  for (const BasicCornerLink<T>& from : suspension.links) {
+    BasicLinkConstants<T> link{.type = from.type, .moved_by_rack = from.moved_by_rack};
+    for (std::size_t k = 0; k < from.body.size(); ++k) link.body[k] = from.body[k];
+    for (std::size_t k = 0; k < from.carrier.size(); ++k) link.offset[k] = from.carrier[k] - centre;
+    if (from.body.size() == 2) link.axis = unit(from.body[1] - from.body[0]);
+    switch (from.type) {
+      case LinkType::US:
+      case LinkType::SS:
+        link.length[0] = from.length.value_or(norm(from.carrier[0] - from.body[0]));
+        if (from.type == LinkType::US)
+          link.standing_axis = standing_axis(from.cross_axis, from.carrier[0] - from.body[0]);
+        break;
+      case LinkType::RS:
+        for (int k = 0; k < 2; ++k) link.length[k] = norm(from.carrier[0] - from.body[k]);
+        break;
+      case LinkType::SR:
+        for (int k = 0; k < 2; ++k) link.length[k] = norm(from.carrier[k] - from.body[0]);
+        break;
+      case LinkType::SP:
+        link.axis = unit(from.carrier[0] - from.body[0]);
+        link.across = math::across(link.axis);
+        break;
+      case LinkType::S:
+        link.offset[0] = from.body[0] - centre;
+        break;
+      case LinkType::R:
+        link.offset[0] = from.body[0] - centre;
+        link.carrier_axis = link.axis;
+        link.across = math::across(link.axis);
+        break;
+      case LinkType::RR:
+        link.carrier_axis = unit(from.carrier[1] - from.carrier[0]);
+        link.across = math::across(link.carrier_axis);
+        plan.unknowns = 7;
+        break;
+    }
+    plan.links.push_back(link);
+  }
+  for (const BasicCoupler<T>& from : suspension.couplers) {
+    const BasicCornerLink<T>&rod = suspension.links[from.first], &second = suspension.links[from.second];
+    BasicCouplerConstants<T> coupler{.first = from.first, .second = from.second};
+    coupler.begin.along = from.fraction;
+    if (from.begin)
+      coupler.begin = rod_point_of(*from.begin, rod.body[0], rod.carrier[0], rod.type,
+                                   plan.links[from.first].standing_axis);
+    coupler.point = affine_of(from.point, second.carrier[0], second.body[0], second.carrier[1]);
+    coupler.length =
+        norm(from.point -
+             (from.begin ? *from.begin : rod.body[0] + from.fraction * (rod.carrier[0] - rod.body[0])));
+    plan.couplers.push_back(coupler);
+  }
+  if (suspension.spring) {
+    const BasicCornerSpring<T>& from = *suspension.spring;
+    BasicSpringConstants<T> spring{.body = from.body,
+                                   .offset = from.moving - centre,
+                                   .link = from.link,
+                                   .length = norm(from.moving - from.body)};
+    if (from.link >= 0) {
+      const BasicCornerLink<T>& link = suspension.links[from.link];
+      if (link.type == LinkType::RR) {
+        spring.offset = from.moving - link.body[0];
+      } else if (link.type == LinkType::RS) {
+        spring.point = affine_of(from.moving, link.body[0], link.body[1], link.carrier[0]);
+      } else if (link.type == LinkType::SR) {
+        spring.point = affine_of(from.moving, link.carrier[0], link.body[0], link.carrier[1]);
+      } else {
+        spring.on_rod = rod_point_of(from.moving, link.body[0], link.carrier[0], link.type,
+                                     plan.links[from.link].standing_axis);
+      }
+    }
+    plan.spring = spring;
+  }
+  return plan;
+}
+
+template <class T>
+void evaluate(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack, Driver driver,
+              const T& value, BasicCornerEquations<T>& out) {
+  const Placed<T> placed{plan, place, rack};
+  Writer<T> to{out};
+  for (const BasicLinkConstants<T>& link : plan.links) write_link(placed, link, to);
+  for (const BasicCouplerConstants<T>& coupler : plan.couplers) write_coupler(placed, coupler, to);
+  const int last = to.next;
+  Row<T> row = to.row(T(0));
+  out.residual[last] = write_driver(placed, driver, row) - value;
+}
+
+template <class T>
+T driver_value(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
+               Driver driver) {
+  std::array<T, max_unknowns> unused{};
+  T by_rack(0);
+  Row<T> row{unused, by_rack};
+  return write_driver(Placed<T>{plan, place, rack}, driver, row);
+}
+
+template <class T>
+T driver_rate(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack, Driver driver,
+              const BasicTwist<T>& twist, double rack_rate) {
+  std::array<T, max_unknowns> by{};
+  T by_rack(0);
+  Row<T> row{by, by_rack};
+  write_driver(Placed<T>{plan, place, rack}, driver, row);
+  return dot(Vector3<T>{by[0], by[1], by[2]}, twist.velocity) +
+         dot(Vector3<T>{by[3], by[4], by[5]}, twist.turning) + by[6] * twist.arm + by_rack * rack_rate;
+}
+
+}  // namespace linkwright::suspension::kernel

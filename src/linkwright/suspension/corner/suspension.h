@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
+#include "linkwright/math/vector3.h"
+
+/// Wheel suspensions: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body
+/// is fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points
+/// are given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
+/// carry derivatives along.
+namespace linkwright::suspension {
+
+using math::Mat3;
+using math::Matrix3;
+using math::Vec3;
+using math::Vector3;
+
+/// The joints of a link: the first letter to the body, the second to the carrier; one letter is a joint
+/// between body and carrier without a link. R revolute, S spherical, U universal, P prismatic (slides and
+/// turns).
+enum class LinkType { R, RR, S, RS, SR, SP, US, SS };
+constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
+  return {{{LinkType::R, "R", "carrier hinged to the body: two body points on the axis"},
+           {LinkType::RR, "RR", "arm hinged to the body (two points) and to the carrier (two points)"},
+           {LinkType::S, "S", "ball joint between body and carrier: one body point"},
+           {LinkType::RS, "RS", "wishbone: hinged to the body (two points), ball joint at the carrier"},
+           {LinkType::SR, "SR", "ball joint at the body, hinged to the carrier (two points)"},
+           {LinkType::SP, "SP", "strut: ball joint at the body, slides along its line in the carrier"},
+           {LinkType::US, "US", "rod: one point at the body, one at the carrier"},
+           {LinkType::SS, "SS", "the same as US, free to turn about its line"}}};
+}
+
+/// A link. Number of points, body and carrier: R 2 and 0, RR 2 and 2, S 1 and 0, RS 2 and 1, SR 1 and 2, SP,
+/// US and SS 1 and 1. Two points stand for the axis of a revolute joint.
+template <class T>
+struct BasicCornerLink {
+  std::string name;
+  LinkType type = LinkType::US;
+  std::vector<Vector3<T>> body;
+  std::vector<Vector3<T>> carrier;
+  /// Length of a US or SS link (m) instead of the distance of its points: they then are no position, and
+  /// what is reported at zero travel has to be solved for, too.
+  std::optional<T> length;
+  bool moved_by_rack = false;  ///< its body points move with the rack
+  /// US: direction of the axis of its U joint that is fixed in the body; the other axis of the joint lies
+  /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
+  /// the rod off that line takes. Not given: level, and across the rod at the reference.
+  std::optional<Vec3> cross_axis{};
+};
+using CornerLink = BasicCornerLink<double>;
+
+/// A rod between two links (interconnected mechanisms): from a point of a US link to a point fixed to an SR
+/// link. Its length is the distance at the reference position.
+template <class T>
+struct BasicCoupler {
+  std::string name;
+  int first = 0;     ///< US link
+  T fraction{0.5};   ///< position as a fraction of the US link's length, from its body point
+  int second = 0;    ///< SR link
+  Vector3<T> point;  ///< on the SR link
+  /// Begin of the coupler on the US link, which may lie off its line; replaces `fraction`.
+  std::optional<Vector3<T>> begin{};
+};
+using Coupler = BasicCoupler<double>;
+
+/// Spring (or damper) between the body and the carrier or a link.
+template <class T>
+struct BasicCornerSpring {
+  Vector3<T> body;
+  Vector3<T> moving;  ///< its other end
+  /// US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line.
+  int link = -1;
+};
+using CornerSpring = BasicCornerSpring<double>;
+
+enum class Side { left, right };
+constexpr std::array<EnumName<Side>, 2> names(Side) {
+  return {{{Side::left, "left", "y > 0"}, {Side::right, "right", "y < 0"}}};
+}
+
+template <class T>
+struct BasicCornerWheel {
+  Vector3<T> centre;         ///< m
+  T toe{0};                  ///< rad, > 0: front of the wheel towards the vehicle
+  T camber{0};               ///< rad, > 0: top of the wheel away from the vehicle
+  double tyre_diameter = 0;  ///< m, > 0
+};
+using CornerWheel = BasicCornerWheel<double>;
+
+/// A wheel suspension: plain data.
+template <class T>
+struct BasicSuspension {
+  Side side = Side::left;
+  BasicCornerWheel<T> wheel;
+  std::vector<BasicCornerLink<T>> links;
+  std::vector<BasicCoupler<T>> couplers;
+  Vec3 rack_direction{0, 1, 0};  ///< unit; a rack displacement is positive to the left, for both wheels
+  std::optional<BasicCornerSpring<T>> spring;
+};
+using Suspension = BasicSuspension<double>;
+
+/// The position of the carrier: its wheel centre (m) and its rotation from the reference position.
+template <class T>
+struct BasicCarrierPose {
+  Vector3<T> centre;
+  Matrix3<T> rotation;
+
+  friend bool operator==(const BasicCarrierPose&, const BasicCarrierPose&) = default;
+};
+using CarrierPose = BasicCarrierPose<double>;
+
+/// Place of a point of the carrier that is at `reference` when the wheel centre is at `reference_centre`
+/// (equation 54).
+constexpr Vec3 place(const CarrierPose& pose, const Vec3& reference, const Vec3& reference_centre) {
+  return pose.centre + pose.rotation * (reference - reference_centre);
+}
+
+/// Unit vector along the wheel's axis, away from the vehicle (equations 23, 24): for the left wheel
+/// (sin toe cos camber, cos toe cos camber, -sin camber).
+Vec3 wheel_axis(Side side, double toe, double camber);
+
+/// The other wheel of a symmetric axle. A rack displacement moves it as the opposite displacement moves this
+/// one.
+Suspension mirrored(const Suspension& suspension);
+
+/// True if a rod is within a thousandth of the vertical.
+template <class T>
+bool is_upright(const Vector3<T>& along) {
+  return along.x * along.x + along.y * along.y < 1e-6 * (along.z * along.z);
+}
+
+/// Points that a link of this type has at the body and at the carrier.
+int body_points(LinkType type);
+int carrier_points(LinkType type);
+
+/// The axis of a rod's U joint that is fixed in the body, unit: `given`, or level and across the rod. Of an
+/// upright rod no level axis is more across than another: then x.
+template <class T>
+Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& along) {
+  if (given) {
+    const Vec3 axis = unit(*given);
+    return {T(axis.x), T(axis.y), T(axis.z)};
+  }
+  if (is_upright(along)) return {T(1), T(0), T(0)};
+  return unit(Vector3<T>{-along.y, along.x, T(0)});
+}
+
+/// The name of the link in messages: its name, or "link 3 (US)".
+std::string link_label(const Suspension& suspension, int link);
+
+/// Checks the description by itself: numbers of points, numbers that are not finite, links and axes of no
+/// length, lengths of links that have none, couplers and springs on links that cannot hold them. Keys are
+/// "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Whether it moves as it should is asked of
+/// `check_structure`.
+Diagnostics check(const Suspension& suspension);
+
+}  // namespace linkwright::suspension

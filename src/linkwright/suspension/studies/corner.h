@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/kind.h"
+#include "linkwright/suspension/compliance/springs.h"
+#include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/indirect/synthesis.h"
+
+// The mechanism, which all studies of wheel suspensions read alike, with its points as coordinates, as names
+// out of a list of hard points, or as boxes in which they are to be found.
+namespace linkwright::suspension {
+
+/// A point in a file: where it is, or where it begins and the box that it may lie in.
+struct PointForm {
+  Vec3 at;       ///< m
+  PointBox box;  ///< m; a given coordinate has equal limits
+};
+/// A point all of whose coordinates are given (m).
+PointForm given(const Vec3& at);
+
+/// The points of one end of a link: [x, y, z] with numbers or { min, max, initial }; or a table { near, box,
+/// offset, given }, near a place or the name of a hard point; or an array of two of these.
+struct PointsForm {
+  std::vector<PointForm> points;
+};
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                PointsForm& member);
+Value write_value(const PointsForm& member);
+Value schema_value(const Field& field, const PointsForm& member);
+
+enum class Axis { x, y, z };
+constexpr std::array<EnumName<Axis>, 3> names(Axis) {
+  return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}};
+}
+/// Edges of a box along the axes (m): one number for all, or one each.
+struct Edges {
+  std::array<double, 3> of{};
+};
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Edges& member);
+Value write_value(const Edges& member);
+Value schema_value(const Field& field, const Edges& member);
+/// The box around a place, its middle shifted by `offset`; coordinates that are given stay as the place has
+/// them.
+PointBox box_of(const Vec3& near, const Edges& edges, const Vec3& offset, std::span<const Axis> given);
+
+enum class MovedBy { rack };
+constexpr std::array<EnumName<MovedBy>, 1> names(MovedBy) {
+  return {{{MovedBy::rack, "rack", "its body points move along the rack"}}};
+}
+
+struct WheelForm {
+  std::optional<PointsForm> centre;
+  std::string point;  ///< hard point instead of `centre`
+  double toe = 0, camber = 0;
+  double tyre_diameter = 0.6;
+  std::optional<double> rim_diameter;
+};
+template <class Visitor>
+void fields(Visitor&& visit, WheelForm& w) {
+  visit(field::length("centre", "wheel centre at the reference"), w.centre);
+  visit(field::entry("point", "name of the hard point at the wheel centre"), w.point);
+  const auto angle = [](std::string_view key, std::string_view summary) {
+    return field::angle(key, summary).between(-1.5, 1.5);
+  };
+  visit(angle("toe", "at the reference, > 0: front of the wheel towards the vehicle"), w.toe);
+  visit(angle("camber", "at the reference, > 0: top of the wheel away from the vehicle"), w.camber);
+  visit(field::length("tyre_diameter", "of the tyre as it stands").between(0.01, 100).required(),
+        w.tyre_diameter);
+  visit(field::length("rim_diameter",
+                      "where toe is measured as a length, between the front and the rear edge of the rim")
+            .between(0.01, 100),
+        w.rim_diameter);
+}
+
+struct CornerLinkForm {
+  std::string name;
+  LinkType type = LinkType::US;
+  std::optional<PointsForm> body, carrier;
+  std::vector<std::string> points;  ///< hard points, those of the body first
+  std::optional<double> length;
+  std::optional<MovedBy> moved_by;
+  std::optional<std::array<double, 3>> cross_axis;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CornerLinkForm& l) {
+  visit(field::entry("name", "of the link, for messages and tables"), l.name);
+  visit(field::entry("type", "joint at the body, joint at the carrier").required(), l.type);
+  visit(field::length("body", "points at the body: one, or two on the axis of a hinge"), l.body);
+  visit(field::length("carrier", "points at the carrier: one, or two on the axis of a hinge"), l.carrier);
+  visit(field::entry("points", "names of hard points instead of body and carrier, those of the body first"),
+        l.points);
+  visit(
+      field::length("length", "of a US or SS link, instead of the distance of its points").between(1e-6, 1e3),
+      l.length);
+  visit(field::entry("moved_by", "what moves its body points"), l.moved_by);
+  visit(field::entry("cross_axis",
+                     "of a US link: direction of the axis of its universal joint that is fixed in the "
+                     "body; default: level "
+                     "and across the link. What is fixed to the link off its line turns with it")
+            .between(-1e6, 1e6),
+        l.cross_axis);
+}
+
+struct CornerCouplerForm {
+  std::string name;
+  std::string first;
+  std::optional<double> fraction;
+  std::optional<Range> offset;
+  std::optional<PointsForm> first_point;
+  std::string second;
+  std::optional<PointsForm> point;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CornerCouplerForm& c) {
+  visit(field::entry("name", "of the coupler"), c.name);
+  visit(field::entry("first", "name of the US link that it begins on").required(), c.first);
+  visit(field::entry("fraction", "its place on that link as a share of the length, from the body")
+            .between(0, 1),
+        c.fraction);
+  visit(field::length("offset", "its place on that link as a distance from the body, instead of fraction")
+            .between(0, 1e3),
+        c.offset);
+  visit(field::length("first_point", "its point on that link, off the line too, instead of fraction"),
+        c.first_point);
+  visit(field::entry("second", "name of the SR link that it ends on").required(), c.second);
+  visit(field::length("point", "its point on that link").required(), c.point);
+}
+
+struct CornerSpringForm {
+  std::optional<PointsForm> body, moving;
+  std::vector<std::string> points;
+  std::string attached_to = "carrier";
+  std::optional<double> stiffness;
+  double preload = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CornerSpringForm& s) {
+  visit(field::length("body", "its end at the body"), s.body);
+  visit(field::length("moving", "its other end"), s.moving);
+  visit(field::entry("points", "names of two hard points instead of both"), s.points);
+  visit(field::entry("attached_to", "\"carrier\" or the name of a link"), s.attached_to);
+  visit(field::stiffness("stiffness", "of the spring, for wheel rates and compliance").not_negative(),
+        s.stiffness);
+  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
+}
+
+/// Named points beside the mechanism, in their own frame.
+struct HardPointsForm {
+  std::optional<std::string> file;
+  PointUnit unit = PointUnit::mm;
+  PointFrame frame;
+  std::vector<std::pair<std::string, std::array<double, 3>>> points;
+};
+template <class Visitor>
+void fields(Visitor&& visit, HardPointsForm& h) {
+  visit(field::entry("file", "list of points: CSV with name,x_mm,y_mm,z_mm, or plain text"), h.file);
+  visit(field::entry("unit", "of a plain text list"), h.unit);
+  visit(field::entry("x", "where the x axis of the points points to"), h.frame.x);
+  visit(field::entry("y", "where their y axis points to"), h.frame.y);
+  visit(field::entry("z", "where their z axis points to"), h.frame.z);
+  std::array<double, 3> origin{h.frame.origin.x, h.frame.origin.y, h.frame.origin.z};
+  visit(field::length("origin", "their origin in the vehicle's frame: x forward, y left, z up"), origin);
+  h.frame.origin = {origin[0], origin[1], origin[2]};
+  visit(field::length("points", "points given here, by name").between(-1e6, 1e6), h.points);
+}
+
+struct RackForm {
+  std::array<double, 3> direction{0, 1, 0};
+};
+template <class Visitor>
+void fields(Visitor&& visit, RackForm& r) {
+  visit(field::entry("direction", "of the rack, of any length; displacements along it are positive")
+            .between(-1e6, 1e6),
+        r.direction);
+}
+
+struct CornerForm {
+  std::string sample;
+  Side side = Side::left;
+  std::optional<HardPointsForm> hard_points;
+  std::optional<WheelForm> wheel;
+  std::vector<CornerLinkForm> links;
+  std::vector<CornerCouplerForm> couplers;
+  std::optional<CornerSpringForm> spring;
+  RackForm rack;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CornerForm& g) {
+  visit(field::entry("sample", "a built-in wheel suspension instead of everything else"), g.sample);
+  visit(field::entry("side", "of the vehicle; a sample is mirrored for the right one"), g.side);
+  visit(field::entry("hard_points", "named points, and the frame they are given in"), g.hard_points);
+  visit(field::entry("wheel", "the wheel at the reference"), g.wheel);
+  visit(field::entry("link", "links and joints between body and carrier"), g.links);
+  visit(field::entry("coupler", "rods between two links"), g.couplers);
+  visit(field::entry("spring", "between the body and the carrier or a link"), g.spring);
+  visit(field::entry("rack", "of the steering"), g.rack);
+}
+
+/// The freedom that a study may leave to its points.
+enum class OpenPoints { none, boxes };
+
+/// `[mechanism]` of any study of a wheel suspension, resolved.
+struct CornerDescription {
+  Suspension suspension;        ///< open coordinates at their start
+  std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
+  std::vector<CouplerTask> couplers;   ///< likewise
+  std::optional<SpringLaw> spring;     ///< law of the spring, if its stiffness is known
+  std::optional<double> rim_diameter;  ///< m, where toe is measured as a length
+};
+
+/// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that
+/// cannot move as a wheel suspension must is refused.
+std::optional<CornerDescription> read_suspension(study::ObjectReader& document, const study::Common& common,
+                                                 OpenPoints open);
+/// The table as a canonical study holds it: coordinates in the vehicle's frame, no names of points, no files.
+Value write_suspension(const CornerDescription& description);
+/// The same of a suspension that was found for it, whose coordinates are all given.
+Value write_suspension(CornerDescription description, const Suspension& found);
+void describe_suspension(study::SchemaWriter& document);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/suspension/studies/corner_scene.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/vector3.h"
+#include "linkwright/suspension/indirect/link_poses.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using study::Scene;
+constexpr double tyre_width_by_diameter = 0.3;  ///< for the drawing only
+
+class Drawing {
+ public:
+  Drawing(Scene& scene, const Suspension& suspension, const CornerGrid& grid)
+      : scene_(scene), suspension_(suspension), grid_(grid) {}
+
+  /// One wheel with its links. `other` is the mirrored wheel at opposite rack displacements.
+  void wheel(bool other) {
+    other_ = other;
+    label_ = std::string(name_of((suspension_.side == Side::left) != other ? Side::left : Side::right));
+    source_.clear();
+    for (std::size_t rack = 0; rack < grid_.racks.size(); ++rack)
+      for (std::size_t travel = 0; travel < grid_.travels.size(); ++travel)
+        source_.push_back((other ? opposite(rack) : rack) * grid_.travels.size() + travel);
+    centre_ = point(named("wheel centre"), [](const CornerPosition& p) { return p.place.carrier.centre; });
+    handle("mechanism.wheel.centre_m", centre_);
+    for (std::size_t i = 0; i < suspension_.links.size(); ++i) add(suspension_.links[i], i);
+    for (const Coupler& c : suspension_.couplers) add(c);
+    if (suspension_.spring) add_spring(*suspension_.spring);
+    const Vec3 axis = wheel_axis(suspension_.side, suspension_.wheel.toe, suspension_.wheel.camber);
+    const int outboard = point("", [=, this](const CornerPosition& p) {
+      return p.place.carrier.centre + 0.1 * (p.place.carrier.rotation * axis);
+    });
+    const double diameter = suspension_.wheel.tyre_diameter;
+    scene_.discs.push_back(
+        {named("wheel"), centre_, outboard, diameter / 2, tyre_width_by_diameter * diameter});
+    const int contact =
+        at_sample(named("contact point"), [&](std::size_t i) { return grid_.wheels[i].contact; });
+    scene_.joints.push_back({named("contact point"), contact, Scene::JointStyle::tracer});
+    scene_.traces.push_back({contact, "path of the " + named("contact point"), false});
+    steering_axis();
+  }
+
+  bool has_opposite() const {
+    return std::all_of(grid_.racks.begin(), grid_.racks.end(), [&](double r) {
+      return std::any_of(grid_.racks.begin(), grid_.racks.end(), [&](double s) { return s == -r; });
+    });
+  }
+
+  void roll_centre() {
+    other_ = false;
+    source_.clear();
+    for (std::size_t i = 0; i < grid_.positions.size(); ++i) source_.push_back(i);
+    // At a rack displacement the wheels differ, and its place is that of both: it is drawn where they agree.
+    const int at = at_sample("roll centre", [&](std::size_t i) {
+      const WheelParameters& w = grid_.wheels[i];
+      const bool centred = grid_.racks[i / grid_.travels.size()] == 0;
+      return centred ? Vec3{w.contact.x, 0, w.contact.z + w.roll_centre_height} : Vec3{nan, nan, nan};
+    });
+    scene_.joints.push_back({"roll centre", at, Scene::JointStyle::tracer});
+  }
+
+ private:
+  std::size_t opposite(std::size_t rack) const {
+    const auto at = std::find(grid_.racks.begin(), grid_.racks.end(), -grid_.racks[rack]);
+    return static_cast<std::size_t>(at - grid_.racks.begin());
+  }
+  std::string named(std::string text) const { return label_ + " " + text; }
+
+  template <class Place>
+  int at_sample(std::string name, Place&& place) {
+    Scene::Point out{std::move(name), {}, {}};
+    for (const std::size_t i : source_) {
+      Vec3 at{nan, nan, nan};
+      if (grid_.positions[i].status == Status::done) at = place(i);
+      if (other_) at = math::mirrored(at);
+      out.x.push_back(at.x);
+      out.y.push_back(at.y);
+      out.z.push_back(at.z);
+    }
+    const auto still = [](std::vector<double>& v) {
+      if (std::all_of(v.begin(), v.end(), [&](double x) { return x == v[0]; })) v.resize(1);
+    };
+    const auto moves = [](const std::vector<double>& v) {
+      return std::any_of(v.begin(), v.end(), [&](double x) { return x != v[0]; });
+    };
+    if (!out.x.empty() && !moves(out.x) && !moves(out.y) && !moves(out.z))
+      still(out.x), still(out.y), still(out.z);
+    scene_.points.push_back(std::move(out));
+    return static_cast<int>(scene_.points.size()) - 1;
+  }
+  template <class Place>
+  int point(std::string name, Place&& place) {
+    return at_sample(std::move(name), [&](std::size_t i) { return place(grid_.positions[i]); });
+  }
+  int body_point(std::string name, const CornerLink& link, const Vec3& at) {
+    const Vec3 along = link.moved_by_rack ? suspension_.rack_direction : Vec3{};
+    return point(std::move(name), [=](const CornerPosition& p) { return at + p.input.rack * along; });
+  }
+  int carrier_point(std::string name, const Vec3& at) {
+    const Vec3 centre = suspension_.wheel.centre;
+    return point(std::move(name),
+                 [=](const CornerPosition& p) { return place(p.place.carrier, at, centre); });
+  }
+
+  static std::string numbered(std::string text, std::size_t i, std::size_t count) {
+    return count > 1 ? text + " " + std::to_string(i + 1) : text;
+  }
+
+  /// Adds a handle to the wheel that the study gives, not to the mirrored one.
+  void handle(std::string key, int point) {
+    if (!other_) scene_.handles.push_back({.key = std::move(key), .point = point});
+  }
+  void handle(std::size_t link, const char* list, std::size_t i, std::size_t count, int point) {
+    const std::string key = fmt::format("mechanism.link[{}].{}", link, list);
+    handle(count > 1 ? fmt::format("{}[{}]", key, i) : key, point);
+  }
+
+  void add(const CornerLink& link, std::size_t index) {
+    std::vector<int> body, carrier;
+    for (std::size_t i = 0; i < link.body.size(); ++i) {
+      const std::string name = named(link.name + numbered(", body", i, link.body.size()));
+      body.push_back(body_point(name, link, link.body[i]));
+      scene_.joints.push_back({name, body.back(), Scene::JointStyle::ground_pivot});
+      handle(index, "body_m", i, link.body.size(), body.back());
+    }
+    for (std::size_t i = 0; i < link.carrier.size(); ++i) {
+      const std::string name = named(link.name + numbered(", carrier", i, link.carrier.size()));
+      carrier.push_back(carrier_point(name, link.carrier[i]));
+      scene_.joints.push_back({name, carrier.back(), Scene::JointStyle::pivot});
+      handle(index, "carrier_m", i, link.carrier.size(), carrier.back());
+    }
+    const std::string name = named(link.name);
+    const auto body_of = [&](std::vector<int> points, Scene::BodyStyle style) {
+      scene_.bodies.push_back({name, std::move(points), style});
+    };
+    if (link.type == LinkType::SP)
+      body_of({body[0], carrier[0]}, Scene::BodyStyle::damper);
+    else if (carrier.empty())  // joints without a link: the arm is the carrier itself
+      body_of(
+          body.size() > 1 ? std::vector<int>{body[0], body[1], centre_} : std::vector<int>{body[0], centre_},
+          body.size() > 1 ? Scene::BodyStyle::plate : Scene::BodyStyle::bar);
+    else if (body.size() + carrier.size() == 2)
+      body_of({body[0], carrier[0]}, Scene::BodyStyle::bar);
+    else if (body.size() == 2 && carrier.size() == 2)
+      body_of({body[0], body[1], carrier[1], carrier[0]}, Scene::BodyStyle::plate);
+    else if (body.size() == 2)
+      body_of({body[0], body[1], carrier[0]}, Scene::BodyStyle::plate);
+    else
+      body_of({body[0], carrier[0], carrier[1]}, Scene::BodyStyle::plate);
+    // The carrier: from its joints to the wheel centre.
+    for (const int at : carrier)
+      scene_.bodies.push_back({named("carrier"), {at, centre_}, Scene::BodyStyle::bar});
+  }
+
+  void add(const Coupler& c) {
+    const CornerLink& second = suspension_.links[static_cast<std::size_t>(c.second)];
+    const int from = point(named(c.name + " 1"), [&](const CornerPosition& p) {
+      return coupler_begin(suspension_, c, p.place, p.input.rack);
+    });
+    const int to =
+        point(named(c.name + " 2"), [&](const CornerPosition& p) { return link_point(second, p, c.point); });
+    for (const int at : {from, to})
+      scene_.joints.push_back(
+          {scene_.points[static_cast<std::size_t>(at)].name, at, Scene::JointStyle::pivot});
+    scene_.bodies.push_back({named(c.name), {from, to}, Scene::BodyStyle::bar});
+  }
+
+  /// The position of a point fixed to a link: the frames of three of its points then and now.
+  Vec3 link_point(const CornerLink& link, const CornerPosition& p, const Vec3& at) const {
+    const Vec3 centre = suspension_.wheel.centre,
+               along = link.moved_by_rack ? suspension_.rack_direction : Vec3{};
+    std::vector<Vec3> then, now;
+    for (const Vec3& b : link.body) then.push_back(b), now.push_back(b + p.input.rack * along);
+    for (const Vec3& c : link.carrier) then.push_back(c), now.push_back(place(p.place.carrier, c, centre));
+    const auto frame = [](const std::vector<Vec3>& q) {
+      const Vec3 x = unit(q[1] - q[0]), z = unit(cross(x, q[2] - q[0]));
+      return std::array{x, cross(z, x), z};
+    };
+    const auto from = frame(then), to = frame(now);
+    const Vec3 d = at - then[0];
+    return now[0] + dot(d, from[0]) * to[0] + dot(d, from[1]) * to[1] + dot(d, from[2]) * to[2];
+  }
+
+  void add_spring(const CornerSpring& spring) {
+    const Vec3 centre = suspension_.wheel.centre;
+    const int top = point(named("spring, body"), [&](const CornerPosition&) { return spring.body; });
+    const int bottom = point(named("spring, moving end"), [&](const CornerPosition& p) {
+      if (spring.link < 0) return place(p.place.carrier, spring.moving, centre);
+      const CornerLink& link = suspension_.links[static_cast<std::size_t>(spring.link)];
+      if (link.type == LinkType::US || link.type == LinkType::SS)
+        return spring_end(suspension_, p.place, p.input.rack);
+      return link_point(link, p, spring.moving);
+    });
+    scene_.bodies.push_back({named("spring"), {top, bottom}, Scene::BodyStyle::spring});
+    handle("mechanism.spring.body_m", top);
+    handle("mechanism.spring.moving_m", bottom);
+  }
+
+  void steering_axis() {
+    const auto axis = [&](std::size_t i) { return steering_axis_of(grid_.wheels[i], grid_.lock); };
+    if (std::none_of(source_.begin(), source_.end(), axis)) return;
+    const double size = suspension_.wheel.tyre_diameter;
+    const int ground = at_sample(named("steering axis at the ground"), [&](std::size_t i) {
+      return axis(i) ? axis(i)->ground : Vec3{nan, nan, nan};
+    });
+    const int top = at_sample("", [&](std::size_t i) {
+      return axis(i) ? axis(i)->ground + size * axis(i)->direction : Vec3{nan, nan, nan};
+    });
+    scene_.joints.push_back({named("steering axis at the ground"), ground, Scene::JointStyle::tracer});
+    scene_.bodies.push_back({named("steering axis"), {ground, top}, Scene::BodyStyle::axis});
+  }
+
+  Scene& scene_;
+  const Suspension& suspension_;
+  const CornerGrid& grid_;
+  bool other_ = false;
+  std::string label_;
+  int centre_ = 0;
+  std::vector<std::size_t> source_;
+};
+
+}  // namespace
+
+study::Scene corner_scene(const Suspension& suspension, std::string name, std::string title,
+                          const CornerGrid& grid) {
+  Scene scene;
+  scene.name = std::move(name);
+  scene.title = std::move(title);
+  scene.input_key = "travel_m";
+  scene.input_label = "travel";
+  scene.input.assign(grid.travels.begin(), grid.travels.end());
+  if (grid.racks.size() > 1 || (grid.racks.size() == 1 && grid.racks[0] != 0)) {
+    scene.second_key = "rack_m";
+    scene.second_label = "rack";
+    scene.second.assign(grid.racks.begin(), grid.racks.end());
+  }
+  bool all = true;
+  for (const CornerPosition& p : grid.positions) {
+    scene.status.emplace_back(to_string(p.status));
+    all = all && p.status == Status::done;
+  }
+  if (all) scene.status.clear();
+  Drawing drawing(scene, suspension, grid);
+  drawing.wheel(false);
+  if (suspension.wheel.centre.y != 0 && drawing.has_opposite()) {
+    drawing.wheel(true);
+    drawing.roll_centre();
+  }
+  return scene;
+}
+
+}  // namespace linkwright::suspension
