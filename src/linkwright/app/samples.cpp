@@ -10,7 +10,7 @@ std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (const planar::LinkageSample& sample : planar::linkage_samples())
     all.push_back({sample.name, sample.summary, {"planar.linkage", "clearance.linkage"}, "Planar linkages"});
-  for (const suspension::CornerSample& sample : suspension::guide_samples())
+  for (const suspension::CornerSample& sample : suspension::corner_samples())
     all.push_back({sample.name, sample.summary, {"suspension.corner"}, "Wheel suspensions"});
   return all;
 }
