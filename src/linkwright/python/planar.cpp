@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/sweep.h"
@@ -87,6 +88,18 @@ planar::FourBarMasses masses_of(const py::handle& object) {
   return out;
 }
 
+/// Sweeps of many samples: Ctrl-C ends them. Few take less than it costs to look after them.
+template <class Run>
+void run_samples(std::size_t count, Run&& run) {
+  constexpr std::size_t few = 100'000;
+  if (count < few) {
+    const Unlocked unlocked;
+    return run(nullptr);
+  }
+  RunContext context;
+  work_beside_python([&] { run(&context); }, [] {}, [&] { context.cancel(); });
+}
+
 /// A sweep whose memory is used again once nobody looks at the rows of the last run.
 template <class Sweep>
 class Reused {
@@ -114,10 +127,8 @@ class FourBarSweeps {
     const planar::SweepInput crank{samples(angle, "crank_angle"), samples(speed, "crank_speed"),
                                    samples(acceleration, "crank_acceleration")};
     auto sweep = reused_.take([&] { return std::make_shared<planar::FourBarSweep>(wanted_); });
-    {
-      const Unlocked unlocked;
-      sweep->run(four_bar, m, gravity, crank);
-    }
+    run_samples(crank.value.size(),
+                [&](const RunContext* context) { sweep->run(four_bar, m, gravity, crank, context); });
     Rows out{sweep, {}, sweep->status()};
     const std::array<bool, 4> kept{wanted_.directions, wanted_.rates, wanted_.forces, wanted_.shaking};
     constexpr std::array<std::size_t, 4> ends{7, 11, 19, planar::four_bar_row_count};
@@ -139,20 +150,21 @@ py::array_t<double> coupler_points(const py::object& linkage, const Array& angle
   const std::span<const double> angles = samples(angle, "crank_angle");
   py::array_t<double> out = new_samples(angles.size(), 2);
   double* at = out.mutable_data();
-  const Unlocked unlocked;
-  planar::FourBarSweep sweep({.directions = true, .rates = false, .forces = false, .shaking = false});
-  // A stretch at a time, so that the rows stay in the cache.
-  constexpr std::size_t stretch = 4096;
-  for (std::size_t first = 0; first < angles.size(); first += stretch) {
-    const std::size_t count = std::min(stretch, angles.size() - first);
-    sweep.run(l, {}, 0, {angles.subspan(first, count), {}, {}});
-    const auto cx = sweep.row(planar::FourBarRow::crank_x), cy = sweep.row(planar::FourBarRow::crank_y),
-               kx = sweep.row(planar::FourBarRow::coupler_x), ky = sweep.row(planar::FourBarRow::coupler_y);
-    for (std::size_t i = 0; i < count; ++i, at += 2) {
-      at[0] = l.pivot_x + l.crank * cx[i] + l.coupler_u * kx[i] - l.coupler_v * ky[i];
-      at[1] = l.pivot_y + l.crank * cy[i] + l.coupler_u * ky[i] + l.coupler_v * kx[i];
+  run_samples(angles.size(), [&](const RunContext* context) {
+    planar::FourBarSweep sweep({.directions = true, .rates = false, .forces = false, .shaking = false});
+    // A block at a time, so that the rows stay in the cache.
+    constexpr std::size_t block = 4096;
+    for (std::size_t first = 0; first < angles.size(); first += block) {
+      const std::size_t count = std::min(block, angles.size() - first);
+      sweep.run(l, {}, 0, {angles.subspan(first, count), {}, {}}, context);
+      const auto cx = sweep.row(planar::FourBarRow::crank_x), cy = sweep.row(planar::FourBarRow::crank_y),
+                 kx = sweep.row(planar::FourBarRow::coupler_x), ky = sweep.row(planar::FourBarRow::coupler_y);
+      for (std::size_t i = 0; i < count; ++i, at += 2) {
+        at[0] = l.pivot_x + l.crank * cx[i] + l.coupler_u * kx[i] - l.coupler_v * ky[i];
+        at[1] = l.pivot_y + l.crank * cy[i] + l.coupler_u * ky[i] + l.coupler_v * kx[i];
+      }
     }
-  }
+  });
   return out;
 }
 
@@ -246,10 +258,8 @@ class LinkageSweeps {
       inputs.push_back({samples(values[i], "value"), samples(rates[i], "rate"),
                         samples(accelerations[i], "acceleration")});
     auto sweep = reused_.take([&] { return make(); });
-    {
-      const Unlocked unlocked;
-      sweep->run(inputs);
-    }
+    run_samples(inputs.empty() ? 0 : inputs[0].value.size(),
+                [&](const RunContext* context) { sweep->run(inputs, {}, context); });
     LinkageRows out{{sweep, {}, sweep->status()}, study_, sweep};
     add_parts(*sweep, out);
     if (wanted_.forces) add_forces(*sweep, out);

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/math/sincos.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
+constexpr std::size_t samples_between_looks = 1 << 16;  // a millisecond or so
 constexpr std::size_t row_index(FourBarRow row) { return static_cast<std::size_t>(row); }
 
 bool kept(const FourBarWanted& wanted, std::size_t row) {
@@ -61,17 +63,20 @@ KernelSet<FourBarSweepKernel> four_bar_sweep_kernels() { return LINKWRIGHT_KERNE
 
 struct FourBarSweep::Memory {
   FourBarSweepTask task;
-  std::vector<double> constants, angle, cosine, sine, rate, acceleration, data, good;
+  std::vector<double> constants, angle, cosine, sine, rate, acceleration, good;
+  std::unique_ptr<double[]> data;
+  std::size_t data_size = 0;
   std::vector<Status> status;
   std::size_t samples = 0;  // number of samples in a row
 
   void prepare(std::span<const FourBarMachine> machines, bool over_machines, double gravity,
-               const SweepInput& crank);
-  void run(std::span<const FourBarMachine> machines, const SweepInput& crank);
+               const SweepInput& crank, const RunContext* context);
+  void run(std::span<const FourBarMachine> machines, const SweepInput& crank, const RunContext* context);
+  void mend(std::span<const FourBarMachine> machines, const SweepInput& crank);
 };
 
 void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, bool over_machines,
-                                   double gravity, const SweepInput& crank) {
+                                   double gravity, const SweepInput& crank, const RunContext* context) {
   const std::size_t n = crank.value.size();
   const auto fits = [&](std::span<const double> v) { return v.size() <= 1 || v.size() == n; };
   LINKWRIGHT_REQUIRE(fits(crank.rate) && fits(crank.acceleration),
@@ -112,7 +117,9 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
 
   const std::size_t steps = over_machines ? n : task.lanes;
   const std::span<const double> none;  // without angles there is no room for the one rate of all
+  throw_if_interrupted(context);
   spread(n > 0 ? crank.rate : none, steps, rate);
+  throw_if_interrupted(context);
   spread(n > 0 ? crank.acceleration : none, steps, acceleration);
   if (over_machines) {
     cosine.resize(n);
@@ -122,22 +129,38 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
     spread(crank.value, steps, angle);
     for (double& a : angle) a += machines[0].linkage.frame_angle;
   }
-  data.resize(task.rows * task.angles * task.lanes);
+  throw_if_interrupted(context);
+  const std::size_t numbers = task.rows * task.angles * task.lanes;
+  if (data_size < numbers) {
+    data.reset();
+    data = std::make_unique_for_overwrite<double[]>(numbers);  // the kernel writes every number
+    data_size = numbers;
+  }
   good.resize(task.angles * task.lanes);
   status.resize(task.angles * task.lanes);
   task.constants = constants.data();
   task.angle = angle.data(), task.cosine = cosine.data(), task.sine = sine.data();
   task.rate = rate.data(), task.acceleration = acceleration.data();
-  task.data = data.data(), task.good = good.data();
+  task.data = data.get(), task.good = good.data();
 }
 
-void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank) {
+void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank,
+                               const RunContext* context) {
   std::fill(status.begin(), status.end(), Status::done);
-  if (widest_of<four_bar_sweep_kernels>().run(task)) return;
-  // The plain functions solve, one by one, the samples that the kernel could not: they name the reason and
-  // keep the good part.
+  const std::size_t block =
+      std::max(line, samples_between_looks / std::max<std::size_t>(task.angles, 1) / line * line);
+  for (task.begin = 0; task.begin < task.lanes; task.begin = task.end) {
+    throw_if_interrupted(context);
+    task.end = std::min(task.begin + block, task.lanes);
+    if (!widest_of<four_bar_sweep_kernels>().run(task)) mend(machines, crank);
+  }
+}
+
+// The plain functions solve, one by one, the samples that the kernel could not: they name the reason and
+// keep the good part.
+void FourBarSweep::Memory::mend(std::span<const FourBarMachine> machines, const SweepInput& crank) {
   for (std::size_t i = 0; i < task.angles; ++i)
-    for (std::size_t k = 0; k < samples; ++k) {
+    for (std::size_t k = task.begin; k < std::min(task.end, samples); ++k) {
       if (good[i * task.lanes + k] != 0) continue;
       const auto& [linkage, masses] = machines[task.over_machines ? k : 0];
       const std::size_t step = task.over_machines ? i : k;
@@ -160,22 +183,23 @@ FourBarSweep::FourBarSweep(FourBarSweep&&) noexcept = default;
 FourBarSweep& FourBarSweep::operator=(FourBarSweep&&) noexcept = default;
 
 void FourBarSweep::run(const FourBar& linkage, const FourBarMasses& masses, double gravity,
-                       const SweepInput& crank) {
+                       const SweepInput& crank, const RunContext* context) {
   const FourBarMachine machine{linkage, masses};
-  memory_->prepare({&machine, 1}, false, gravity, crank);
-  memory_->run({&machine, 1}, crank);
+  memory_->prepare({&machine, 1}, false, gravity, crank, context);
+  memory_->run({&machine, 1}, crank, context);
 }
 
-void FourBarSweep::run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank) {
-  memory_->prepare(machines, true, gravity, crank);
-  memory_->run(machines, crank);
+void FourBarSweep::run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank,
+                       const RunContext* context) {
+  memory_->prepare(machines, true, gravity, crank, context);
+  memory_->run(machines, crank, context);
 }
 
 std::span<const double> FourBarSweep::row(FourBarRow row, std::size_t angle) const {
   const FourBarSweepTask& task = memory_->task;
   LINKWRIGHT_REQUIRE(kept(task.wanted, row_index(row)), "row {} is not wanted of this sweep", row_index(row));
   LINKWRIGHT_REQUIRE(angle < task.angles, "angle {} of {}", angle, task.angles);
-  return {memory_->data.data() + (task.first[row_index(row)] + angle * task.rows) * task.lanes,
+  return {memory_->data.get() + (task.first[row_index(row)] + angle * task.rows) * task.lanes,
           memory_->samples};
 }
 std::span<const Status> FourBarSweep::status(std::size_t angle) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/kernels.h"
+#include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/sweep_input.h"
@@ -72,10 +73,12 @@ class FourBarSweep {
 
   /// One four-bar: `crank.value` are crank angles (rad) from the ground link, rate and acceleration those of
   /// the crank. Rows run over the angles. Throws ContractError as `rates` and `reactions` do, and on counts
-  /// that do not fit.
-  void run(const FourBar& linkage, const FourBarMasses& masses, double gravity, const SweepInput& crank);
+  /// that do not fit, and Interrupted when `context` asks the run to stop: its rows are then undefined.
+  void run(const FourBar& linkage, const FourBarMasses& masses, double gravity, const SweepInput& crank,
+           const RunContext* context = nullptr);
   /// Many four-bars: registers hold machines. Rows run over the machines, one row an angle.
-  void run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank);
+  void run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank,
+           const RunContext* context = nullptr);
 
   /// Numbers of a kind: over the angles of one four-bar; or over the machines, at the angle with this index.
   /// NaN where the rates have it. Throws ContractError for a row that is not wanted.
@@ -101,8 +104,9 @@ struct FourBarSweepTask {
   bool over_machines = false;  ///< registers hold machines, else angles
   double gravity = 0;
   const double* constants = nullptr;  ///< `four_bar_constants` rows over the machines, `lanes` numbers each
-  std::size_t lanes = 0;   ///< length of a row, a multiple of 8: the last machine or angle is repeated
-  std::size_t angles = 0;  ///< number of rows of a kind: 1, or angles where registers hold machines
+  std::size_t lanes = 0;  ///< length of a row, a multiple of 8: the last machine or angle is repeated
+  std::size_t begin = 0, end = 0;  ///< the lanes that this call fills, multiples of 8
+  std::size_t angles = 0;          ///< number of rows of a kind: 1, or angles where registers hold machines
   // Over `lanes`, the angle from the global x axis; over machines, cosine and sine of the crank angle.
   const double *angle = nullptr, *cosine = nullptr, *sine = nullptr;
   const double *rate = nullptr, *acceleration = nullptr;  ///< rates, as many as `angle` or `cosine`
@@ -112,8 +116,8 @@ struct FourBarSweepTask {
   double* good = nullptr;  ///< `lanes` numbers an angle: 1 where the result holds, else 0
 };
 
-/// Fills the rows; true when all samples are good. Compiled once for each instruction set; all but the
-/// baseline need the machine to have the instructions.
+/// Fills the lanes of the rows from `begin` to `end`; true when all their samples are good. Compiled once for
+/// each instruction set; all but the baseline need the machine to have the instructions.
 using FourBarSweepKernel = bool(const FourBarSweepTask&);
 FourBarSweepKernel four_bar_sweep_baseline, four_bar_sweep_avx2, four_bar_sweep_avx512;
 KernelSet<FourBarSweepKernel> four_bar_sweep_kernels();

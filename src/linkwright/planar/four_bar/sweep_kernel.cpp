@@ -97,7 +97,7 @@ LINKWRIGHT_KERNEL bool four_bar_sweep_with(const FourBarSweepTask& task) {
   using S = math::Scalar<Batch>;
   Batch all(1.0);
   if (task.over_machines) {
-    for (std::size_t k = 0; k < task.lanes; k += Batch::size) {
+    for (std::size_t k = task.begin; k < task.end; k += Batch::size) {
       const FourBarSweepMachine<Batch> m = load_machine<Batch>(task, k);
       for (std::size_t i = 0; i < task.angles; ++i) {
         const Batch ux(task.cosine[i]), uy(task.sine[i]);
@@ -110,7 +110,7 @@ LINKWRIGHT_KERNEL bool four_bar_sweep_with(const FourBarSweepTask& task) {
     }
   } else {
     const FourBarSweepMachine<Batch> m = load_machine<Batch>(task, 0);
-    for (std::size_t k = 0; k < task.lanes; k += Batch::size) {
+    for (std::size_t k = task.begin; k < task.end; k += Batch::size) {
       const Batch angle = Batch::load_unaligned(task.angle + k);
       Batch e1x, e1y;
       math::sincos(angle, e1y, e1x);

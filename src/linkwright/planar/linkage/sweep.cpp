@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/assembly.h"
 
@@ -14,6 +15,7 @@ namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
+constexpr std::size_t samples_between_looks = 1 << 14;
 
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (plan.parts.size() > max_sweep_parts || plan.groups.size() > max_sweep_parts) return false;
@@ -44,7 +46,8 @@ struct LinkageSweep::Memory {
   bool batched = false;
   SweepTask task;
   std::size_t rows = 0, samples = 0;
-  std::vector<double> data;
+  std::unique_ptr<double[]> data;
+  std::size_t data_size = 0;
   std::vector<Status> status;
   LinkageMotion motion;
   LinkageForces forces;
@@ -61,10 +64,15 @@ struct LinkageSweep::Memory {
     // An odd number of cache lines from row to row: with a power of two all rows of a sample would compete
     // for the same few places of the cache.
     task.stride = task.count + (task.count / line % 2 == 0 ? line : 0);
-    if (data.size() < rows * task.stride + line) data.resize(rows * task.stride + line);
-    const auto address = reinterpret_cast<std::uintptr_t>(data.data());
+    if (data_size < rows * task.stride + line) {
+      data.reset();
+      data_size = rows * task.stride + line;
+      data =
+          std::make_unique_for_overwrite<double[]>(data_size);  // every number that is read is written before
+    }
+    const auto address = reinterpret_cast<std::uintptr_t>(data.get());
     task.data =
-        data.data() + (line * sizeof(double) - address % (line * sizeof(double))) / sizeof(double) % line;
+        data.get() + (line * sizeof(double) - address % (line * sizeof(double))) / sizeof(double) % line;
     status.resize(n);
   }
 
@@ -72,6 +80,20 @@ struct LinkageSweep::Memory {
     for (std::size_t k = 0; k < inputs.size(); ++k)
       inputs[k] = {number(task.inputs + 3 * k, i), number(task.inputs + 3 * k + 1, i),
                    number(task.inputs + 3 * k + 2, i)};
+  }
+
+  // A part of the samples at a time, so that a run can be stopped.
+  void registers(std::span<const double> time, const RunContext* context) {
+    std::fill(status.begin(), status.end(), Status::done);
+    for (std::size_t begin = 0; begin < task.count; begin += samples_between_looks) {
+      throw_if_interrupted(context);
+      SweepTask part = task;
+      part.data += begin;
+      part.count = std::min(task.count - begin, samples_between_looks);
+      if (widest_of<sweep_kernels>().run(part)) continue;
+      for (std::size_t i = begin; i < std::min(begin + part.count, samples); ++i)
+        if (number(task.good, i) == 0) scalar(i, of(time, i));
+    }
   }
 
   // One sample by the functions for one position.
@@ -168,7 +190,8 @@ void LinkageSweep::set_modes(std::span<const double> modes) {
   memory_->motion.modes = memory_->modes;
 }
 
-void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const double> time) {
+void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const double> time,
+                       const RunContext* context) {
   Memory& m = *memory_;
   LINKWRIGHT_REQUIRE(inputs.size() == m.plan.inputs() && !inputs.empty(), "the linkage has {} inputs, got {}",
                      m.plan.inputs(), inputs.size());
@@ -180,6 +203,7 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     const std::span<const double> rows[] = {inputs[k].value, inputs[k].rate, inputs[k].acceleration};
     for (std::size_t r = 0; r < 3; ++r) {
+      throw_if_interrupted(context);
       LINKWRIGHT_REQUIRE(rows[r].size() == n || (r > 0 && rows[r].size() <= 1),
                          "{} samples, input {} has {} numbers", n, k, rows[r].size());
       double* to = &m.number(m.task.inputs + 3 * k + r, 0);
@@ -207,7 +231,10 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
     m.assembly.emplace(m.plan, reach, AtChangePoint::smooth, false, m.modes);
   }
   if (!m.batched) {
-    for (std::size_t i = 0; i < n; ++i) m.scalar(i, of(time, i));
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i % 256 == 0) throw_if_interrupted(context);
+      m.scalar(i, of(time, i));
+    }
     return;
   }
   for (std::size_t k = 0; k < m.plan.groups.size(); ++k)
@@ -215,11 +242,7 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
       for (std::size_t r = 0; r < 2; ++r)
         std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
   m.task.modes = m.motion.modes.data();
-  const bool all_good = widest_of<sweep_kernels>().run(m.task);
-  std::fill(m.status.begin(), m.status.end(), Status::done);
-  if (all_good) return;
-  for (std::size_t i = 0; i < n; ++i)
-    if (m.number(m.task.good, i) == 0) m.scalar(i, of(time, i));
+  m.registers(time, context);
 }
 
 std::size_t LinkageSweep::samples() const { return memory_->samples; }

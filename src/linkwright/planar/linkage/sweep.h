@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/kernels.h"
+#include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/sweep_input.h"
@@ -60,8 +61,10 @@ class LinkageSweep {
   void set_modes(std::span<const double> modes);
 
   /// One entry an input of the plan. `time` (s) is what load tables may depend on: as many as samples, or
-  /// none for zero. Throws ContractError on counts that do not fit and on inputs that are not finite.
-  void run(std::span<const SweepInput> inputs, std::span<const double> time = {});
+  /// none for zero. Throws ContractError on counts that do not fit and on inputs that are not finite, and
+  /// Interrupted when `context` asks the run to stop: its rows are then undefined.
+  void run(std::span<const SweepInput> inputs, std::span<const double> time = {},
+           const RunContext* context = nullptr);
 
   std::size_t samples() const;
   /// done, or what keeps the sample from being computed; its numbers are NaN then, but for parts of groups
