@@ -19,6 +19,7 @@ enum class EndKind {
   change_point,  ///< both modes meet and continue: which way is a choice
   singular,  ///< two slides become parallel: the group runs away to infinity, or its place is undetermined
 };
+/// The kinds of ends by name. @returns one entry a kind
 constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
   return {{{EndKind::bound, "bound", "end of the interval that was asked for"},
            {EndKind::limit, "limit", "limit of motion"},
@@ -28,15 +29,16 @@ constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
 
 /// End of a range of an input.
 struct RangeEnd {
-  double value = 0;  ///< value of the input (rad or m)
-  EndKind kind = EndKind::bound;
-  std::vector<int> groups;  ///< groups that reach their limit or change point there; rising
+  double value = 0;               ///< value of the input (rad or m)
+  EndKind kind = EndKind::bound;  ///< event at the end
+  std::vector<int> groups;        ///< groups that reach their limit or change point there; rising
 };
 
 /// A stretch of the input in which the linkage assembles in one combination of modes. At its ends it meets
 /// the ranges of the other modes of the groups named there.
 struct InputRange {
-  RangeEnd from, to;
+  RangeEnd from,              ///< lower end
+      to;                     ///< upper end
   bool full_turn = false;     ///< closes on itself: the input turns fully
   std::vector<double> modes;  ///< signs, one a group; +1 of groups without modes
   int circuit = 0;            ///< from 1
@@ -44,9 +46,10 @@ struct InputRange {
 
 /// The ranges in which a linkage assembles while one input moves and the others stay.
 struct InputLimits {
-  int input = 0;
-  bool rotary = true;
-  double from = 0, to = 0;         ///< range that was asked for
+  int input = 0;                   ///< index of the input that moves
+  bool rotary = true;              ///< the input is an angle
+  double from = 0,                 ///< lower end of the interval that was asked for (rad or m)
+      to = 0;                      ///< its upper end
   bool closed = false;             ///< from and to are one full turn of a periodic input
   std::vector<InputRange> ranges;  ///< by modes (plus first), then by input; over all modes
   /// Connected sets of configurations: positions of one circuit can be reached from each other without taking
@@ -54,31 +57,62 @@ struct InputLimits {
   int circuits = 0;
 };
 
-/// Ranges of all combinations of assembly modes, and circuits. `inputs` are the values of all inputs, the
-/// one of `input` does not matter. When [from, to] is one full turn of an input that is periodic, ranges that
-/// run across its ends are joined, and `to` of such a range lies beyond the turn.
+/// The ranges of all combinations of assembly modes, and circuits. When [from, to] is one full turn of an
+/// input that is periodic, ranges that run across its ends are joined, and `to` of such a range lies beyond
+/// the turn.
 ///
-/// Throws ContractError when the plan is not in closed form (see LinkageAssembly::limits) or has more than
-/// 4096 ranges.
+/// @param plan the plan of the linkage
+/// @param inputs values of all inputs (rad or m); that of `input` is ignored
+/// @param input index of the input that moves
+/// @param from lower end of the interval of the input (rad or m)
+/// @param to upper end of the interval (rad or m)
+/// @returns ranges and circuits
+/// @throws ContractError if the plan is not in closed form (see LinkageAssembly::limits) or has more than
+///   4096 ranges, the numbers of inputs do not fit, or from < to is not met by finite numbers
 InputLimits input_limits(const LinkagePlan& plan, std::span<const double> inputs, int input, double from,
                          double to);
 
-/// The range in which an input value lies with these modes (whole turns do not matter when the limits are
-/// closed); nullptr when it does not assemble there.
+/// The range in which an input value lies with given modes; whole turns do not matter when the limits are
+/// closed.
+///
+/// @param limits the ranges, which own the result
+/// @param modes signs, one a group
+/// @param value value of the input (rad or m)
+/// @returns the range; null if the linkage does not assemble there
 const InputRange* range_at(const InputLimits& limits, std::span<const double> modes, double value);
 
-/// The part of the input range that assembles with the given modes (rad or m), a full turn at most.
+/// The part of the input interval that assembles with given modes.
+///
+/// @param limits the ranges
+/// @param modes signs, one a group
+/// @returns sum of the ranges (rad or m), a full turn at most
 double assembly_range(const InputLimits& limits, std::span<const double> modes);
 
-/// For messages: "assembles from 12.3 to 147.9 deg", "assembles over the full turn", "assembles from 0 to 10
-/// mm and from 30 to 40 mm", "assembles nowhere from 0.0 to 90.0 deg", for the given modes.
+/// The part of the input interval that assembles with given modes, for messages: "assembles from 12.3 to
+/// 147.9 deg", "assembles over the full turn", "assembles from 0 to 10 mm and from 30 to 40 mm", "assembles
+/// nowhere from 0.0 to 90.0 deg".
+///
+/// @param limits the ranges
+/// @param modes signs, one a group
+/// @returns the sentence
 Sentence assembly_range_text(const InputLimits& limits, std::span<const double> modes);
 
-/// For messages: "at 103.2 deg short by 3.1 mm ('coupler + rocker')", of a motion that failed at this value;
-/// for a motion that is done, or of which no gap is known, what its status means.
+/// The reason why a motion failed, for messages: "at 103.2 deg short by 3.1 mm ('coupler + rocker')". A
+/// motion that is done, or whose gap is not known, is described by its status.
+///
+/// @param plan the plan of the linkage
+/// @param motion the motion that failed
+/// @param input index of the input that moves
+/// @param value value of the input at which it failed (rad or m)
+/// @returns the sentence
+/// @throws ContractError if there is no such input
 Sentence assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& motion, int input, double value);
 
 /// The modes in words: "coupler + rocker plus, link + ram minus"; "only one mode" when no group has modes.
+///
+/// @param plan the plan of the linkage
+/// @param modes signs, one a group
+/// @returns the text
 std::string mode_text(const LinkagePlan& plan, std::span<const double> modes);
 
 }  // namespace linkwright::planar

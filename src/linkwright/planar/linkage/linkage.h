@@ -17,13 +17,13 @@ namespace linkwright::planar {
 
 /// A named point of a body, in the frame of the body (m).
 struct LinkagePoint {
-  std::string name;
-  std::complex<double> at;
+  std::string name;         ///< unique on its body
+  std::complex<double> at;  ///< in the frame of the body, m
 };
 
 /// A mass that sits at a point of a body: a counterweight, a payload.
 struct AttachedMass {
-  std::string name;
+  std::string name;         ///< unique on its body
   double mass = 0;          ///< kg, >= 0
   std::complex<double> at;  ///< in the frame of the body, m
 };
@@ -39,16 +39,24 @@ struct BodyMass {
 /// A rigid body. Where its frame lies is the user's choice; body 0 of a linkage is the ground, whose frame is
 /// the global one.
 struct LinkageBody {
-  std::string name;
-  std::vector<LinkagePoint> points;
-  std::optional<BodyMass> mass;
-  std::vector<AttachedMass> attached;
+  std::string name;                    ///< unique in the linkage
+  std::vector<LinkagePoint> points;    ///< points that joints, springs, forces and traces name
+  std::optional<BodyMass> mass;        ///< without what is attached; nothing where it is not given
+  std::vector<AttachedMass> attached;  ///< masses fixed to the body
   /// The approximate pose of the body at the start: gives the assembly mode of its group, and is where a
   /// search starts. Not needed for groups whose mode is given.
   std::optional<math::Pose> start;
 };
 
-enum class JointType { revolute, prismatic, pin_in_slot, fixed, gear };
+/// The type of a joint between two bodies.
+enum class JointType {
+  revolute,     ///< a pin: the two points coincide
+  prismatic,    ///< the second body slides along a line of the first, without turning against it
+  pin_in_slot,  ///< a point of the second body lies on a line of the first
+  fixed,        ///< the second body is welded to the first
+  gear          ///< the second body turns `ratio` times as fast as the first, both seen from the carrier
+};
+/// The joint types by their words in study files. @returns one entry a type
 constexpr std::array<EnumName<JointType>, 5> names(JointType) {
   return {{{JointType::revolute, "revolute", "the two points coincide"},
            {JointType::prismatic, "prismatic", "the second body slides along a line of the first"},
@@ -59,8 +67,8 @@ constexpr std::array<EnumName<JointType>, 5> names(JointType) {
 
 /// A point of a body, by index.
 struct BodyPoint {
-  int body = 0;
-  int point = 0;
+  int body = 0;   ///< index into Linkage::bodies
+  int point = 0;  ///< index into the points of that body
 };
 
 /// A joint between two bodies. Its coordinate is what a drive prescribes: of a revolute joint the angle of
@@ -68,23 +76,25 @@ struct BodyPoint {
 /// displacement of the second point from the first along the slide (m). Its reaction is the force (and
 /// moment) of the first body on the second.
 struct LinkageJoint {
-  std::string name;
-  JointType type = JointType::revolute;
-  BodyPoint first, second;
-  /// Direction of the slide or slot (rad) in the frame of the first and of the second body: they stay
-  /// parallel. For `fixed` the angle of the second frame from the first is slide_first - slide_second.
-  double slide_first = 0, slide_second = 0;
+  std::string name;                      ///< unique in the linkage
+  JointType type = JointType::revolute;  ///< decides which of the members below are used
+  BodyPoint first,                       ///< point of the first body
+      second;                            ///< point of the second body
+  /// Direction of the slide or slot (rad) in the frame of the first body; it stays parallel to
+  /// `slide_second`. For `fixed` the angle of the second frame from the first is slide_first - slide_second.
+  double slide_first = 0,
+         slide_second = 0;  ///< the same direction in the frame of the second body (rad)
   /// gear: (second - carrier) = ratio (first - carrier) + phase for the angles of the frames; the points are
   /// not used. Negative ratio: external teeth.
   double ratio = 1;
   double phase = 0;  ///< rad
   int carrier = 0;   ///< body that carries both axes
-  /// gear: of its teeth (rad), 0 to less than pi/2. Radii follow from the distance of the two pins on the
-  /// carrier and the ratio.
+  /// gear: pressure angle of its teeth (rad), 0 to less than 1.5. Radii follow from the distance of the two
+  /// pins on the carrier and the ratio.
   double pressure_angle = pi / 9;
-  /// Coulomb friction: of a pin, coefficient times pin radius times force; of a slide or slot, coefficient
-  /// times normal force, which a guide of length > 0 takes as two forces at its ends.
-  double friction = 0;      ///< coefficient, >= 0
+  /// Coefficient of Coulomb friction, >= 0: of a pin, coefficient times pin radius times force; of a slide or
+  /// slot, coefficient times normal force, which a guide of length > 0 takes as two forces at its ends.
+  double friction = 0;
   double pin_radius = 0;    ///< m, >= 0
   double guide_length = 0;  ///< m, >= 0
 };
@@ -100,40 +110,61 @@ struct LinkageJoint {
 /// Of two bodies with a drive between them that hold an arm (a cylinder that raises a boom) `first` is one of
 /// the two and `second` the arm; as three pins: plus = the pin of the arm at the driven bodies lies to the
 /// left of the line from the other pin of the driven bodies to that of the arm.
-enum class AssemblyMode { plus, minus };
+enum class AssemblyMode {
+  plus,  ///< left, or forward
+  minus  ///< right, or backward
+};
+/// The assembly modes by their words in study files. @returns one entry a mode
 constexpr std::array<EnumName<AssemblyMode>, 2> names(AssemblyMode) {
   return {{{AssemblyMode::plus, "plus", "left, or forward"},
            {AssemblyMode::minus, "minus", "right, or backward"}}};
 }
+
+/// The sign of an assembly mode, as LinkagePlan has it.
+///
+/// @param mode the mode
+/// @returns +1 for plus, -1 for minus
 constexpr double sign(AssemblyMode mode) { return mode == AssemblyMode::plus ? 1.0 : -1.0; }
+/// The assembly mode that is given for a pair of bodies.
 struct DyadMode {
-  int first = 0, second = 0;
-  AssemblyMode mode = AssemblyMode::plus;
+  int first = 0,                           ///< index of the first body
+      second = 0;                          ///< index of the second body
+  AssemblyMode mode = AssemblyMode::plus;  ///< see AssemblyMode
 };
 
 /// A spring with a damper beside it between two points: pulls with stiffness (length - free_length) +
 /// damping d(length)/dt.
 struct LinearSpring {
-  std::string name;
-  BodyPoint first, second;
-  double stiffness = 0;    ///< N/m
-  double free_length = 0;  ///< m
-  double damping = 0;      ///< N s/m
+  std::string name;        ///< unique among the springs
+  BodyPoint first,         ///< one end
+      second;              ///< the other end, on another body
+  double stiffness = 0;    ///< N/m, >= 0
+  double free_length = 0;  ///< m, >= 0
+  double damping = 0;      ///< N s/m, >= 0
 };
 
 /// Turns two bodies towards `free_angle` between their frames (second from first): torque on the second
 /// -stiffness (angle - free_angle) - damping (speed difference). The angle has its turns, see PlanTwist, and
 /// so may the free angle.
 struct TorsionSpring {
-  std::string name;
-  int first = 0, second = 0;
-  double stiffness = 0;   ///< N m/rad
+  std::string name;       ///< unique among the torsion springs
+  int first = 0,          ///< index of the body from which the angle counts
+      second = 0;         ///< index of the body that the torque acts on
+  double stiffness = 0;   ///< N m/rad, >= 0
   double free_angle = 0;  ///< rad
-  double damping = 0;     ///< N m s/rad
+  double damping = 0;     ///< N m s/rad, >= 0
 };
 
 /// The argument of a force or torque.
-enum class LoadArgument { constant, input, time, x, y, speed };
+enum class LoadArgument {
+  constant,  ///< nothing: the factor is 1
+  input,     ///< coordinate of the first joint with a drive (rad or m)
+  time,      ///< time (s)
+  x,         ///< x of the point, global (m)
+  y,         ///< y of the point, global (m)
+  speed      ///< of a torque: angular speed of its body against the body it comes from (rad/s), as of a motor
+};
+/// The arguments of loads by their words in study files. @returns one entry an argument
 constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
            {LoadArgument::input, "input", "the coordinate of the first joint with a drive"},
@@ -147,64 +178,100 @@ constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
 /// The strength of a load: a factor that is 1, or interpolated linearly in a table and held at its ends, or
 /// repeated.
 struct LoadFactor {
-  LoadArgument against = LoadArgument::constant;
-  std::vector<double> argument;  ///< rising; rad, m, s or rad/s
-  std::vector<double> factor;
+  LoadArgument against = LoadArgument::constant;  ///< quantity that the table depends on
+  std::vector<double> argument;                   ///< rising; rad, m, s or rad/s
+  std::vector<double> factor;                     ///< as many as arguments
   /// After which change of the argument the table repeats; 0: never. Not given: a table of whole turns of a
   /// first input that turns repeats after these turns, any other never.
   std::optional<double> period = {};
 };
-/// The period of a factor (0: none); `turns`: whether the first input turns.
+
+/// The period of a load factor.
+///
+/// @param factor the factor
+/// @param turns true if the first input turns
+/// @returns the change of the argument after which the table repeats; 0 if it never does
 double period_of(const LoadFactor& factor, bool turns);
 struct Linkage;
-/// Names of the forces and torques that go by the first input and keep the last value of their tables
-/// somewhere from `low` to `high` of it.
+
+/// Names of the forces and torques whose tables depend on the first input and hold an end value somewhere in
+/// an interval of it.
+///
+/// @param linkage the linkage with its forces and torques
+/// @param turns true if the first input turns
+/// @param low lower end of the interval of the first input (rad or m)
+/// @param high upper end of the interval (rad or m)
+/// @returns the names; empty if every table covers the interval
 std::vector<std::string> loads_held(const Linkage& linkage, bool turns, double low, double high);
 
 /// A force on a point of a body, in the global frame or turning with the body.
 struct PointForce {
-  std::string name;
-  BodyPoint point;
-  std::complex<double> force;  ///< N
+  std::string name;            ///< unique among the forces
+  BodyPoint point;             ///< where the force acts
+  std::complex<double> force;  ///< N, at factor 1
+  /// true: its direction is given in the frame of the body; false: in the global frame
   bool turns_with_body = false;
-  LoadFactor factor;
+  LoadFactor factor;  ///< factor of the force
 };
 
 /// A torque on a body by the ground, or by another body, on which the opposite torque acts.
 struct BodyTorque {
-  std::string name;
-  int body = 0;
-  int from = 0;       ///< body that exerts it
+  std::string name;   ///< unique among the torques
+  int body = 0;       ///< index of the body that it acts on
+  int from = 0;       ///< index of the body that exerts it
   double torque = 0;  ///< N m, counter-clockwise positive
-  LoadFactor factor;
+  LoadFactor factor;  ///< factor of the torque
 };
 
 /// Any planar linkage: plain data. bodies[0] is the ground. Make indices with `body_index` and `point_index`.
 struct Linkage {
-  std::vector<LinkageBody> bodies;
-  std::vector<LinkageJoint> joints;
-  std::vector<int> driven;  ///< joints with a drive, in the order of the inputs
+  std::vector<LinkageBody> bodies;   ///< the ground first
+  std::vector<LinkageJoint> joints;  ///< joints between the bodies
+  std::vector<int> driven;           ///< joints with a drive, in the order of the inputs
+  /// assembly modes that are given; other pairs take theirs from the start poses
   std::vector<DyadMode> modes;
-  std::vector<LinearSpring> springs;
-  std::vector<TorsionSpring> torsion_springs;
-  std::vector<PointForce> forces;
-  std::vector<BodyTorque> torques;
-  std::complex<double> gravity{0, -9.81};  ///< m/s2, acceleration of free fall
-  std::complex<double> moment_centre;      ///< shaking moments are about this place, global (m)
+  std::vector<LinearSpring> springs;           ///< springs with dampers
+  std::vector<TorsionSpring> torsion_springs;  ///< torsion springs
+  std::vector<PointForce> forces;              ///< forces on points
+  std::vector<BodyTorque> torques;             ///< torques on bodies
+  std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
+  std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)
 };
 
-/// Index by name; -1 when there is none.
+/// Index of a body by its name.
+///
+/// @param linkage the linkage
+/// @param name name of the body
+/// @returns index into Linkage::bodies; -1 if there is none of that name
 int body_index(const Linkage& linkage, std::string_view name);
+
+/// Index of a point by its name.
+///
+/// @param body the body that has the point
+/// @param name name of the point
+/// @returns index into LinkageBody::points; -1 if there is none of that name
 int point_index(const LinkageBody& body, std::string_view name);
+
+/// Index of a joint by its name.
+///
+/// @param linkage the linkage
+/// @param name name of the joint
+/// @returns index into Linkage::joints; -1 if there is none of that name
 int joint_index(const Linkage& linkage, std::string_view name);
 
-/// Characteristic length: the largest distance between two points that joints or slides use on one body, or
-/// between joint points of the ground (m); 1 when there is none.
+/// Characteristic length of a linkage.
+///
+/// @param linkage the linkage
+/// @returns the largest distance between two points that joints or slides use on one body, or between joint
+///   points of the ground (m); 1 if there is none
 double size_of(const Linkage& linkage);
 
 /// Checks the description by itself: indices, names given twice, numbers that are not finite, negative
-/// masses, links of no length, springs between a body and itself, tables that do not rise. Keys are
-/// "joint.<name>", "body.<name>" and so on. Whether it moves as it should is asked of `plan_linkage`.
+/// masses, links of no length, springs between a body and itself, tables that do not rise. Keys of the
+/// diagnostics are "joint.<name>", "body.<name>" and so on. Its mobility is examined by `plan_linkage`.
+///
+/// @param linkage the linkage
+/// @returns errors; empty if there are none
 Diagnostics check(const Linkage& linkage);
 
 }  // namespace linkwright::planar

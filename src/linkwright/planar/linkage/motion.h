@@ -12,10 +12,17 @@
 
 namespace linkwright::planar {
 
+/// The memory of a group that is solved by a matrix.
 struct GeneralGroupMemory;
+
+/// Deletes the memory of a group.
 struct GeneralGroupDelete {
+  /// Deletes the memory.
+  ///
+  /// @param memory the memory, or null
   void operator()(GeneralGroupMemory* memory) const;
 };
+/// The owner of the memory of a group.
 using GeneralGroupPointer = std::unique_ptr<GeneralGroupMemory, GeneralGroupDelete>;
 
 /// Motion of a linkage at one instant, and the memory to compute it: make one a thread with its plan and use
@@ -23,18 +30,22 @@ using GeneralGroupPointer = std::unique_ptr<GeneralGroupMemory, GeneralGroupDele
 /// positions that are in it.
 class LinkageMotion {
  public:
+  /// Memory for a plan, in the assembly modes of the plan and before the first position.
+  ///
+  /// @param plan the plan; it need not outlive the motion
   explicit LinkageMotion(const LinkagePlan& plan);
 
-  /// done; no_assembly or singular (dead point) at `failed_group`, from which on nothing is known; of a
-  /// general group also not_converged.
+  /// done; no_assembly or singular (dead point) at `failed_group`, from which on nothing is known;
+  /// not_converged as well for a general group.
   Status status = Status::done;
-  int failed_group = -1;
-  /// m: by how much the bodies of the failed group are too short or too long to close; 0 when assembled.
+  int failed_group = -1;  ///< index of the group in the plan; -1 if none failed
+  /// Length (m) by which the bodies of the failed group are too short or too long to close; 0 when assembled.
   double gap = 0;
   /// Largest distance (m) between the points that joints hold together, over the groups placed: what
   /// rounding, or Newton's method, left.
   double closure_residual = 0;
-  /// One a part; NaN where not known, but parts of general groups stay where they were, for the next search.
+  /// State of each part; NaN where not known, but parts of general groups stay where they were, for the next
+  /// search.
   std::vector<PartState<double>> parts;
   std::vector<GroupState<double>> groups;  ///< one a group
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
@@ -45,44 +56,92 @@ class LinkageMotion {
 
 /// A point of a body in the global frame: where it is and how it moves.
 struct PointMotion {
-  Vec<double> position, velocity, acceleration;
+  Vec<double> position,  ///< global, m
+      velocity,          ///< m/s
+      acceleration;      ///< m/s2
 };
-/// `at` in the frame of the body.
+
+/// The motion of a point of a body.
+///
+/// @param plan the plan of the linkage
+/// @param motion the motion
+/// @param body index of the body
+/// @param at the point in the frame of the body (m)
+/// @returns its motion in the global frame
 PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, int body,
                          std::complex<double> at);
+
 /// The frame of a body: origin and direction of its x axis, speeds and accelerations.
+///
+/// @param plan the plan of the linkage
+/// @param motion the motion
+/// @param body index of the body
+/// @returns origin, direction and rates of its frame, global
 PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motion, int body);
 
 /// Places all parts for the given inputs (values only). Closed forms where the plan has them; a general group
 /// is searched by Newton's method from the positions in `motion`, or from its start poses at first.
-/// Throws ContractError when the number of inputs is not the plan's or one is not finite.
+///
+/// @param plan the plan of the linkage
+/// @param inputs one an input; only the values are used
+/// @param motion receives the positions and the status
+/// @throws ContractError when the number of inputs is not the plan's or one is not finite
 void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
-/// The twists of the torsion springs at the places of the parts; solve_position does it as well.
+/// The twists of the torsion springs at the present position of the parts; solve_position calls it.
+///
+/// @param plan the plan of the linkage
+/// @param inputs one an input; only the values are used
+/// @param motion has the positions and receives the twists
 void count_turns(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
 /// Velocities for the given rates of the inputs, after solve_position.
+///
+/// @param plan the plan of the linkage
+/// @param inputs one an input; values and rates are used
+/// @param motion has the positions and receives the velocities
 void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
 /// Accelerations for the given accelerations of the inputs, after solve_velocity.
+///
+/// @param plan the plan of the linkage
+/// @param inputs one an input
+/// @param motion has the velocities and receives the accelerations
 void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
 /// Position, velocity and acceleration in one call.
+///
+/// @param plan the plan of the linkage
+/// @param inputs one an input
+/// @param motion receives the motion and the status
+/// @throws ContractError as solve_position does
 void solve_motion(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
-/// Follows the linkage from its present inputs to others, so that general groups stay on
-/// their assembly mode (ModeCurve; change points end the path). False (and the status in `motion`,
-/// which stays at the last good place: `reached` of the path, 0 to 1) when there is no path. Plans in closed
-/// form need no path and are placed directly.
+/// The outcome of following a linkage from its present inputs to others.
 struct FollowReport {
-  bool arrived = true;
-  double reached = 1;
+  bool arrived = true;  ///< the linkage is at the last inputs
+  double reached = 1;   ///< share of the path that was covered, 0 to 1
 };
+
+/// Follows the linkage from its present inputs to others, so that general groups stay on their assembly mode
+/// (ModeCurve; change points end the path). Plans in closed form need no path and are placed directly.
+///
+/// @param plan the plan of the linkage
+/// @param from present values of all inputs (rad or m)
+/// @param to wanted values of all inputs
+/// @param motion stays at the last good position, with the status
+/// @returns true if it arrived, else the share of the path that was covered
+/// @throws ContractError if the numbers of inputs do not fit
 FollowReport follow(const LinkagePlan& plan, std::span<const double> from, std::span<const double> to,
                     LinkageMotion& motion);
 
 /// Marks a group, and those behind it, as not placed: positions are NaN, but those of groups without closed
 /// form stay for the next search.
+///
+/// @param plan the plan of the linkage
+/// @param motion receives the status
+/// @param group index of the group that failed
+/// @param status the reason
 void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status);
 
 }  // namespace linkwright::planar

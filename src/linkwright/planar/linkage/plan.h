@@ -22,18 +22,19 @@ namespace linkwright::planar {
 
 /// One side of a joint as the solver sees it: a part with a point, and a direction for slides.
 struct PartPoint {
-  int part = 0;
+  int part = 0;                 ///< index into LinkagePlan::parts
   Vec<double> at{0, 0};         ///< in the frame of the part, m
   Vec<double> direction{1, 0};  ///< unit vector in the frame of the part: of a slide, or x axis of the body
 };
 
 /// A joint between two parts, pins and slides only.
 struct PlanJoint {
-  bool slide = false;
+  bool slide = false;     ///< a slide, else a pin
   bool reversed = false;  ///< `before` is on the side of the second body of the joint
-  int joint = -1;  ///< index in the linkage; the pin of a pin in a slot carries its index, its slide -1
-  int input = -1;  ///< index into the inputs of the one that drives it, else -1
-  PartPoint before, after;
+  int joint = -1;    ///< index in the linkage; the pin of a pin in a slot carries its index, its slide -1
+  int input = -1;    ///< index into the inputs of the one that drives it, else -1
+  PartPoint before,  ///< side of the part that comes before the joint in the chain of the group
+      after;         ///< side of the part that comes after it
 };
 
 /// The properties of a kind of group; each kind has its `traits_of`.
@@ -48,12 +49,14 @@ struct GroupTraits {
 
 /// A part placed by its drive.
 struct Driver {};
+/// @returns the properties of a driver
 constexpr GroupTraits traits_of(const Driver&) { return {.name = "driver"}; }
 
 /// The meshing of two wheels. Radii are signed, so that for external and internal teeth alike the pitch point
 /// lies by its radius from a centre towards the other one.
 struct GearMesh {
-  PartPoint first, second;   ///< centres of the wheels
+  PartPoint first,           ///< centre of the wheel that turns, on its part
+      second;                ///< centre of the other wheel
   double first_radius = 0;   ///< m, from the first centre towards the second
   double second_radius = 0;  ///< m, from the second centre towards the first
   double tangent = 0;        ///< tangent of the pressure angle
@@ -62,28 +65,40 @@ struct GearMesh {
 /// A part on a known pin, turned by a gear `ratio` times as fast as part `turning`, both seen from part
 /// `carrier`.
 struct Gear {
-  double ratio = 1;
-  int turning = 0, carrier = 0;
+  double ratio = 1;        ///< speed of the part by that of `turning`, both seen from `carrier`
+  int turning = 0,         ///< part that turns it
+      carrier = 0;         ///< part that carries both axes
   int joint = -1;          ///< index in the linkage
   bool backwards = false;  ///< turns the first body of its joint from the second
   /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
   std::optional<GearMesh> mesh;
-  /// Angle of the part = angle + sum of gains times inputs (rad).
+  /// Angle of the part where all inputs are zero (rad); with the inputs it is `angle` + the sum of `gains`
+  /// times the inputs.
   double angle = 0;
-  std::vector<double> gains;
+  std::vector<double> gains;  ///< one an input
 };
+/// @returns the properties of a gear
 constexpr GroupTraits traits_of(const Gear&) { return {.name = "gear"}; }
 
 /// A link between two joints of a closed form, and what that needs of it.
 struct PlanLink {
   Vec<double> vector{0, 0};  ///< from outer to inner joint in the frame of the part
-  double square = 0, length = 0;
+  double square = 0,         ///< square of its length, m2
+      length = 0;            ///< m
   /// One over the link as a complex number: turned onto where the link lies it gives the direction of its
   /// part. 0 of a link without length.
   Vec<double> inverse{0, 0};
 };
 
-enum class DyadType { rrr, rrp, rpr, prp, rpp };
+/// The type of a dyad by its joints in the order of the chain: R a pin, P a slide.
+enum class DyadType {
+  rrr,  ///< three pins
+  rrp,  ///< pin, pin, slide
+  rpr,  ///< pin, slide, pin
+  prp,  ///< slide, pin, slide
+  rpp   ///< pin, slide, slide
+};
+/// The types of dyads by their names. @returns one entry a type
 constexpr std::array<EnumName<DyadType>, 5> names(DyadType) {
   return {{{DyadType::rrr, "RRR", "dyad of three pins"},
            {DyadType::rrp, "RRP", "dyad pin, pin, slide"},
@@ -94,10 +109,16 @@ constexpr std::array<EnumName<DyadType>, 5> names(DyadType) {
 
 /// Two parts with three joints, in the order of the chain.
 struct Dyad {
-  DyadType type = DyadType::rrr;
-  PlanLink first, second;  ///< links; those of RPR are seen from the direction of the slide
-  double per_length = 1;   ///< one over the links between pins: both of RRR, the first of RRP
+  DyadType type = DyadType::rrr;  ///< joints in the order of the chain
+  PlanLink first,  ///< link of the first part; the links of RPR are seen from the direction of the slide
+      second;      ///< link of the second part
+  double per_length = 1;  ///< one over the links between pins: both of RRR, the first of RRP
 };
+
+/// The properties of a dyad, which depend on its type.
+///
+/// @param dyad the dyad
+/// @returns its properties
 constexpr GroupTraits traits_of(const Dyad& dyad) {
   GroupTraits out{.name = name_of(dyad.type), .closes_loop = true};
   switch (dyad.type) {
@@ -118,8 +139,9 @@ constexpr GroupTraits traits_of(const Dyad& dyad) {
 /// Two bodies with a drive between them, as a cylinder, hold an arm: a triangle of pins. Known part, pin,
 /// first body, drive, second body, pin, arm, pin, known part.
 struct Triangle {
-  PlanLink arm;
+  PlanLink arm;  ///< link of the arm between its two pins
 };
+/// @returns the properties of a triangle
 constexpr GroupTraits traits_of(const Triangle&) {
   return {.name = "triangle", .closes_loop = true, .has_modes = true, .has_limits = true, .has_matrix = true};
 }
@@ -128,30 +150,45 @@ constexpr GroupTraits traits_of(const Triangle&) {
 struct GeneralGroup {
   std::vector<math::Pose> start;  ///< poses of the parts, where given; else empty
 };
+/// @returns the properties of a general group
 constexpr GroupTraits traits_of(const GeneralGroup&) {
   return {.name = "general", .closes_loop = true, .closed_form = false, .has_matrix = true};
 }
 
 /// One step of the solution.
 struct Group {
+  /// Kind of the group, with the constants of its formulas.
   std::variant<Driver, Gear, Dyad, Triangle, GeneralGroup> kind;
   std::string name;               ///< "coupler + rocker"
   std::vector<int> parts;         ///< parts that this group places; in the order of the chain, if it is one
   std::vector<PlanJoint> joints;  ///< one of a driver or gear; in the order of the chain, if it is one
   /// Sign of the assembly mode that the model names or its start poses show; +1 where there is none.
   double mode = 1;
-  bool mode_given = false;
+  bool mode_given = false;  ///< the model names the mode
 
-  /// The group as one of that kind, or null.
+  /// The group as one of a kind.
+  ///
+  /// @tparam Kind Driver, Gear, Dyad, Triangle or GeneralGroup
+  /// @returns the kind with its constants, or null if the group is of another kind
   template <class Kind>
   const Kind* as() const {
     return std::get_if<Kind>(&kind);
   }
 };
+
+/// The properties of a group, which are those of its kind.
+///
+/// @param group the group
+/// @returns its properties
 inline GroupTraits traits_of(const Group& group) {
   return std::visit([](const auto& kind) { return traits_of(kind); }, group.kind);
 }
+
 /// Calls the one of `cases` that takes the kind of the group. A kind without a case does not compile.
+///
+/// @param group the group
+/// @param cases one function for each kind
+/// @returns what the function returns
 template <class... Cases>
 decltype(auto) by_kind(const Group& group, Cases... cases) {
   struct Overloaded : Cases... {
@@ -162,10 +199,10 @@ decltype(auto) by_kind(const Group& group, Cases... cases) {
 
 /// A body as it sits on its part: welded bodies make one part.
 struct BodyOnPart {
-  int part = 0;
-  Vec<double> origin{0, 0};
-  Vec<double> turn{1, 0};
-  bool same_frame = true;  ///< origin and turn are those of the part
+  int part = 0;              ///< index of the part
+  Vec<double> origin{0, 0};  ///< origin of the body in the frame of the part, m
+  Vec<double> turn{1, 0};    ///< direction of the x axis of the body in the frame of the part, unit vector
+  bool same_frame = true;    ///< origin and turn are those of the part
 };
 
 /// Mass of a part in the parameters that forces are linear in.
@@ -177,20 +214,23 @@ struct PartMass {
 
 /// Angle of a part that drives and gears alone turn (rad): `angle` + the sum of `gains` times the inputs.
 struct DrivenAngle {
-  double angle = 0;
-  std::vector<double> gains;
+  double angle = 0;           ///< rad, where all inputs are zero
+  std::vector<double> gains;  ///< one an input
 };
 
 /// The twist of a torsion spring: the angle of its second body from its first, with its turns.
 struct PlanTwist {
-  int first = 0, second = 0;  ///< parts
-  Vec<double> turn{1, 0};     ///< direction of the second body on its part, less that of the first on its
+  int first = 0,   ///< part of the first body
+      second = 0;  ///< part of the second body
+  /// Direction of the second body on its part, less that of the first on its own (unit vector).
+  Vec<double> turn{1, 0};
   /// True if drives and gears alone turn both: their joints count the turns, and the twist is `angle` + the
   /// sum of `gains` times the inputs. Else it continues from the last position by less than half a turn, from
   /// the first one to the angle that is nearest to `free` but for its whole turns.
   bool counted = false;
-  double angle = 0, free = 0;
-  std::vector<double> gains;
+  double angle = 0,           ///< rad, where all inputs are zero; if counted
+      free = 0;               ///< free angle of the spring (rad)
+  std::vector<double> gains;  ///< one an input; if counted
 };
 
 /// A pin of several links: of n links it is n - 1 joints of the model, and which two links each of them names
@@ -209,8 +249,8 @@ struct LinkagePlan {
   std::vector<std::string> parts;  ///< names: those of their bodies; blocks of slots are "block of <joint>"
   std::vector<PartMass> masses;    ///< one a part
   bool has_masses = false;         ///< every moving body has its mass given
-  std::vector<std::string> massless;  ///< bodies without mass given
-  std::vector<Group> groups;
+  std::vector<std::string> massless;               ///< bodies without mass given
+  std::vector<Group> groups;                       ///< in the order of the solution
   std::vector<int> group_of_part;                  ///< -1 of the ground
   std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
   std::vector<PlanTwist> twists;                   ///< one a torsion spring
@@ -222,37 +262,59 @@ struct LinkagePlan {
   /// Angles are in (-pi, pi].
   std::vector<double> drawn_inputs;
 
+  /// The number of inputs. @returns number of joints with a drive
   std::size_t inputs() const { return rotary.size(); }
-  /// True if all groups have closed forms, so that no search and no history is needed.
+  /// Tells closed forms from searches.
+  ///
+  /// @returns true if all groups have closed forms, so that no search and no history is needed
   bool closed_form() const;
 };
 
-/// Mass of each part: that of the bodies on it and of what is attached to them; of other masses than those
-/// the plan was made with, when these are in `linkage`.
+/// Mass of each part: the sum over the bodies on it and the masses attached to them. A linkage with other
+/// masses than those that the plan was made with is allowed.
+///
+/// @param linkage the linkage, with its masses
+/// @param bodies bodies on their parts, LinkagePlan::bodies
+/// @param parts number of parts
+/// @returns one mass a part
 std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOnPart> bodies,
                                   std::size_t parts);
 
 /// Degrees of freedom by count (Chebyshev-Gruebler): 3 a moving body, less 3 a weld, 2 a pin or slide, 1 a
 /// pin in a slot or a gear.
+///
+/// @param linkage the linkage
+/// @returns the count; it is negative where joints are redundant
 int mobility(const Linkage& linkage);
 
+/// A plan and the problems that were found while making it.
 struct PlanResult {
-  LinkagePlan plan;
+  LinkagePlan plan;      ///< complete if there are no problems
   Diagnostics problems;  ///< errors: the plan is not complete
 };
 
 /// The route by which a plan is solved: along the groups that the linkage falls into, or all parts at once as
 /// one general group, the independent route that checks the other (no gears).
-enum class PlanRoute { along_groups, all_at_once };
+enum class PlanRoute {
+  along_groups,  ///< along the groups that the linkage falls into
+  all_at_once    ///< all parts at once as one general group, without gears
+};
 
 /// Decomposes a linkage. Problems are named in plain words with the bodies and joints that take part: bodies
 /// that hang on nothing, freedoms without a drive, drives beyond the freedoms, joints that close a loop that
 /// is closed already, gears whose angle is not known. Includes those of `check`.
+///
+/// @param linkage the linkage
+/// @param route the route by which it is to be solved
+/// @returns the plan, and the problems
+/// @throws ContractError if a linkage with gears is to be solved all at once
 PlanResult plan_linkage(const Linkage& linkage, PlanRoute route = PlanRoute::along_groups);
 
-/// Position, velocity and acceleration of one input: rad or m, per second.
+/// The motion of one input at an instant.
 struct InputMotion {
-  double value = 0, rate = 0, acceleration = 0;
+  double value = 0,      ///< rad or m
+      rate = 0,          ///< rad/s or m/s
+      acceleration = 0;  ///< rad/s2 or m/s2
 };
 
 }  // namespace linkwright::planar

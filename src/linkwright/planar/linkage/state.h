@@ -9,11 +9,12 @@ namespace linkwright::planar {
 /// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.
 template <class T>
 struct PartState {
-  Vec<T> origin, direction;
-  Vec<T> velocity;
-  T speed;
-  Vec<T> acceleration;
-  T angular_acceleration;
+  Vec<T> origin,           ///< m, global
+      direction;           ///< direction of the x axis, unit vector
+  Vec<T> velocity;         ///< velocity of the origin, m/s
+  T speed;                 ///< rad/s, counter-clockwise positive
+  Vec<T> acceleration;     ///< acceleration of the origin, m/s2
+  T angular_acceleration;  ///< rad/s2
 };
 
 /// The state of a group's closure.
@@ -25,17 +26,20 @@ struct GroupState {
   /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
   /// transmission angle of an RRR dyad. Zero = dead point.
   T sine;
-  Vec<T> reference;             ///< R, global
-  Vec<T> column_x, column_y;    ///< displacements of R by a unit of each of the two joints
-  T inverse;                    ///< 1 / cross(column_x, column_y)
-  T rate_x, rate_y, rate_zero;  ///< rates of the joints
+  Vec<T> reference;  ///< reference point R of the closure, global, m
+  Vec<T> column_x,   ///< displacement of R by a unit of the one joint
+      column_y;      ///< displacement of R by a unit of the other
+  T inverse;         ///< 1 / cross(column_x, column_y)
+  T rate_x,          ///< rate of the joint of column_x
+      rate_y,        ///< rate of the joint of column_y
+      rate_zero;     ///< rate of the third joint
 };
 
 /// Force and its moment about a point that is named beside it.
 template <class T>
 struct Wrench {
-  Vec<T> force;
-  T moment;
+  Vec<T> force;  ///< N, global
+  T moment;      ///< N m
 };
 
 }  // namespace linkwright::planar
