@@ -16,6 +16,11 @@ struct LinkMass {
   double centre_distance = 0;  ///< m, >= 0
   double centre_angle = 0;     ///< rad
 };
+
+/// Calls `visit(field, member)` for each number of a link's inertia in a study file.
+///
+/// @param visit the function to call
+/// @param m the inertia whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, LinkMass& m) {
   visit(field::mass("mass", "mass of the link").not_negative().required(), m.mass);
@@ -34,6 +39,11 @@ struct PointMass {
   double distance = 0;  ///< m from the link's own joint; negative = behind it
   double angle = 0;     ///< rad, counter-clockwise from the link line
 };
+
+/// Calls `visit(field, member)` for each number of a point mass in a study file.
+///
+/// @param visit the function to call
+/// @param m the mass whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PointMass& m) {
   visit(field::mass("mass", "mass without extension").not_negative().required(), m.mass);
@@ -45,22 +55,31 @@ void fields(Visitor&& visit, PointMass& m) {
 /// link: own joint in the origin, link line along x. Forces and torques are linear in these numbers.
 struct BaseParameters {
   double mass = 0;                 ///< kg
-  std::complex<double> moment{0};  ///< first moment (kg m)
+  std::complex<double> moment{0};  ///< first moment, mass times mass centre in the frame of the link (kg m)
   double inertia = 0;              ///< about the own joint (kg m2)
 };
 
-/// Radius (m) of a steel disc of that mass (kg), 20 mm thick and of 7850 kg/m3: how masses without extension
-/// are drawn.
+/// The radius at which masses without extension are drawn: that of a steel disc, 20 mm thick and of 7850
+/// kg/m3.
+///
+/// @param mass the mass (kg)
+/// @returns the radius (m)
 double drawn_radius(double mass);
 
 /// Base parameters of a link with masses fixed to it.
 ///
-/// Throws ContractError on masses, inertias and centre distances that are negative, and on anything that is
-/// not finite.
+/// @param link the link itself
+/// @param attached masses fixed to it
+/// @returns mass, first moment and inertia about the own joint
+/// @throws ContractError if a mass, inertia or centre distance is negative, or anything is not finite
 BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached = {});
 
-/// The link and the masses fixed to it as one: mass centre and moment of inertia about it of them all. Throws
-/// ContractError as base_parameters does.
+/// The link and the masses fixed to it as one: the mass, the mass centre and the moment of inertia about it.
+///
+/// @param link the link itself
+/// @param attached masses fixed to it
+/// @returns the inertia of all together
+/// @throws ContractError as base_parameters does
 LinkMass with_attached(const LinkMass& link, std::span<const PointMass> attached);
 
 }  // namespace linkwright::planar

@@ -5,10 +5,12 @@
 
 namespace linkwright::planar {
 
-/// One input over the samples: values (rad or m), and rates and accelerations: as many, or one for all
-/// samples, or none for zero.
+/// One input over the samples of a sweep.
 struct SweepInput {
-  std::span<const double> value, rate, acceleration;
+  /// Values, one a sample (rad or m).
+  std::span<const double> value,
+      rate,          ///< rates (rad/s or m/s): one a sample, or one for all, or none for zero
+      acceleration;  ///< accelerations, likewise
 };
 
 }  // namespace linkwright::planar

@@ -14,16 +14,17 @@ namespace linkwright::planar {
 /// not meet Grashof's condition; "0" and "pi" say through which collinear position input (first) and output
 /// pass.
 enum class FourBarType {
-  crank_rocker,
-  rocker_crank,
-  double_crank,
-  grashof_double_rocker,
-  triple_rocker_00,
-  triple_rocker_0pi,
-  triple_rocker_pi0,
-  triple_rocker_pipi,
-  change_point
+  crank_rocker,           ///< the crank rotates fully, the rocker swings
+  rocker_crank,           ///< the crank swings, the rocker rotates fully
+  double_crank,           ///< both rotate fully
+  grashof_double_rocker,  ///< both swing, the coupler rotates fully
+  triple_rocker_00,       ///< non-Grashof, input through 0, output through 0
+  triple_rocker_0pi,      ///< non-Grashof, input through 0, output through pi
+  triple_rocker_pi0,      ///< non-Grashof, input through pi, output through 0
+  triple_rocker_pipi,     ///< non-Grashof, input through pi, output through pi
+  change_point            ///< T1, T2 or T3 is zero within the tolerance
 };
+/// The types by name. @returns one entry a type
 constexpr std::array<EnumName<FourBarType>, 9> names(FourBarType) {
   return {{{FourBarType::crank_rocker, "crank-rocker"},
            {FourBarType::rocker_crank, "rocker-crank"},
@@ -35,37 +36,61 @@ constexpr std::array<EnumName<FourBarType>, 9> names(FourBarType) {
            {FourBarType::triple_rocker_pipi, "pipi", "non-Grashof, input through pi, output through pi"},
            {FourBarType::change_point, "change-point"}}};
 }
-/// In words, a code after them: "crank-rocker", "non-Grashof, input through 0, output through pi (0pi)".
+
+/// The name of a type in words, with a code after them: "crank-rocker", "non-Grashof, input through 0, output
+/// through pi (0pi)".
+///
+/// @param type the type
+/// @returns the text
 std::string in_words(FourBarType type);
 
 /// Interval of crank angles [from, to], from < to, relative to the ground link, in which the linkage
 /// assembles.
 struct AngleInterval {
-  double from = 0, to = 0;
+  double from = 0,  ///< rad
+      to = 0;       ///< rad, more than `from`
 };
 
+/// The type of a four-bar and how its crank can turn.
 struct FourBarClass {
-  FourBarType type = FourBarType::change_point;
-  bool grashof = false;
-  bool crank_rotates_fully = false;
-  int circuits = 1;  ///< 2 for Grashof linkages, else 1; 0 when the linkage assembles nowhere
+  FourBarType type = FourBarType::change_point;  ///< by the signs of T1, T2 and T3
+  bool grashof = false;  ///< the shortest and the longest link together are not longer than the other two
+  bool crank_rotates_fully = false;  ///< the crank assembles over a full turn
+  int circuits = 1;                  ///< 2 for Grashof linkages, else 1; 0 when the linkage assembles nowhere
   /// Metres; smallest margin of the full-rotation conditions, < 0 = does not rotate.
   double crank_margin = 0;
   /// Crank angles that assemble; one interval of length 2 pi when it rotates fully; empty = never.
   std::vector<AngleInterval> inputs;
 };
 
-/// Throws ContractError unless all link lengths are positive and finite. `tolerance` is relative to the sum
-/// of the links.
+/// Classifies a four-bar.
+///
+/// @param linkage the four-bar
+/// @param tolerance relative to the sum of the links: a smaller T1, T2 or T3 counts as zero
+/// @returns its type, and the crank angles that assemble
+/// @throws ContractError on the lengths that require_lengths rejects and on a negative tolerance
 FourBarClass classify(const FourBar& linkage, double tolerance = 1e-9);
 
-/// Extremes of the transmission angle, folded to [0, pi/2], over a full crank turn or over the angles that
-/// assemble.
+/// Extremes of the transmission angle, folded to [0, pi/2].
 struct TransmissionAngles {
-  double minimum = 0, maximum = 0;
+  double minimum = 0,  ///< rad
+      maximum = 0;     ///< rad
 };
+
+/// Extremes of the transmission angle over a full crank turn, or over the crank angles that assemble.
+///
+/// @param linkage the four-bar
+/// @returns both extremes
+/// @throws ContractError on the lengths that require_lengths rejects
 TransmissionAngles transmission_angles(const FourBar& linkage);
-/// The same over the crank angles [from, to] only.
+
+/// The same over an interval of crank angles only.
+///
+/// @param linkage the four-bar
+/// @param from first crank angle, from the ground link (rad)
+/// @param to last crank angle (rad)
+/// @returns both extremes
+/// @throws ContractError on the lengths that require_lengths rejects, and unless from <= to
 TransmissionAngles transmission_angles(const FourBar& linkage, double from, double to);
 
 }  // namespace linkwright::planar

@@ -13,13 +13,26 @@
 namespace linkwright::planar {
 
 /// Assembly branch of a four-bar: on which side of the directed line A -> B0 the coupler-rocker pin B lies.
-enum class Branch { open, crossed };
+enum class Branch {
+  open,    ///< B lies to the left of A -> B0
+  crossed  ///< B lies to the right of A -> B0
+};
+/// The branches by their words in study files. @returns one entry a branch
 constexpr std::array<EnumName<Branch>, 2> names(Branch) {
   return {{{Branch::open, "open", "B to the left of A->B0"},
            {Branch::crossed, "crossed", "B to the right of A->B0"}}};
 }
-/// +1 for open, -1 for crossed.
+
+/// The sign of a branch in the formulas.
+///
+/// @param branch the branch
+/// @returns +1 for open, -1 for crossed
 constexpr double sign(Branch branch) { return branch == Branch::open ? 1.0 : -1.0; }
+
+/// The other branch.
+///
+/// @param branch a branch
+/// @returns crossed for open, open for crossed
 constexpr Branch other(Branch branch) { return branch == Branch::open ? Branch::crossed : Branch::open; }
 
 /// Planar four-bar O-A-B-B0 with a tracing point C on the coupler. All lengths in metres, angles in radians.
@@ -28,20 +41,23 @@ constexpr Branch other(Branch branch) { return branch == Branch::open ? Branch::
 /// Boskovic 2018, Eqs. (4.1)-(4.3): L1 = ground, L2 = crank, L3 = coupler, L4 = rocker, l1 = coupler_u, l2 =
 /// coupler_v.
 struct FourBar {
-  double ground = 1;
-  double crank = 1;
-  double coupler = 1;
-  double rocker = 1;
-  double coupler_u = 0;
-  double coupler_v = 0;
-  double pivot_x = 0;
-  double pivot_y = 0;
-  double frame_angle = 0;
-  Branch branch = Branch::open;
+  double ground = 1;             ///< L1, length of O -> B0, > 0
+  double crank = 1;              ///< L2, length of O -> A, > 0
+  double coupler = 1;            ///< L3, length of A -> B, > 0
+  double rocker = 1;             ///< L4, length of B0 -> B, > 0
+  double coupler_u = 0;          ///< l1, place of C along A -> B, from A
+  double coupler_v = 0;          ///< l2, place of C along the left normal of A -> B
+  double pivot_x = 0;            ///< x of O, global
+  double pivot_y = 0;            ///< y of O, global
+  double frame_angle = 0;        ///< angle of O -> B0 from the global x axis
+  Branch branch = Branch::open;  ///< side of A -> B0 on which B lies
 };
 
-/// Its numbers, without the branch, in the order of FourBarParameter (path/problem.h). Lengths of links are
-/// those that must be more than 0.
+/// Calls `visit(field, member)` for each number of a four-bar in a study file, without the branch, in the
+/// order of FourBarParameter (path/four_bar/problem.h). Lengths of links are those that must be more than 0.
+///
+/// @param visit the function to call
+/// @param l the four-bar whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, FourBar& l) {
   const auto link = [&](std::string_view key, std::string_view summary, double& value) {
@@ -73,22 +89,41 @@ struct FourBarPosition {
   double coupler_angle = nan;                       ///< direction of A->B, (-pi, pi]
   double rocker_angle = nan;                        ///< direction of B0->B, (-pi, pi]
   double transmission_angle = nan;                  ///< between coupler and rocker, folded to [0, pi/2]
-  double gap = 0;  ///< metres, >= 0: by how much coupler and rocker together are too short, or differ too
-                   ///< much in length, to close; 0 when assembled
+  /// Length (m, >= 0) by which coupler and rocker together are too short, or differ too much, to close; 0
+  /// when assembled.
+  double gap = 0;
 };
 
-/// Closed form on the given branch. Throws ContractError on the lengths that require_lengths rejects and on a
-/// tracing point, pivot or angle that is not finite.
+/// Position of a four-bar in closed form, on the branch of the linkage.
+///
+/// @param linkage the four-bar
+/// @param crank_angle crank angle, from the ground link (rad)
+/// @returns the position, with its status
+/// @throws ContractError on the lengths that require_lengths rejects and on a tracing point, pivot or angle
+///   that is not finite
 FourBarPosition position(const FourBar& linkage, double crank_angle);
 
-/// Shortest and longest link (m): between them no product of four lengths leaves the range of a double.
-inline constexpr double shortest_link = 1e-70, max_link = 1e70;
+/// Length of the shortest link (m): from it to that of the longest one no product of four lengths leaves the
+/// range of a double.
+inline constexpr double shortest_link = 1e-70,
+                        max_link = 1e70;  ///< length of the longest link (m)
 
-/// Throws ContractError unless all link lengths are positive and finite, from shortest_link to max_link.
+/// Checks the lengths of the links.
+///
+/// @param linkage the four-bar
+/// @throws ContractError unless all link lengths are positive and finite, from shortest_link to max_link
 void require_lengths(const FourBar& linkage);
 
-/// Points O and B0 in the global frame.
+/// The pivot O of the crank.
+///
+/// @param linkage the four-bar
+/// @returns O in the global frame (m)
 std::complex<double> crank_pivot(const FourBar& linkage);
+
+/// The pivot B0 of the rocker.
+///
+/// @param linkage the four-bar
+/// @returns B0 in the global frame (m)
 std::complex<double> rocker_pivot(const FourBar& linkage);
 
 }  // namespace linkwright::planar

@@ -19,16 +19,23 @@ struct FourBarRates {
   std::complex<double> coupler_direction = {nan, nan};  ///< along A -> B
   std::complex<double> rocker_direction = {nan, nan};   ///< along B0 -> B
   double transmission_sine = nan;  ///< sin(rocker angle - coupler angle); its sign is that of the branch
-  double crank_speed = 0, crank_acceleration = 0;
-  double coupler_speed = nan, coupler_acceleration = nan;
-  double rocker_speed = nan, rocker_acceleration = nan;
+  double crank_speed = 0,          ///< given
+      crank_acceleration = 0;      ///< given
+  double coupler_speed = nan,      ///< of the coupler
+      coupler_acceleration = nan;  ///< of the coupler
+  double rocker_speed = nan,       ///< of the rocker
+      rocker_acceleration = nan;   ///< of the rocker
 };
 
-/// Closed form from the first and second derivative of the loop; `crank_angle` (rad) is measured from the
-/// ground link, `crank_speed` in rad/s, `crank_acceleration` in rad/s2. Singular when the transmission angle
-/// is below tolerance::toggle_angle.
+/// Rates of a four-bar in closed form, from the first and second derivative of the loop. They are singular if
+/// the transmission angle is below tolerance::toggle_angle.
 ///
-/// Throws ContractError on the lengths that require_lengths rejects and on arguments that are not finite.
+/// @param linkage the four-bar
+/// @param crank_angle crank angle, from the ground link (rad)
+/// @param crank_speed rad/s
+/// @param crank_acceleration rad/s2
+/// @returns the motion, with its status
+/// @throws ContractError on the lengths that require_lengths rejects and on arguments that are not finite
 FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,
                    double crank_acceleration = 0);
 

@@ -12,10 +12,17 @@
 
 namespace linkwright::planar {
 
-/// Own joints: O of the crank (line O -> A), A of the coupler (A -> B), B0 of the rocker (B0 -> B).
+/// Masses of the three moving links.
 struct FourBarMasses {
-  LinkMass crank, coupler, rocker;
+  LinkMass crank,  ///< own joint O, line O -> A
+      coupler,     ///< own joint A, line A -> B
+      rocker;      ///< own joint B0, line B0 -> B
 };
+
+/// Calls `visit(field, member)` for the mass of each link in a study file.
+///
+/// @param visit the function to call
+/// @param m the masses whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, FourBarMasses& m) {
   visit(field::entry("crank", "own joint O1").required(), m.crank);
@@ -39,21 +46,38 @@ struct FourBarReactions {
 
 /// Joint forces and drive torque by cutting the loop at B, closed form (Boskovic 2018, section 2.4.1, with
 /// the sine instead of the printed cosine of Eqs. (2.112), (2.113)); shaking force and moments by Eqs.
-/// (2.76)-(2.78). `gravity` (m/s2) acts along -y of the global frame. `rates` are those of the same linkage.
-/// Forces grow like 1 / transmission_sine towards a dead point.
+/// (2.76)-(2.78). Forces grow like 1 / transmission_sine towards a dead point.
 ///
-/// Throws ContractError on masses, inertias and distances that are negative or not finite, and on a gravity
-/// that is not finite.
+/// @param linkage the four-bar
+/// @param masses masses of its links
+/// @param rates rates of the same linkage
+/// @param gravity acceleration of free fall (m/s2), along -y of the global frame
+/// @returns forces and moments; NaN unless the rates are done
+/// @throws ContractError if a mass, inertia or distance is negative or not finite, or the gravity is not
+///   finite
 FourBarReactions reactions(const FourBar& linkage, const FourBarMasses& masses, const FourBarRates& rates,
                            double gravity);
 
 /// The same quantities from the nine equations of Newton and Euler solved at once (Boskovic 2018, Eq. (2.69),
 /// moments of the rocker corrected): an independent and slower route to check the closed form with.
+///
+/// @param linkage the four-bar
+/// @param masses masses of its links
+/// @param rates rates of the same linkage
+/// @param gravity acceleration of free fall (m/s2), along -y of the global frame
+/// @returns forces and moments; NaN unless the rates are done
+/// @throws ContractError as reactions does
 FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMasses& masses,
                                         const FourBarRates& rates, double gravity);
 
-/// Rate (W) at which kinetic and potential energy grow; equal to drive_torque * crank_speed. NaN unless the
-/// rates are done.
+/// The rate at which kinetic and potential energy grow; equal to drive_torque * crank_speed.
+///
+/// @param linkage the four-bar
+/// @param masses masses of its links
+/// @param rates rates of the same linkage
+/// @param gravity acceleration of free fall (m/s2), along -y of the global frame
+/// @returns W; NaN unless the rates are done
+/// @throws ContractError as reactions does
 double energy_rate(const FourBar& linkage, const FourBarMasses& masses, const FourBarRates& rates,
                    double gravity);
 

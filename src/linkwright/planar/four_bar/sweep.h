@@ -18,31 +18,32 @@ namespace linkwright::planar {
 /// Rows of a sweep of four-bars, as in FourBarRates and FourBarReactions; directions are cosine (x) and sine
 /// (y) in the global frame.
 enum class FourBarRow {
-  crank_x,  // directions
-  crank_y,
-  coupler_x,
-  coupler_y,
-  rocker_x,
-  rocker_y,
-  transmission_sine,
-  coupler_speed,  // rates
-  rocker_speed,
-  coupler_acceleration,
-  rocker_acceleration,
-  ground_on_crank_x,  // forces
-  ground_on_crank_y,
-  crank_on_coupler_x,
-  crank_on_coupler_y,
-  rocker_on_coupler_x,
-  rocker_on_coupler_y,
-  ground_on_rocker_x,
-  ground_on_rocker_y,
-  drive_torque,  // shaking
-  shaking_force_x,
-  shaking_force_y,
-  shaking_moment,
-  shaking_moment_with_drive,
+  crank_x,                    ///< cosine of the crank's direction
+  crank_y,                    ///< sine of the crank's direction
+  coupler_x,                  ///< cosine of the coupler's direction
+  coupler_y,                  ///< sine of the coupler's direction
+  rocker_x,                   ///< cosine of the rocker's direction
+  rocker_y,                   ///< sine of the rocker's direction
+  transmission_sine,          ///< sin(rocker angle - coupler angle)
+  coupler_speed,              ///< rad/s
+  rocker_speed,               ///< rad/s
+  coupler_acceleration,       ///< rad/s2
+  rocker_acceleration,        ///< rad/s2
+  ground_on_crank_x,          ///< force at O1, x, N
+  ground_on_crank_y,          ///< force at O1, y, N
+  crank_on_coupler_x,         ///< force at O2, x, N
+  crank_on_coupler_y,         ///< force at O2, y, N
+  rocker_on_coupler_x,        ///< force at O3, x, N
+  rocker_on_coupler_y,        ///< force at O3, y, N
+  ground_on_rocker_x,         ///< force at O4, x, N
+  ground_on_rocker_y,         ///< force at O4, y, N
+  drive_torque,               ///< torque of the ground's motor on the crank, N m
+  shaking_force_x,            ///< force of the mechanism on the ground, x, N
+  shaking_force_y,            ///< force of the mechanism on the ground, y, N
+  shaking_moment,             ///< moment on the ground about O1 by the joint forces alone, N m
+  shaking_moment_with_drive,  ///< the same with the motor's reaction, N m
 };
+/// Number of the rows.
 inline constexpr std::size_t four_bar_row_count = 24;
 
 /// Flags of the rows that are kept; the others are not computed.
@@ -53,9 +54,10 @@ struct FourBarWanted {
   bool shaking = true;     ///< drive_torque ... shaking_moment_with_drive
 };
 
+/// A four-bar with the masses of its links.
 struct FourBarMachine {
-  FourBar linkage;
-  FourBarMasses masses;
+  FourBar linkage;       ///< lengths, frame and branch
+  FourBarMasses masses;  ///< masses of its links
 };
 
 /// Positions, rates and reactions of one four-bar at many crank angles, or of many four-bars at the same
@@ -66,24 +68,51 @@ struct FourBarMachine {
 /// angles do not grow.
 class FourBarSweep {
  public:
+  /// Memory for sweeps.
+  ///
+  /// @param wanted flags of the rows that are kept
   explicit FourBarSweep(const FourBarWanted& wanted);
   ~FourBarSweep();
+  /// Takes the memory of another sweep.
   FourBarSweep(FourBarSweep&&) noexcept;
+  /// Takes the memory of another sweep. @returns this sweep
   FourBarSweep& operator=(FourBarSweep&&) noexcept;
 
-  /// One four-bar: `crank.value` are crank angles (rad) from the ground link, rate and acceleration those of
-  /// the crank. Rows run over the angles. Throws ContractError as `rates` and `reactions` do, and on counts
-  /// that do not fit, and Interrupted when `context` asks the run to stop: its rows are then undefined.
+  /// Sweeps one four-bar. Rows run over the crank angles.
+  ///
+  /// @param linkage the four-bar
+  /// @param masses masses of its links
+  /// @param gravity acceleration of free fall (m/s2), along -y of the global frame
+  /// @param crank crank angles from the ground link (rad), rates and accelerations of the crank
+  /// @param context the run that may ask it to stop; may be null
+  /// @throws ContractError as `rates` and `reactions` do, and on counts that do not fit
+  /// @throws Interrupted when `context` asks the run to stop: its rows are then undefined
   void run(const FourBar& linkage, const FourBarMasses& masses, double gravity, const SweepInput& crank,
            const RunContext* context = nullptr);
-  /// Many four-bars: registers hold machines. Rows run over the machines, one row an angle.
+  /// Sweeps many four-bars: registers hold machines. Rows run over the machines, one row an angle.
+  ///
+  /// @param machines the four-bars with their masses
+  /// @param gravity acceleration of free fall (m/s2), along -y of the global frame
+  /// @param crank crank angles from the ground links (rad), rates and accelerations of the cranks
+  /// @param context the run that may ask it to stop; may be null
+  /// @throws ContractError as `rates` and `reactions` do, and on counts that do not fit
+  /// @throws Interrupted when `context` asks the run to stop: its rows are then undefined
   void run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank,
            const RunContext* context = nullptr);
 
-  /// Numbers of a kind: over the angles of one four-bar; or over the machines, at the angle with this index.
-  /// NaN where the rates have it. Throws ContractError for a row that is not wanted.
+  /// The numbers of one row, in the memory of the sweep: over the angles of one four-bar, or over the
+  /// machines at one angle. NaN where the rates have it.
+  ///
+  /// @param row the row
+  /// @param angle index of the crank angle, for many machines
+  /// @returns one number a sample; valid until the next run
+  /// @throws ContractError if the row is not wanted or there is no such angle
   std::span<const double> row(FourBarRow row, std::size_t angle = 0) const;
   /// Status of each sample, as that of `rates`.
+  ///
+  /// @param angle index of the crank angle, for many machines
+  /// @returns one status a sample; valid until the next run
+  /// @throws ContractError if there is no such angle
   std::span<const Status> status(std::size_t angle = 0) const;
 
  private:
@@ -91,7 +120,7 @@ class FourBarSweep {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Name of the instruction set that sweeps of four-bars use: "avx512", "avx2" or "baseline".
+/// Name of the instruction set that sweeps of four-bars use. @returns "avx512", "avx2" or "baseline"
 const char* four_bar_sweep_kernel_name();
 
 /// Constants of a machine in the order of the kernel's rows: ground direction, ground, crank, coupler,
@@ -100,26 +129,33 @@ inline constexpr std::size_t four_bar_constants = 19;
 
 /// The task of a kernel.
 struct FourBarSweepTask {
-  FourBarWanted wanted;
-  bool over_machines = false;  ///< registers hold machines, else angles
-  double gravity = 0;
+  FourBarWanted wanted;               ///< rows that are kept
+  bool over_machines = false;         ///< registers hold machines, else angles
+  double gravity = 0;                 ///< m/s2, along -y
   const double* constants = nullptr;  ///< `four_bar_constants` rows over the machines, `lanes` numbers each
   std::size_t lanes = 0;  ///< length of a row, a multiple of 8: the last machine or angle is repeated
   std::size_t begin = 0, end = 0;  ///< the lanes that this call fills, multiples of 8
   std::size_t angles = 0;          ///< number of rows of a kind: 1, or angles where registers hold machines
   // Over `lanes`, the angle from the global x axis; over machines, cosine and sine of the crank angle.
-  const double *angle = nullptr, *cosine = nullptr, *sine = nullptr;
-  const double *rate = nullptr, *acceleration = nullptr;  ///< rates, as many as `angle` or `cosine`
-  double* data = nullptr;  ///< row r at angle i begins at data[(first[r] + i * rows) * lanes]
-  std::size_t rows = 0;    ///< kept ones
-  std::array<std::size_t, four_bar_row_count> first{};
+  const double *angle = nullptr,  ///< over `lanes`: angle of the crank from the global x axis (rad)
+      *cosine = nullptr,          ///< over machines: cosine of the crank angle
+          *sine = nullptr;        ///< over machines: its sine
+  const double *rate = nullptr,   ///< rates, as many as `angle` or `cosine`
+      *acceleration = nullptr;    ///< accelerations, likewise
+  double* data = nullptr;         ///< row r at angle i begins at data[(first[r] + i * rows) * lanes]
+  std::size_t rows = 0;           ///< number of rows that are kept
+  std::array<std::size_t, four_bar_row_count> first{};  ///< place of each row among those that are kept
   double* good = nullptr;  ///< `lanes` numbers an angle: 1 where the result holds, else 0
 };
 
-/// Fills the lanes of the rows from `begin` to `end`; true when all their samples are good. Compiled once for
-/// each instruction set; all but the baseline need the machine to have the instructions.
+/// A function that fills the lanes of the rows from `begin` to `end` and returns true if all samples are good. Compiled once for each
+/// instruction set; all but the baseline need the machine to have the instructions.
 using FourBarSweepKernel = bool(const FourBarSweepTask&);
-FourBarSweepKernel four_bar_sweep_baseline, four_bar_sweep_avx2, four_bar_sweep_avx512;
+/// The kernel for any machine.
+FourBarSweepKernel four_bar_sweep_baseline,
+    four_bar_sweep_avx2,    ///< the kernel for AVX2
+    four_bar_sweep_avx512;  ///< the kernel for AVX-512
+/// The kernels of the sweep. @returns one for each instruction set
 KernelSet<FourBarSweepKernel> four_bar_sweep_kernels();
 
 }  // namespace linkwright::planar
