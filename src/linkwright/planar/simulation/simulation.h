@@ -16,68 +16,74 @@
 
 namespace linkwright::planar {
 
-/// The motion of an input: as its law says, or, without a law, freely from a value and rate at the first
-/// time.
+/// The motion of an input: prescribed by a law or, without one, free from a value and rate at the first time.
 struct InputDrive {
-  std::optional<math::MotionLaw> law;
-  double value = 0, rate = 0;  ///< rad or m, per second; of a free input
+  std::optional<math::MotionLaw> law;  ///< prescribed motion; nothing for a free input
+  double value = 0,                    ///< of a free input at the first time, rad or m
+      rate = 0;                        ///< of a free input, rad/s or m/s
 };
 
+/// Options of a simulation.
 struct SimulationOptions {
-  math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
-  double relative_tolerance = 1e-9;
-  /// rad and rad/s; of displacements (m, m/s) times the size of the linkage.
+  math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;  ///< method of integration
+  double relative_tolerance = 1e-9;                                  ///< of each step
+  /// Absolute tolerance of a step: rad and rad/s; of displacements (m, m/s) times the size of the linkage.
   double absolute_tolerance = 1e-10;
   /// Absolute tolerances of the free inputs (rad, m), in their order, where they are more than the one above:
-  /// what their rounding leaves. And of their rates. Empty: none.
-  std::span<const double> value_resolution = {}, rate_resolution = {};
-  long max_steps = 1'000'000;
-  AtChangePoint at_change_point = AtChangePoint::smooth;
+  /// what their rounding leaves. Empty: none.
+  std::span<const double> value_resolution = {},
+                          rate_resolution = {};           ///< the same for their rates (rad/s, m/s)
+  long max_steps = 1'000'000;                             ///< steps after which it ends as not_converged
+  AtChangePoint at_change_point = AtChangePoint::smooth;  ///< behaviour at change points
 };
 
 /// One row of a simulation; valid during the call that receives it.
 struct SimulationInstant {
-  double time = 0;
+  double time = 0;  ///< s
   /// done; singular within rounding of a change point, where only inputs and energies are known.
   Status status = Status::done;
-  std::span<const InputMotion> inputs;
-  double kinetic = 0;    ///< J
-  double potential = 0;  ///< J, of weight and springs
-  /// J since the start: of prescribed drives and of loads that store no energy; less what a kink has cost.
+  std::span<const InputMotion> inputs;  ///< all inputs, in their order
+  double kinetic = 0;                   ///< J
+  double potential = 0;                 ///< J, of weight and springs
+  /// Work (J) since the start: of prescribed drives and of loads that store no energy; less what a kink has
+  /// cost.
   double work = 0;
   double drift = 0;  ///< J: kinetic + potential - work less its value at the start; zero but for errors
   const LinkageMotion* motion = nullptr;  ///< velocities and accelerations included
   /// Joint forces while friction holds the linkage at rest, which do not follow from its motion; else null.
   const LinkageForces* held = nullptr;
 };
-/// false ends the simulation.
+/// A function that receives the rows; false ends the simulation.
 using SimulationOutput = std::function<bool(const SimulationInstant&)>;
 
 /// Quantities whose changes of sign are found within the steps, however far apart the rows are (see
 /// math::OdeHooks). Of energies the instants have the work alone.
 struct SimulationWatch {
   std::size_t count = 0;  ///< number of quantities
+  /// Computes the quantities of an instant.
   std::function<void(const SimulationInstant&, std::span<double> values)> values = {};
-  /// After every step, and where quantities change signs: `crossed` are their indices. false ends the
+  /// Called after every step, and where quantities change signs: `crossed` are their indices. false ends the
   /// simulation.
   std::function<bool(const SimulationInstant&, std::span<const std::size_t> crossed)> note = {};
 };
 
 /// A change point that the linkage went through.
 struct ChangePassage {
-  double time = 0;
-  double value = 0;         ///< value of the input
+  double time = 0;          ///< s
+  double value = 0;         ///< value of the input (rad or m)
   std::vector<int> groups;  ///< groups whose modes meet there
   double energy_lost = 0;   ///< J: in the kink of `keep_sign`
 };
 
 /// Times during which friction holds a linkage at rest although a load over time or a drive may free it.
 struct FrictionRests {
-  long count = 0;
-  double first_from = 0, first_to = 0;  ///< s
-  double total = 0;                     ///< s, of all of them
+  long count = 0;         ///< number of rests
+  double first_from = 0,  ///< start of the first, s
+      first_to = 0;       ///< its end, s
+  double total = 0;       ///< s, of all of them
 };
 
+/// The outcome of a simulation.
 struct SimulationReport {
   /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
   /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
@@ -91,13 +97,14 @@ struct SimulationReport {
   double largest_drift = 0;  ///< J, over the rows
   double peak_energy = 0;    ///< J: largest kinetic energy, change of potential energy or work of a row
   std::vector<ChangePassage> passages;  ///< the first 1000
-  long passage_count = 0;
-  FrictionRests rests;
-  long steps = 0, evaluations = 0;
+  long passage_count = 0;               ///< number of all passages
+  FrictionRests rests;                  ///< rests by friction
+  long steps = 0,                       ///< of the integration
+      evaluations = 0;                  ///< of the equations of motion
 };
 
-/// Motion of a linkage under forces: integrates the equations of LinkageDynamics over `times` (s, rising, two
-/// at least; the first is the start) and calls `output` at each of them.
+/// Motion of a linkage under forces: integrates the equations of LinkageDynamics over `times` and calls
+/// `output` at each of them.
 ///
 /// The motion ends where a group comes to its limit (dead point): there the free input turns back while the
 /// linkage continues in the other assembly mode, so that another coordinate is needed
@@ -112,23 +119,58 @@ struct SimulationReport {
 /// still free it, and moves on when the force along the free input passes what friction can hold. Where
 /// several joints hold it, each bears the same part of what its friction could bear.
 ///
-/// Throws ContractError when there is no free input, drives or times do not fit, a law is no motion, or a
-/// body has no mass.
+/// @param linkage the linkage, with masses and loads
+/// @param plan its plan
+/// @param drives the motion of each input, at least one of them free
+/// @param times times of the rows (s), rising, two at least; the first is the start
+/// @param options method, tolerances and behaviour at change points
+/// @param output receives the rows
+/// @param context progress, deadline and cancellation; null: none
+/// @returns the outcome
+/// @throws ContractError if there is no free input, drives or times do not fit, a law is no motion, or a body
+///   has no mass
 SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan, std::span<const InputDrive> drives,
                           std::span<const double> times, const SimulationOptions& options,
                           const SimulationOutput& output, const RunContext* context = nullptr);
 
-/// Times strictly between `from` and `to`, rising, at which accelerations may step or kink: where laws do
-/// (math::breaks), and corners of load tables over time.
+/// Times at which accelerations may step or kink: where laws do (math::breaks), and corners of load tables
+/// over time.
+///
+/// @param linkage the linkage with its loads
+/// @param drives the motion of each input
+/// @param from start of the interval (s)
+/// @param to end of the interval (s)
+/// @returns the times strictly between `from` and `to`, rising (s)
 std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive> drives, double from,
                               double to);
-/// math::integrate from break to break, so that no step lies across one: on either side `f` is asked with
-/// times of that side.
+
+/// Calls math::integrate from break to break, so that no step lies across one: on either side `f` is asked
+/// with times of that side.
+///
+/// @param f the differential equations
+/// @param y state at `from`; receives the state at the end
+/// @param from start of the interval
+/// @param to end of the interval
+/// @param breaks times strictly between, rising
+/// @param options options of the integration
+/// @param hooks output, events and context of the integration
+/// @returns the report of all intervals together
 math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, double from, double to,
                                     std::span<const double> breaks, math::OdeOptions options,
                                     math::OdeHooks hooks);
 
-/// The same, watched.
+/// The same as `simulate`, with quantities whose changes of sign are found.
+///
+/// @param linkage the linkage, with masses and loads
+/// @param plan its plan
+/// @param drives the motion of each input, at least one of them free
+/// @param times times of the rows (s), rising, two at least; the first is the start
+/// @param options method, tolerances and behaviour at change points
+/// @param output receives the rows
+/// @param watch the quantities
+/// @param context progress, deadline and cancellation; null: none
+/// @returns the outcome
+/// @throws ContractError as `simulate` does
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
                                   std::span<const InputDrive> drives, std::span<const double> times,
                                   const SimulationOptions& options, const SimulationOutput& output,
