@@ -23,51 +23,73 @@ namespace linkwright::planar {
 /// The numbers of a four-bar that balancing may choose, in the order of the variables (Boskovic 2018, section
 /// 2.4: L1 ... L4, alpha1 ... alpha3, m1 ... m3, J1 ... J3, d1 ... d3, with L1 the crank and L4 the ground).
 enum class FourBarNumber : std::size_t {
-  crank,  // lengths (m)
-  coupler,
-  rocker,
-  ground,
-  crank_centre_angle,  // angles of the mass centres from the link lines (rad)
-  coupler_centre_angle,
-  rocker_centre_angle,
-  crank_mass,  // kg
-  coupler_mass,
-  rocker_mass,
-  crank_inertia,  // about the mass centres (kg m2)
-  coupler_inertia,
-  rocker_inertia,
-  crank_centre_distance,  // distances of the mass centres from the links' own joints (m)
-  coupler_centre_distance,
-  rocker_centre_distance
+  crank,                    ///< length, m
+  coupler,                  ///< length, m
+  rocker,                   ///< length, m
+  ground,                   ///< length, m
+  crank_centre_angle,       ///< angle of its mass centre from the link line, rad
+  coupler_centre_angle,     ///< angle of its mass centre from the link line, rad
+  rocker_centre_angle,      ///< angle of its mass centre from the link line, rad
+  crank_mass,               ///< kg
+  coupler_mass,             ///< kg
+  rocker_mass,              ///< kg
+  crank_inertia,            ///< about its mass centre, kg m2
+  coupler_inertia,          ///< about its mass centre, kg m2
+  rocker_inertia,           ///< about its mass centre, kg m2
+  crank_centre_distance,    ///< distance of its mass centre from O, m
+  coupler_centre_distance,  ///< distance of its mass centre from A, m
+  rocker_centre_distance    ///< distance of its mass centre from B0, m
 };
+/// Number of entries of FourBarNumber.
 inline constexpr std::size_t four_bar_number_count = 16;
+
+/// The place of a number among the variables.
+///
+/// @param number the number
+/// @returns its index, from 0
 constexpr std::size_t index(FourBarNumber number) { return static_cast<std::size_t>(number); }
-/// Key with unit: "crank_m", "coupler_centre_angle_rad", "rocker_inertia_kg_m2".
+
+/// The key of a number with its unit: "crank_m", "coupler_centre_angle_rad", "rocker_inertia_kg_m2".
+///
+/// @param number the number
+/// @returns the key
 std::string_view name(FourBarNumber number);
 
+/// The numbers of a four-bar in the order of FourBarNumber, SI.
 using FourBarNumbers = std::array<double, four_bar_number_count>;
-/// A four-bar of these numbers, and the numbers of a four-bar. Its pivot is the origin, its frame angle 0.
+
+/// The four-bar that has given numbers. Its pivot is the origin, its frame angle 0.
+///
+/// @param numbers in the order of FourBarNumber, SI
+/// @param branch assembly branch
+/// @returns the four-bar with its masses
 FourBarMachine four_bar_machine(std::span<const double, four_bar_number_count> numbers,
                                 Branch branch = Branch::open);
+
+/// The numbers of a four-bar.
+///
+/// @param machine the four-bar with its masses
+/// @returns its numbers in the order of FourBarNumber, SI
 FourBarNumbers four_bar_numbers(const FourBarMachine& machine);
 
 /// A component that may be balanced: a component of the joint forces, drive torque, shaking force and
 /// moments, as in FourBarReactions. Names are those of the columns of the analysis without their unit.
 enum class FourBarComponent {
-  O1_x,
-  O1_y,
-  O2_x,
-  O2_y,
-  O3_x,
-  O3_y,
-  O4_x,
-  O4_y,
-  drive_torque,
-  shaking_force_x,
-  shaking_force_y,
-  shaking_moment,
-  shaking_moment_with_drive
+  O1_x,                      ///< force of the ground on the crank, x, N
+  O1_y,                      ///< force of the ground on the crank, y, N
+  O2_x,                      ///< force of the crank on the coupler, x, N
+  O2_y,                      ///< force of the crank on the coupler, y, N
+  O3_x,                      ///< force of the rocker on the coupler, x, N
+  O3_y,                      ///< force of the rocker on the coupler, y, N
+  O4_x,                      ///< force of the ground on the rocker, x, N
+  O4_y,                      ///< force of the ground on the rocker, y, N
+  drive_torque,              ///< torque of the ground's motor on the crank, N m
+  shaking_force_x,           ///< force of the mechanism on the ground, x, N, weight included
+  shaking_force_y,           ///< force of the mechanism on the ground, y, N, weight included
+  shaking_moment,            ///< moment on the ground about O1 by the joint forces alone, N m
+  shaking_moment_with_drive  ///< the same with the motor's reaction, N m
 };
+/// The components by their words in study files. @returns one entry a component
 constexpr std::array<EnumName<FourBarComponent>, 13> names(FourBarComponent) {
   using C = FourBarComponent;
   return {{{C::O1_x, "O1_x", "of ground on crank"},
@@ -85,29 +107,30 @@ constexpr std::array<EnumName<FourBarComponent>, 13> names(FourBarComponent) {
            {C::shaking_moment_with_drive, "shaking_moment_with_drive", "what the ground feels"}}};
 }
 
-/// One quantity to be made small: a measure of a component over the motion, relative to a reference (N or
-/// N m, above 0), for example its value in the original machine.
+/// One quantity to be made small: a measure of a component over the motion, relative to a reference, for
+/// example its value in the original machine.
 struct BalancingObjective {
-  FourBarComponent component = FourBarComponent::shaking_force_x;
-  Measure measure = Measure::rss_over_n;
-  double reference = 1;
+  FourBarComponent component = FourBarComponent::shaking_force_x;  ///< quantity that is measured
+  Measure measure = Measure::rss_over_n;                           ///< number for it over the motion; a norm
+  double reference = 1;                                            ///< N or N m, more than 0
 };
 
 /// Balancing of a four-bar: which numbers may change and how far, the motion, what is minimised, and
 /// what must be kept.
 struct FourBarBalancing {
   std::array<Range, four_bar_number_count> bounds{};  ///< lower = upper: fixed
-  Branch branch = Branch::open;
+  Branch branch = Branch::open;                       ///< assembly branch
 
-  double crank_from = 0, crank_to = 2 * pi;  ///< rad, both ends sampled
-  int samples = 201;
+  double crank_from = 0,  ///< first crank angle, rad; it is sampled
+      crank_to = 2 * pi;  ///< last crank angle, rad; it is sampled
+  int samples = 201;      ///< number of crank angles, at least 2
   /// The last sample is the first one again, a turn later: means count it once. Boskovic's tables count both.
   bool closes = false;
   double crank_speed = 1;         ///< rad/s, at every sample
   double crank_acceleration = 0;  ///< rad/s2, at every sample
   double gravity = 9.81;          ///< m/s2 along -y
 
-  std::vector<BalancingObjective> objectives;
+  std::vector<BalancingObjective> objectives;  ///< quantities that are minimised
 
   /// The crank is the shortest link and turns fully: min((L1 + L2 + L3 + L4) / 2 - L1 - max(L2, L3, L4),
   /// min(L2, L3, L4) - L1) >= 0. If not asked for, the linkage must assemble from crank_from to crank_to.
@@ -117,13 +140,19 @@ struct FourBarBalancing {
   std::optional<Range> rocker_swing;
 };
 
-/// Throws ContractError unless bounds are ordered and finite, lengths above 0, masses, inertias and distances
-/// not negative, there are objectives with references above 0 and at least 2 samples from crank_from <
-/// crank_to, and limits lie in their ranges.
+/// Checks a balancing problem.
+///
+/// @param balancing the problem
+/// @throws ContractError unless bounds are ordered and finite, lengths above 0, masses, inertias and
+///   distances not negative, there are objectives with norms and with references above 0 and at least 2
+///   samples from crank_from < crank_to, and limits lie in their ranges
 void require_valid(const FourBarBalancing& balancing);
 
 /// Names of the constraints in their order: "crank_rotates_fully" or "assembles", then, where asked for,
 /// "transmission_angle" at the shortest and at the longest diagonal, "rocker_swing" from below and above.
+///
+/// @param balancing the problem
+/// @returns the names, one a constraint
 std::vector<std::string> balancing_constraints(const FourBarBalancing& balancing);
 
 /// Objectives over their references, then constraints (met when <= 0), of each machine: as many numbers a
@@ -137,19 +166,39 @@ std::vector<std::string> balancing_constraints(const FourBarBalancing& balancing
 ///
 /// Each machine is swept through SIMD registers of angles (FourBarSweep), in memory of the thread: nothing is
 /// allocated once a thread has come through a call, and one machine at a time is as quick as many.
+///
+/// @param balancing the problem
+/// @param machines the four-bars with their masses
+/// @param values receives objectives and constraints, machine by machine
+/// @param softening share of the references by which kinks are rounded, >= 0
+/// @throws ContractError as require_valid does, and unless there is room for all numbers
 void balancing_values(const FourBarBalancing& balancing, std::span<const FourBarMachine> machines,
                       std::span<double> values, double softening = 0);
 
-/// The objectives of one machine times their references: N and N m.
+/// The objectives of one machine times their references.
+///
+/// @param balancing the problem
+/// @param machine the four-bar with its masses
+/// @returns one measure an objective, N or N m
+/// @throws ContractError as require_valid does
 std::vector<double> balancing_measures(const FourBarBalancing& balancing, const FourBarMachine& machine);
 
 /// Makes the measures of `machine`, an original or published design, the references of the objectives; it
-/// need not lie within the bounds. Throws ContractError naming a component that is 0 or that the machine does
-/// not have because it does not reach every sample.
+/// need not lie within the bounds.
+///
+/// @param balancing the problem, whose references are set
+/// @param machine the machine that serves as the reference
+/// @throws ContractError naming a component that is 0 or that the machine does not have because it does not
+///   reach every sample
 void set_references(FourBarBalancing& balancing, const FourBarMachine& machine);
 
 /// The problem in the sixteen numbers, which is smooth up to the kinks of mean_abs and max_abs (see
-/// balancing_values). Throws ContractError as require_valid does.
+/// balancing_values).
+///
+/// @param balancing the problem
+/// @param softening share of the references by which kinks are rounded, >= 0
+/// @returns the problem for a gradient method
+/// @throws ContractError as require_valid does, and unless softening is finite and not negative
 optimise::SmoothProblem balancing_problem(const FourBarBalancing& balancing, double softening = 0);
 
 }  // namespace linkwright::planar
