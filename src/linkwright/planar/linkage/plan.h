@@ -264,7 +264,7 @@ struct LinkagePlan {
 
   /// The number of inputs. @returns number of joints with a drive
   std::size_t inputs() const { return rotary.size(); }
-  /// Tells closed forms from searches.
+  /// Test for closed forms.
   ///
   /// @returns true if all groups have closed forms, so that no search and no history is needed
   bool closed_form() const;

@@ -11,11 +11,16 @@ namespace linkwright::planar {
 
 /// Options of the recommended method.
 struct PathSynthesisOptions {
-  std::uint64_t seed = 1;
-  int starts = 0;         ///< local searches per kind and sense; 0 = chosen from the timing
-  int max_solutions = 4;  ///< distinct designs to return
-  bool progress = true;   ///< report to the run context
+  std::uint64_t seed = 1;  ///< of the random starts; the same seed gives the same answer
+  int starts = 0;          ///< local searches per kind and sense; 0 = chosen from the timing
+  int max_solutions = 4;   ///< distinct designs to return
+  bool progress = true;    ///< report to the run context
 };
+
+/// Calls `visit(field, member)` for each option that a study file may give.
+///
+/// @param visit the function to call
+/// @param o the options whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PathSynthesisOptions& o) {
   visit(field::entry("starts", "local searches; 0 = chosen from the problem").between(0, 1e6), o.starts);
@@ -26,13 +31,14 @@ void fields(Visitor&& visit, PathSynthesisOptions& o) {
 struct SearchPoint {
   std::int64_t evaluations = 0;  ///< so far
   double best = 0;               ///< least error of a feasible design so far (m2)
+  /// True if both steps are the same. @returns the comparison of all members
   friend bool operator==(const SearchPoint&, const SearchPoint&) = default;
 };
 
 /// The outcome of a seed, but for its designs.
 struct SearchRecord {
-  Status status = Status::done;  ///< done, infeasible, deadline or cancelled
-  std::int64_t evaluations = 0;
+  Status status = Status::done;      ///< done, infeasible, deadline or cancelled
+  std::int64_t evaluations = 0;      ///< of designs, in all searches
   std::vector<SearchPoint> history;  ///< one entry for each better feasible design; none of a front
 };
 

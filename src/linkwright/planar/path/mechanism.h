@@ -37,7 +37,9 @@ struct TracedPoint {
 struct CrankTurn {
   double margin = 0;  ///< m, least margin of the conditions of full rotation; negative = it does not turn
   double size = 0;    ///< m, sum of the lengths
-  /// To the tolerance of the constraint: a synthesis may end on the change point.
+  /// Full rotation within the tolerance of the constraint: a synthesis may end on the change point.
+  ///
+  /// @returns true if the crank turns fully
   bool full() const { return margin >= -tolerance::feasibility * size; }
 };
 
@@ -89,11 +91,14 @@ using MechanismOf = typename Problem::Mechanism;
 /// A branch and a sense of crank rotation to search.
 template <class Branch>
 struct CrankSearch {
-  Branch branch;
-  double sense;
+  Branch branch;  ///< branch of the linkage
+  double sense;   ///< +1 or -1
 };
 
 /// The branches and senses to search for a problem, positive sense first.
+///
+/// @param problem the problem
+/// @returns one entry for each combination that the problem searches
 template <class Problem>
 auto crank_searches(const Problem& problem) {
   using Branch = typename MechanismOf<Problem>::Branch;
@@ -105,12 +110,20 @@ auto crank_searches(const Problem& problem) {
   return out;
 }
 
+/// Adds a violation to a design where it is above tolerance::feasibility, or is not a number.
+///
+/// @param design the design
+/// @param reason name of the constraint
+/// @param amount violation, dimensionless
 template <class Mechanism>
 void add_violation(TracedPath<Mechanism>& design, const char* reason, double amount) {
   if (amount > tolerance::feasibility || std::isnan(amount)) design.violations.push_back({reason, amount});
 }
 
-/// Throws ContractError unless the task is valid and the bounds are ordered and finite.
+/// Checks the task of a problem and its bounds.
+///
+/// @param p the problem
+/// @throws ContractError unless the task is valid and the bounds are ordered and finite
 template <class Problem>
 void require_valid_bounds(const Problem& p) {
   using P = typename MechanismOf<Problem>::Parameter;
@@ -124,6 +137,13 @@ void require_valid_bounds(const Problem& p) {
 
 /// Measures a linkage at crank angles against a problem: error, constraints by name (no_assembly, those of
 /// the mechanism, bounds), active bounds.
+///
+/// @param problem the problem
+/// @param linkage the linkage
+/// @param sense sense of crank rotation along the order of the points, +1 or -1
+/// @param angles crank angle at each target point (rad), unwrapped
+/// @returns the design with its error and violations
+/// @throws ContractError unless the problem is valid and there is one angle for each point
 template <class Problem>
 auto measure_path(const Problem& problem, const typename MechanismOf<Problem>::Linkage& linkage, double sense,
                   std::vector<double> angles) {
@@ -172,14 +192,19 @@ auto measure_path(const Problem& problem, const typename MechanismOf<Problem>::L
   return d;
 }
 
-/// Best first, by the feasibility rules.
+/// Sorts designs, best first, by the feasibility rules.
+///
+/// @param designs the designs
 template <class Design>
 void rank_by_error(std::vector<Design>& designs) {
   std::stable_sort(designs.begin(), designs.end(),
                    [](const Design& a, const Design& b) { return better_design(a, b); });
 }
 
-/// Adds a design, or takes it in the place of the same linkage where it is better.
+/// Adds a design, or replaces the same linkage by it where it is better.
+///
+/// @param designs the designs so far
+/// @param design the design to add
 template <class Design>
 void keep_distinct(std::vector<Design>& designs, Design design) {
   for (Design& other : designs) {
@@ -190,13 +215,20 @@ void keep_distinct(std::vector<Design>& designs, Design design) {
   designs.push_back(std::move(design));
 }
 
-/// Leaves the first `most` designs.
+/// Removes all designs but the first ones.
+///
+/// @param designs the designs, best first
+/// @param most number of designs that stay
 template <class Problem, class Design>
 void keep_first(const Problem&, std::vector<Design>& designs, std::size_t most) {
   if (designs.size() > most) designs.resize(most);
 }
 
 /// The tracing point of a design at the targets, and its distances from them.
+///
+/// @param problem the problem
+/// @param design the design
+/// @returns points and distances, one a target
 template <class Problem>
 requires PathMechanism<MechanismOf<Problem>> PathErrors
 path_errors(const Problem& problem, const typename MechanismOf<Problem>::Design& design) {
@@ -207,13 +239,22 @@ path_errors(const Problem& problem, const typename MechanismOf<Problem>::Design&
 }
 
 /// Number of parameters that are variables: the start angle is one unless crank angles are given or free.
+///
+/// @param problem the problem
+/// @returns the number of variables but for crank angles of free timing
 template <class Problem>
 std::size_t variable_parameters(const Problem& problem) {
   return problem.bounds.size() - (starts_anywhere(problem.timing) ? 0 : 1);
 }
 
-/// The parameters as unknowns of a population, and every crank angle where timing is free; `objective` is
-/// what the kernels evaluate.
+/// The parameters as unknowns of a population, and every crank angle where timing is free; the kernels
+/// evaluate the objective.
+///
+/// @param problem the problem
+/// @param branch the branch that is searched
+/// @param sense the sense of crank rotation, +1 or -1
+/// @param objective the objective as laid out for the kernels
+/// @returns the problem for a population method
 template <class Problem, class Objective>
 optimise::Problem population_problem(const Problem& problem, typename MechanismOf<Problem>::Branch branch,
                                      double sense, Objective objective) {
@@ -234,7 +275,14 @@ optimise::Problem population_problem(const Problem& problem, typename MechanismO
   return out;
 }
 
-/// Turns a candidate of that problem into a design.
+/// Turns a candidate of the population problem into a design.
+///
+/// @param problem the problem
+/// @param branch the branch that is searched
+/// @param sense the sense of crank rotation, +1 or -1
+/// @param x the variables of the candidate
+/// @returns the design
+/// @throws ContractError unless there are as many values as variables
 template <class Problem>
 auto design_of(const Problem& problem, typename MechanismOf<Problem>::Branch branch, double sense,
                std::span<const double> x) {
