@@ -13,104 +13,128 @@
 namespace linkwright::suspension {
 
 /// The coordinate that is prescribed beside the rack, as a change from the reference (m).
-enum class Driver { wheel_centre_z, contact_z, spring };
+enum class Driver {
+  wheel_centre_z,  ///< height of the wheel centre
+  contact_z,       ///< height of the lowest point of the tyre
+  spring           ///< length of the spring, longer positive
+};
+/// The drivers by their words in study files. @returns one entry a driver
 constexpr std::array<EnumName<Driver>, 3> names(Driver) {
   return {{{Driver::wheel_centre_z, "wheel_centre_z", "height of the wheel centre"},
            {Driver::contact_z, "contact_z", "height of the lowest point of the tyre"},
            {Driver::spring, "spring", "length of the spring, longer positive"}}};
 }
 
-/// The pose of a suspension: the carrier, and the angle (rad, from the reference, right-handed from the first
-/// to the second body point) of its RR arm if it has one.
+/// The pose of a suspension.
 template <class T>
 struct BasicCornerPlace {
-  BasicCarrierPose<T> carrier;
+  BasicCarrierPose<T> carrier;  ///< pose of the carrier
+  /// Angle of the RR arm, if there is one (rad, from the reference, right-handed from the first to the second
+  /// body point).
   T arm{0};
 };
+/// The pose of a suspension, in numbers.
 using CornerPlace = BasicCornerPlace<double>;
 
-/// Rates of a suspension: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate
-/// of the arm.
+/// Rates of a suspension.
 template <class T>
 struct BasicTwist {
-  Vector3<T> velocity;
-  Vector3<T> turning;
-  T arm{0};
+  Vector3<T> velocity;  ///< of the wheel centre, m/s
+  Vector3<T> turning;   ///< angular velocity of the carrier, rad/s
+  T arm{0};             ///< rate of the angle of the RR arm, rad/s
 };
+/// Rates of a suspension, in numbers.
 using Twist = BasicTwist<double>;
 
 /// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
 template <class T>
 struct BasicLinkConstants {
-  LinkType type = LinkType::US;
-  bool moved_by_rack = false;
-  std::array<Vector3<T>, 2> body, offset;
+  LinkType type = LinkType::US;      ///< joints of the link
+  bool moved_by_rack = false;        ///< its body points move with the rack
+  std::array<Vector3<T>, 2> body,    ///< body points, m
+      offset;                        ///< carrier points from the wheel centre, m
   std::array<T, 2> length{};         ///< distances that the link keeps (m)
   Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
   Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
   Vector3<T> standing_axis;          ///< unit: axis of the U joint in the body (US)
   std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
 };
+/// Constants of a link, in numbers.
 using LinkConstants = BasicLinkConstants<double>;
 
 /// A point fixed to a link, by three points of the link P, Q, S: P + a (Q - P) + b (S - P) + k (Q - P) x (S -
 /// P).
 template <class T>
 struct BasicAffinePoint {
-  T a{0}, b{0}, k{0};
+  T a{0},    ///< factor of Q - P
+      b{0},  ///< factor of S - P
+      k{0};  ///< factor of the product, 1/m
 };
+/// A point fixed to a link, in numbers.
 using AffinePoint = BasicAffinePoint<double>;
 
-/// A point fixed to a rod: its share of the rod's line, and where a U joint holds the rod's spin its offsets
-/// from the line (m), along the axis of the joint that turns with the rod and across both.
+/// A point fixed to a rod.
 template <class T>
 struct BasicRodPoint {
-  T along{0}, beside{0}, above{0};
-  bool held = false;
+  T along{0},         ///< share of the rod's line, from its body point
+      beside{0},      ///< offset along the axis of the joint that turns with the rod, m
+      above{0};       ///< offset across that axis and the rod, m
+  bool held = false;  ///< a U joint holds the spin of the rod, so that the offsets count
 };
+/// A point fixed to a rod, in numbers.
 using RodPoint = BasicRodPoint<double>;
 
+/// Constants of a coupler in the equations.
 template <class T>
 struct BasicCouplerConstants {
-  int first = 0, second = 0;
-  BasicRodPoint<T> begin;
-  T length{0};
-  BasicAffinePoint<T> point;
+  int first = 0,              ///< index of the US link
+      second = 0;             ///< index of the SR link
+  BasicRodPoint<T> begin;     ///< its point on the US link
+  T length{0};                ///< m, at the reference
+  BasicAffinePoint<T> point;  ///< its point on the SR link
 };
+/// Constants of a coupler, in numbers.
 using CouplerConstants = BasicCouplerConstants<double>;
 
+/// Constants of the spring in the equations.
 template <class T>
 struct BasicSpringConstants {
-  Vector3<T> body;
-  Vector3<T> offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
-  int link = -1;
-  T length{0};
-  BasicRodPoint<T> on_rod;
-  BasicAffinePoint<T> point;
+  Vector3<T> body;            ///< its end at the body, m
+  Vector3<T> offset;          ///< carrier: from the wheel centre; RR arm: from its first body point
+  int link = -1;              ///< index of the link that it is fixed to; -1 = the carrier
+  T length{0};                ///< m, at the reference
+  BasicRodPoint<T> on_rod;    ///< its moving end on a US or SS link
+  BasicAffinePoint<T> point;  ///< its moving end on an RS or SR link
 };
+/// Constants of the spring, in numbers.
 using SpringConstants = BasicSpringConstants<double>;
 
 /// A suspension made ready for solving. Make it with `prepare_suspension`.
 template <class T>
 struct BasicCornerPlan {
-  Side side = Side::left;
-  BasicCornerWheel<T> wheel;
-  Vector3<T> wheel_axis;  ///< unit, outboard, at the reference
-  Vector3<T> contact;     ///< point of the tyre, at the reference
-  Vec3 rack_direction;
-  std::vector<BasicLinkConstants<T>> links;
-  std::vector<BasicCouplerConstants<T>> couplers;
-  std::optional<BasicSpringConstants<T>> spring;
-  CornerConstruction construction;
-  std::vector<std::string> labels;  ///< names of the links and couplers
-  int unknowns = 6;                 ///< 7 with an RR arm
+  Side side = Side::left;                          ///< side of the vehicle
+  BasicCornerWheel<T> wheel;                       ///< wheel at the reference
+  Vector3<T> wheel_axis;                           ///< unit, outboard, at the reference
+  Vector3<T> contact;                              ///< point of the tyre at the reference, m
+  Vec3 rack_direction;                             ///< unit vector, as in Suspension
+  std::vector<BasicLinkConstants<T>> links;        ///< one a link
+  std::vector<BasicCouplerConstants<T>> couplers;  ///< one a coupler
+  std::optional<BasicSpringConstants<T>> spring;   ///< nothing without a spring
+  CornerConstruction construction;                 ///< ball joints of the carrier and planes of the arms
+  std::vector<std::string> labels;                 ///< names of the links and couplers
+  int unknowns = 6;                                ///< 7 with an RR arm
 };
+/// A suspension made ready for solving, in numbers.
 using CornerPlan = BasicCornerPlan<double>;
 
-/// Throws ContractError for a suspension that `check` finds errors in, or whose constraints do not add up to
-/// five.
+/// Makes a suspension ready for solving.
+///
+/// @param suspension the suspension
+/// @returns the plan
+/// @throws ContractError if `check` finds errors in the suspension, or its constraints do not add up to five
 CornerPlan prepare_suspension(const Suspension& suspension);
 
+/// Largest number of unknowns: six of the carrier, one of an RR arm.
 inline constexpr int max_unknowns = 7;
 
 /// Residuals and their derivatives with respect to the unknowns - shift of the wheel centre, small turn of
@@ -120,18 +144,46 @@ inline constexpr int max_unknowns = 7;
 /// its angle, since its four distances (equation 44) lose rank where its axes meet or are parallel.
 template <class T>
 struct BasicCornerEquations {
+  /// One an equation, the driver last; m, or rad for directions of hinges.
   std::array<T, max_unknowns> residual{};
   std::array<std::array<T, max_unknowns>, max_unknowns> jacobian{};  ///< [equation][unknown]
-  std::array<T, max_unknowns> by_rack{};
+  std::array<T, max_unknowns> by_rack{};                             ///< derivatives with respect to the rack
 };
+/// Residuals and derivatives, in numbers.
 using CornerEquations = BasicCornerEquations<double>;
 
-/// `value` is what the driver should have (m). The driver `spring` needs a plan with a spring.
+/// Evaluates the equations at a pose.
+///
+/// @param plan the plan of the suspension
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @param driver coordinate that is prescribed; `spring` needs a plan with a spring
+/// @param value wanted value of the driver, as a change from the reference (m)
+/// @param out receives residuals and derivatives
+/// @throws ContractError if the driver is `spring` and there is none
 void evaluate(const CornerPlan& plan, const CornerPlace& place, double rack, Driver driver, double value,
               CornerEquations& out);
 
-/// The value of the driver's coordinate in a pose (m, change from the reference), and its rate for a motion.
+/// The value of the driver's coordinate in a pose.
+///
+/// @param plan the plan of the suspension
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @param driver the coordinate
+/// @returns its change from the reference (m)
+/// @throws ContractError if the driver is `spring` and there is none
 double driver_value(const CornerPlan& plan, const CornerPlace& place, double rack, Driver driver);
+
+/// The rate of the driver's coordinate for a motion.
+///
+/// @param plan the plan of the suspension
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @param driver the coordinate
+/// @param twist rates of the suspension
+/// @param rack_rate rate of the rack (m/s)
+/// @returns the rate (m/s)
+/// @throws ContractError if the driver is `spring` and there is none
 double driver_rate(const CornerPlan& plan, const CornerPlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);
 
@@ -141,6 +193,13 @@ struct Misfit {
   int link = -1;   ///< links first, then couplers
   double gap = 0;  ///< m
 };
+
+/// The largest error of a pose.
+///
+/// @param plan the plan of the suspension
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @returns the link with its error
 Misfit worst_misfit(const CornerPlan& plan, const CornerPlace& place, double rack);
 
 }  // namespace linkwright::suspension

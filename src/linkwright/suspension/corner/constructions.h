@@ -18,7 +18,7 @@ inline constexpr double same_joint = 1e-6;
 /// A ball joint about which the carrier, with what is hinged to it, can turn: that of a wishbone (RS), the
 /// one at the body of an SR link, of a strut (SP) or of an S joint, or the common carrier point of two rods.
 struct CarrierBall {
-  int link = 0;
+  int link = 0;          ///< index of the link, or of the first of two rods
   bool at_body = false;  ///< the link's first body point; else its first carrier point
 };
 
@@ -31,18 +31,22 @@ enum class ArmKind {
   rods_at_carrier,  ///< two rods with one point at the carrier
   rods_at_body      ///< two rods with one point at the body
 };
+
+/// An arm with its plane.
 struct Arm {
-  ArmKind kind = ArmKind::wishbone;
-  int link = 0, other = -1;  ///< `other`: the second rod
+  ArmKind kind = ArmKind::wishbone;  ///< kind of the plane
+  int link = 0,                      ///< index of the link
+      other = -1;                    ///< index of the second rod; -1 without one
 };
 
-/// Links on the rack are tie rods and no part of a construction.
+/// The ball joints and arms of a suspension. Links on the rack are tie rods and no part of a construction.
 struct CornerConstruction {
-  std::vector<CarrierBall> balls;
-  std::vector<Arm> arms;
+  std::vector<CarrierBall> balls;  ///< ball joints of the carrier
+  std::vector<Arm> arms;           ///< arms with a plane
 
+  /// True if there is a geometric steering axis. @returns true if the carrier has two ball joints
   bool has_axis() const { return balls.size() == 2; }
-  /// Two planes, or one hinge.
+  /// Two planes, or one hinge, give an instant axis. @returns true if there are two planes or one hinge
   bool has_planes() const {
     return arms.size() == 2 ? arms[0].kind != ArmKind::hinge && arms[1].kind != ArmKind::hinge
                             : arms.size() == 1 && arms[0].kind == ArmKind::hinge;
@@ -50,15 +54,30 @@ struct CornerConstruction {
 };
 
 /// The construction of a suspension whose links have as many points as their types need.
+///
+/// @param suspension the suspension
+/// @returns its ball joints and arms
 CornerConstruction construction_of(const Suspension& suspension);
 
-/// Empty, or why the suspension has no geometric steering axis, and no roll centre and instant centres by
-/// planes of arms ("one ball joint holds the carrier (lower wishbone), ...").
+/// The reason why a suspension has no geometric steering axis: "one ball joint holds the carrier (lower
+/// wishbone), ...".
+///
+/// @param suspension the suspension
+/// @returns the reason; empty if it has one
 std::string why_no_axis(const Suspension& suspension);
+
+/// The reason why a suspension has no roll centre and instant centres by planes of arms.
+///
+/// @param suspension the suspension
+/// @returns the reason; empty if it has them
 std::string why_no_planes(const Suspension& suspension);
 
 namespace kernel {
 
+/// The construction by the types and points of links.
+///
+/// @param links the links
+/// @returns ball joints and arms
 template <class T>
 CornerConstruction construction_of(const std::vector<BasicCornerLink<T>>& links) {
   CornerConstruction out;

@@ -24,7 +24,17 @@ using math::Vector3;
 /// The joints of a link: the first letter to the body, the second to the carrier; one letter is a joint
 /// between body and carrier without a link. R revolute, S spherical, U universal, P prismatic (slides and
 /// turns).
-enum class LinkType { R, RR, S, RS, SR, SP, US, SS };
+enum class LinkType {
+  R,   ///< carrier hinged to the body: two body points on the axis
+  RR,  ///< arm hinged to the body (two points) and to the carrier (two points)
+  S,   ///< ball joint between body and carrier: one body point
+  RS,  ///< wishbone: hinged to the body (two points), ball joint at the carrier
+  SR,  ///< ball joint at the body, hinged to the carrier (two points)
+  SP,  ///< strut: ball joint at the body, slides along its line in the carrier
+  US,  ///< rod: one point at the body, one at the carrier
+  SS   ///< the same as US, free to turn about its line
+};
+/// The types of links by name. @returns one entry a type
 constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
   return {{{LinkType::R, "R", "carrier hinged to the body: two body points on the axis"},
            {LinkType::RR, "RR", "arm hinged to the body (two points) and to the carrier (two points)"},
@@ -40,10 +50,10 @@ constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
 /// US and SS 1 and 1. Two points stand for the axis of a revolute joint.
 template <class T>
 struct BasicCornerLink {
-  std::string name;
-  LinkType type = LinkType::US;
-  std::vector<Vector3<T>> body;
-  std::vector<Vector3<T>> carrier;
+  std::string name;                 ///< name in messages; may be empty
+  LinkType type = LinkType::US;     ///< joints of the link
+  std::vector<Vector3<T>> body;     ///< points at the body, m
+  std::vector<Vector3<T>> carrier;  ///< points at the carrier, m
   /// Length of a US or SS link (m) instead of the distance of its points: they then are no position, and
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
@@ -53,37 +63,46 @@ struct BasicCornerLink {
   /// the rod off that line takes. Not given: level, and across the rod at the reference.
   std::optional<Vec3> cross_axis{};
 };
+/// A link, in numbers.
 using CornerLink = BasicCornerLink<double>;
 
 /// A rod between two links (interconnected mechanisms): from a point of a US link to a point fixed to an SR
 /// link. Its length is the distance at the reference position.
 template <class T>
 struct BasicCoupler {
-  std::string name;
-  int first = 0;     ///< US link
+  std::string name;  ///< name in messages; may be empty
+  int first = 0;     ///< index of the US link
   T fraction{0.5};   ///< position as a fraction of the US link's length, from its body point
-  int second = 0;    ///< SR link
-  Vector3<T> point;  ///< on the SR link
+  int second = 0;    ///< index of the SR link
+  Vector3<T> point;  ///< end of the coupler on the SR link, m
   /// Begin of the coupler on the US link, which may lie off its line; replaces `fraction`.
   std::optional<Vector3<T>> begin{};
 };
+/// A rod between two links, in numbers.
 using Coupler = BasicCoupler<double>;
 
 /// Spring (or damper) between the body and the carrier or a link.
 template <class T>
 struct BasicCornerSpring {
-  Vector3<T> body;
-  Vector3<T> moving;  ///< its other end
+  Vector3<T> body;    ///< its end at the body, m
+  Vector3<T> moving;  ///< its other end, m
   /// US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line.
   int link = -1;
 };
+/// A spring, in numbers.
 using CornerSpring = BasicCornerSpring<double>;
 
-enum class Side { left, right };
+/// The side of the vehicle.
+enum class Side {
+  left,  ///< y > 0
+  right  ///< y < 0
+};
+/// The sides by their words in study files. @returns one entry a side
 constexpr std::array<EnumName<Side>, 2> names(Side) {
   return {{{Side::left, "left", "y > 0"}, {Side::right, "right", "y < 0"}}};
 }
 
+/// The wheel at the reference position.
 template <class T>
 struct BasicCornerWheel {
   Vector3<T> centre;         ///< m
@@ -91,56 +110,87 @@ struct BasicCornerWheel {
   T camber{0};               ///< rad, > 0: top of the wheel away from the vehicle
   double tyre_diameter = 0;  ///< m, > 0
 };
+/// The wheel at the reference position, in numbers.
 using CornerWheel = BasicCornerWheel<double>;
 
 /// A wheel suspension: plain data.
 template <class T>
 struct BasicSuspension {
-  Side side = Side::left;
-  BasicCornerWheel<T> wheel;
-  std::vector<BasicCornerLink<T>> links;
-  std::vector<BasicCoupler<T>> couplers;
+  Side side = Side::left;                 ///< side of the vehicle
+  BasicCornerWheel<T> wheel;              ///< wheel at the reference position
+  std::vector<BasicCornerLink<T>> links;  ///< links between body and carrier
+  std::vector<BasicCoupler<T>> couplers;  ///< rods between links
   Vec3 rack_direction{0, 1, 0};  ///< unit; a rack displacement is positive to the left, for both wheels
-  std::optional<BasicCornerSpring<T>> spring;
+  std::optional<BasicCornerSpring<T>> spring;  ///< nothing without a spring
 };
+/// A wheel suspension, in numbers.
 using Suspension = BasicSuspension<double>;
 
 /// The position of the carrier: its wheel centre (m) and its rotation from the reference position.
 template <class T>
 struct BasicCarrierPose {
-  Vector3<T> centre;
-  Matrix3<T> rotation;
+  Vector3<T> centre;    ///< wheel centre, m
+  Matrix3<T> rotation;  ///< rotation from the reference position
 
+  /// Compares two poses. @returns true if all numbers are equal
   friend bool operator==(const BasicCarrierPose&, const BasicCarrierPose&) = default;
 };
+/// The position of the carrier, in numbers.
 using CarrierPose = BasicCarrierPose<double>;
 
-/// Place of a point of the carrier that is at `reference` when the wheel centre is at `reference_centre`
-/// (equation 54).
+/// The place of a point of the carrier in a pose (equation 54).
+///
+/// @param pose pose of the carrier
+/// @param reference the point at the reference position (m)
+/// @param reference_centre wheel centre at the reference position (m)
+/// @returns the point (m)
 constexpr Vec3 place(const CarrierPose& pose, const Vec3& reference, const Vec3& reference_centre) {
   return pose.centre + pose.rotation * (reference - reference_centre);
 }
 
-/// Unit vector along the wheel's axis, away from the vehicle (equations 23, 24): for the left wheel
-/// (sin toe cos camber, cos toe cos camber, -sin camber).
+/// Unit vector along the wheel's axis, away from the vehicle (equations 23, 24): for the left wheel (sin toe
+/// cos camber, cos toe cos camber, -sin camber).
+///
+/// @param side side of the vehicle
+/// @param toe rad, > 0: front of the wheel towards the vehicle
+/// @param camber rad, > 0: top of the wheel away from the vehicle
+/// @returns the unit vector
 Vec3 wheel_axis(Side side, double toe, double camber);
 
 /// The other wheel of a symmetric axle. A rack displacement moves it as the opposite displacement moves this
 /// one.
+///
+/// @param suspension a suspension
+/// @returns its mirror image on the other side
 Suspension mirrored(const Suspension& suspension);
 
-/// True if a rod is within a thousandth of the vertical.
+/// Test for upright rods.
+///
+/// @param along vector along the rod
+/// @returns true if it is within a thousandth of the vertical
 template <class T>
 bool is_upright(const Vector3<T>& along) {
   return along.x * along.x + along.y * along.y < 1e-6 * (along.z * along.z);
 }
 
-/// Points that a link of this type has at the body and at the carrier.
+/// Number of points of a link at the body.
+///
+/// @param type type of the link
+/// @returns the number, 1 or 2
 int body_points(LinkType type);
+
+/// Number of points of a link at the carrier.
+///
+/// @param type type of the link
+/// @returns the number, 0 to 2
 int carrier_points(LinkType type);
 
-/// The axis of a rod's U joint that is fixed in the body, unit: `given`, or level and across the rod. Of an
-/// upright rod no level axis is more across than another: then x.
+/// The axis of a rod's U joint that is fixed in the body: the given one, or else level and across the rod.
+/// For an upright rod no level axis is more across than another: it is x.
+///
+/// @param given direction of the axis, if it is given
+/// @param along vector along the rod
+/// @returns the unit vector
 template <class T>
 Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& along) {
   if (given) {
@@ -152,12 +202,19 @@ Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& alo
 }
 
 /// The name of the link in messages: its name, or "link 3 (US)".
+///
+/// @param suspension the suspension
+/// @param link index of the link
+/// @returns the text
 std::string link_label(const Suspension& suspension, int link);
 
 /// Checks the description by itself: numbers of points, numbers that are not finite, links and axes of no
-/// length, lengths of links that have none, couplers and springs on links that cannot hold them. Keys are
-/// "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Whether it moves as it should is asked of
+/// length, lengths of links that have none, couplers and springs on links that cannot hold them. Keys of the
+/// diagnostics are "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Its mobility is examined by
 /// `check_structure`.
+///
+/// @param suspension the suspension
+/// @returns errors; empty if there are none
 Diagnostics check(const Suspension& suspension);
 
 }  // namespace linkwright::suspension

@@ -10,9 +10,12 @@
 /// Two wheels of an axle, and the axle in its vehicle.
 namespace linkwright::suspension {
 
-/// Roll centre (y, z) in the vehicle's frame (m) when both wheels have different positions and travel: where
-/// the lines meet that pass through the contact points across their velocities, seen along x. Nothing if they
-/// are parallel.
+/// The roll centre of an axle when both wheels have different positions and travel: where the lines meet that
+/// pass through the contact points across their velocities, seen along x.
+///
+/// @param left parameters of the left wheel
+/// @param right parameters of the right wheel
+/// @returns (y, z) in the vehicle's frame (m); nothing if the lines are parallel
 std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, const WheelParameters& right);
 
 /// The effect of a small roll of the body towards this wheel (rad per rad): both contact points stay on the
@@ -22,13 +25,24 @@ struct RollGains {
   /// Change of the camber against the road; 1 = the wheel leans with the body, 0 = it stays upright.
   double camber = 0;
 };
+
+/// The effect of a small roll of the body on a wheel.
+///
+/// @param wheel parameters of the wheel
+/// @returns changes of toe and camber by roll (rad/rad)
 RollGains roll_gains(const WheelParameters& wheel);
 
-/// The position of an axle in the vehicle, and the layout of the vehicle.
-enum class AxlePlace { front, rear };
+/// The place of an axle in the vehicle.
+enum class AxlePlace {
+  front,  ///< the front axle
+  rear    ///< the rear axle
+};
+/// The places by their words in study files. @returns one entry a place
 constexpr std::array<EnumName<AxlePlace>, 2> names(AxlePlace) {
   return {{{AxlePlace::front, "front"}, {AxlePlace::rear, "rear"}}};
 }
+
+/// The numbers of the vehicle on which the support of braking and driving depends.
 struct VehicleLayout {
   double wheelbase = 0;            ///< m, > 0
   double centre_height = 0;        ///< m, mass centre above the ground, > 0
@@ -47,17 +61,34 @@ struct AntiFeatures {
   /// arm planes.
   double outboard_brake_by_arms = nan;
 };
+
+/// The support of braking and driving by the links of a wheel.
+///
+/// @param wheel parameters of the wheel
+/// @param place place of its axle
+/// @param layout layout of the vehicle
+/// @returns shares of the load transfer in percent
+/// @throws ContractError unless wheelbase and height are positive and shares lie in 0 to 1
 AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const VehicleLayout& layout);
 
 /// The error of the steer angles of both wheels against a common centre of turning on the line of the rear
 /// axle.
 struct Ackermann {
-  double ideal_inner = 0;  ///< rad, what the inner wheel should turn by when the outer one turns by `outer`
-  double percent = 0;      ///< 100 = ideal, 0 = parallel, negative = the outer wheel turns more
+  /// Angle (rad) by which the inner wheel should turn when the outer one turns by `outer`.
+  double ideal_inner = 0;
+  double percent = 0;  ///< 100 = ideal, 0 = parallel, negative = the outer wheel turns more
 };
-/// `inner` and `outer` are changes of the steer angles from straight ahead (rad, > 0), `track` the distance
-/// that the angles refer to (m): of the steering axes at the ground, or of the wheels. Of one wheel: its
+
+/// The error of the steer angles against a common centre of turning. The angles of one wheel alone are its
 /// changes of toe at opposite rack displacements.
+///
+/// @param inner change of the steer angle of the inner wheel from straight ahead (rad, > 0)
+/// @param outer change of the steer angle of the outer wheel (rad, > 0)
+/// @param wheelbase m, > 0
+/// @param track distance that the angles refer to (m, > 0): of the steering axes at the ground, or of the
+///   wheels
+/// @returns the ideal angle and the percentage
+/// @throws ContractError unless wheelbase, track and the outer angle are positive
 Ackermann ackermann(double inner, double outer, double wheelbase, double track);
 
 }  // namespace linkwright::suspension

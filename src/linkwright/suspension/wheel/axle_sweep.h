@@ -14,32 +14,68 @@
 /// Both wheels of an axle over travel, roll and rack.
 namespace linkwright::suspension {
 
+/// An axle made ready for solving.
 struct AxlePlan {
-  CornerPlan left, right;
+  CornerPlan left,  ///< the left wheel
+      right;        ///< the right wheel
 };
-/// A symmetric axle from either wheel, and one of two wheels. Throw ContractError as `prepare_suspension`
-/// does, and if the wheels are not a left and a right one.
+
+/// Makes a symmetric axle ready from either of its wheels.
+///
+/// @param suspension the suspension of one wheel; the other one is its mirror image
+/// @returns the plan
+/// @throws ContractError as `prepare_suspension` does
 AxlePlan prepare_axle(const Suspension& suspension);
+
+/// Makes an axle of two wheels ready.
+///
+/// @param left the suspension of the left wheel
+/// @param right the suspension of the right wheel
+/// @returns the plan
+/// @throws ContractError as `prepare_suspension` does, and if the wheels are not a left and a right one
 AxlePlan prepare_axle(const Suspension& left, const Suspension& right);
 
-/// Travel of each wheel by the driver (m), and the rack they share (m, to the left).
+/// The prescribed input of an axle.
 struct AxleInput {
-  Driver driver = Driver::contact_z;
-  double left = 0, right = 0;
-  double rack = 0;
+  Driver driver = Driver::contact_z;  ///< coordinate of the travel of both wheels
+  double left = 0,                    ///< travel of the left wheel by the driver, m
+      right = 0;                      ///< travel of the right wheel, m
+  double rack = 0;                    ///< rack displacement that both share, m, to the left
 };
 
+/// The position of an axle.
 struct AxlePosition {
   Status status = Status::done;  ///< status of the first wheel that is not done
   std::string reason;            ///< empty, or the wheel and its reason
-  CornerPosition left, right;
+  CornerPosition left,           ///< of the left wheel
+      right;                     ///< of the right wheel
 };
+
+/// The position of an axle at the reference input.
+///
+/// @param plan the plan of the axle
+/// @returns the position, with its status
 AxlePosition reference_position(const AxlePlan& plan);
+
+/// The position of an axle at an input.
+///
+/// @param plan the plan of the axle
+/// @param input wanted input
+/// @param start position from which it is followed; it must be done
+/// @returns the position, with its status
+/// @throws ContractError as `solve_position` does
 AxlePosition solve_axle(const AxlePlan& plan, const AxleInput& input, const AxlePosition& start);
 
-/// The body leans by `roll` (rad, > 0 towards the left wheel, which rises against the body: a turn about -x)
-/// over a plane road that both contact points touch, their mean height changed by `heave` (m): the
-/// contacts differ in height by their track times tan(roll), with the track as it is then.
+/// The position of an axle whose body leans over a plane road that both contact points touch. The contacts
+/// differ in height by their track times tan(roll), with the track as it is then.
+///
+/// @param plan the plan of the axle
+/// @param roll rad, > 0 towards the left wheel, which rises against the body: a turn about -x
+/// @param heave change of the mean height of the contacts (m)
+/// @param rack rack displacement (m, to the left)
+/// @param start position from which it is followed; it must be done
+/// @returns the position, with its status
+/// @throws ContractError as `solve_position` does, and unless the roll is within 1 rad
 AxlePosition solve_roll(const AxlePlan& plan, double roll, double heave, double rack,
                         const AxlePosition& start);
 
@@ -48,57 +84,93 @@ AxlePosition solve_roll(const AxlePlan& plan, double roll, double heave, double 
 struct AxleParameters {
   /// singular: a wheel is at a limit of travel, only angles, track and road are known, the rest is NaN.
   Status status = Status::done;
-  WheelParameters left, right;
+  WheelParameters left,     ///< of the left wheel
+      right;                ///< of the right wheel
   double track = 0;         ///< m, between the contact points along y
   double track_change = 0;  ///< m, against the reference
-  double road_angle = 0;    ///< rad, of the line through both contacts: > 0 with the left one higher in the
-                            ///< body, which leans to the left
-  double steer_left = 0, steer_right = 0;  ///< rad about +z, static toe included
-  double steer = 0;                        ///< rad, mean of both: as roll steer, > 0 steers to the left
-  double road_camber_left = 0, road_camber_right = 0;  ///< rad, against the road
-  /// Roll centre (y, z) in the frame of the body (m), nothing where both wheels' lines are parallel; how high
-  /// above the road, and how far to the left of the middle between the contacts along it.
+  /// Angle of the line through both contacts (rad): > 0 with the left one higher in the body, which leans to
+  /// the left.
+  double road_angle = 0;
+  double steer_left = 0,        ///< rad about +z, static toe included
+      steer_right = 0;          ///< rad about +z, static toe included
+  double steer = 0;             ///< rad, mean of both: as roll steer, > 0 steers to the left
+  double road_camber_left = 0,  ///< rad, against the road
+      road_camber_right = 0;    ///< rad, against the road
+  /// Roll centre (y, z) in the frame of the body (m); nothing where both wheels' lines are parallel.
   std::optional<std::array<double, 2>> roll_centre;
-  double roll_centre_height = WheelParameters::missing, roll_centre_offset = WheelParameters::missing;
-  /// By a further roll (rad/rad, as in `solve_roll` with the heave held): of the mean steer angle, of the toe
-  /// of each wheel, and of its camber against the road (1 on the left, -1 on the right: leans with the body).
+  /// Height of the roll centre above the road (m).
+  double roll_centre_height = WheelParameters::missing,
+         roll_centre_offset = WheelParameters::missing;  ///< m, to the left of the middle along the road
+  /// Mean steer angle by a further roll (rad/rad, as in `solve_roll` with the heave held).
   double roll_steer = WheelParameters::missing;
-  double roll_toe_left = WheelParameters::missing, roll_toe_right = WheelParameters::missing;
-  double roll_camber_left = WheelParameters::missing, roll_camber_right = WheelParameters::missing;
-  /// By the rack with the springs held, or the contact heights of a suspension without; nothing if not
-  /// steered.
-  std::optional<SteeringParameters> steering_left, steering_right;
+  double roll_toe_left = WheelParameters::missing,  ///< toe of the left wheel by roll, rad/rad
+      roll_toe_right = WheelParameters::missing;    ///< toe of the right wheel by roll, rad/rad
+  /// Camber of the left wheel against the road by roll (rad/rad); 1: it leans with the body.
+  double roll_camber_left = WheelParameters::missing,
+         roll_camber_right = WheelParameters::missing;  ///< of the right wheel; -1: it leans with the body
+  /// Steering of the left wheel by the rack with the springs held, or the contact heights of a suspension
+  /// without; nothing if not steered.
+  std::optional<SteeringParameters> steering_left,
+      steering_right;  ///< steering of the right wheel, likewise
 };
+
+/// The parameters of an axle.
+///
+/// @param plan the plan of the axle
+/// @param position position of the axle
+/// @returns the parameters, with their status
 AxleParameters axle_parameters(const AxlePlan& plan, const AxlePosition& position);
 
-/// Ackermann of both wheels at once, their changes of steer angle counted from `straight`, an axle at rack 0.
+/// Ackermann of both wheels at once.
 struct AxleAckermann {
-  double inner = 0, outer = 0;  ///< rad, > 0
-  double ideal_inner = 0;       ///< rad
-  double error = 0;             ///< rad, inner less ideal
-  double percent = 0;           ///< percentage, as in `ackermann`
+  double inner = 0,        ///< change of the steer angle of the inner wheel, rad, > 0
+      outer = 0;           ///< change of that of the outer wheel, rad, > 0
+  double ideal_inner = 0;  ///< rad
+  double error = 0;        ///< rad, inner less ideal
+  double percent = 0;      ///< percentage, as in `ackermann`
 };
-/// Nothing where the wheels do not steer to the same side. `track` (m) as in `ackermann`.
+
+/// Ackermann of an axle from two of its positions.
+///
+/// @param straight the axle straight ahead, at rack 0, from which the changes of steer angle count
+/// @param turned the axle at another rack displacement
+/// @param wheelbase m, > 0
+/// @param track distance that the angles refer to (m), as in `ackermann`
+/// @returns the angles and the percentage; nothing where the wheels do not steer to the same side
 std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, const AxleParameters& turned,
                                             double wheelbase, double track);
 
-/// The input of a sweep. Values: travel of both wheels (m, by the driver), roll (rad), rack (m).
-enum class AxleMotion { parallel, roll, rack };
+/// The input of a sweep.
+enum class AxleMotion {
+  parallel,  ///< both wheels rise equally; values are travels (m, by the driver)
+  roll,      ///< the body leans over a plane road; values are rolls (rad)
+  rack       ///< the rack moves, travel held; values are rack displacements (m)
+};
+/// The motions by their words in study files. @returns one entry a motion
 constexpr std::array<EnumName<AxleMotion>, 3> names(AxleMotion) {
   return {{{AxleMotion::parallel, "parallel", "both wheels rise equally"},
            {AxleMotion::roll, "roll", "the body leans over a plane road"},
            {AxleMotion::rack, "rack", "the rack moves, travel held"}}};
 }
 
+/// One row of a sweep.
 struct AxleRow {
-  double value = 0;
-  AxlePosition position;
+  double value = 0;           ///< value of the input (m or rad)
+  AxlePosition position;      ///< position of the axle
   AxleParameters parameters;  ///< parameters, if the position is done
 };
+
 /// Positions along a motion, each followed from the last one that was found, the first from the reference.
-/// What does not move is held as in `held`: with `parallel` its rack, with `roll` its rack and the mean of
-/// its travels as heave, with `rack` its travels (by its driver). Fewer rows than values when `context` asks
-/// to stop.
+/// The remaining inputs are held: with `parallel` the rack, with `roll` the rack and the mean of the travels
+/// as heave, with `rack` the travels by their driver.
+///
+/// @param plan the plan of the axle
+/// @param motion input that moves
+/// @param values its values (m or rad)
+/// @param held inputs that are held
+/// @param context cancellation and deadline; null: none
+/// @returns one row a value; fewer when the context asks to stop
+/// @throws ContractError if the reference position is not done
 std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::span<const double> values,
                                 const AxleInput& held = {}, const RunContext* context = nullptr);
 

@@ -13,8 +13,8 @@ namespace linkwright::suspension {
 /// A lever arm is the moment about the steering axis by a unit force, as virtual work over the rate of toe;
 /// its sign is that of the toe (for both wheels), and a force the other way turns the other way.
 struct SteeringParameters {
-  Driver lock = Driver::spring;
-  double toe_by_rack = 0;  ///< rad/m
+  Driver lock = Driver::spring;  ///< coordinate that is held
+  double toe_by_rack = 0;        ///< rad/m
   /// rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left.
   double steer_by_rack = 0;
   double camber_by_toe = 0;  ///< rad/rad
@@ -31,16 +31,29 @@ struct SteeringParameters {
   double contact_rise_by_rack = 0;  ///< m/m, the same by rack
 };
 
-/// Nothing for a suspension that no rack moves, at a limit of travel, and where the rack does not turn the
-/// wheel.
+/// The steering parameters of a wheel.
+///
+/// @param plan the plan of the suspension
+/// @param position the position
+/// @param lock coordinate that is held
+/// @returns the parameters; nothing for a suspension that no rack moves, at a limit of travel, and where the
+///   rack does not turn the wheel
+/// @throws ContractError if the spring is to be held and there is none
 std::optional<SteeringParameters> steering_parameters(const CornerPlan& plan, const CornerPosition& position,
                                                       Driver lock);
 
-/// True if any link of the suspension is on the rack.
+/// Test for steered wheels.
+///
+/// @param plan the plan of the suspension
+/// @returns true if any link of the suspension is on the rack
 bool is_steered(const CornerPlan& plan);
 
-/// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the
-/// pinion (m, the C factor) and the steer angle by rack (rad/m, either sign).
+/// The ratio of a steering: turn of the steering wheel (with its pinion) by steer angle.
+///
+/// @param steer_by_rack steer angle by rack (rad/m, either sign)
+/// @param rack_per_turn rack travel by a turn of the pinion (m, > 0), the C factor
+/// @returns the ratio, > 0
+/// @throws ContractError unless rack_per_turn is positive
 double steering_ratio(double steer_by_rack, double rack_per_turn);
 
 }  // namespace linkwright::suspension
