@@ -10,7 +10,9 @@
 /// Angeles 1990).
 namespace linkwright::parallel {
 
+/// A matrix with a row and a column for each leg.
 using Matrix6 = std::array<std::array<double, max_legs>, max_legs>;
+/// A number for each leg.
 using Vector6 = std::array<double, max_legs>;
 
 /// The Jacobians of a pose; the leading legs() x legs() block of each matrix counts. The twist t is (vx, vy,
@@ -24,17 +26,50 @@ struct Jacobians {
   Matrix6 platform{};                   ///< Jx, a row a leg: s, or its part in the plane, or s with (R b) x s
   Vector6 drive{};                      ///< diagonal of Jq: l s . u' (m2)
 };
-/// Allocates nothing.
+
+/// The Jacobians of a pose. Allocates nothing.
+///
+/// @param robot the robot
+/// @param pose pose of the platform
+/// @param angles arm angles that fit the pose (rad), one a leg
+/// @returns the Jacobians, and the vectors that they consist of
+/// @throws ContractError if there are fewer angles than legs
 Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double> angles);
 
-/// J = Jx^-1 Jq, twist by arm speeds; not finite in a singular pose of type 2.
+/// The Jacobian J = Jx^-1 Jq: twist by arm speeds.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @returns the matrix; not finite in a singular pose of type 2
 Matrix6 jacobian(const Robot& robot, const Jacobians& at);
-/// x of matrix x = right for the leading legs() x legs() block; not finite when it is singular.
+
+/// The solution x of matrix x = right for the leading legs() x legs() block.
+///
+/// @param robot the robot
+/// @param matrix the matrix
+/// @param right the right side
+/// @returns x; not finite if the block is singular
 Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right);
+
+/// The transpose of the leading legs() x legs() block.
+///
+/// @param robot the robot
+/// @param matrix the matrix
+/// @returns the transpose
 Matrix6 transposed(const Robot& robot, const Matrix6& matrix);
-/// det Jx: its sign gives the assembly, 0 the singularity of type 2.
+
+/// The determinant of Jx: its sign gives the assembly.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @returns det Jx; 0 in a singularity of type 2
 double determinant(const Robot& robot, const Jacobians& at);
-/// det of the leading legs() x legs() block.
+
+/// The determinant of the leading legs() x legs() block.
+///
+/// @param robot the robot
+/// @param matrix the matrix
+/// @returns the determinant
 double determinant(const Robot& robot, const Matrix6& matrix);
 
 /// Velocity or acceleration of the platform: of its point, and of its turning, in base axes.
@@ -45,16 +80,44 @@ struct Twist {
 
 /// The components of a twist or a wrench that count for this robot, in the order of the columns of Jx; the
 /// rest is 0.
+///
+/// @param robot the robot
+/// @param linear velocity, acceleration or force (base axes)
+/// @param angular angular velocity, angular acceleration or moment (base axes)
+/// @returns the components, legs() of them
 Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular);
-/// And back.
+
+/// The twist that has given components; the inverse of `components`.
+///
+/// @param robot the robot
+/// @param components in the order of the columns of Jx
+/// @returns the twist
 Twist twist(const Robot& robot, const Vector6& components);
 
-/// Arm speeds (rad/s) for a velocity of the platform; not finite where arm and rod are aligned (type 1).
+/// The arm speeds for a velocity of the platform.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @param velocity velocity of the platform
+/// @returns rad/s, one a leg; not finite where arm and rod are aligned (type 1)
 Vector6 arm_speeds(const Robot& robot, const Jacobians& at, const Twist& velocity);
-/// Arm accelerations (rad/s2) for velocity and acceleration.
+
+/// The arm accelerations for a velocity and an acceleration of the platform.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @param velocity velocity of the platform
+/// @param acceleration acceleration of the platform
+/// @returns rad/s2, one a leg; not finite where arm and rod are aligned (type 1)
 Vector6 arm_accelerations(const Robot& robot, const Jacobians& at, const Twist& velocity,
                           const Twist& acceleration);
-/// Velocity of the platform for arm speeds.
+
+/// The velocity of the platform for arm speeds.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @param arm_speeds rad/s, one a leg
+/// @returns the velocity; not finite in a singularity of type 2
 Twist platform_velocity(const Robot& robot, const Jacobians& at, std::span<const double> arm_speeds);
 
 /// Indices of a pose. Without dimension but for `singular_value` and `manipulability`.
@@ -78,16 +141,31 @@ struct Quality {
   double condition = 0;       ///< largest over least singular value, infinite in a singularity
   double manipulability = 0;  ///< product of the singular values
 };
-/// `characteristic_length` (m) makes the rows of turning of a HEXA comparable with the others; it matters for
-/// no other robot.
+
+/// The indices of a pose.
+///
+/// @param robot the robot
+/// @param at Jacobians of the pose
+/// @param characteristic_length length (m) that makes the rows of turning of a HEXA comparable with the
+///   others; it matters for no other robot
+/// @returns the indices
 Quality quality(const Robot& robot, const Jacobians& at, double characteristic_length);
 
-/// A length to compare turning with: mean distance of the platform joints from the platform point (m); 1 if
-/// they all are there.
+/// The length to compare turning with: mean distance of the platform joints from the platform point.
+///
+/// @param robot the robot
+/// @returns the length (m); 1 if all joints are at the platform point
 double platform_size(const Robot& robot);
 
 /// The kind of singularity of a pose.
-enum class Singularity { none, type1, type2, type3, constraint };
+enum class Singularity {
+  none,       ///< regular
+  type1,      ///< arm and rod of a leg are aligned
+  type2,      ///< the rods do not hold the platform
+  type3,      ///< types 1 and 2 together
+  constraint  ///< the parallelograms do not keep the platform from turning
+};
+/// The kinds of singularities by name. @returns one entry a kind
 constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
   return {
       {{Singularity::none, "none", "regular"},
@@ -98,8 +176,14 @@ constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
        {Singularity::type3, "type_3", "types 1 and 2 together"},
        {Singularity::constraint, "constraint", "the parallelograms do not keep the platform from turning"}}};
 }
+
 /// The kind of singularity whose measure of `quality` is at most `limit` in magnitude; for the parallelograms
 /// a constraint index of at most constraint_floor (constraint.h).
+///
+/// @param robot the robot
+/// @param quality indices of the pose
+/// @param limit magnitude up to which a measure counts as zero
+/// @returns the kind, or none
 Singularity singularity(const Robot& robot, const Quality& quality, double limit = 1e-6);
 
 }  // namespace linkwright::parallel

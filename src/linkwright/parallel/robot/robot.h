@@ -17,11 +17,18 @@ namespace linkwright::parallel {
 using math::Mat3;
 using math::Vec3;
 
-/// Says where: "0.1, 0.2, -0.75 m".
+/// The coordinates of a point in words: "0.1, 0.2, -0.75 m".
+///
+/// @param place the point (m)
+/// @returns the text
 Sentence coordinates_of(const Vec3& place);
 
 /// The freedom of the platform, which fixes the number of legs.
-enum class Freedom { space_translation, space, plane_translation };
+enum class Freedom {
+  space_translation,  ///< three displacements: a DELTA, 3 legs
+  space,              ///< all six freedoms: a HEXA, 6 legs
+  plane_translation   ///< two displacements in the x-y plane, 2 legs
+};
 
 /// Leg i: the arm is at A + l u(alpha) with u = cos(alpha) e + sin(alpha) w, the rod continues from its end
 /// to the platform joint g = p + R b. Its angle alpha is positive about e x w.
@@ -34,27 +41,29 @@ struct Leg {
   Vec3 platform{};      ///< b: joint at the platform, in axes of the platform (m)
 };
 
+/// Largest number of legs.
 inline constexpr int max_legs = 6;
 
 /// A robot of 3 (space_translation), 6 (space) or 2 (plane_translation) equal or different legs.
 struct Robot {
-  Freedom freedom = Freedom::space_translation;
-  std::array<Leg, max_legs> leg{};  ///< the first legs() count
+  Freedom freedom = Freedom::space_translation;  ///< freedom of the platform
+  std::array<Leg, max_legs> leg{};               ///< the first legs() count
 
+  /// The number of legs. @returns 2, 3 or 6
   int legs() const { return freedom == Freedom::space ? 6 : freedom == Freedom::space_translation ? 3 : 2; }
 };
 
 /// The pose of the platform: its point p (m) and its axes seen from the base. Only robots of Freedom::space
 /// turn; for the others the rotation must be the unit matrix.
 struct Pose {
-  Vec3 position;
-  Mat3 rotation{};
+  Vec3 position;    ///< platform point p, m
+  Mat3 rotation{};  ///< axes of the platform, as columns, in base axes
 };
 
 /// A displacement of a platform: by at most so much.
 struct Displaced {
   double shift = 0;  ///< displacement of its point (m)
-  double turn = 0;   ///< rad; of robots that turn
+  double turn = 0;   ///< rotation, rad; of robots that turn
 };
 
 /// Symmetric DELTA. Legs are at `azimuth` (rad, counter-clockwise from x, seen from above); arm angles are
@@ -64,8 +73,13 @@ struct DeltaDimensions {
   double platform_radius = 0;  ///< m, platform point to the rods' joints
   double arm = 0;              ///< m
   double rod = 0;              ///< m
-  std::array<double, 3> azimuth{0, 2.0943951023931953, 4.1887902047863905};
+  std::array<double, 3> azimuth{0, 2.0943951023931953, 4.1887902047863905};  ///< directions of the legs, rad
 };
+
+/// A symmetric DELTA.
+///
+/// @param dimensions its dimensions
+/// @returns the robot
 Robot delta(const DeltaDimensions& dimensions);
 
 /// Symmetric HEXA: pairs of legs at 0, 120 and 240 deg; legs of a pair in the order -, +.
@@ -77,18 +91,35 @@ struct HexaDimensions {
   double arm = 0;              ///< m
   double rod = 0;              ///< m
 };
+
+/// A symmetric HEXA.
+///
+/// @param dimensions its dimensions
+/// @returns the robot
 Robot hexa(const HexaDimensions& dimensions);
 
 /// A leg of a planar robot: arm angle counter-clockwise from x.
 struct PlanarLeg {
-  double base_x = 0, base_y = 0;          ///< m
-  double arm = 0, rod = 0;                ///< m
-  double platform_x = 0, platform_y = 0;  ///< m; both 0: the rods meet in the platform point (5R)
+  double base_x = 0,  ///< pivot of the arm, m
+      base_y = 0;     ///< pivot of the arm, m
+  double arm = 0,     ///< length of the arm, m
+      rod = 0;        ///< length of the rod, m
+  /// Joint seen from the platform point, x (m); both coordinates 0: the rods meet in the platform point (5R).
+  double platform_x = 0,
+         platform_y = 0;  ///< the same, y (m)
 };
-/// Five-bar (5R), or with platform joints the two-freedom platform of constant orientation.
+
+/// A five-bar (5R), or with platform joints the two-freedom platform of constant orientation.
+///
+/// @param first the first leg
+/// @param second the second leg
+/// @returns the robot
 Robot planar(const PlanarLeg& first, const PlanarLeg& second);
 
-/// Says what keeps it from being a robot, with the leg (from 1) and the value; nothing if it is one.
+/// The reason why a description is not a robot, with the leg (from 1) and the value.
+///
+/// @param robot the robot
+/// @returns the reason; nothing if it is a robot
 std::optional<std::string> problem(const Robot& robot);
 
 }  // namespace linkwright::parallel

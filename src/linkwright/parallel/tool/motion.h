@@ -18,12 +18,21 @@ namespace linkwright::parallel {
 
 /// The tool at one instant, seen from the base.
 struct ToolState {
-  Vec3 position{}, velocity{}, acceleration{}, jerk{};  ///< m, m/s, m/s2, m/s3
-  Mat3 rotation{};
-  Vec3 angular_velocity{}, angular_acceleration{};  ///< rad/s, rad/s2
+  Vec3 position{},             ///< m
+      velocity{},              ///< m/s
+      acceleration{},          ///< m/s2
+      jerk{};                  ///< m/s3
+  Mat3 rotation{};             ///< axes of the tool in base axes
+  Vec3 angular_velocity{},     ///< rad/s
+      angular_acceleration{};  ///< rad/s2
 };
 
-/// Says what keeps the path from being a motion from `start`; nothing if it is one.
+/// The reason why a path is not a motion.
+///
+/// @param path the path
+/// @param limits limits of the motion
+/// @param start pose at the start
+/// @returns the first problem; nothing if there is none
 std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limits, const Pose& start);
 
 /// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
@@ -33,39 +42,66 @@ std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limit
 /// decides.
 class ToolMotion {
  public:
-  /// Throws ContractError with the message of `problem` if there is one.
+  /// Times the steps of a path.
+  ///
+  /// @param path the path
+  /// @param limits limits of the motion
+  /// @param start pose at the start
+  /// @throws ContractError with the message of `problem` if there is one
   ToolMotion(const ToolPath& path, const ToolLimits& limits, const Pose& start);
 
-  /// s
+  /// The duration of the motion. @returns s
   double duration() const { return duration_; }
 
-  /// The state at time t (s): at rest at the ends before 0 and after the duration. At a step of the jerk the
-  /// value to the right counts. Allocates nothing.
+  /// The state of the tool at a time: at rest at the ends before 0 and after the duration. At a step of the
+  /// jerk the value to the right counts. Allocates nothing.
+  ///
+  /// @param t time (s)
+  /// @returns the state
   ToolState operator()(double t) const;
 
-  /// Index of the step that is being done; a rounded corner belongs to the step before it.
+  /// The step that is being done; a rounded corner belongs to the step before it.
+  ///
+  /// @param t time (s)
+  /// @returns index of the step
   int piece_at(double t) const;
-  /// "step 3 (arc) at 0.412 s"
+  /// The place in the path in words: "step 3 (arc) at 0.412 s".
+  ///
+  /// @param t time (s)
+  /// @returns the text
   Sentence where(double t) const;
 
-  /// Share of its step's path that has been covered, in [0, 1]; nothing for a rest and for a table.
+  /// The share of its step's path that has been covered.
+  ///
+  /// @param t time (s)
+  /// @returns the share, in [0, 1]; nothing for a rest and for a table
   std::optional<double> share_at(double t) const;
-  /// "step 3 (arc) at 0.412 s, 63.51 % of its path"
+  /// The place in the path in words, with the share: "step 3 (arc) at 0.412 s, 63.51 % of its path".
+  ///
+  /// @param t time (s)
+  /// @returns the text
   Sentence where_exactly(double t) const;
 
-  /// Times between which the path and its law are smooth, from 0 to the duration, increasing.
+  /// The times between which the path and its law are smooth. @returns s, from 0 to the duration, increasing
   std::vector<double> breaks() const;
-  /// The distance that the tool covers, and the angle that it turns, from time a to time b, between which
-  /// there is no break: along curves the very length, along a table a bound that tends to it. Allocates
-  /// nothing.
+  /// The distance that the tool covers, and the angle that it turns, between two times without a break
+  /// between them: along curves the very length, along a table a bound that tends to it. Allocates nothing.
+  ///
+  /// @param a first time (s)
+  /// @param b second time (s)
+  /// @returns distance and angle
   Displaced way(double a, double b) const;
 
-  /// States at 0, dt, 2 dt, ... and at the duration. Throws ContractError unless dt > 0 and the samples are
-  /// at most ten millions.
+  /// The state at one time.
   struct Sample {
     double time = 0;  ///< s
-    ToolState state;
+    ToolState state;  ///< state of the tool
   };
+  /// The states at 0, dt, 2 dt, ... and at the duration.
+  ///
+  /// @param dt interval (s)
+  /// @returns the states
+  /// @throws ContractError unless dt > 0 and the samples are at most ten millions
   std::vector<Sample> samples(double dt) const;
 
  private:

@@ -16,6 +16,7 @@
 /// follows from it is in tool_motion.h.
 namespace linkwright::parallel {
 
+/// x, y, z in base axes.
 using Coordinates = std::array<double, 3>;
 
 /// Straight to a point, or on the spot if only the rotation changes.
@@ -27,18 +28,19 @@ struct ToolLine {
 
 /// Along the circle through a point to a point.
 struct ToolArc {
-  Coordinates through{}, to{};  ///< m
-  std::optional<Coordinates> rotation;
-  std::optional<double> speed;
+  Coordinates through{},                ///< point of the arc, m
+      to{};                             ///< end, m
+  std::optional<Coordinates> rotation;  ///< at the end: rotation vector (rad), seen from the base
+  std::optional<double> speed;          ///< m/s, at most that of the limits
 };
 
 /// Along a circle about an axis.
 struct ToolCircle {
-  Coordinates centre{};       ///< m, any point of the axis
-  Coordinates axis{0, 0, 1};  ///< axis, of any length
-  double angle = 0;           ///< rad, right-handed about the axis, also more than a turn
-  std::optional<Coordinates> rotation;
-  std::optional<double> speed;
+  Coordinates centre{};                 ///< m, any point of the axis
+  Coordinates axis{0, 0, 1};            ///< axis, of any length
+  double angle = 0;                     ///< rad, right-handed about the axis, also more than a turn
+  std::optional<Coordinates> rotation;  ///< at the end: rotation vector (rad), seen from the base
+  std::optional<double> speed;          ///< m/s, at most that of the limits
 };
 
 /// The gate-shaped cycle: up, across and down to a point, the corners rounded. It begins and ends at rest.
@@ -46,13 +48,13 @@ struct PickAndPlace {
   Coordinates to{};         ///< m
   Coordinates up{0, 0, 1};  ///< upward direction, of any length
   double height = 0;        ///< m, of the path across above the higher of both ends
-  /// (0, 1], where the rounding begins: share of the lower leg, or of half the path across.
+  /// Place where the rounding begins, in (0, 1]: share of the lower leg, or of half the path across.
   double corner = 0.5;
   bool back = false;                    ///< and the same path back
   double dwell = 0;                     ///< s, rest at `to`
   double back_dwell = 0;                ///< s, rest after the path back
-  std::optional<Coordinates> rotation;  ///< at `to`
-  std::optional<double> speed;
+  std::optional<Coordinates> rotation;  ///< at `to`: rotation vector (rad), seen from the base
+  std::optional<double> speed;          ///< m/s, at most that of the limits
 };
 
 /// Rest.
@@ -69,21 +71,23 @@ struct ToolTable {
   std::vector<Coordinates> rotations;  ///< rotation vectors (rad); empty = the rotation stays
 };
 
+/// One step of the task.
 struct ToolStep {
+  /// The kind of step with its numbers.
   std::variant<ToolLine, ToolArc, ToolCircle, PickAndPlace, ToolDwell, ToolTable> form;
 };
 
 /// Steps that follow each other. The tool rests between two steps unless `blend` or `corner` join them; a
 /// step that turns the tool always begins and ends at rest.
 struct ToolPath {
-  std::vector<ToolStep> steps;
-  TimeLaw law = TimeLaw::double_s;
+  std::vector<ToolStep> steps;      ///< in their order
+  TimeLaw law = TimeLaw::double_s;  ///< law of time of each run between two rests
   /// Lines, arcs and circles that continue in the same direction (within 1e-6 rad) are run through. Where the
   /// curvature changes there the acceleration has a step, within its limit; the jerk is limited on either
   /// side.
   bool blend = false;
-  /// m: corners between two lines are rounded, beginning this far from them, and run through (acceleration
-  /// continuous); 0 = they are not, nor are reversals of more than 170 deg.
+  /// Distance from a corner between two lines at which its rounding begins (m); the tool runs through it
+  /// (acceleration continuous). 0 = corners are not rounded. Reversals of more than 170 deg never are.
   double corner = 0;
 };
 
@@ -106,24 +110,40 @@ struct ToolProblem {
   std::string hint;      ///< says how to fix it; may be empty
 };
 
-/// "step 3 (arc)" for the step of index 2.
+/// The name of a step in messages: "step 3 (arc)" for the step of index 2.
+///
+/// @param path the path
+/// @param step index of the step
+/// @returns the name
 std::string step_name(const ToolPath& path, int step);
 
-/// The first problem of the limits; nothing if there is none.
+/// The first problem of the limits.
+///
+/// @param limits the limits
+/// @returns the problem; nothing if there is none
 std::optional<ToolProblem> problem(const ToolLimits& limits);
 
 // ---------------------------------------------------------------------------------------------------------------
 
+/// The word for a line in study files. @returns word and meaning
 constexpr Word choice_word(const ToolLine&) { return {"line", "straight to a point, or a turn on the spot"}; }
+/// The word for an arc in study files. @returns word and meaning
 constexpr Word choice_word(const ToolArc&) { return {"arc", "along the circle through a point to a point"}; }
+/// The word for a circle in study files. @returns word and meaning
 constexpr Word choice_word(const ToolCircle&) { return {"circle", "along a circle about an axis"}; }
+/// The word for a gate-shaped cycle in study files. @returns word and meaning
 constexpr Word choice_word(const PickAndPlace&) {
   return {"pick_and_place", "up, across and down to a point, corners rounded"};
 }
+/// The word for a rest in study files. @returns word and meaning
 constexpr Word choice_word(const ToolDwell&) { return {"dwell", "rest"}; }
+/// The word for a table in study files. @returns word and meaning
 constexpr Word choice_word(const ToolTable&) { return {"table", "smooth curve through points in time"}; }
 
-/// Fields of every step that moves.
+/// Calls `visit(field, member)` for the fields of every step that moves.
+///
+/// @param visit the function to call
+/// @param step the step whose members are passed
 template <class Visitor, class Step>
 void step_fields(Visitor&& visit, Step& step) {
   visit(field::angle("rotation", "orientation at the end: rotation vector seen from the base"),
@@ -131,17 +151,31 @@ void step_fields(Visitor&& visit, Step& step) {
   visit(field::speed("speed", "largest speed of this step").positive(), step.speed);
 }
 
+/// Calls `visit(field, member)` for each field of a line in a study file.
+///
+/// @param visit the function to call
+/// @param s the line whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolLine& s) {
   visit(field::length("to", "end").required(), s.to);
   step_fields(visit, s);
 }
+
+/// Calls `visit(field, member)` for each field of an arc in a study file.
+///
+/// @param visit the function to call
+/// @param s the arc whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolArc& s) {
   visit(field::length("through", "point on the way").required(), s.through);
   visit(field::length("to", "end").required(), s.to);
   step_fields(visit, s);
 }
+
+/// Calls `visit(field, member)` for each field of a circle in a study file.
+///
+/// @param visit the function to call
+/// @param s the circle whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolCircle& s) {
   visit(field::length("centre", "point of the axis").required(), s.centre);
@@ -150,6 +184,11 @@ void fields(Visitor&& visit, ToolCircle& s) {
         s.angle);
   step_fields(visit, s);
 }
+
+/// Calls `visit(field, member)` for each field of a gate-shaped cycle in a study file.
+///
+/// @param visit the function to call
+/// @param s the cycle whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PickAndPlace& s) {
   visit(field::length("to", "where it places").required(), s.to);
@@ -165,10 +204,20 @@ void fields(Visitor&& visit, PickAndPlace& s) {
   visit(field::time("back_dwell", "rest after the way back").not_negative(), s.back_dwell);
   step_fields(visit, s);
 }
+
+/// Calls `visit(field, member)` for each field of a rest in a study file.
+///
+/// @param visit the function to call
+/// @param s the rest whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolDwell& s) {
   visit(field::time("duration", "how long it rests").not_negative().required(), s.duration);
 }
+
+/// Calls `visit(field, member)` for each field of a table in a study file.
+///
+/// @param visit the function to call
+/// @param s the table whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolTable& s) {
   visit(field::entry("file",
@@ -179,11 +228,20 @@ void fields(Visitor&& visit, ToolTable& s) {
   visit(field::length("points", "place at each time"), s.points);
   visit(field::angle("rotations", "rotation vector at each time"), s.rotations);
 }
+
+/// Calls `visit(field, member)` for the kind of a step in a study file.
+///
+/// @param visit the function to call
+/// @param s the step whose member is passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolStep& s) {
   visit(field::entry("type", "what the tool does").required(), s.form);
 }
 
+/// Calls `visit(field, member)` for each field of a path in a study file.
+///
+/// @param visit the function to call
+/// @param p the path whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolPath& p) {
   visit(field::entry("law", "how the steps are run in time"), p.law);
@@ -195,6 +253,10 @@ void fields(Visitor&& visit, ToolPath& p) {
   visit(field::entry("step", "what the tool does, in order").required(), p.steps);
 }
 
+/// Calls `visit(field, member)` for each limit in a study file.
+///
+/// @param visit the function to call
+/// @param l the limits whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolLimits& l) {
   visit(field::speed("speed", "largest speed").positive(), l.speed);

@@ -10,50 +10,83 @@
 /// fastest one between given speeds. Lengths may as well be angles.
 namespace linkwright::parallel {
 
-enum class TimeLaw { double_s, polynomial_345, cycloidal };
+/// The law of time of a motion from rest to rest.
+enum class TimeLaw {
+  double_s,        ///< fastest within the limits: seven phases of constant jerk
+  polynomial_345,  ///< 10 x^3 - 15 x^4 + 6 x^5: jerk in a step at the ends
+  cycloidal        ///< x - sin(2 pi x) / (2 pi): a sine as acceleration
+};
+/// The laws by their words in study files. @returns one entry a law
 constexpr std::array<EnumName<TimeLaw>, 3> names(TimeLaw) {
   return {{{TimeLaw::double_s, "double_s", "fastest within the limits: seven phases of constant jerk"},
            {TimeLaw::polynomial_345, "polynomial_345", "10 x^3 - 15 x^4 + 6 x^5: jerk in a step at the ends"},
            {TimeLaw::cycloidal, "cycloidal", "x - sin(2 pi x) / (2 pi): a sine as acceleration"}}};
 }
 
-/// Largest rate and derivatives of it along a path, all more than 0; m/s, m/s2, m/s3, or of an angle.
+/// Largest rate and derivatives of it along a path, all more than 0; of a length, or of an angle.
 struct RateLimits {
-  double speed = 0, acceleration = 0, jerk = 0;
+  double speed = 0,      ///< m/s or rad/s
+      acceleration = 0,  ///< m/s2 or rad/s2
+      jerk = 0;          ///< m/s3 or rad/s3
 };
 
 /// Length run through and its derivatives by seconds.
 struct Progress {
-  double length = 0, speed = 0, acceleration = 0, jerk = 0;
+  double length = 0,     ///< m or rad
+      speed = 0,         ///< m/s or rad/s
+      acceleration = 0,  ///< m/s2 or rad/s2
+      jerk = 0;          ///< m/s3 or rad/s3
 };
 
 /// A time of constant jerk that begins with `at`.
 struct JerkPhase {
-  double start = 0, duration = 0;  ///< s
-  Progress at;
+  double start = 0,  ///< s
+      duration = 0;  ///< s
+  Progress at;       ///< motion at its beginning
 };
-/// The motion `time` (s) after the phase began.
+
+/// The motion within a phase.
+///
+/// @param phase the phase
+/// @param time time since the phase began (s)
+/// @returns length and rates
 Progress after(const JerkPhase& phase, double time);
 
 /// Seven phases that follow each other: jerk +, 0, -, (cruise) 0, -, 0, +; any of them may last 0 s.
 struct DoubleS {
-  std::array<JerkPhase, 7> phase;
-  double duration = 0;  ///< s
+  std::array<JerkPhase, 7> phase;  ///< the phases in their order
+  double duration = 0;             ///< s
 };
 
-/// The fastest motion over `length` > 0 from `start_speed` to `end_speed`, both without acceleration, within
-/// the limits (Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, section
-/// 3.4). From rest to rest the peak speed is in closed form, else it is a zero found to the last digit.
+/// The fastest motion over a length between two speeds, both without acceleration, within the limits
+/// (Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, section 3.4). From
+/// rest to rest the peak speed is in closed form, else it is a zero found to the last digit.
 ///
-/// Throws ContractError unless the speeds are in [0, limits.speed] and the length suffices for their change.
+/// @param length m or rad, > 0
+/// @param start_speed speed at the start, in [0, limits.speed]
+/// @param end_speed speed at the end, in [0, limits.speed]
+/// @param limits largest speed, acceleration and jerk
+/// @returns the phases
+/// @throws ContractError unless length and limits are positive, the speeds are in [0, limits.speed] and the
+///   length suffices for their change
 DoubleS double_s(double length, double start_speed, double end_speed, const RateLimits& limits);
 
-/// The largest speed, at most that of the limits, that is reached over `length` from `speed`, both without
-/// acceleration. As motions can be run backwards it is also the largest from which `speed` is reached.
+/// The largest speed, at most that of the limits, that is reached over a length from another speed, both
+/// without acceleration. As motions can be run backwards it is also the largest from which that speed is
+/// reached.
+///
+/// @param speed speed at the start
+/// @param length m or rad
+/// @param limits largest speed, acceleration and jerk
+/// @returns the speed
 double reachable_speed(double speed, double length, const RateLimits& limits);
 
-/// Shape of a law other than double_s: share of the length and its derivatives by x at the share x in [0, 1]
-/// of the time.
+/// The shape of a law other than double_s.
+///
+/// @param law the law
+/// @param x share of the time, in [0, 1]
+/// @returns share of the length and its derivatives by x
+/// @throws ContractError if the law is double_s
 Progress shape(TimeLaw law, double x);
 
 }  // namespace linkwright::parallel
