@@ -18,6 +18,7 @@ enum class Theory {
   rayleigh,         ///< rotary inertia
   timoshenko,       ///< shear and rotary inertia
 };
+/// The theories by their words in study files. @returns one entry a theory
 constexpr std::array<EnumName<Theory>, 3> names(Theory) {
   return {{{Theory::euler_bernoulli, "euler_bernoulli", "neither shear nor rotary inertia"},
            {Theory::rayleigh, "rayleigh", "rotary inertia of the cross-sections"},
@@ -30,25 +31,27 @@ enum class Hub {
   free,    ///< a torque is given, or none
 };
 
+/// The causes by their words in study files. @returns one entry a cause
 constexpr std::array<EnumName<Hub>, 2> names(Hub) {
   return {{{Hub::driven, "driven", "its angle is prescribed, whatever the link does"},
            {Hub::free, "free", "it turns with the link: rest, a torque, or none"}}};
 }
 
+/// The hub, the link and the mass at its tip.
 struct Beam {
-  double length = 0;             ///< L (m)
-  double density = 0;            ///< rho (kg/m3)
-  double area = 0;               ///< A (m2)
-  double second_moment = 0;      ///< I of the cross-section (m4)
-  double elastic_modulus = 0;    ///< E (Pa)
-  double shear_modulus = 0;      ///< G (Pa); Timoshenko only
-  double shear_coefficient = 0;  ///< k; Timoshenko only
-  double tip_mass = 0;           ///< m_p (kg)
-  double tip_inertia = 0;        ///< J_p (kg m2)
-  double hub_radius = 0;         ///< r_H (m)
-  double hub_inertia = 0;        ///< J_H about O (kg m2)
-  Theory theory = Theory::rayleigh;
-  bool extensible = false;  ///< springs E A / l along the link; else it keeps its length
+  double length = 0;                 ///< L (m)
+  double density = 0;                ///< rho (kg/m3)
+  double area = 0;                   ///< A (m2)
+  double second_moment = 0;          ///< I of the cross-section (m4)
+  double elastic_modulus = 0;        ///< E (Pa)
+  double shear_modulus = 0;          ///< G (Pa); Timoshenko only
+  double shear_coefficient = 0;      ///< k; Timoshenko only
+  double tip_mass = 0;               ///< m_p (kg)
+  double tip_inertia = 0;            ///< J_p (kg m2)
+  double hub_radius = 0;             ///< r_H (m)
+  double hub_inertia = 0;            ///< J_H about O (kg m2)
+  Theory theory = Theory::rayleigh;  ///< deformation and inertia of the cross-sections
+  bool extensible = false;           ///< springs E A / l along the link; else it keeps its length
 
   /// Damping forces of the link: mass_damping M q' + stiffness_damping K q' of its own coordinates
   /// (Rayleigh); the second alone is Kelvin and Voigt's material.
@@ -59,19 +62,22 @@ struct Beam {
   double hub_damping = 0;    ///< damper between ground and hub (N m s)
   double gravity = 0;        ///< along -y of the ground (m/s2); x is the direction of xi at theta = 0
 
-  /// m = rho A L (kg)
+  /// The mass of the link, m = rho A L. @returns kg
   double mass() const { return density * area * length; }
-  /// E I (N m2)
+  /// The bending stiffness E I. @returns N m2
   double bending_stiffness() const { return elastic_modulus * second_moment; }
-  /// G A k (N); infinite without shear.
+  /// The shear stiffness G A k. @returns N; infinite without shear
   double shear_stiffness() const;
-  /// rho I (kg m): rotary inertia for each metre; 0 for Euler and Bernoulli.
+  /// The rotary inertia for each metre, rho I. @returns kg m; 0 for Euler and Bernoulli
   double rotary_inertia() const;
-  /// w_s = sqrt(E I / (rho A L^4)) (rad/s): the unit of the link's frequencies.
+  /// The unit of the link's frequencies, w_s = sqrt(E I / (rho A L^4)). @returns rad/s
   double frequency_scale() const;
 };
 
-/// Says what keeps it from being a beam, with the value and what is allowed; nothing if it is one.
+/// The reason why a description is not a beam, with the value and what is allowed.
+///
+/// @param beam the beam
+/// @returns the reason; nothing if it is a beam
 std::optional<std::string> problem(const Beam& beam);
 
 }  // namespace linkwright::flexible

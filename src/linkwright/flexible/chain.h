@@ -21,13 +21,13 @@ enum class Kinematics {
   /// them is: fourth order in the length of a cell, no spurious instability with two divisions or more.
   chord_consistent,
   /// Slides keep the hub's eta (Boskovic 2018, (3.6)-(3.9)), differentiated exactly. Second order, and above
-  /// a
-  /// spurious speed the straight link is unstable (critical_speed).
+  /// a spurious speed the straight link is unstable (critical_speed).
   hub_axis,
   /// Velocities linearised as printed ((3.11)-(3.15)), which know no stiffening by the speed. For comparison
   /// with the source only.
   source_linearised,
 };
+/// The kinds of motion by their words in study files. @returns one entry a kind
 constexpr std::array<EnumName<Kinematics>, 3> names(Kinematics) {
   return {{{Kinematics::chord_consistent, "chord_consistent", "slides across the mean direction of two bars"},
            {Kinematics::hub_axis, "hub_axis", "slides along eta of the hub"},
@@ -51,39 +51,57 @@ struct Cell {
 
 /// A hub with a chain. Node 0 sits at O1, at (hub_radius, 0).
 struct Chain {
-  Kinematics kinematics = Kinematics::chord_consistent;
-  double hub_radius = 0;    ///< m
-  double hub_inertia = 0;   ///< about O, without node 0 (kg m2)
-  double root_mass = 0;     ///< m_0 (kg)
-  double root_inertia = 0;  ///< J_0 (kg m2)
-  std::vector<Cell> cells;
-  bool extensible = false;
-  double mass_damping = 0, stiffness_damping = 0;  ///< see Beam
-  double hub_stiffness = 0, hub_damping = 0, gravity = 0;
+  Kinematics kinematics = Kinematics::chord_consistent;  ///< motion of the joints
+  double hub_radius = 0;                                 ///< m
+  double hub_inertia = 0;                                ///< about O, without node 0 (kg m2)
+  double root_mass = 0;                                  ///< m_0 (kg)
+  double root_inertia = 0;                               ///< J_0 (kg m2)
+  std::vector<Cell> cells;                               ///< from the hub outwards
+  bool extensible = false;                               ///< the cells have springs along the link
+  double mass_damping = 0,                               ///< 1/s, see Beam
+      stiffness_damping = 0;                             ///< s, see Beam
+  double hub_stiffness = 0,                              ///< N m, see Beam
+      hub_damping = 0,                                   ///< N m s, see Beam
+      gravity = 0;                                       ///< m/s2, see Beam
 
+  /// The length of the chain. @returns sum of the lengths of its cells (m)
   double length() const;
 };
 
-/// Coordinates of the chain: three for each cell, from the hub outwards: slide w (m), turn delta of the outer
-/// bar against the inner one (rad), extension u (m, 0 unless the chain is extensible). At 3 s + slide etc.
-/// for the cell with index s = 0, 1, ...
+/// Number of coordinates of a cell: slide w (m), turn delta of the outer bar against the inner one (rad),
+/// extension u (m, 0 unless the chain is extensible). The list of all coordinates runs from the hub outwards:
+/// the slide of the cell with index s = 0, 1, ... is at 3 s + slide, and so on.
 inline constexpr std::size_t coordinates_per_cell = 3;
-inline constexpr std::size_t slide = 0, turn = 1, extension = 2;
+/// Place of the slide among the coordinates of a cell.
+inline constexpr std::size_t slide = 0,
+                             turn = 1,  ///< place of the turn
+    extension = 2;                      ///< place of the extension
 
 /// Motion of hub and chain at an instant.
 struct ChainState {
-  double angle = 0, rate = 0, acceleration = 0;  ///< theta and its derivatives (rad, rad/s, rad/s2)
-  std::vector<double> q, v, a;                   ///< coordinates, their rates and accelerations
+  double angle = 0,       ///< angle theta of the hub, rad
+      rate = 0,           ///< rad/s
+      acceleration = 0;   ///< rad/s2
+  std::vector<double> q,  ///< coordinates, m and rad
+      v,                  ///< their rates
+      a;                  ///< their accelerations
 };
 
-/// At rest, undeformed.
+/// The state at rest, undeformed.
+///
+/// @param chain the chain
+/// @returns the state; all zero
 ChainState state_at_rest(const Chain& chain);
 
-/// The chain of `divisions` n >= 1, odd or even: 2n cells of length L / (2n), the masses of Simpson's rule.
-/// Under loads at its nodes the straight chain bends exactly as the beam does, for every n.
+/// The chain of a beam with n divisions, odd or even: 2n cells of length L / (2n), the masses of Simpson's
+/// rule. Under loads at its nodes the straight chain bends exactly as the beam does, for every n.
 ///
-/// Throws ContractError with the text of `problem`, for n < 1, and where source_linearised is to have
-/// gravity, damping or springs along the link, which the printed equations do not know.
+/// @param beam the beam
+/// @param divisions n, >= 1
+/// @param kinematics motion of the joints
+/// @returns the chain
+/// @throws ContractError with the text of `problem`, for n < 1, and where source_linearised is to have
+///   gravity, damping or springs along the link, which the printed equations do not know
 Chain discretise(const Beam& beam, int divisions, Kinematics kinematics = Kinematics::chord_consistent);
 
 /// The positions of the nodes, in axes of the hub, from O.
@@ -91,12 +109,25 @@ struct ChainShape {
   std::vector<Vec2> node;     ///< nodes 0, 1, ..., N (m)
   std::vector<double> angle;  ///< angles of the bars, against the hub (rad)
 };
+
+/// The shape of a chain.
+///
+/// @param chain the chain
+/// @param q coordinates, three a cell
+/// @returns nodes and angles of the bars
+/// @throws ContractError unless there are three coordinates a cell
 ChainShape shape(const Chain& chain, std::span<const double> q);
 
-/// Largest |delta| between two bars of a link (rad): beyond 0.5 the cells are too long for this curvature.
+/// The largest angle between two bars of a link: beyond 0.5 the cells are too long for this curvature. Hinges
+/// do not count.
+///
+/// @param chain the chain
+/// @param q coordinates, three a cell
+/// @returns largest |delta| (rad)
 double largest_kink(const Chain& chain, std::span<const double> q);
+/// The angle between two bars beyond which the cells are too long for the curvature (rad).
 inline constexpr double kink_limit = 0.5;
-/// Beyond it the chain folds and shows nothing of the link any more.
+/// The angle between two bars beyond which the chain folds and shows nothing of the link any more (rad).
 inline constexpr double fold_limit = 1;
 
 }  // namespace linkwright::flexible

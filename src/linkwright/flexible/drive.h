@@ -8,13 +8,16 @@
 /// Drives of the hub.
 namespace linkwright::flexible {
 
-/// Angle of the hub and its derivatives (rad, rad/s, rad/s2).
+/// Angle of the hub and its derivatives.
 struct HubMotion {
-  double angle = 0, rate = 0, acceleration = 0;
+  double angle = 0,      ///< rad
+      rate = 0,          ///< rad/s
+      acceleration = 0;  ///< rad/s2
 };
 
-/// Angle or torque (N m) as a function of time (s).
+/// Angle of the hub as a function of time (s).
 using AngleLaw = math::FunctionRef<HubMotion(double)>;
+/// Torque (N m) as a function of time (s).
 using TorqueLaw = math::FunctionRef<double(double)>;
 
 /// Spin-up (Boskovic 2018, (3.50)): from rest to a steady rate within a time, without a jump of the
@@ -22,6 +25,11 @@ using TorqueLaw = math::FunctionRef<double(double)>;
 struct SpinUp {
   double rate = 0;      ///< omega_0 (rad/s), of either sign
   double duration = 0;  ///< T > 0 (s)
+  /// The motion at a time.
+  ///
+  /// @param time s
+  /// @returns angle, rate and acceleration of the hub
+  /// @throws ContractError unless the duration is positive
   HubMotion operator()(double time) const;
 };
 
@@ -29,6 +37,11 @@ struct SpinUp {
 struct SinePulse {
   double torque = 0;    ///< tau_0 (N m)
   double duration = 0;  ///< T > 0 (s): a break
+  /// The torque at a time.
+  ///
+  /// @param time s
+  /// @returns N m
+  /// @throws ContractError unless the duration is positive
   double operator()(double time) const;
 };
 
@@ -36,6 +49,11 @@ struct SinePulse {
 struct TorqueTable {
   std::vector<double> times;    ///< s, increasing: breaks
   std::vector<double> torques;  ///< N m
+  /// The torque at a time.
+  ///
+  /// @param time s
+  /// @returns N m
+  /// @throws ContractError unless there are times, and as many torques
   double operator()(double time) const;
 };
 
