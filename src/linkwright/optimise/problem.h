@@ -16,26 +16,31 @@ namespace linkwright::optimise {
 /// One unknown of a problem with its bounds (SI units).
 struct Variable {
   std::string name;  ///< key with unit, as in the study file: "crank_m"
-  double lower = 0;
-  double upper = 1;
+  double lower = 0;  ///< lower bound
+  double upper = 1;  ///< upper bound
 };
 
 /// One reason why a candidate is not feasible; amounts are dimensionless and comparable, 0 = met.
 struct Violation {
   std::string reason;  ///< name of the constraint: "crank_rotates_fully"
-  double amount = 0;
+  double amount = 0;   ///< dimensionless, >= 0
 };
-/// "violates crank_rotates_fully by 0.02"
+
+/// A violation in words: "violates crank_rotates_fully by 0.02".
+///
+/// @param violation the violation
+/// @returns the sentence
 inline Sentence violation_text(const Violation& violation) {
   return say("violates {} by {}", violation.reason, plain_number(violation.amount, 3));
 }
 
+/// The combination that makes one objective of several, see combine.h.
 struct Combination;
 
 /// The function to be minimised. An optimiser asks for the costs of a whole population, never of one
 /// candidate, and knows nothing else of the problem.
 struct Problem {
-  std::vector<Variable> variables;
+  std::vector<Variable> variables;  ///< the unknowns with their bounds
 
   /// Number of objectives that are minimised together. Several are to be given relative to a reference, so
   /// that 1 is as good as the reference: methods and reports compare and average them.
@@ -58,6 +63,12 @@ struct Problem {
 
 /// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
 /// by violation.
+///
+/// @param cost_a cost of the one
+/// @param violation_a sum of its violations, 0 = feasible
+/// @param cost_b cost of the other
+/// @param violation_b sum of its violations
+/// @returns true if the one is better
 inline bool better(double cost_a, double violation_a, double cost_b, double violation_b) {
   if (violation_a > 0 || violation_b > 0) {
     if (violation_a != violation_b) return violation_a < violation_b;
@@ -68,6 +79,12 @@ inline bool better(double cost_a, double violation_a, double cost_b, double viol
 /// "Better" by all objectives of a and b, as many: both feasible and every cost of a less, or else less
 /// violation (Boskovic 2018, Algorithm 2.5, with the conjunction that its text asks for). With one objective
 /// the same as above. With several it is no ranking: of two feasible ones often neither is better.
+///
+/// @param costs_a costs of the one
+/// @param violation_a sum of its violations, 0 = feasible
+/// @param costs_b costs of the other, as many
+/// @param violation_b sum of its violations
+/// @returns true if the one is better
 inline bool better(std::span<const double> costs_a, double violation_a, std::span<const double> costs_b,
                    double violation_b) {
   if (costs_a.size() == 1) return better(costs_a[0], violation_a, costs_b[0], violation_b);
