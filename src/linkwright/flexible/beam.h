@@ -7,6 +7,7 @@
 
 #include "linkwright/core/field.h"
 
+/// @file
 /// A rigid hub that turns about the fixed axis Oz by theta, a uniform flexible link welded to it at O1, at
 /// the distance r_H from O, and a mass at its tip (Boskovic 2018, chapter 3). Axes of the hub: xi along the
 /// undeformed link, eta a quarter turn counter-clockwise of it; they turn with the hub. SI units, rad.

@@ -12,6 +12,7 @@
 #include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/vec2.h"
 
+/// @file
 /// The flexible link as rigid bars that slide and turn in elastic joints (Boskovic 2018, (3.1)-(3.4)).
 namespace linkwright::flexible {
 

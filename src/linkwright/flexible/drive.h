@@ -5,6 +5,7 @@
 
 #include "linkwright/math/function_ref.h"
 
+/// @file
 /// Drives of the hub.
 namespace linkwright::flexible {
 

@@ -6,6 +6,7 @@
 #include "linkwright/core/table.h"
 #include "linkwright/flexible/beam.h"
 
+/// @file
 /// The quantities of hub and link at an instant, and the results of samples of them.
 namespace linkwright::flexible {
 

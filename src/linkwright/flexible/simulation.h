@@ -12,6 +12,7 @@
 #include "linkwright/flexible/drive.h"
 #include "linkwright/flexible/response.h"
 
+/// @file
 /// Motion of hub and link in time.
 namespace linkwright::flexible {
 

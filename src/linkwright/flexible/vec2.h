@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+/// @file
 /// Vectors of the plane, written as numbers and not as std::complex, whose product looks for infinities.
 namespace linkwright::flexible {
 

@@ -6,6 +6,7 @@
 
 #include "linkwright/parallel/robot/position.h"
 
+/// @file
 /// First and second order motion, and how far a pose is from singular: Jx t = Jq dalpha/dt (Gosselin and
 /// Angeles 1990).
 namespace linkwright::parallel {

@@ -10,6 +10,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/parallel/robot/robot.h"
 
+/// @file
 /// Arm angles from the platform's pose and back.
 namespace linkwright::parallel {
 

@@ -9,6 +9,7 @@
 #include "linkwright/core/sentence.h"
 #include "linkwright/math/vector3.h"
 
+/// @file
 /// Parallel robots of legs that are an arm, turned by a drive at the base, and a rod of constant length to
 /// the platform: DELTA, HEXA, planar five-bars (5R) and the planar platform of constant orientation. Base
 /// axes: z up; planar robots lie in the x-y plane. m, rad.

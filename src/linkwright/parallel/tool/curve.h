@@ -4,6 +4,7 @@
 #include "linkwright/math/vector3.h"
 #include "linkwright/parallel/tool/time_law.h"
 
+/// @file
 /// Smooth plane curves that paths of tools are made of, by their length.
 namespace linkwright::parallel {
 

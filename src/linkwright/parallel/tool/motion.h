@@ -13,6 +13,7 @@
 #include "linkwright/parallel/tool/path.h"
 #include "linkwright/parallel/tool/time_law.h"
 
+/// @file
 /// The position and motion of the tool at any time.
 namespace linkwright::parallel {
 

@@ -12,6 +12,7 @@
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/tool/time_law.h"
 
+/// @file
 /// The task of a robot's tool, step by step. Plain data in SI units, axes of the base; the motion that
 /// follows from it is in tool_motion.h.
 namespace linkwright::parallel {

@@ -6,6 +6,7 @@
 
 #include "linkwright/core/field.h"
 
+/// @file
 /// Motion of a point along a path of given length: laws of time from rest to rest within limits, and the
 /// fastest one between given speeds. Lengths may as well be angles.
 namespace linkwright::parallel {

@@ -58,6 +58,7 @@ Counterweights balancing_counterweights(const FourBar& linkage, const FourBarMas
 /// @param masses masses of the links
 /// @param weights counterweights of crank and rocker
 /// @returns the inertia of the links with the counterweights fixed to them
+/// @throws ContractError as `with_attached` does
 FourBarMasses with_counterweights(const FourBarMasses& masses, const Counterweights& weights);
 
 }  // namespace linkwright::planar

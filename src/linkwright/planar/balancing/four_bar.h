@@ -188,8 +188,8 @@ std::vector<double> balancing_measures(const FourBarBalancing& balancing, const 
 ///
 /// @param balancing the problem, whose references are set
 /// @param machine the machine that serves as the reference
-/// @throws ContractError naming a component that is 0 or that the machine does not have because it does not
-///   reach every sample
+/// @throws ContractError as require_valid does, and naming a component that is 0 or that the machine does not
+///   have because it does not reach every sample
 void set_references(FourBarBalancing& balancing, const FourBarMachine& machine);
 
 /// The problem in the sixteen numbers, which is smooth up to the kinks of mean_abs and max_abs (see

@@ -92,7 +92,7 @@ struct DeadCentre {
 /// @param path the branch
 /// @param joint index of the joint whose dead centres are looked for
 /// @returns the dead centres by rising input
-/// @throws ContractError if the numbers of inputs do not fit
+/// @throws ContractError if the numbers of inputs do not fit, or there is no such joint
 std::vector<DeadCentre> dead_centres(const Linkage& linkage, const LinkagePlan& plan,
                                      std::span<const double> inputs, int input, const BranchPath& path,
                                      int joint);

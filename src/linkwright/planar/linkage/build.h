@@ -165,6 +165,7 @@ void set_uniform(Linkage& linkage, std::string_view body, double mass);
 ///
 /// @param linkage the linkage
 /// @param mass_per_metre mass by length (kg/m)
+/// @throws ContractError if a body has no points
 void set_uniform_all(Linkage& linkage, double mass_per_metre);
 
 }  // namespace linkwright::planar

@@ -229,6 +229,7 @@ void keep_first(const Problem&, std::vector<Design>& designs, std::size_t most) 
 /// @param problem the problem
 /// @param design the design
 /// @returns points and distances, one a target
+/// @throws ContractError unless the design has an angle for each target
 template <class Problem>
 requires PathMechanism<MechanismOf<Problem>> PathErrors
 path_errors(const Problem& problem, const typename MechanismOf<Problem>::Design& design) {

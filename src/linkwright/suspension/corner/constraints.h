@@ -9,6 +9,7 @@
 #include "linkwright/suspension/corner/constructions.h"
 #include "linkwright/suspension/corner/suspension.h"
 
+/// @file
 /// The equations of a wheel suspension: residuals of its joints and of a driver, with exact derivatives.
 namespace linkwright::suspension {
 

@@ -6,6 +6,7 @@
 
 #include "linkwright/suspension/corner/suspension.h"
 
+/// @file
 /// The basis of the drawing-board constructions of a wheel suspension: the ball joints of the carrier,
 /// through which the geometric steering axis passes, and the planes of its arms, in which the instant axis of
 /// the wheel's travel is looked for. Both are known from the types of the links, and from rods that share an

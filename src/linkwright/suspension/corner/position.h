@@ -75,6 +75,7 @@ struct TravelLimits {
 /// @param start position from which both ends are followed; it must be done
 /// @param range largest change of the coordinate from the reference that is looked at (m)
 /// @returns both ends
+/// @throws ContractError as solve_position does
 TravelLimits travel_limits(const CornerPlan& plan, Driver driver, double rack, const CornerPosition& start,
                            double range = 1);
 

@@ -10,6 +10,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/math/vector3.h"
 
+/// @file
 /// Wheel suspensions: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body
 /// is fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points
 /// are given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that

@@ -3,6 +3,7 @@
 
 #include "linkwright/suspension/corner/suspension.h"
 
+/// @file
 /// The wheel on its carrier: angles, their rates, and the contact point. Right wheels are treated as the
 /// mirror image of left ones, so that angles of both have the same signs.
 namespace linkwright::suspension {

@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
+/// @file
 /// Two wheels of an axle, and the axle in its vehicle.
 namespace linkwright::suspension {
 

@@ -11,6 +11,7 @@
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/steering.h"
 
+/// @file
 /// Both wheels of an axle over travel, roll and rack.
 namespace linkwright::suspension {
 
@@ -137,6 +138,7 @@ struct AxleAckermann {
 /// @param wheelbase m, > 0
 /// @param track distance that the angles refer to (m), as in `ackermann`
 /// @returns the angles and the percentage; nothing where the wheels do not steer to the same side
+/// @throws ContractError as `ackermann` does
 std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, const AxleParameters& turned,
                                             double wheelbase, double track);
 
@@ -170,7 +172,7 @@ struct AxleRow {
 /// @param held inputs that are held
 /// @param context cancellation and deadline; null: none
 /// @returns one row a value; fewer when the context asks to stop
-/// @throws ContractError if the reference position is not done
+/// @throws ContractError if the reference position is not done, and as `solve_axle` and `solve_roll` do
 std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::span<const double> values,
                                 const AxleInput& held = {}, const RunContext* context = nullptr);
 
