@@ -19,7 +19,6 @@ enum class Theory {
   rayleigh,         ///< rotary inertia
   timoshenko,       ///< shear and rotary inertia
 };
-/// The theories by their words in study files. @returns one entry a theory
 constexpr std::array<EnumName<Theory>, 3> names(Theory) {
   return {{{Theory::euler_bernoulli, "euler_bernoulli", "neither shear nor rotary inertia"},
            {Theory::rayleigh, "rayleigh", "rotary inertia of the cross-sections"},
@@ -32,7 +31,6 @@ enum class Hub {
   free,    ///< a torque is given, or none
 };
 
-/// The causes by their words in study files. @returns one entry a cause
 constexpr std::array<EnumName<Hub>, 2> names(Hub) {
   return {{{Hub::driven, "driven", "its angle is prescribed, whatever the link does"},
            {Hub::free, "free", "it turns with the link: rest, a torque, or none"}}};

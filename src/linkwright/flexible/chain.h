@@ -28,7 +28,6 @@ enum class Kinematics {
   /// with the source only.
   source_linearised,
 };
-/// The kinds of motion by their words in study files. @returns one entry a kind
 constexpr std::array<EnumName<Kinematics>, 3> names(Kinematics) {
   return {{{Kinematics::chord_consistent, "chord_consistent", "slides across the mean direction of two bars"},
            {Kinematics::hub_axis, "hub_axis", "slides along eta of the hub"},

@@ -16,11 +16,6 @@ struct LinkMass {
   double centre_distance = 0;  ///< m, >= 0
   double centre_angle = 0;     ///< rad
 };
-
-/// Calls `visit(field, member)` for each number of a link's inertia in a study file.
-///
-/// @param visit the function to call
-/// @param m the inertia whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, LinkMass& m) {
   visit(field::mass("mass", "mass of the link").not_negative().required(), m.mass);
@@ -39,11 +34,6 @@ struct PointMass {
   double distance = 0;  ///< m from the link's own joint; negative = behind it
   double angle = 0;     ///< rad, counter-clockwise from the link line
 };
-
-/// Calls `visit(field, member)` for each number of a point mass in a study file.
-///
-/// @param visit the function to call
-/// @param m the mass whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PointMass& m) {
   visit(field::mass("mass", "mass without extension").not_negative().required(), m.mass);

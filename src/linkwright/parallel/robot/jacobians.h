@@ -166,7 +166,6 @@ enum class Singularity {
   type3,      ///< types 1 and 2 together
   constraint  ///< the parallelograms do not keep the platform from turning
 };
-/// The kinds of singularities by name. @returns one entry a kind
 constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
   return {
       {{Singularity::none, "none", "regular"},

@@ -152,31 +152,17 @@ void step_fields(Visitor&& visit, Step& step) {
   visit(field::speed("speed", "largest speed of this step").positive(), step.speed);
 }
 
-/// Calls `visit(field, member)` for each field of a line in a study file.
-///
-/// @param visit the function to call
-/// @param s the line whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolLine& s) {
   visit(field::length("to", "end").required(), s.to);
   step_fields(visit, s);
 }
-
-/// Calls `visit(field, member)` for each field of an arc in a study file.
-///
-/// @param visit the function to call
-/// @param s the arc whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolArc& s) {
   visit(field::length("through", "point on the way").required(), s.through);
   visit(field::length("to", "end").required(), s.to);
   step_fields(visit, s);
 }
-
-/// Calls `visit(field, member)` for each field of a circle in a study file.
-///
-/// @param visit the function to call
-/// @param s the circle whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolCircle& s) {
   visit(field::length("centre", "point of the axis").required(), s.centre);
@@ -185,11 +171,6 @@ void fields(Visitor&& visit, ToolCircle& s) {
         s.angle);
   step_fields(visit, s);
 }
-
-/// Calls `visit(field, member)` for each field of a gate-shaped cycle in a study file.
-///
-/// @param visit the function to call
-/// @param s the cycle whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PickAndPlace& s) {
   visit(field::length("to", "where it places").required(), s.to);
@@ -205,20 +186,10 @@ void fields(Visitor&& visit, PickAndPlace& s) {
   visit(field::time("back_dwell", "rest after the way back").not_negative(), s.back_dwell);
   step_fields(visit, s);
 }
-
-/// Calls `visit(field, member)` for each field of a rest in a study file.
-///
-/// @param visit the function to call
-/// @param s the rest whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolDwell& s) {
   visit(field::time("duration", "how long it rests").not_negative().required(), s.duration);
 }
-
-/// Calls `visit(field, member)` for each field of a table in a study file.
-///
-/// @param visit the function to call
-/// @param s the table whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolTable& s) {
   visit(field::entry("file",
@@ -229,20 +200,11 @@ void fields(Visitor&& visit, ToolTable& s) {
   visit(field::length("points", "place at each time"), s.points);
   visit(field::angle("rotations", "rotation vector at each time"), s.rotations);
 }
-
-/// Calls `visit(field, member)` for the kind of a step in a study file.
-///
-/// @param visit the function to call
-/// @param s the step whose member is passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolStep& s) {
   visit(field::entry("type", "what the tool does").required(), s.form);
 }
 
-/// Calls `visit(field, member)` for each field of a path in a study file.
-///
-/// @param visit the function to call
-/// @param p the path whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolPath& p) {
   visit(field::entry("law", "how the steps are run in time"), p.law);
@@ -254,10 +216,6 @@ void fields(Visitor&& visit, ToolPath& p) {
   visit(field::entry("step", "what the tool does, in order").required(), p.steps);
 }
 
-/// Calls `visit(field, member)` for each limit in a study file.
-///
-/// @param visit the function to call
-/// @param l the limits whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, ToolLimits& l) {
   visit(field::speed("speed", "largest speed").positive(), l.speed);

@@ -17,7 +17,6 @@ enum class TimeLaw {
   polynomial_345,  ///< 10 x^3 - 15 x^4 + 6 x^5: jerk in a step at the ends
   cycloidal        ///< x - sin(2 pi x) / (2 pi): a sine as acceleration
 };
-/// The laws by their words in study files. @returns one entry a law
 constexpr std::array<EnumName<TimeLaw>, 3> names(TimeLaw) {
   return {{{TimeLaw::double_s, "double_s", "fastest within the limits: seven phases of constant jerk"},
            {TimeLaw::polynomial_345, "polynomial_345", "10 x^3 - 15 x^4 + 6 x^5: jerk in a step at the ends"},

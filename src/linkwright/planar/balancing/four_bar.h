@@ -89,7 +89,6 @@ enum class FourBarComponent {
   shaking_moment,            ///< moment on the ground about O1 by the joint forces alone, N m
   shaking_moment_with_drive  ///< the same with the motor's reaction, N m
 };
-/// The components by their words in study files. @returns one entry a component
 constexpr std::array<EnumName<FourBarComponent>, 13> names(FourBarComponent) {
   using C = FourBarComponent;
   return {{{C::O1_x, "O1_x", "of ground on crank"},

@@ -51,7 +51,6 @@ enum class Measure {
   minimum,     ///< smallest value
   range        ///< from the smallest to the largest value
 };
-/// The measures by their words in study files. @returns one entry a measure
 constexpr std::array<EnumName<Measure>, 7> names(Measure) {
   return {{{Measure::rss_over_n, "rss_over_n", "root of the sum of squares over the number of intervals"},
            {Measure::rms, "rms", "root mean square"},

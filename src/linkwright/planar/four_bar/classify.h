@@ -24,7 +24,6 @@ enum class FourBarType {
   triple_rocker_pipi,     ///< non-Grashof, input through pi, output through pi
   change_point            ///< T1, T2 or T3 is zero within the tolerance
 };
-/// The types by name. @returns one entry a type
 constexpr std::array<EnumName<FourBarType>, 9> names(FourBarType) {
   return {{{FourBarType::crank_rocker, "crank-rocker"},
            {FourBarType::rocker_crank, "rocker-crank"},

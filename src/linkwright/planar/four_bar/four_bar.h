@@ -17,7 +17,6 @@ enum class Branch {
   open,    ///< B lies to the left of A -> B0
   crossed  ///< B lies to the right of A -> B0
 };
-/// The branches by their words in study files. @returns one entry a branch
 constexpr std::array<EnumName<Branch>, 2> names(Branch) {
   return {{{Branch::open, "open", "B to the left of A->B0"},
            {Branch::crossed, "crossed", "B to the right of A->B0"}}};
@@ -53,11 +52,8 @@ struct FourBar {
   Branch branch = Branch::open;  ///< side of A -> B0 on which B lies
 };
 
-/// Calls `visit(field, member)` for each number of a four-bar in a study file, without the branch, in the
-/// order of FourBarParameter (path/four_bar/problem.h). Lengths of links are those that must be more than 0.
-///
-/// @param visit the function to call
-/// @param l the four-bar whose members are passed
+/// The numbers of a four-bar without the branch, in the order of FourBarParameter (path/four_bar/problem.h).
+/// Lengths of links are those that must be more than 0.
 template <class Visitor>
 void fields(Visitor&& visit, FourBar& l) {
   const auto link = [&](std::string_view key, std::string_view summary, double& value) {

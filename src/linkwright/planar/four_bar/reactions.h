@@ -18,11 +18,6 @@ struct FourBarMasses {
       coupler,     ///< own joint A, line A -> B
       rocker;      ///< own joint B0, line B0 -> B
 };
-
-/// Calls `visit(field, member)` for the mass of each link in a study file.
-///
-/// @param visit the function to call
-/// @param m the masses whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, FourBarMasses& m) {
   visit(field::entry("crank", "own joint O1").required(), m.crank);

@@ -16,7 +16,6 @@ enum class AtChangePoint {
   stop,      ///< the motion ends there: the branch is a choice that has not been made
   keep_sign  ///< the modes keep their signs: the other branch, with a kink in the velocities
 };
-/// The behaviours by their words in study files. @returns one entry a behaviour
 constexpr std::array<EnumName<AtChangePoint>, 3> names(AtChangePoint) {
   return {{{AtChangePoint::smooth, "smooth", "continues smoothly: the assembly mode changes sign"},
            {AtChangePoint::stop, "stop", "ends the motion"},

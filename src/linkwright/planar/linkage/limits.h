@@ -19,7 +19,6 @@ enum class EndKind {
   change_point,  ///< both modes meet and continue: which way is a choice
   singular,  ///< two slides become parallel: the group runs away to infinity, or its place is undetermined
 };
-/// The kinds of ends by name. @returns one entry a kind
 constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
   return {{{EndKind::bound, "bound", "end of the interval that was asked for"},
            {EndKind::limit, "limit", "limit of motion"},

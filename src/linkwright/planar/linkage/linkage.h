@@ -56,7 +56,6 @@ enum class JointType {
   fixed,        ///< the second body is welded to the first
   gear          ///< the second body turns `ratio` times as fast as the first, both seen from the carrier
 };
-/// The joint types by their words in study files. @returns one entry a type
 constexpr std::array<EnumName<JointType>, 5> names(JointType) {
   return {{{JointType::revolute, "revolute", "the two points coincide"},
            {JointType::prismatic, "prismatic", "the second body slides along a line of the first"},
@@ -114,7 +113,6 @@ enum class AssemblyMode {
   plus,  ///< left, or forward
   minus  ///< right, or backward
 };
-/// The assembly modes by their words in study files. @returns one entry a mode
 constexpr std::array<EnumName<AssemblyMode>, 2> names(AssemblyMode) {
   return {{{AssemblyMode::plus, "plus", "left, or forward"},
            {AssemblyMode::minus, "minus", "right, or backward"}}};
@@ -164,7 +162,6 @@ enum class LoadArgument {
   y,         ///< y of the point, global (m)
   speed      ///< of a torque: angular speed of its body against the body it comes from (rad/s), as of a motor
 };
-/// The arguments of loads by their words in study files. @returns one entry an argument
 constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
            {LoadArgument::input, "input", "the coordinate of the first joint with a drive"},

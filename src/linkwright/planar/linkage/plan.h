@@ -98,7 +98,6 @@ enum class DyadType {
   prp,  ///< slide, pin, slide
   rpp   ///< pin, slide, slide
 };
-/// The types of dyads by their names. @returns one entry a type
 constexpr std::array<EnumName<DyadType>, 5> names(DyadType) {
   return {{{DyadType::rrr, "RRR", "dyad of three pins"},
            {DyadType::rrp, "RRP", "dyad pin, pin, slide"},

@@ -16,11 +16,6 @@ struct PathSynthesisOptions {
   int max_solutions = 4;   ///< distinct designs to return
   bool progress = true;    ///< report to the run context
 };
-
-/// Calls `visit(field, member)` for each option that a study file may give.
-///
-/// @param visit the function to call
-/// @param o the options whose members are passed
 template <class Visitor>
 void fields(Visitor&& visit, PathSynthesisOptions& o) {
   visit(field::entry("starts", "local searches; 0 = chosen from the problem").between(0, 1e6), o.starts);

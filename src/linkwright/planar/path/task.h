@@ -19,7 +19,6 @@ enum class Timing {
   increments,   ///< crank angle of a point = that of the one before + its increment, from the start angle
   given,        ///< crank angle of each point is given
 };
-/// The kinds of timing by their words in study files. @returns one entry a kind
 constexpr std::array<EnumName<Timing>, 4> names(Timing) {
   return {{{Timing::free, "free", "each point is met at any crank angle, in order"},
            {Timing::equal_steps, "equal_steps", "crank angle of point i = start angle + i step"},

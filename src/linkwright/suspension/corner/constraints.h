@@ -19,7 +19,6 @@ enum class Driver {
   contact_z,       ///< height of the lowest point of the tyre
   spring           ///< length of the spring, longer positive
 };
-/// The drivers by their words in study files. @returns one entry a driver
 constexpr std::array<EnumName<Driver>, 3> names(Driver) {
   return {{{Driver::wheel_centre_z, "wheel_centre_z", "height of the wheel centre"},
            {Driver::contact_z, "contact_z", "height of the lowest point of the tyre"},

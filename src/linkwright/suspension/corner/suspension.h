@@ -35,7 +35,6 @@ enum class LinkType {
   US,  ///< rod: one point at the body, one at the carrier
   SS   ///< the same as US, free to turn about its line
 };
-/// The types of links by name. @returns one entry a type
 constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
   return {{{LinkType::R, "R", "carrier hinged to the body: two body points on the axis"},
            {LinkType::RR, "RR", "arm hinged to the body (two points) and to the carrier (two points)"},
@@ -98,7 +97,6 @@ enum class Side {
   left,  ///< y > 0
   right  ///< y < 0
 };
-/// The sides by their words in study files. @returns one entry a side
 constexpr std::array<EnumName<Side>, 2> names(Side) {
   return {{{Side::left, "left", "y > 0"}, {Side::right, "right", "y < 0"}}};
 }

@@ -38,7 +38,6 @@ enum class AxlePlace {
   front,  ///< the front axle
   rear    ///< the rear axle
 };
-/// The places by their words in study files. @returns one entry a place
 constexpr std::array<EnumName<AxlePlace>, 2> names(AxlePlace) {
   return {{{AxlePlace::front, "front"}, {AxlePlace::rear, "rear"}}};
 }

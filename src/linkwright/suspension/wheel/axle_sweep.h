@@ -148,7 +148,6 @@ enum class AxleMotion {
   roll,      ///< the body leans over a plane road; values are rolls (rad)
   rack       ///< the rack moves, travel held; values are rack displacements (m)
 };
-/// The motions by their words in study files. @returns one entry a motion
 constexpr std::array<EnumName<AxleMotion>, 3> names(AxleMotion) {
   return {{{AxleMotion::parallel, "parallel", "both wheels rise equally"},
            {AxleMotion::roll, "roll", "the body leans over a plane road"},
