@@ -6,9 +6,10 @@
 
 #include "linkwright/clearance/four_bar_clearance_motion.h"
 
-// The example of Varedi, Daniali, Dardel and Fathi 2014 (Sharif Journal of Mechanical Engineering 30-3, 2/2).
-// Neither the clearance nor speed, weight, start or target path are printed; the clearance of 1 mm was
-// inferred: with it the second design comes closest to the path of the first one.
+/// @file
+/// The example of Varedi, Daniali, Dardel and Fathi 2014 (Sharif Journal of Mechanical Engineering 30-3,
+/// 2/2). Neither the clearance nor speed, weight, start or target path are printed; the clearance of 1 mm was
+/// inferred: with it the second design comes closest to the path of the first one.
 namespace linkwright::clearance {
 
 /// The problem of the first stage, see clearance/path_synthesis.h.

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-// Sample points for the parameters of a study: points of the unit cube [0, 1]^n, which the study maps to the
-// ranges of its parameters.
+/// @file
+/// Sample points for the parameters of a study: points of the unit cube [0, 1]^n, which the study maps to the
+/// ranges of its parameters.
 namespace linkwright::parameter_study {
 
 /// Points of the unit cube, one after the other: coordinate j of point i is at(i, j).

@@ -8,7 +8,8 @@
 
 #include "linkwright/parameter_study/sampling.h"
 
-// The influence of each parameter on a quantity.
+/// @file
+/// The influence of each parameter on a quantity.
 namespace linkwright::parameter_study {
 
 /// Elementary effects of one parameter (Morris 1991): changes of the quantity for the parameter's whole

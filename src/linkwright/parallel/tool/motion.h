@@ -38,7 +38,7 @@ std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limit
 
 /// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
 ///
-/// Steps are cut into runs, between which the tool rests; tool_timing.h says how a run is timed. A turn is
+/// Steps are cut into runs, between which the tool rests; tool/timing.h says how a run is timed. A turn is
 /// about a fixed axis by the least angle, in proportion to the length run through; the slower of both
 /// decides.
 class ToolMotion {

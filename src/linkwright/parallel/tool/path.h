@@ -14,7 +14,7 @@
 
 /// @file
 /// The task of a robot's tool, step by step. Plain data in SI units, axes of the base; the motion that
-/// follows from it is in tool_motion.h.
+/// follows from it is in tool/motion.h.
 namespace linkwright::parallel {
 
 /// x, y, z in base axes.
@@ -66,7 +66,7 @@ struct ToolDwell {
 /// Points in time, joined by a quintic spline (acceleration and jerk continuous) from rest to rest. The
 /// limits do not apply to it. The first point is where the tool is.
 struct ToolTable {
-  std::string file;                    ///< CSV where the rest comes from (tool_table.h); may be empty
+  std::string file;                    ///< CSV where the rest comes from (tool/table.h); may be empty
   std::vector<double> times;           ///< s, increasing; the step lasts from the first to the last
   std::vector<Coordinates> points;     ///< m
   std::vector<Coordinates> rotations;  ///< rotation vectors (rad); empty = the rotation stays
@@ -93,7 +93,7 @@ struct ToolPath {
 };
 
 /// Limits of the tool's motion, each of the whole vector. On each smooth piece of the path |v|, |a| and |j|
-/// stay within them, curved or not, and so do the turns; see tool_curve.h.
+/// stay within them, curved or not, and so do the turns; see tool/curve.h.
 struct ToolLimits {
   double speed = 1;                   ///< m/s
   double acceleration = 10;           ///< m/s2

@@ -7,8 +7,8 @@
 
 #include "linkwright/core/field.h"
 
-// One number for a quantity that was sampled over a motion. All throw ContractError when there are too few
-// samples; a NaN among the samples makes the measure NaN.
+/// @file
+/// One number for a quantity that was sampled over a motion. A NaN among the samples makes the measure NaN.
 namespace linkwright::planar {
 
 /// Root of the sum of squares, divided by the number of intervals, which is one less than that of the

@@ -62,7 +62,7 @@ struct FourBarMachine {
 
 /// Positions, rates and reactions of one four-bar at many crank angles, or of many four-bars at the same
 /// crank angles: flat rows, as many samples at a time as a SIMD register holds, by the formulas of
-/// four_bar_forces_kernel.h. Equal to `rates` and `reactions` up to rounding.
+/// detail/forces_kernel.h. Equal to `rates` and `reactions` up to rounding.
 ///
 /// Make one a thread and run it again and again: nothing is allocated while the numbers of machines and
 /// angles do not grow.

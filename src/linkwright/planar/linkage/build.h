@@ -9,8 +9,9 @@
 
 #include "linkwright/planar/linkage/linkage.h"
 
-// Writing a linkage down by names. All functions throw ContractError on names that do not exist; what they
-// cannot see (freedoms, lengths, names given twice) is left to `check` and `plan_linkage`.
+/// @file
+/// Functions that write a linkage down by names. Freedoms, lengths and names given twice are examined by
+/// `check` and `plan_linkage`.
 namespace linkwright::planar {
 
 /// Makes a linkage that has a ground and nothing else.

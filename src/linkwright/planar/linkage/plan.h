@@ -55,8 +55,8 @@ constexpr GroupTraits traits_of(const Driver&) { return {.name = "driver"}; }
 /// The meshing of two wheels. Radii are signed, so that for external and internal teeth alike the pitch point
 /// lies by its radius from a centre towards the other one.
 struct GearMesh {
-  PartPoint first,           ///< centre of the wheel that turns, on its part
-      second;                ///< centre of the other wheel
+  PartPoint first,           ///< centre of the first wheel, on its part
+      second;                ///< centre of the second wheel
   double first_radius = 0;   ///< m, from the first centre towards the second
   double second_radius = 0;  ///< m, from the second centre towards the first
   double tangent = 0;        ///< tangent of the pressure angle
@@ -283,7 +283,7 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
 /// pin in a slot or a gear.
 ///
 /// @param linkage the linkage
-/// @returns the count; it is negative where joints are redundant
+/// @returns the count; redundant joints make it less than the freedoms
 int mobility(const Linkage& linkage);
 
 /// A plan and the problems that were found while making it.

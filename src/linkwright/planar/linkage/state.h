@@ -3,7 +3,8 @@
 
 #include "linkwright/planar/plane.h"
 
-// The state of the parts and groups of a linkage at one instant, for `double` and SIMD batches.
+/// @file
+/// The state of the parts and groups of a linkage at one instant, for `double` and SIMD batches.
 namespace linkwright::planar {
 
 /// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.

@@ -33,7 +33,7 @@ struct SearchPoint {
 /// The outcome of a seed, but for its designs.
 struct SearchRecord {
   Status status = Status::done;      ///< done, infeasible, deadline or cancelled
-  std::int64_t evaluations = 0;      ///< of designs, in all searches
+  std::int64_t evaluations = 0;      ///< evaluations of the objective in all searches
   std::vector<SearchPoint> history;  ///< one entry for each better feasible design; none of a front
 };
 

@@ -23,7 +23,8 @@
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/path/task.h"
 
-// The properties that path synthesis needs of a mechanism, and the functions that follow from them.
+/// @file
+/// The properties that path synthesis needs of a mechanism, and the functions that follow from them.
 namespace linkwright::planar {
 
 /// The tracing point of a mechanism at a crank angle.

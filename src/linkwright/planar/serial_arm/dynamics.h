@@ -7,7 +7,8 @@
 #include "linkwright/core/status.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 
-// Motion of a serial arm whose torques are given.
+/// @file
+/// Motion of a serial arm whose torques are given.
 namespace linkwright::planar {
 
 /// Mass matrix of the absolute angles: mass_matrix * accelerations + (loads without acceleration) = absolute

@@ -7,7 +7,8 @@
 
 #include "linkwright/planar/serial_arm/serial_arm.h"
 
-// Joint forces and torques of a serial arm whose motion is given.
+/// @file
+/// Joint forces and torques of a serial arm whose motion is given.
 namespace linkwright::planar {
 
 /// The loads in the own joint of one link.

@@ -8,9 +8,10 @@
 #include "linkwright/math/motion_law.h"
 #include "linkwright/planar/link_mass.h"
 
-// Open chains of links joined by revolute joints: model, positions and rates. Link k = 0, 1, ... has its own
-// joint O_k+1 (O1 joins the first link to the ground) and carries the next one, or the tip, at the end of its
-// line. Angles of links are absolute: counter-clockwise from the x axis, not from the link before.
+/// @file
+/// Open chains of links joined by revolute joints: model, positions and rates. Link k = 0, 1, ... has its own
+/// joint O_k+1 (O1 joins the first link to the ground) and carries the next one, or the tip, at the end of
+/// its line. Angles of links are absolute: counter-clockwise from the x axis, not from the link before.
 namespace linkwright::planar {
 
 /// One link of an arm with the masses fixed to it.

@@ -25,8 +25,8 @@ struct BasicSteeringAxis {
   T inclination = 0;                     ///< rad, > 0: top inboard
   T trail = 0;                           ///< m along x, > 0: meets the ground ahead of the contact point
   T scrub = 0;                           ///< m along y, > 0: meets the ground inboard of the contact point
-  T wheel_trail = 0,                     ///< trail along the wheel, m
-      wheel_scrub = 0;                   ///< scrub across the wheel, m
+  T wheel_trail = 0,                     ///< m along the wheel, sign as `trail`
+      wheel_scrub = 0;                   ///< m across the wheel, sign as `scrub`
   T caster_offset = 0;   ///< m along the wheel, at the height of its centre, > 0: axis ahead of it
   T kingpin_offset = 0;  ///< m across the wheel, at the height of its centre, > 0: axis inboard of it
   T pitch = 0;           ///< m/rad along the axis; 0 for a pure turn; NaN of the geometric axis
