@@ -20,7 +20,11 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t max_points = 2000;
+/// How many points a target may have, and if one may follow that is the same: it is then left out.
+struct PointRules {
+  std::size_t least = 3, most = 2000;
+  bool merge_repeated = false;
+};
 
 // The lengths of a CSV file by the name of their column, in metres; any length unit.
 class LengthColumns {
@@ -141,23 +145,38 @@ bool same_point(const std::vector<double>& x, const std::vector<double>& y, std:
   return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * farthest(x, y);
 }
 
-// Three targets at least and none twice in a row; problems are reported at `key`.
-void check_targets(study::ObjectReader& target, const char* key, const PathTargets& targets) {
+// Leaves out points that repeat the one before, with a warning.
+void merge_repeated(study::ObjectReader& target, const char* key, PathTargets& targets) {
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < targets.x.size(); ++k)
+    if (k == 0 || !same_point(targets.x, targets.y, k, k - 1))
+      x.push_back(targets.x[k]), y.push_back(targets.y[k]);
+  if (x.size() == targets.x.size()) return;
+  const std::size_t left_out = targets.x.size() - x.size();
+  target.warning(key, fmt::format("{} point{} repeat{} the one before: taken once", left_out,
+                                  left_out == 1 ? "" : "s", left_out == 1 ? "s" : ""));
+  targets.x = std::move(x), targets.y = std::move(y);
+}
+
+// Enough targets and none twice in a row; problems are reported at `key`.
+void check_targets(study::ObjectReader& target, const char* key, const PointRules& rules,
+                   PathTargets& targets) {
+  if (rules.merge_repeated) merge_repeated(target, key, targets);
   const std::vector<double>&x = targets.x, &y = targets.y;
   const std::size_t n = x.size();
   if (n == 0) {
-    target.error(key, "there are no points", "give at least 3 points [x, y]");
+    target.error(key, "there are no points", fmt::format("give at least {} points [x, y]", rules.least));
     return;
   }
-  if (n < 3) {
+  if (n < rules.least) {
     target.error(key,
-                 fmt::format("{} point{} make{} no path, at least 3 are needed", n, n == 1 ? "" : "s",
-                             n == 1 ? "s" : ""),
+                 fmt::format("{} point{} make{} no path, at least {} are needed", n, n == 1 ? "" : "s",
+                             n == 1 ? "s" : "", rules.least),
                  "add points between them");
     return;
   }
-  if (n > max_points) {
-    target.error(key, fmt::format("{} points, at most {} are allowed", n, max_points),
+  if (n > rules.most) {
+    target.error(key, fmt::format("{} points, at most {} are allowed", n, rules.most),
                  "keep every second or third point");
     return;
   }
@@ -174,7 +193,7 @@ void check_targets(study::ObjectReader& target, const char* key, const PathTarge
 }
 
 void read_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                 bool with_bands, PathTargets& targets) {
+                 bool with_bands, const PointRules& rules, PathTargets& targets) {
   const bool has_points = target.has(field::length("points"));
   const bool has_file = target.has("points_file");
   if (has_points && has_file) {
@@ -190,7 +209,7 @@ void read_points(study::ObjectReader& target, const study::Common& common, const
     if (form.points_file && !read_points_file(target, common, *form.points_file, with_bands, targets))
       targets = {};
     else if (form.points_file)
-      check_targets(target, "points_file", targets);
+      check_targets(target, "points_file", rules, targets);
     return;
   }
   if (!form.points) return;  // reported already
@@ -198,7 +217,7 @@ void read_points(study::ObjectReader& target, const study::Common& common, const
     targets.x.push_back(point[0]);
     targets.y.push_back(point[1]);
   }
-  check_targets(target, "points", targets);
+  check_targets(target, "points", rules, targets);
 }
 
 // The middles of gates, and half of the way from one post to the other.
@@ -216,7 +235,7 @@ void read_gates(study::ObjectReader& target, const PathTargetForm& form, PathTar
     targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
     targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
   }
-  check_targets(target, "gates", targets);
+  check_targets(target, "gates", {}, targets);
 }
 
 void read_tolerances(study::ObjectReader& target, const PathTargetForm& form, PathTargets& targets) {
@@ -336,7 +355,15 @@ std::vector<double> timed_angles(study::ObjectReader& target, const study::Displ
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y) {
   PathTargets targets;
-  read_points(target, common, form, false, targets);
+  read_points(target, common, form, false, {}, targets);
+  x = std::move(targets.x);
+  y = std::move(targets.y);
+}
+
+void read_stroke(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                 std::vector<double>& x, std::vector<double>& y) {
+  PathTargets targets;
+  read_points(target, common, form, false, {.least = 5, .most = 100'000, .merge_repeated = true}, targets);
   x = std::move(targets.x);
   y = std::move(targets.y);
 }
@@ -347,7 +374,7 @@ PathTargets read_path_targets(study::ObjectReader& target, const study::Common& 
   if (form.gates)
     read_gates(target, form, targets);
   else
-    read_points(target, common, form, true, targets);
+    read_points(target, common, form, true, {}, targets);
   targets.closed = form.closed;
   read_tolerances(target, form, targets);
   const std::size_t n = targets.x.size();

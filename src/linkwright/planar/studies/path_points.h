@@ -85,6 +85,10 @@ void fields(Visitor&& visit, PathTargetForm& t) {
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y);
 
+/// The points of a stroke (m): 5 to 100 000; one that repeats the point before is left out with a warning.
+void read_stroke(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                 std::vector<double>& x, std::vector<double>& y);
+
 /// The targets of a form that has been read: points, the columns x, y of their file, or gates, its columns
 /// from_x, from_y, to_x, to_y; with their tolerances, its column tolerance. A path that ends where it begins
 /// is a closed one, unless the study says that it is not: its last target is the first one again, and is left

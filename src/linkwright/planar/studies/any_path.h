@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/path_points.h"
+#include "linkwright/planar/type_synthesis/search.h"
+#include "linkwright/study/kind.h"
+
+// The synthesis of machines of any type that trace a stroke: what its file holds, how it is read, run and
+// reported.
+namespace linkwright::planar {
+
+struct AnyMechanism {
+  std::optional<std::vector<MachineFamily>> families;
+  int most_links = 8;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyMechanism& m) {
+  visit(field::entry("families", "families of machines to search; all when left out"), m.families);
+  visit(
+      field::entry(
+          "most_links",
+          "largest number of links, the ground among them; machines of ten links are grown from smaller ones")
+          .between(4, 10),
+      m.most_links);
+}
+
+struct AnyTarget : PathPointsForm {
+  bool closed = false;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyTarget& t) {
+  visit(field::entry("closed",
+                     "the last point is followed by the first; default: whether the last repeats the first"),
+        t.closed);
+  fields(visit, static_cast<PathPointsForm&>(t));
+}
+
+struct AnyLimits {
+  double pair_angle = 20 * pi / 180, shortest = 0.05, longest = 10;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyLimits& l) {
+  visit(field::angle("least_pair_angle",
+                     "of the two bars at a pin, or of a rod and the normal of its slide, over the whole turn "
+                     "of the crank")
+            .between(1 * pi / 180, 70 * pi / 180),
+        l.pair_angle);
+  visit(field::entry("shortest_link",
+                     "shortest length, in sizes of the stroke (its root mean square distance from its mean)")
+            .between(1e-3, 1),
+        l.shortest);
+  visit(field::entry("longest_link", "longest length, in sizes of the stroke").between(1, 1000), l.longest);
+}
+
+struct AnyOptimiser {
+  std::optional<double> seconds;
+  std::optional<std::int64_t> evaluations;
+  std::int64_t seed = 1;
+  int max_solutions = 12;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyOptimiser& o) {
+  visit(field::entry("seconds", "time of the search (s); default: 10 unless evaluations are given")
+            .between(0.05, 86400),
+        o.seconds);
+  visit(field::entry(
+            "evaluations",
+            "number of curves after which the search ends: then the same result on every number of threads")
+            .between(1000, std::int64_t{1} << 50),
+        o.evaluations);
+  visit(field::entry("seed", "seed of the search").not_negative(), o.seed);
+  visit(field::entry("max_solutions", "largest number of machines in the list").between(1, 100),
+        o.max_solutions);
+}
+
+struct AnyPathStudy {
+  AnyMechanism mechanism;
+  AnyTarget target;
+  AnyLimits limits;
+  AnyOptimiser optimiser;
+  Stroke stroke;
+};
+
+/// "synthesis" of "planar.any" for "path_points".
+study::Kind any_path_kind();
+
+study::Result run_any_path_study(const AnyPathStudy& study, const study::Common& common, RunContext& context);
+
+}  // namespace linkwright::planar

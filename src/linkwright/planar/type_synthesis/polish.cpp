@@ -1,0 +1,684 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/polish.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <span>
+#include <utility>
+
+#include "linkwright/planar/type_synthesis/curve.h"
+
+namespace linkwright::planar {
+/// What the memory of a fitter holds.
+namespace polishing {
+
+/// A length of a machine as a product: scale x |c| x l, each where it has a parameter.
+struct LengthTerm {
+  int plate = -1;   ///< first of the two parameters of a complex factor
+  int factor = -1;  ///< parameter of a real factor
+};
+
+/// A row of the limits: value and gradient.
+struct LimitRow {
+  double value = 0;
+  std::array<double, max_machine_parameters> gradient;
+};
+
+}  // namespace polishing
+
+namespace {
+
+using polishing::LengthTerm;
+using polishing::LimitRow;
+
+constexpr std::size_t samples = stroke_samples;
+constexpr std::size_t limit_angles = 48;  // grid of the pair angles during the polish
+constexpr std::size_t measured_angles = 720;
+constexpr std::size_t turn_samples = 128;  // of a curve that is placed
+constexpr std::size_t max_limit_rows = 24;
+constexpr double margin =
+    0.3 * pi / 180;                 // the polish keeps this much more of the pair angle than it promises
+constexpr double open_rest = 0.02;  // an open stroke leaves this much of a turn (rad)
+
+using Samples = std::array<double, samples>;
+
+std::vector<LengthTerm> length_terms(const PointProgram& p) {
+  std::vector<LengthTerm> out{{}};  // the crank
+  for (const PointStep& step : p.steps) {
+    switch (step.operation) {
+      case PointOperation::crank_pin:
+        break;
+      case PointOperation::ground_on_axis:
+      case PointOperation::slide:
+      case PointOperation::sleeve:
+        out.push_back({-1, step.parameter});
+        break;
+      case PointOperation::ground:
+      case PointOperation::crank_plate:
+        out.push_back({step.parameter, -1});
+        break;
+      case PointOperation::geared_crank:
+        out.push_back({step.parameter, -1});
+        out.push_back({step.parameter + 2, -1});
+        break;
+      case PointOperation::pair:
+        out.push_back({-1, step.parameter});
+        out.push_back({-1, step.parameter + 1});
+        break;
+      case PointOperation::plate: {
+        const PointStep& pin = p.steps[static_cast<std::size_t>(step.second)];
+        int factor = -1;
+        if (pin.operation == PointOperation::slide) factor = pin.parameter;
+        if (pin.operation == PointOperation::pair) factor = pin.parameter + (step.first == pin.first ? 0 : 1);
+        out.push_back({step.parameter, factor});
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+double length_of(const LengthTerm& term, std::span<const double> x, double scale) {
+  const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+  double out = scale;
+  if (term.plate >= 0) out *= std::hypot(at(term.plate), at(term.plate + 1));
+  if (term.factor >= 0) out *= std::abs(at(term.factor));
+  return out;
+}
+
+/// Brings a sequence into ascending order with the least sum of squared changes (pool adjacent violators).
+void restore_order(Samples& v) {
+  std::array<double, samples> mean;
+  std::array<std::size_t, samples> count;
+  std::size_t pools = 0;
+  for (const double value : v) {
+    mean[pools] = value, count[pools] = 1, ++pools;
+    while (pools > 1 && mean[pools - 2] > mean[pools - 1]) {
+      const double a = static_cast<double>(count[pools - 2]), b = static_cast<double>(count[pools - 1]);
+      mean[pools - 2] = (a * mean[pools - 2] + b * mean[pools - 1]) / (a + b);
+      count[pools - 2] += count[pools - 1];
+      --pools;
+    }
+  }
+  for (std::size_t i = 0, k = 0; i < pools; ++i)
+    for (std::size_t c = 0; c < count[i]; ++c) v[k++] = mean[i];
+}
+
+}  // namespace
+
+struct MachineFitter::Memory {
+  StrokeTarget target;
+  MachineLimits limits;
+  long long curves = 0;
+  const PointProgram* prepared = nullptr;  // program whose lengths are in `terms`
+  std::vector<LengthTerm> terms;
+  double min_quality = 0;
+
+  struct Curve {
+    alignas(64) Samples angle, x, y, tx, ty;
+    double squares = 0;
+  };
+  Curve now, next;
+  alignas(64) std::array<double, samples*(max_machine_parameters + 1)> rows;
+  alignas(64) Samples nx, ny;
+  alignas(64) std::array<double, limit_angles> limit_angle, quality, worst;
+  std::array<LimitRow, max_limit_rows> limit_rows;
+  std::size_t limit_count = 0;
+  alignas(64) std::array<double, measured_angles> turn_angle, turn_quality,
+      turn_worst, turn_x, turn_y, turn_tx, turn_ty;
+  std::vector<double> turn_points = std::vector<double>(2 * max_steps * measured_angles);
+
+  const PointProgram& program_of(const MachineShape& shape) {
+    if (prepared != shape.program) terms = length_terms(*shape.program), prepared = shape.program;
+    return *shape.program;
+  }
+
+  void compute(const PointProgram& p, const double* x, unsigned signs, Curve& c,
+               double* derivatives = nullptr) {
+    ++curves;
+    compute_curve({.program = &p,
+                   .x = x,
+                   .signs = signs,
+                   .angle = c.angle.data(),
+                   .count = samples,
+                   .px = c.x.data(),
+                   .py = c.y.data(),
+                   .tx = c.tx.data(),
+                   .ty = c.ty.data(),
+                   .nx = nx.data(),
+                   .ny = ny.data(),
+                   .rows = derivatives,
+                   .stride = samples});
+    if (derivatives) return;
+    double sum = 0;
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
+      sum += ex * ex + ey * ey;
+    }
+    c.squares = sum;
+  }
+
+  /// One Gauss-Newton step of each crank angle towards the closest point, in the order of the stroke. Returns
+  /// the largest change.
+  double advance(Curve& c, double sense) const {
+    double mean = 0;
+    for (std::size_t k = 0; k < samples; ++k) mean += c.tx[k] * c.tx[k] + c.ty[k] * c.ty[k];
+    mean /= samples;
+    Samples forward;
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
+      const double speed = c.tx[k] * c.tx[k] + c.ty[k] * c.ty[k];
+      const double change = -(c.tx[k] * ex + c.ty[k] * ey) / (speed + 4e-4 * mean);
+      forward[k] = sense * (c.angle[k] + std::clamp(change, -0.12, 0.12));
+    }
+    restore_order(forward);
+    const double most = target.closed ? 2 * pi : 2 * pi - open_rest;
+    if (const double turned = forward.back() - forward.front(); turned > most) {
+      const double centre = 0.5 * (forward.back() + forward.front());
+      for (double& f : forward) f = centre + (f - centre) * (most / turned);
+    }
+    double largest = 0;
+    for (std::size_t k = 0; k < samples; ++k) {
+      largest = std::max(largest, std::abs(sense * forward[k] - c.angle[k]));
+      c.angle[k] = sense * forward[k];
+    }
+    return largest;
+  }
+
+  /// Limits that are not kept, with their gradients where they are wanted; the sum of squares.
+  double limit_squares(const PointProgram& p, const double* x, unsigned signs, double weight,
+                       bool with_rows) {
+    const auto n = static_cast<std::size_t>(p.parameters);
+    double sum = 0;
+    if (with_rows) limit_count = 0;
+    const auto add = [&](double value) -> LimitRow* {
+      sum += value * value;
+      if (!with_rows || limit_count == max_limit_rows) return nullptr;
+      LimitRow& row = limit_rows[limit_count++];
+      row.value = value;
+      return &row;
+    };
+    ++curves;
+    compute_curve({.program = &p,
+                   .x = x,
+                   .signs = signs,
+                   .angle = limit_angle.data(),
+                   .count = limit_angles,
+                   .quality = quality.data(),
+                   .worst = worst.data()});
+    for (std::size_t k = 0; k < limit_angles; ++k) {
+      const double before = quality[k == 0 ? limit_angles - 1 : k - 1],
+                   after = quality[k + 1 == limit_angles ? 0 : k + 1];
+      if (!(quality[k] < min_quality) || quality[k] > before || quality[k] >= after) continue;
+      if (LimitRow* row = add(weight * (min_quality - quality[k]))) {
+        quality_gradient(p, {x, n}, signs, limit_angle[k], static_cast<int>(worst[k]),
+                         {row->gradient.data(), n});
+        for (std::size_t i = 0; i < n; ++i) row->gradient[i] *= -weight;
+      }
+    }
+    const std::span<const double> all(x, n);
+    const auto s = static_cast<std::size_t>(p.scale());
+    const double scale = std::hypot(x[s], x[s + 1]);
+    for (const LengthTerm& term : terms) {
+      const double length = length_of(term, all, scale);
+      const double side = length > limits.max_length ? 1 : length < limits.min_length ? -1 : 0;
+      if (side == 0) continue;
+      const double beyond = side > 0 ? std::log(length / limits.max_length)
+                                     : std::log(limits.min_length / std::max(length, 1e-12));
+      if (LimitRow* row = add(weight * beyond)) {
+        std::fill_n(row->gradient.begin(), n, 0.0);
+        const auto by_complex = [&](std::size_t i) {
+          const double square = std::max(x[i] * x[i] + x[i + 1] * x[i + 1], 1e-24);
+          row->gradient[i] += side * weight * x[i] / square;
+          row->gradient[i + 1] += side * weight * x[i + 1] / square;
+        };
+        by_complex(s);
+        if (term.plate >= 0) by_complex(static_cast<std::size_t>(term.plate));
+        if (term.factor >= 0)
+          row->gradient[static_cast<std::size_t>(term.factor)] +=
+              side * weight / x[static_cast<std::size_t>(term.factor)];
+      }
+    }
+    return sum;
+  }
+
+  void move_grid() {
+    phase_ += 0.382 * 2 * pi / limit_angles;
+    if (phase_ > 2 * pi / limit_angles) phase_ -= 2 * pi / limit_angles;
+    for (std::size_t k = 0; k < limit_angles; ++k)
+      limit_angle[k] = phase_ + 2 * pi * static_cast<double>(k) / limit_angles;
+  }
+
+  /// Rows of the residuals along the normals of the curve, and the residuals as the last row.
+  void residual_rows(const PointProgram& p, const double* x, unsigned signs) {
+    double mean = 0;
+    for (std::size_t k = 0; k < samples; ++k) mean += now.tx[k] * now.tx[k] + now.ty[k] * now.ty[k];
+    mean /= samples;
+    double* residual = rows.data() + static_cast<std::size_t>(p.parameters) * samples;
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double ex = now.x[k] - target.x[k], ey = now.y[k] - target.y[k];
+      const double speed = now.tx[k] * now.tx[k] + now.ty[k] * now.ty[k];
+      double ax = -now.ty[k], ay = now.tx[k], length = std::sqrt(speed);
+      // Where the curve nearly stands it has no normal: the residual itself is what is left.
+      if (speed < 1e-6 * mean) ax = ex, ay = ey, length = std::hypot(ex, ey);
+      const double by = length > 0 ? 1 / length : 0;
+      nx[k] = ax * by, ny[k] = ay * by;
+      residual[k] = nx[k] * ex + ny[k] * ey;
+    }
+    compute(p, x, signs, now, rows.data());
+  }
+
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_machine_parameters,
+                               max_machine_parameters>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_machine_parameters, 1>;
+
+  /// Normal equations of residuals and limits.
+  void normal_equations(const PointProgram& p, Matrix& a, Vector& b) {
+    const auto n = static_cast<std::size_t>(p.parameters);
+    std::array<double, (max_machine_parameters + 1) * (max_machine_parameters + 2) / 2> sums;
+    compute_products(
+        {.rows = rows.data(), .stride = samples, .count = samples, .columns = n + 1, .out = sums.data()});
+    a.resize(p.parameters, p.parameters), b.resize(p.parameters);
+    const double* from = sums.data();
+    for (int i = 0; i < p.parameters; ++i)
+      for (int j = 0; j <= i; ++j) a(i, j) = *from++;
+    for (int i = 0; i < p.parameters; ++i) b(i) = *from++;
+    for (std::size_t r = 0; r < limit_count; ++r) {
+      const LimitRow& row = limit_rows[r];
+      for (int i = 0; i < p.parameters; ++i) {
+        const double g = row.gradient[static_cast<std::size_t>(i)];
+        for (int j = 0; j <= i; ++j) a(i, j) += g * row.gradient[static_cast<std::size_t>(j)];
+        b(i) += g * row.value;
+      }
+    }
+  }
+
+  /// Levenberg-Marquardt steps with one weight of the limits; the error at the end.
+  double descend(FittedMachine& m, double weight, int iterations) {
+    const PointProgram& p = program_of(m.shape);
+    std::vector<double>& x = m.shape.x;
+    std::array<double, max_machine_parameters> trial;
+    double damping = 1e-3;
+    int small_steps = 0;
+    now.angle = m.angle;
+    compute(p, x.data(), m.shape.signs, now);
+    Matrix a, factor;
+    Vector b, step;
+    for (int i = 0; i < iterations && small_steps < 3; ++i) {
+      move_grid();
+      double cost = now.squares + limit_squares(p, x.data(), m.shape.signs, weight, true);
+      residual_rows(p, x.data(), m.shape.signs);
+      normal_equations(p, a, b);
+      bool better = false;
+      for (int attempt = 0; attempt < 6 && !better; ++attempt) {
+        factor = a;
+        for (int k = 0; k < p.parameters; ++k) factor(k, k) += damping * a(k, k) + 1e-12;
+        step = b;
+        const Eigen::LLT<Eigen::Ref<Matrix>, Eigen::Lower> cholesky(factor);
+        if (cholesky.info() == Eigen::Success) {
+          cholesky.solveInPlace(step);
+          for (int k = 0; k < p.parameters; ++k)
+            trial[static_cast<std::size_t>(k)] = x[static_cast<std::size_t>(k)] - step(k);
+          next.angle = now.angle;
+          for (int turn = 0; turn < 2; ++turn) {
+            compute(p, trial.data(), m.shape.signs, next);
+            advance(next, m.sense);
+          }
+          compute(p, trial.data(), m.shape.signs, next);
+          const double found = next.squares + limit_squares(p, trial.data(), m.shape.signs, weight, false);
+          better = found < cost;
+          if (better) small_steps = cost - found < 1e-5 * cost ? small_steps + 1 : 0;
+        }
+        damping = better ? std::max(damping * 0.3, 1e-10) : damping * 5;
+      }
+      if (!better) break;
+      std::copy_n(trial.begin(), x.size(), x.begin());
+      std::swap(now, next);
+    }
+    m.angle = now.angle;
+    m.error = std::sqrt(now.squares / samples);
+    return m.error;
+  }
+
+  void meet_points(FittedMachine& machine, MachineMeasures& out);
+  void measure_turn(const FittedMachine& machine, MachineMeasures& out);
+  double least_quality(const FittedMachine& machine) const;
+  double box_of_pins(const PointProgram& p, std::complex<double> scale) const;
+  double peak_acceleration(const FittedMachine& machine, double span) const;
+  bool stays_near(const FittedMachine& machine, double largest_deviation);
+  double place_closed(FittedMachine& m, const std::vector<std::complex<double>>& curve,
+                      std::span<const double> arc);
+  double place_open(FittedMachine& m, const std::vector<std::complex<double>>& curve,
+                    std::span<const double> arc);
+  void set_place(FittedMachine& m, std::complex<double> scale, std::complex<double> place) const {
+    double* x = m.shape.x.data() + m.shape.x.size() - 4;
+    x[0] = place.real(), x[1] = place.imag(), x[2] = scale.real(), x[3] = scale.imag();
+  }
+
+ private:
+  double phase_ = 0;
+};
+
+MachineFitter::MachineFitter(const StrokeTarget& target, const MachineLimits& limits)
+    : memory_(std::make_unique<Memory>()) {
+  memory_->target = target;
+  memory_->limits = limits;
+  const double sine = std::sin(std::min(limits.min_pair_angle + margin, pi / 2));
+  memory_->min_quality = sine * sine;
+  for (std::size_t k = 0; k < measured_angles; ++k)
+    memory_->turn_angle[k] = 2 * pi * static_cast<double>(k) / measured_angles;
+}
+MachineFitter::~MachineFitter() = default;
+MachineFitter::MachineFitter(MachineFitter&&) noexcept = default;
+
+long long MachineFitter::curves() const { return memory_->curves; }
+
+bool MachineFitter::polish(FittedMachine& machine, double best) {
+  Memory& m = *memory_;
+  if (!(m.descend(machine, 1, 25) <= 1.6 * best)) return false;
+  if (!(m.descend(machine, 4, 40) <= 1.15 * best)) return false;
+  m.descend(machine, 30, 80);
+  return true;
+}
+
+namespace {
+
+/// Position of arc length `s` (in turns of the closed curve) as an index with fraction.
+double index_at(std::span<const double> arc, double s) {
+  const double whole = std::floor(s), at = (s - whole) * arc.back();
+  const auto next = std::upper_bound(arc.begin() + 1, arc.end() - 1, at);
+  const auto i = static_cast<std::size_t>(next - arc.begin()) - 1;
+  const double side = arc[i + 1] - arc[i];
+  const double n = static_cast<double>(arc.size() - 1);
+  return whole * n + static_cast<double>(i) + (side > 0 ? std::min((at - arc[i]) / side, 1.0) : 0.0);
+}
+
+std::complex<double> point_at(const std::vector<std::complex<double>>& curve, double index) {
+  const double n = static_cast<double>(curve.size());
+  double at = index - n * std::floor(index / n);
+  if (at >= n) at = 0;
+  const auto i = static_cast<std::size_t>(at);
+  return curve[i] + (at - static_cast<double>(i)) * (curve[(i + 1) % curve.size()] - curve[i]);
+}
+
+}  // namespace
+
+double MachineFitter::Memory::place_closed(FittedMachine& m, const std::vector<std::complex<double>>& curve,
+                                           std::span<const double> arc) {
+  std::array<double, samples> index;
+  std::array<std::complex<double>, samples> c, t;
+  std::complex<double> mean{};
+  for (std::size_t k = 0; k < samples; ++k) {
+    index[k] = index_at(arc, static_cast<double>(k) / samples);
+    c[k] = point_at(curve, index[k]);
+    mean += c[k] / static_cast<double>(samples);
+    t[k] = {target.x[k], target.y[k]};
+  }
+  double squares = 0, of_target = 0;
+  for (std::size_t k = 0; k < samples; ++k)
+    c[k] -= mean, squares += std::norm(c[k]), of_target += std::norm(t[k]);
+  double best = -1;
+  std::size_t start = 0;
+  std::complex<double> sum{};
+  for (const double sense : {1.0, -1.0})
+    for (std::size_t shift = 0; shift < samples; ++shift) {
+      double re = 0, im = 0;
+      for (std::size_t k = 0; k < samples; ++k) {
+        const std::complex<double>& v =
+            c[sense > 0 ? (k + shift) % samples : (shift + samples - k) % samples];
+        re += v.real() * t[k].real() + v.imag() * t[k].imag();
+        im += v.real() * t[k].imag() - v.imag() * t[k].real();
+      }
+      if (re * re + im * im > best) best = re * re + im * im, start = shift, m.sense = sense, sum = {re, im};
+    }
+  if (!(squares > 0)) return infinity;
+  const std::complex<double> scale = sum / squares;
+  set_place(m, scale, -scale * mean);
+  const double by_index = 2 * pi / static_cast<double>(curve.size());
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double at = static_cast<double>(start) + m.sense * static_cast<double>(k);
+    const double turns = std::floor(at / samples);
+    const auto i = static_cast<std::size_t>(at - turns * samples);
+    m.angle[k] = (index[i] + turns * static_cast<double>(curve.size())) * by_index;
+  }
+  return 1 - best / (squares * of_target);
+}
+
+double MachineFitter::Memory::place_open(FittedMachine& m, const std::vector<std::complex<double>>& curve,
+                                         std::span<const double> arc) {
+  constexpr std::size_t few = 24, table = 256, starts = 64;
+  std::array<std::complex<double>, table> even;
+  for (std::size_t i = 0; i < table; ++i)
+    even[i] = point_at(curve, index_at(arc, static_cast<double>(i) / table));
+  std::array<std::complex<double>, few> t;
+  double of_target = 0;
+  std::complex<double> target_mean{};
+  for (std::size_t k = 0; k < few; ++k) {
+    const std::size_t from = (k * (samples - 1) + (few - 1) / 2) / (few - 1);
+    t[k] = {target.x[from], target.y[from]};
+    target_mean += t[k] / static_cast<double>(few);
+  }
+  for (auto& v : t) v -= target_mean, of_target += std::norm(v);
+  const auto evaluate = [&](double start, double width, double sense, std::complex<double>& scale,
+                            std::complex<double>& place) {
+    std::complex<double> mean{};
+    double re = 0, im = 0, squares = 0;
+    for (std::size_t k = 0; k < few; ++k) {
+      double at = (start + sense * width * static_cast<double>(k) / (few - 1)) * table;
+      at -= table * std::floor(at / table);
+      const auto i = std::min(static_cast<std::size_t>(at), table - 1);
+      const std::complex<double> v =
+          even[i] + (at - static_cast<double>(i)) * (even[(i + 1) % table] - even[i]);
+      re += v.real() * t[k].real() + v.imag() * t[k].imag();
+      im += v.real() * t[k].imag() - v.imag() * t[k].real();
+      squares += std::norm(v), mean += v;
+    }
+    mean /= static_cast<double>(few);
+    squares -= static_cast<double>(few) * std::norm(mean);
+    if (!(squares > 0)) return infinity;
+    scale = std::complex<double>(re, im) / squares;
+    place = target_mean - scale * mean;
+    return 1 - (re * re + im * im) / (squares * of_target);
+  };
+  double best = infinity, start = 0, width = 0.5;
+  std::complex<double> scale, place;
+  const auto look = [&](double s, double w, double sense) {
+    std::complex<double> k, p;
+    if (const double found = evaluate(s, w, sense, k, p); found < best)
+      best = found, start = s, width = w, m.sense = sense, scale = k, place = p;
+  };
+  for (const double sense : {1.0, -1.0})
+    for (double w = 0.14; w < 0.99; w *= 1.14)
+      for (std::size_t i = 0; i < starts; ++i) look(static_cast<double>(i) / starts, w, sense);
+  for (double h = 0.008; h > 0.0015; h *= 0.5) {
+    const double s = start, w = width, sense = m.sense;
+    for (const double ds : {-h, 0.0, h})
+      for (const double dw : {-2 * h, 0.0, 2 * h})
+        if (w + dw < 0.995) look(s + ds, w + dw, sense);
+  }
+  if (best == infinity) return infinity;
+  set_place(m, scale, place);
+  const double by_index = 2 * pi / static_cast<double>(curve.size());
+  for (std::size_t k = 0; k < samples; ++k)
+    m.angle[k] = index_at(arc, start + m.sense * width * static_cast<double>(k) / (samples - 1)) * by_index;
+  return best;
+}
+
+double MachineFitter::place(FittedMachine& machine) {
+  Memory& m = *memory_;
+  const PointProgram& p = m.program_of(machine.shape);
+  m.set_place(machine, 1, 0);
+  alignas(64) std::array<double, turn_samples> angle, x, y, quality, worst;
+  for (std::size_t k = 0; k < turn_samples; ++k) angle[k] = 2 * pi * static_cast<double>(k) / turn_samples;
+  ++m.curves;
+  compute_curve({.program = &p,
+                 .x = machine.shape.x.data(),
+                 .signs = machine.shape.signs,
+                 .angle = angle.data(),
+                 .count = turn_samples,
+                 .px = x.data(),
+                 .py = y.data(),
+                 .quality = quality.data(),
+                 .worst = worst.data()});
+  if (!(*std::min_element(quality.begin(), quality.end()) > 0)) return infinity;
+  std::vector<std::complex<double>> curve(turn_samples);
+  std::vector<double> arc(turn_samples + 1, 0.0);
+  for (std::size_t k = 0; k < turn_samples; ++k) curve[k] = {x[k], y[k]};
+  for (std::size_t k = 0; k < turn_samples; ++k)
+    arc[k + 1] = arc[k] + std::abs(curve[(k + 1) % turn_samples] - curve[k]);
+  return m.target.closed ? m.place_closed(machine, curve, arc) : m.place_open(machine, curve, arc);
+}
+
+void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures& out) {
+  const PointProgram& p = program_of(machine.shape);
+  const double* x = machine.shape.x.data();
+  now.angle = machine.angle;
+  compute(p, x, machine.shape.signs, now);
+  for (int i = 0; i < 60; ++i) {
+    next.angle = now.angle;
+    next.tx = now.tx, next.ty = now.ty, next.x = now.x, next.y = now.y;
+    const double change = advance(next, machine.sense);
+    compute(p, x, machine.shape.signs, next);
+    if (!(next.squares <= now.squares)) break;
+    std::swap(now, next);
+    if (change < 1e-9) break;
+  }
+  machine.angle = now.angle;
+  machine.error = out.error = std::sqrt(now.squares / samples);
+  for (std::size_t k = 0; k < samples; ++k)
+    out.largest_deviation =
+        std::max(out.largest_deviation, std::hypot(now.x[k] - target.x[k], now.y[k] - target.y[k]));
+  out.span = std::abs(machine.angle.back() - machine.angle.front());
+  if (!target.closed) return;
+  if (out.span > 2 * pi + 1e-9) out.defect = MachineDefect::order;
+  out.span = 2 * pi;
+}
+
+double MachineFitter::Memory::least_quality(const FittedMachine& machine) const {
+  const auto least = std::min_element(turn_quality.begin(), turn_quality.end());
+  double quality = *least, centre = turn_angle[static_cast<std::size_t>(least - turn_quality.begin())],
+         half = 2 * pi / measured_angles;
+  for (int zoom = 0; zoom < 4; ++zoom, half /= 3.5) {
+    std::array<double, 8> angle, q, where;
+    for (std::size_t k = 0; k < 8; ++k) angle[k] = centre + half * (static_cast<double>(k) - 3.5) / 3.5;
+    compute_curve({.program = machine.shape.program,
+                   .x = machine.shape.x.data(),
+                   .signs = machine.shape.signs,
+                   .angle = angle.data(),
+                   .count = 8,
+                   .quality = q.data(),
+                   .worst = where.data()});
+    const auto i = static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin());
+    if (q[i] < quality) quality = q[i], centre = angle[i];
+  }
+  return quality;
+}
+
+void MachineFitter::Memory::measure_turn(const FittedMachine& machine, MachineMeasures& out) {
+  const PointProgram& p = *machine.shape.program;
+  const double* x = machine.shape.x.data();
+  ++curves;
+  compute_curve({.program = &p,
+                 .x = x,
+                 .signs = machine.shape.signs,
+                 .angle = turn_angle.data(),
+                 .count = measured_angles,
+                 .px = turn_x.data(),
+                 .py = turn_y.data(),
+                 .tx = turn_tx.data(),
+                 .ty = turn_ty.data(),
+                 .quality = turn_quality.data(),
+                 .worst = turn_worst.data(),
+                 .points = turn_points.data()});
+  const double quality = least_quality(machine);
+  out.min_pair_angle = quality > 0 ? std::asin(std::sqrt(quality)) : 0;
+  const auto s = static_cast<std::size_t>(p.scale());
+  const double scale = std::hypot(x[s], x[s + 1]);
+  out.min_length = infinity;
+  for (const LengthTerm& term : terms) {
+    const double length = length_of(term, machine.shape.x, scale);
+    out.min_length = std::min(out.min_length, length), out.max_length = std::max(out.max_length, length);
+  }
+  out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
+  out.peak_acceleration = peak_acceleration(machine, out.span);
+}
+
+/// Larger side of the box of all pins over the turn; the ground pin of the crank is the origin of the
+/// machine's plane.
+double MachineFitter::Memory::box_of_pins(const PointProgram& p, std::complex<double> scale) const {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  for (std::size_t i = 0; i < p.steps.size(); ++i) {
+    if (p.steps[i].operation == PointOperation::sleeve) continue;
+    const double *px = turn_points.data() + 2 * i * measured_angles, *py = px + measured_angles;
+    for (std::size_t k = 0; k < measured_angles; ++k) {
+      const std::complex<double> at = scale * std::complex<double>(px[k], py[k]);
+      left = std::min(left, at.real()), right = std::max(right, at.real());
+      bottom = std::min(bottom, at.imag()), top = std::max(top, at.imag());
+    }
+  }
+  return std::max(right - left, top - bottom);
+}
+
+/// Of the traced point at unit crank speed; an open stroke asks for nothing outside its own part of the turn.
+double MachineFitter::Memory::peak_acceleration(const FittedMachine& machine, double span) const {
+  const double from = machine.sense > 0 ? machine.angle.front() : machine.angle.back();
+  double peak = 0;
+  for (std::size_t k = 0; k < measured_angles; ++k) {
+    const double ahead = turn_angle[k] - from;
+    if (!target.closed && ahead - 2 * pi * std::floor(ahead / (2 * pi)) > span) continue;
+    const std::size_t a = (k + measured_angles - 1) % measured_angles, b = (k + 1) % measured_angles;
+    peak = std::max(peak, std::hypot(turn_tx[b] - turn_tx[a], turn_ty[b] - turn_ty[a]));
+  }
+  return peak * measured_angles / (4 * pi);
+}
+
+/// True if the curve stays near the stroke between the points, too.
+bool MachineFitter::Memory::stays_near(const FittedMachine& machine, double largest_deviation) {
+  constexpr std::size_t between = 3 * samples;
+  alignas(64) std::array<double, between> angle, bx, by;
+  const std::size_t sides = target.closed ? samples : samples - 1;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double from = machine.angle[k];
+    const double to = k + 1 < samples ? machine.angle[k + 1]
+                      : target.closed ? machine.angle[0] + machine.sense * 2 * pi
+                                      : from;
+    for (std::size_t i = 0; i < 3; ++i)
+      angle[3 * k + i] = from + (to - from) * 0.25 * static_cast<double>(i + 1);
+  }
+  ++curves;
+  compute_curve({.program = machine.shape.program,
+                 .x = machine.shape.x.data(),
+                 .signs = machine.shape.signs,
+                 .angle = angle.data(),
+                 .count = between,
+                 .px = bx.data(),
+                 .py = by.data()});
+  const double allowed = 3 * largest_deviation + 0.02;
+  for (std::size_t k = 0; k < 3 * sides; ++k) {
+    const std::size_t i = k / 3, j = (i + 1) % samples;
+    const double dx = target.x[j] - target.x[i], dy = target.y[j] - target.y[i];
+    const double vx = bx[k] - target.x[i], vy = by[k] - target.y[i], square = dx * dx + dy * dy;
+    const double part = square > 0 ? std::clamp((vx * dx + vy * dy) / square, 0.0, 1.0) : 0.0;
+    if (!(std::hypot(vx - part * dx, vy - part * dy) <= allowed)) return false;
+  }
+  return true;
+}
+
+MachineMeasures MachineFitter::measure(FittedMachine& machine) {
+  Memory& m = *memory_;
+  MachineMeasures out;
+  m.meet_points(machine, out);
+  m.measure_turn(machine, out);
+  const auto require = [&](bool kept, MachineDefect defect) {
+    if (!kept && out.defect == MachineDefect::none) out.defect = defect;
+  };
+  require(out.min_pair_angle >= m.limits.min_pair_angle, MachineDefect::pair_angle);
+  require(out.min_length >= m.limits.min_length * (1 - 1e-3), MachineDefect::short_link);
+  require(out.max_length <= m.limits.max_length * (1 + 1e-3), MachineDefect::long_link);
+  require(m.stays_near(machine, out.largest_deviation), MachineDefect::excursion);
+  return out;
+}
+
+}  // namespace linkwright::planar

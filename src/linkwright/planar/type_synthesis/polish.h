@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/type_synthesis/program.h"
+#include "linkwright/planar/type_synthesis/stroke.h"
+
+namespace linkwright::planar {
+
+/// What a machine must keep; lengths in sizes of the stroke.
+struct MachineLimits {
+  double min_pair_angle = 20 * pi / 180;  ///< rad, over the whole turn
+  double min_length = 0.05, max_length = 10;
+};
+
+/// What keeps a machine from being an answer.
+enum class MachineDefect { none, pair_angle, short_link, long_link, order, excursion };
+constexpr std::array<EnumName<MachineDefect>, 6> names(MachineDefect) {
+  return {{{MachineDefect::none, "none", "none"},
+           {MachineDefect::pair_angle, "pair_angle", "the least pair angle is below its limit"},
+           {MachineDefect::short_link, "short_link", "a length is below its limit"},
+           {MachineDefect::long_link, "long_link", "a length is above its limit"},
+           {MachineDefect::order, "order", "the points are met in another order, or in more than one turn"},
+           {MachineDefect::excursion, "excursion", "between two points the curve leaves the stroke"}}};
+}
+
+/// A machine that is compared with a stroke: parameters in sizes of the stroke from its mean.
+struct FittedMachine {
+  MachineShape shape;
+  double sense = 1;                                        ///< of the crank along the stroke, +1 or -1
+  alignas(64) std::array<double, stroke_samples> angle{};  ///< crank angle of each point of the stroke (rad)
+  double error = infinity;                                 ///< root mean square distance, in sizes
+};
+
+/// What is told of a machine; lengths in sizes of the stroke.
+struct MachineMeasures {
+  double error = infinity;  ///< root mean square distance of the points of the stroke
+  double largest_deviation = 0;
+  double min_pair_angle = 0;  ///< rad, over the whole turn; 0 where the machine does not turn
+  double min_length = 0, max_length = 0;
+  double size = 0;               ///< larger side of the box of all pins over the turn
+  double span = 0;               ///< crank angle between the first and the last point (rad)
+  double peak_acceleration = 0;  ///< of the traced point at unit crank speed
+  MachineDefect defect = MachineDefect::none;
+};
+
+/// Fits machines to one stroke; one a thread.
+class MachineFitter {
+ public:
+  MachineFitter(const StrokeTarget& target, const MachineLimits& limits);
+  ~MachineFitter();
+  MachineFitter(MachineFitter&&) noexcept;
+
+  /// Levenberg-Marquardt on shape and place, the crank angles following, in three stages with growing weight
+  /// of the limits. Given up (false) when the error after a stage is far above `best`, infinity = never.
+  bool polish(FittedMachine& machine, double best);
+
+  /// Place, scale, sense and crank angles that bring the curve of a shape onto the stroke as well as a
+  /// similarity can; its squared distance over that of the stroke from its mean. Shapes that do not turn are
+  /// left alone: infinity.
+  double place(FittedMachine& machine);
+
+  /// Measures on a grid of its own, and the crank angles to rounding.
+  MachineMeasures measure(FittedMachine& machine);
+
+  /// Number of curves that were computed, each of 96 points.
+  long long curves() const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace linkwright::planar

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+
+// Types of one-freedom linkages as programs of points: operations that place one pin after the other, from
+// the crank to the traced point. The crank and the ground are in a scale of their own, in which the crank has
+// the length 1 and turns about the origin; two complex numbers place the plane of the machine in the global
+// frame.
+namespace linkwright::planar {
+
+/// Operation that gives a point of the plane; its parameters, complex ones as (re, im), are numbers of the
+/// machine.
+enum class PointOperation {
+  crank_pin,       ///< e^(i theta); no parameters
+  ground_on_axis,  ///< ground pivot g on the real axis: g
+  ground,          ///< ground pivot anywhere: G
+  crank_plate,     ///< point c e^(i theta) of the crank: c
+  plate,           ///< point P + c (Q - P) of a bar with the pins P and Q: c
+  pair,            ///< pin at l1 from P and l2 from Q; sign 0: to the left of P -> Q: l1, l2
+  slide,           ///< end of a rod of length L from P on the line Im = h, to the right of P: L, h
+  sleeve,          ///< unit step from P along a rod through a sleeve that swings about g, with offset e: g, e
+  geared_crank,    ///< pin E + c e^(i rho theta) of a crank that is geared to the first: E, c
+};
+
+/// One operation. `first` and `second` number earlier points, P and Q above.
+struct PointStep {
+  PointOperation operation{};
+  int first = -1, second = -1;
+  int parameter = 0;  ///< index of its first parameter
+  int sign = -1;      ///< index of its sign bit, -1 if it has none
+};
+
+/// Families of machines in which a search looks for the best.
+enum class MachineFamily {
+  four_bar,
+  slider_crank,
+  inverted_slider,
+  geared_five_bar,
+  watt_1,
+  stephenson_1,
+  stephenson_3,
+  eight_bar,
+  ten_bar,
+};
+constexpr std::array<EnumName<MachineFamily>, 9> names(MachineFamily) {
+  return {
+      {{MachineFamily::four_bar, "four_bar", "four-bar linkage"},
+       {MachineFamily::slider_crank, "slider_crank", "slider-crank"},
+       {MachineFamily::inverted_slider, "inverted_slider",
+        "slider-crank whose sleeve swings about the ground"},
+       {MachineFamily::geared_five_bar, "geared_five_bar", "five-bar linkage with two geared cranks"},
+       {MachineFamily::watt_1, "watt_1", "six-bar linkage of Watt, ternary link on the crank's side"},
+       {MachineFamily::stephenson_1, "stephenson_1",
+        "six-bar linkage of Stephenson, ternary links in the loop"},
+       {MachineFamily::stephenson_3, "stephenson_3", "six-bar linkage of Stephenson with a ternary ground"},
+       {MachineFamily::eight_bar, "eight_bar", "eight-bar linkage of three pairs of bars"},
+       {MachineFamily::ten_bar, "ten_bar", "ten-bar linkage of four pairs of bars"}}};
+}
+
+/// A pair of bars that joins two links: bars 2k + 2 and 2k + 3 of pair k. Link 0 is the ground, link 1 the
+/// crank.
+using PairOfBars = std::array<int, 2>;
+
+/// Links of a machine that have pins: the points that are fixed to it; the first two give its direction.
+struct ProgramLink {
+  std::vector<int> points;
+};
+
+/// The type of a machine. Parameters run in the order of the steps, then the place (re, im) and the scale
+/// (re, im).
+struct PointProgram {
+  std::string name;  ///< "stephenson_3:a", "eight_bar:0213b"
+  MachineFamily family{};
+  int links = 4;
+  double gear_ratio = 0;          ///< of geared_crank: its turns for each turn of the crank
+  std::vector<PairOfBars> pairs;  ///< only of machines of pairs
+  bool trace_second = false;      ///< the traced point is on the second bar of the last pair
+  std::vector<PointStep> steps;   ///< the last one gives the traced point
+  std::vector<ProgramLink>
+      bodies;          ///< ground, crank and bars; slides and sleeves have no points of their own
+  int parameters = 0;  ///< with place and scale
+  int signs = 0;
+
+  int place() const { return parameters - 4; }
+  int scale() const { return parameters - 2; }
+};
+
+/// The parameters of a machine and the signs of its pairs, one bit each.
+struct MachineShape {
+  const PointProgram* program = nullptr;  ///< lives as long as the process
+  unsigned signs = 0;
+  std::vector<double> x;
+};
+
+/// The types of a family up to eight links, each once: isomorphs by graph, ground, driver and traced link are
+/// left out, and machines whose traced point moves with a chain of fewer links.
+std::span<const PointProgram* const> programs_of(MachineFamily family);
+
+/// The program of 1 to 4 pairs, of which the first joins crank and ground, {1, 0}; the same address for the
+/// same pairs. Parameters are in the order of these pairs.
+const PointProgram& pair_program(std::span<const PairOfBars> pairs, bool trace_second);
+
+/// The program with a name, also of pairs whose isomorph has another one; null if there is none.
+const PointProgram* program_named(std::string_view name);
+
+/// The mirror image about the real axis: it traces the mirrored curve with the crank turning in the other
+/// sense.
+MachineShape mirrored(const MachineShape& machine);
+
+}  // namespace linkwright::planar

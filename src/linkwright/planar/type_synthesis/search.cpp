@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include "linkwright/core/random.h"
+#include "linkwright/optimise/parallel.h"
+#include "linkwright/planar/type_synthesis/atlas.h"
+#include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/draw_shape.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 400, archive_size = 40;
+constexpr int first_rounds = 3;  // of each family, before the better ones get more
+
+enum class TrialKind { pool, hop, grow };
+
+/// One machine to polish.
+struct Trial {
+  TrialKind kind{};
+  FittedMachine machine;
+  double best = infinity;
+  bool accepted = false, inside = false;
+  MachineMeasures measures;
+  long long curves = 0;
+};
+
+struct FamilyState {
+  FamilyReport report;
+  int links = 4;
+  std::shared_ptr<const FamilyAtlas> atlas;
+  std::vector<AtlasMatch> pool;
+  std::size_t next_in_pool = 0;
+  bool prepared = false;
+  int rounds = 0;
+  double last_gain = 1;               ///< relative fall of the error in its last round
+  double grown_from = infinity;       ///< error of the smaller machine that was grown last
+  std::vector<FoundMachine> elite;    ///< best first
+  std::vector<FoundMachine> archive;  ///< not dominated
+  std::optional<FoundMachine> outside;
+};
+
+int links_of(MachineFamily family) {
+  if (family == MachineFamily::ten_bar) return 10;
+  return programs_of(family).front()->links;
+}
+
+bool is_of_pairs(MachineFamily family) {
+  return family == MachineFamily::ten_bar || !programs_of(family).front()->pairs.empty();
+}
+
+bool dominates(const FoundMachine& a, const FoundMachine& b) {
+  const auto& m = a.measures;
+  const auto& n = b.measures;
+  const int la = a.machine.shape.program->links, lb = b.machine.shape.program->links;
+  return la <= lb && m.error <= n.error && m.min_pair_angle >= n.min_pair_angle && m.size <= n.size &&
+         m.peak_acceleration <= n.peak_acceleration;
+}
+
+/// The same machine up to what the polish leaves open.
+bool is_alike(const FoundMachine& a, const FoundMachine& b) {
+  return std::abs(a.measures.error - b.measures.error) <= 2e-3 * b.measures.error + 1e-7 &&
+         std::abs(a.measures.size - b.measures.size) <= 0.01 * b.measures.size;
+}
+
+class TypeSearch {
+ public:
+  TypeSearch(const StrokeTarget& target, const TypeSearchOptions& options, RunContext& context)
+      : target_(target), options_(options), context_(context), began_(RunContext::Clock::now()) {
+    for (const auto& family : names(MachineFamily{})) {
+      const auto& wanted = options.families;
+      const bool asked =
+          wanted.empty() || std::find(wanted.begin(), wanted.end(), family.value) != wanted.end();
+      if (!asked || links_of(family.value) > options.max_links) continue;
+      FamilyState& state = families_.emplace_back();
+      state.report.family = family.value, state.links = links_of(family.value);
+    }
+  }
+
+  TypeSearchAnswer run() {
+    Status status = Status::done;
+    while (!families_.empty()) {
+      status = context_.interruption();
+      if (status != Status::done || (options_.max_curves > 0 && curves_ >= options_.max_curves)) break;
+      FamilyState& family = families_[choose_family()];
+      if (!prepare(family)) continue;
+      round(family);
+      ++rounds_;
+      if (options_.max_curves > 0)
+        context_.report({.stage = name_of(family.report.family),
+                         .fraction = std::min(
+                             1.0, static_cast<double>(curves_) / static_cast<double>(options_.max_curves)),
+                         .best = best_error()});
+      else
+        context_.report({.stage = name_of(family.report.family), .fraction = 0, .best = best_error()});
+    }
+    return answer(status);
+  }
+
+ private:
+  double best_error() const {
+    double best = infinity;
+    for (const FamilyState& f : families_) best = std::min(best, f.report.error);
+    return best;
+  }
+
+  std::size_t choose_family() {
+    for (int turn = 0; turn < first_rounds; ++turn)
+      for (std::size_t i = 0; i < families_.size(); ++i)
+        if (families_[i].rounds == turn) return i;
+    double total = 0;
+    std::vector<double> weight;
+    for (const FamilyState& f : families_) {
+      double w = 0.15 + std::min(1.0, 4 * f.last_gain);
+      w *= f.links >= 8 ? 2.5 : f.links == 6 ? 1.6 : 1;
+      for (const FamilyState& smaller : families_)
+        if (smaller.links < f.links && smaller.report.error < 0.9 * f.report.error) {
+          w *= 0.35;
+          break;
+        }
+      if (f.pool.empty() && f.elite.empty() && f.links < 10) w *= 0.1;
+      w /= static_cast<double>(f.report.curves) * f.links + 3e5;
+      weight.push_back(w);
+      total += w;
+    }
+    double at = total * random(0).uniform();
+    for (std::size_t i = 0; i < weight.size(); ++i)
+      if ((at -= weight[i]) < 0) return i;
+    return families_.size() - 1;
+  }
+
+  RandomStream random(std::uint32_t individual) const {
+    return RandomStream({.seed = options_.seed,
+                         .run = 77,
+                         .generation = static_cast<std::uint32_t>(rounds_),
+                         .individual = individual});
+  }
+
+  bool prepare(FamilyState& f) {
+    if (f.prepared) return true;
+    if (f.report.family != MachineFamily::ten_bar) {
+      f.atlas = family_atlas(f.report.family, context_);
+      if (!f.atlas) return false;
+      f.pool = match_atlas(*f.atlas, target_, pool_size, context_);
+      if (context_.interrupted()) return false;
+      f.report.atlas_entries = static_cast<long long>(f.atlas->entries.size());
+    }
+    return f.prepared = true;
+  }
+
+  /// The best machine of pairs with two links less, null if there is none.
+  const FoundMachine* smaller_machine(const FamilyState& f) const {
+    const FoundMachine* best = nullptr;
+    if (!is_of_pairs(f.report.family)) return nullptr;
+    for (const FamilyState& s : families_)
+      if (s.links == f.links - 2 && is_of_pairs(s.report.family) && !s.elite.empty() &&
+          (!best || s.elite[0].measures.error < best->measures.error))
+        best = &s.elite[0];
+    return best;
+  }
+
+  /// A machine with one pair more that traces nearly the same curve.
+  std::optional<FittedMachine> grown(const FittedMachine& from, RandomStream& random) const {
+    const PointProgram& old = *from.shape.program;
+    std::vector<PairOfBars> pairs = old.pairs;
+    const int traced = old.links - 2 + (old.trace_second ? 1 : 0);
+    int other = static_cast<int>(random.below(static_cast<std::uint32_t>(old.links - 1)));
+    if (other >= traced) ++other;
+    pairs.push_back({traced, other});
+    const PointProgram& p = pair_program(pairs, false);
+    FittedMachine out = from;
+    out.shape.program = &p;
+    out.shape.x.resize(static_cast<std::size_t>(p.parameters));
+    // The steps of the old machine come first, its traced point among them.
+    if (!draw_shape(out.shape, old.steps.size(), random)) return std::nullopt;
+    std::copy(from.shape.x.end() - 4, from.shape.x.end(), out.shape.x.end() - 4);
+    const auto plate = static_cast<std::size_t>(p.steps.back().parameter);
+    out.shape.x[plate] = 0.02 * random.normal(), out.shape.x[plate + 1] = 0.02 * random.normal();
+    return out;
+  }
+
+  void hop(FittedMachine& m, RandomStream& random) const {
+    const double u = random.uniform(), sigma = 0.005 + 0.3 * u * u;
+    const bool all = random.uniform() < 0.5;
+    for (double& x : m.shape.x) {
+      const double chance = random.uniform(), change = random.normal();
+      if (all || chance < 0.35) x += sigma * (std::abs(x) + 0.1) * change;
+    }
+    for (const PointStep& step : m.shape.program->steps)
+      if (step.operation == PointOperation::pair)
+        for (int k = 0; k < 2; ++k) {
+          double& length = m.shape.x[static_cast<std::size_t>(step.parameter + k)];
+          length = std::max(std::abs(length), 1e-3);
+        }
+  }
+
+  std::vector<Trial> trials_of(FamilyState& f) {
+    std::vector<Trial> out;
+    RandomStream choice = random(1);
+    const FoundMachine* smaller = smaller_machine(f);
+    const bool grow = smaller && (smaller->measures.error < f.grown_from ||
+                                  f.report.family == MachineFamily::ten_bar || choice.uniform() < 0.2);
+    for (std::size_t k = 0; k < trials_a_round; ++k) {
+      RandomStream stream = random(static_cast<std::uint32_t>(2 + k));
+      Trial t;
+      t.best = f.report.error;
+      const bool from_pool = f.next_in_pool < f.pool.size() && (f.elite.empty() || stream.uniform() < 0.5);
+      if (grow && k < 4) {
+        auto machine = grown(smaller->machine, stream);
+        if (!machine) continue;
+        t.kind = TrialKind::grow, t.machine = std::move(*machine);
+        // What was grown traces the curve of the smaller machine, which may be far from this family's best.
+        t.best = infinity;
+      } else if (from_pool) {
+        const AtlasMatch& match = f.pool[f.next_in_pool++];
+        t.kind = TrialKind::pool, t.machine.shape = f.atlas->shape(match.entry);
+        if (match.mirrored) t.machine.shape = mirrored(t.machine.shape);
+      } else if (!f.elite.empty()) {
+        const double rank = -1.5 * std::log(1 - stream.uniform());
+        t.kind = TrialKind::hop,
+        t.machine = f.elite[std::min(static_cast<std::size_t>(rank), f.elite.size() - 1)].machine;
+        hop(t.machine, stream);
+      } else {
+        continue;
+      }
+      out.push_back(std::move(t));
+    }
+    if (grow) f.grown_from = smaller->measures.error;
+    return out;
+  }
+
+  void work(Trial& t) const {
+    MachineFitter fitter(target_, options_.limits);
+    const bool placed = t.kind != TrialKind::pool || fitter.place(t.machine) < infinity;
+    if (placed && fitter.polish(t.machine, t.best)) {
+      t.measures = fitter.measure(t.machine);
+      t.accepted = std::isfinite(t.measures.error);
+      t.inside = t.measures.defect == MachineDefect::none;
+    }
+    t.curves = fitter.curves();
+  }
+
+  void round(FamilyState& f) {
+    std::vector<Trial> trials = trials_of(f);
+    optimise::parallel_for(trials.size(), context_.threads(), [&](std::size_t i) {
+      if (!context_.interrupted()) work(trials[i]);
+    });
+    // A round that was cut short must not count: what it found depends on the clock.
+    const double before = f.report.error;
+    for (Trial& t : trials) {
+      curves_ += t.curves;
+      f.report.curves += t.curves;
+      (t.kind == TrialKind::hop    ? f.report.hops
+       : t.kind == TrialKind::grow ? f.report.grown
+                                   : f.report.polished) += 1;
+      if (t.accepted) take(f, std::move(t));
+    }
+    f.last_gain = std::isfinite(before) ? 1 - f.report.error / before : f.elite.empty() ? 0 : 1;
+    ++f.rounds;
+  }
+
+  void take(FamilyState& f, Trial&& t) {
+    FoundMachine found{.machine = std::move(t.machine), .measures = t.measures};
+    if (!t.inside) {
+      if (!f.outside || found.measures.error < f.outside->measures.error) f.outside = std::move(found);
+      return;
+    }
+    if (found.measures.error < f.report.error) {
+      f.report.error = found.measures.error, f.report.best_at = curves_;
+      progress_.push_back(
+          {.curves = curves_,
+           .seconds = std::chrono::duration<double>(RunContext::Clock::now() - began_).count(),
+           .family = f.report.family,
+           .error = found.measures.error});
+    }
+    insert(f.archive, found, archive_size, true);
+    insert(f.elite, found, elite_size, false);
+  }
+
+  /// Keeps a list sorted by error, without machines that are alike and, for archives, without dominated ones.
+  static void insert(std::vector<FoundMachine>& list, const FoundMachine& found, std::size_t most,
+                     bool archive) {
+    for (const FoundMachine& other : list)
+      if (archive ? dominates(other, found)
+                  : is_alike(other, found) && other.measures.error <= found.measures.error)
+        return;
+    std::erase_if(list, [&](const FoundMachine& other) {
+      return archive ? dominates(found, other) : is_alike(found, other);
+    });
+    const auto place = std::upper_bound(
+        list.begin(), list.end(), found,
+        [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
+    list.insert(place, found);
+    if (list.size() > most) list.pop_back();
+  }
+
+  double chamfer_of(const FoundMachine& found) const {
+    constexpr std::size_t count = 2000;
+    std::vector<double> angle(count), x(count), y(count);
+    const FittedMachine& m = found.machine;
+    const double from = m.angle.front(), to = target_.closed ? from + m.sense * 2 * pi : m.angle.back();
+    for (std::size_t k = 0; k < count; ++k)
+      angle[k] = from + (to - from) * static_cast<double>(k) / (target_.closed ? count : count - 1);
+    compute_curve({.program = m.shape.program,
+                   .x = m.shape.x.data(),
+                   .signs = m.shape.signs,
+                   .angle = angle.data(),
+                   .count = count,
+                   .px = x.data(),
+                   .py = y.data()});
+    std::vector<std::complex<double>> curve;
+    for (std::size_t k = 0; k < count; ++k) curve.emplace_back(x[k], y[k]);
+    return chamfer_distance(curve, target_.closed, target_.polyline, target_.closed);
+  }
+
+  TypeSearchAnswer answer(Status status) {
+    TypeSearchAnswer out;
+    out.status = status;
+    out.curves = curves_, out.progress = std::move(progress_);
+    std::vector<FoundMachine> all;
+    for (FamilyState& f : families_) {
+      out.families.push_back(f.report);
+      // The best, and the best of those that are clearly kinder in another respect.
+      std::vector<FoundMachine> chosen;
+      for (const FoundMachine& found : f.archive) {
+        const bool close = found.measures.error <= 2 * f.report.error + 0.002;
+        const bool different = std::all_of(chosen.begin(), chosen.end(), [&](const FoundMachine& c) {
+          return found.measures.min_pair_angle > c.measures.min_pair_angle + 0.09 ||
+                 found.measures.size < 0.7 * c.measures.size ||
+                 found.measures.peak_acceleration < 0.6 * c.measures.peak_acceleration;
+        });
+        if (chosen.size() < 2 && close && different) chosen.push_back(found);
+      }
+      all.insert(all.end(), chosen.begin(), chosen.end());
+      if (f.archive.empty() && f.outside) out.outside.push_back(*f.outside);
+    }
+    for (const FoundMachine& found : all)
+      if (std::none_of(all.begin(), all.end(), [&](const FoundMachine& other) {
+            return &other != &found && dominates(other, found);
+          }))
+        out.machines.push_back(found);
+    std::sort(out.machines.begin(), out.machines.end(), [](const FoundMachine& a, const FoundMachine& b) {
+      return a.measures.error < b.measures.error;
+    });
+    if (out.machines.size() > options_.max_solutions) out.machines.resize(options_.max_solutions);
+    for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(found);
+    for (FoundMachine& found : out.outside) found.chamfer = chamfer_of(found);
+    return out;
+  }
+
+  StrokeTarget target_;
+  TypeSearchOptions options_;
+  RunContext& context_;
+  RunContext::Clock::time_point began_;
+  std::vector<FamilyState> families_;
+  std::vector<TypeSearchPoint> progress_;
+  long long curves_ = 0, rounds_ = 0;
+};
+
+}  // namespace
+
+TypeSearchAnswer search_types(const StrokeTarget& target, const TypeSearchOptions& options,
+                              RunContext& context) {
+  return TypeSearch(target, options, context).run();
+}
+
+}  // namespace linkwright::planar

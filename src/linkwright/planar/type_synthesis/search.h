@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/status.h"
+#include "linkwright/planar/type_synthesis/polish.h"
+
+namespace linkwright::planar {
+
+struct TypeSearchOptions {
+  std::vector<MachineFamily>
+      families;  ///< in which machines are looked for; none = all with at most `max_links`
+  int max_links = 8;
+  MachineLimits limits;
+  long long max_curves = 0;  ///< number of curves after which the search ends; 0 = only the context ends it
+  std::uint64_t seed = 1;
+  std::size_t max_solutions = 12;
+};
+
+/// A machine of the list, in sizes of the stroke from its mean.
+struct FoundMachine {
+  FittedMachine machine;
+  MachineMeasures measures;
+  double chamfer = infinity;  ///< chamfer distance of curve and stroke
+};
+
+/// What the search did in one family.
+struct FamilyReport {
+  MachineFamily family{};
+  double error = infinity;  ///< of its best machine within the limits
+  long long polished = 0, hops = 0, grown = 0, curves = 0, atlas_entries = 0;
+  long long best_at = 0;  ///< curves of the whole search when the best was found
+};
+
+/// An improvement of the best machine of a family.
+struct TypeSearchPoint {
+  long long curves = 0;
+  double seconds = 0;
+  MachineFamily family{};
+  double error = infinity;
+};
+
+struct TypeSearchAnswer {
+  Status status = Status::done;
+  std::vector<FoundMachine>
+      machines;  ///< not worse than another one in links, error, pair angle, size and acceleration
+  std::vector<FoundMachine> outside;  ///< the best machine of each family that has none within the limits
+  std::vector<FamilyReport> families;
+  std::vector<TypeSearchPoint> progress;
+  long long curves = 0;
+};
+
+/// Finds machines of many types that trace a stroke. The sequence of its trials depends on the seed alone;
+/// the context or the number of curves says where it ends. `found` is called after each improvement with what
+/// is known so far.
+TypeSearchAnswer search_types(const StrokeTarget& target, const TypeSearchOptions& options,
+                              RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/polish.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/type_synthesis/found_linkage.h"
+#include "planar/type_synthesis_cases.h"
+
+namespace linkwright::planar {
+namespace {
+
+using linkwright::test::at;
+using linkwright::test::number_at;
+using linkwright::test::numbers;
+
+/// Crank angles, in order, at which a curve comes nearest to the points of a stroke: by dynamic programming.
+void meet_in_order(FittedMachine& m, const StrokeTarget& target, double from, double to) {
+  constexpr std::size_t fine = 1440;
+  std::vector<double> angles(fine);
+  for (std::size_t j = 0; j < fine; ++j) angles[j] = from + (to - from) * static_cast<double>(j) / (fine - 1);
+  const auto curve = test::traced(m.shape, angles);
+  std::vector<double> cost(fine, 0.0);
+  std::vector<std::vector<std::size_t>> before(stroke_samples, std::vector<std::size_t>(fine));
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    std::vector<double> next(fine);
+    std::size_t best = 0;
+    for (std::size_t j = 0; j < fine; ++j) {
+      if (k == 0 || cost[j] < cost[best]) best = j;
+      before[k][j] = best;
+      next[j] =
+          (k == 0 ? 0 : cost[best]) + std::norm(curve[j] - std::complex<double>(target.x[k], target.y[k]));
+    }
+    cost = std::move(next);
+  }
+  auto j = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  for (std::size_t k = stroke_samples; k-- > 0; j = before[k][j]) m.angle[k] = angles[j];
+}
+
+/// A published machine, in sizes of the stroke from its mean.
+FittedMachine machine_of(const Value& published, const StrokeTarget& target) {
+  FittedMachine m;
+  m.shape = {.program = program_named(at(published, "program").as_string()),
+             .signs = static_cast<unsigned>(number_at(published, "bits")),
+             .x = numbers(at(published, "x"))};
+  double* x = m.shape.x.data() + m.shape.x.size() - 4;
+  const std::complex<double> place = (std::complex<double>(x[0], x[1]) - target.centre) / target.size;
+  x[0] = place.real(), x[1] = place.imag(), x[2] /= target.size, x[3] /= target.size;
+  const double from = number_at(published, "crank_from_rad"), to = number_at(published, "crank_to_rad");
+  m.sense = to > from ? 1 : -1;
+  meet_in_order(m, target, from, to);
+  return m;
+}
+
+// 111 machines of all families that another program found and a third one evaluated again.
+TEST(MachineMeasuresOfPublishedMachines, AreReproduced) {
+  int machines = 0;
+  for (const std::string& name : test::stroke_names()) {
+    const Value& published = test::stroke_case(name);
+    const StrokeTarget target = stroke_target(test::stroke_of(published));
+    MachineFitter fitter(target, {});
+    for (const Value& machine : at(published, "machines").as_array()) {
+      const std::string program = at(machine, "program").as_string();
+      ASSERT_TRUE(program_named(program)) << program;
+      FittedMachine m = machine_of(machine, target);
+      const MachineMeasures found = fitter.measure(m);
+      const double e = number_at(machine, "e");
+      // The stored machines are places where their search stopped: those with corners can still come closer.
+      EXPECT_LT(found.error, e + 1e-5) << name << ' ' << program;
+      EXPECT_GT(found.error, 0.99 * e - 1e-5) << name << ' ' << program;
+      EXPECT_NEAR(found.min_pair_angle * 180 / pi, number_at(machine, "least_pair_angle_deg"), 0.1)
+          << name << ' ' << program;
+      EXPECT_NEAR(found.max_length, number_at(machine, "longest_length"), 1e-3) << name << ' ' << program;
+      EXPECT_NEAR(found.min_length, number_at(machine, "shortest_length"), 1e-3) << name << ' ' << program;
+      ++machines;
+    }
+  }
+  EXPECT_EQ(machines, 111);
+}
+
+// The solver of any linkage knows nothing of programs.
+TEST(FoundLinkages, TraceTheCurveOfTheirProgram) {
+  const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case("leg")));
+  for (const PointProgram* p : test::all_programs()) {
+    FittedMachine m;
+    m.shape = test::some_shape(*p, 11);
+    double* x = m.shape.x.data() + m.shape.x.size() - 4;
+    x[0] = 0.4, x[1] = -0.2, x[2] = 0.3, x[3] = -0.6;
+    const FoundLinkage found = found_linkage(m, target);
+    const PlanResult planned = plan_linkage(found.linkage);
+    ASSERT_TRUE(planned.problems.empty())
+        << p->name << ": " << linkwright::to_string(planned.problems[0].message);
+    LinkageMotion moving(planned.plan);
+    std::vector<double> angles;
+    for (int k = 0; k < 40; ++k) angles.push_back(0.16 * k);
+    const auto curve = test::traced(m.shape, angles);
+    const BodyPoint point = point_named(found.linkage, found.traced);
+    for (std::size_t k = 0; k < angles.size(); ++k) {
+      const InputMotion input{angles[k] + found.crank_angle, 0, 0};
+      solve_position(planned.plan, std::span(&input, 1), moving);
+      ASSERT_EQ(moving.status, Status::done) << p->name << " at " << k;
+      const PartState<double> body = body_state(planned.plan, moving, point.body);
+      const std::complex<double> local = found.linkage.bodies[static_cast<std::size_t>(point.body)]
+                                             .points[static_cast<std::size_t>(point.point)]
+                                             .at;
+      const std::complex<double> place = std::complex<double>(body.origin.x, body.origin.y) +
+                                         std::complex<double>(body.direction.x, body.direction.y) * local;
+      EXPECT_LT(std::abs((place - target.centre) / target.size - curve[k]), 1e-6) << p->name << " at " << k;
+    }
+  }
+}
+
+TEST(MachineFitters, PlaceACurveOnItself) {
+  for (const char* name : {"four_bar", "slider_crank", "stephenson_1:b", "geared_five_bar:2"}) {
+    const MachineShape shape = test::some_shape(*program_named(name), 23);
+    std::vector<double> angles;
+    for (int k = 0; k < 400; ++k) angles.push_back(2 * pi * k / 400);
+    Stroke stroke{.closed = true};
+    for (const auto& p : test::traced(shape, angles))
+      stroke.points.push_back(std::polar(2.5, 0.7) * p + std::complex<double>(3, -1));
+    MachineFitter fitter(stroke_target(stroke),
+                         {.min_pair_angle = 0.01, .min_length = 1e-6, .max_length = 1e6});
+    FittedMachine m{.shape = shape};
+    EXPECT_LT(fitter.place(m), 1e-3) << name;
+    fitter.polish(m, infinity);
+    EXPECT_LT(fitter.measure(m).error, 1e-4) << name;
+  }
+}
+
+TEST(ChamferDistances, AreThoseOfParallelSegments) {
+  const std::vector<std::complex<double>> a{{0, 0}, {1, 0}}, b{{0, 0.25}, {1, 0.25}};
+  EXPECT_NEAR(chamfer_distance(a, false, b, false), 0.5, 1e-12);
+  EXPECT_NEAR(chamfer_distance(a, false, a, false), 0, 1e-15);
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "linkwright/planar/type_synthesis/atlas.h"
+#include "planar/type_synthesis_cases.h"
+
+namespace linkwright::planar {
+namespace {
+
+TypeSearchAnswer search(const char* stroke, const TypeSearchOptions& options, int threads = 1) {
+  RunContext context;
+  context.set_threads(threads);
+  return search_types(stroke_target(test::stroke_of(test::stroke_case(stroke))), options, context);
+}
+
+const FamilyReport& report_of(const TypeSearchAnswer& answer, MachineFamily family) {
+  return *std::find_if(answer.families.begin(), answer.families.end(),
+                       [&](const FamilyReport& f) { return f.family == family; });
+}
+
+// Best known errors of a four-bar and a slider-crank for the path of a leg: 0.01528 and 0.02391.
+TEST(TypeSearches, FindTheBestKnownFourBarAndSliderCrank) {
+  const auto answer = search(
+      "leg", {.families = {MachineFamily::four_bar, MachineFamily::slider_crank}, .max_curves = 600'000});
+  EXPECT_LT(report_of(answer, MachineFamily::four_bar).error, 0.01530);
+  EXPECT_LT(report_of(answer, MachineFamily::slider_crank).error, 0.02394);
+  EXPECT_EQ(answer.status, Status::done);
+}
+
+TEST(TypeSearches, GiveTheSameBitsOnEveryNumberOfThreads) {
+  const TypeSearchOptions options{.max_links = 6, .max_curves = 300'000};
+  const auto one = search("figure_eight", options, 1), two = search("figure_eight", options, 2);
+  ASSERT_EQ(one.machines.size(), two.machines.size());
+  ASSERT_FALSE(one.machines.empty());
+  EXPECT_EQ(one.curves, two.curves);
+  for (std::size_t i = 0; i < one.machines.size(); ++i) {
+    EXPECT_EQ(one.machines[i].machine.shape.x, two.machines[i].machine.shape.x);
+    EXPECT_EQ(one.machines[i].measures.error, two.machines[i].measures.error);
+  }
+}
+
+TEST(TypeSearches, AnswerWithinTheLimitsAndInOrder) {
+  for (const char* stroke : {"square", "letter_u"}) {
+    const auto answer = search(stroke, {.max_links = 8, .max_curves = 500'000});
+    ASSERT_FALSE(answer.machines.empty()) << stroke;
+    EXPECT_TRUE(
+        std::is_sorted(answer.machines.begin(), answer.machines.end(),
+                       [](const auto& a, const auto& b) { return a.measures.error < b.measures.error; }));
+    for (const FoundMachine& found : answer.machines) {
+      EXPECT_EQ(found.measures.defect, MachineDefect::none);
+      EXPECT_GE(found.measures.min_pair_angle, 20 * pi / 180);
+      EXPECT_LE(found.measures.max_length, 10.02);
+      EXPECT_GE(found.measures.min_length, 0.0499);
+      EXPECT_LT(found.chamfer, 4 * found.measures.error + 0.01);
+      for (std::size_t k = 1; k < stroke_samples; ++k)
+        EXPECT_GE(found.machine.sense * (found.machine.angle[k] - found.machine.angle[k - 1]), -1e-12);
+    }
+  }
+}
+
+TEST(TypeSearches, EndWithTheContext) {
+  RunContext context;
+  context.cancel();
+  const auto answer = search_types(stroke_target(test::stroke_of(test::stroke_case("leg"))), {}, context);
+  EXPECT_EQ(answer.status, Status::cancelled);
+  EXPECT_TRUE(answer.machines.empty());
+}
+
+// The bound leaves out nothing: a few neighbours are the first of all.
+TEST(Atlases, GiveExactNeighbours) {
+  RunContext context;
+  const auto atlas = family_atlas(MachineFamily::stephenson_3, context);
+  ASSERT_TRUE(atlas);
+  ASSERT_GT(atlas->entries.size(), 1000U);
+  for (const char* stroke : {"leg", "figure_eight", "square"}) {
+    const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case(stroke)));
+    const auto few = match_atlas(*atlas, target, 20, context),
+               all = match_atlas(*atlas, target, atlas->entries.size(), context);
+    ASSERT_EQ(all.size(), atlas->entries.size());
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      EXPECT_EQ(few[i].entry, all[i].entry) << stroke;
+      EXPECT_EQ(few[i].score, all[i].score) << stroke;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::planar
