@@ -92,18 +92,15 @@ def listed(cmake_lists):
 
 def check_public_headers(root):
     """The headers straight under src/linkwright are the entry headers: what they include is public and installed."""
-    folder = root / "src" / "linkwright"
-    entries = sorted(folder.glob("*.h"))
-    listed = {name: entry for entry in entries for _, _, name in repository.includes(entry) if name.count("/") > 1}
-    public = {f"linkwright/{entry.name}" for entry in entries} | set(listed)
-    for name in sorted(public):
-        path = root / "src" / name
-        if not path.is_file():
-            yield f"src/linkwright/{listed[name].name}: includes {name}, which is gone"
-            continue
-        for _, _, other in repository.includes(path):
-            if other.startswith("linkwright/") and other not in public:
-                yield f"src/{name}: is public and includes {other}, which no header straight under src/linkwright includes"
+    headers = repository.public_headers(root)
+    public = {path.relative_to(root / "src").as_posix() for path in headers}
+    for path in headers:
+        for _, _, other in repository.includes(path) if path.is_file() else ():
+            if other in public and not (root / "src" / other).is_file():
+                yield f"{path.relative_to(root).as_posix()}: includes {other}, which is gone"
+            elif other.startswith("linkwright/") and other not in public:
+                yield (f"{path.relative_to(root).as_posix()}: is public and includes {other}, which no header straight under "
+                       "src/linkwright includes")
 
 
 def check(root, no_test=None):

@@ -14,7 +14,7 @@ nodejs npm"
 case "${1:-}" in
   run) ;;
   test) packages="$packages
-git clang-format flake8 shellcheck yamllint libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema emscripten
+git clang-format doxygen flake8 shellcheck yamllint libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema emscripten
 pybind11-dev python3-dev python3-numpy python3-pandas python3-pip python3-venv binutils
 dpkg-dev patchelf xz-utils zstd debootstrap libopenmpi-dev openmpi-bin" ;;
   *) echo "usage: tools/install-packages.sh run|test" >&2; exit 2 ;;

@@ -37,6 +37,14 @@ def includes(path):
             yield number, match[1], match[2]
 
 
+def public_headers(root):
+    """What users of the library include: the entry headers straight under src/linkwright, and what these include."""
+    src = root / "src"
+    entries = sorted((src / "linkwright").glob("*.h"))
+    inner = {src / name for entry in entries for _, _, name in includes(entry) if name.count("/") > 1}
+    return entries + sorted(inner)
+
+
 def main(check):
     """Runs `check(root)`, which returns findings; root is the argument or the repository of this script."""
     root = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent

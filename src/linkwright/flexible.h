@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Arms with flexible links.
+/// @defgroup flexible Flexible links
+/// Arms with flexible links: beams as chains of rigid bars, their drives and their motion.
+///
+/// @include flexible_arm.cpp
+
+/// @namespace linkwright::flexible
+/// Arms with flexible links.
 
 #include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/chain.h"

@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Vectors, poses, splines, motion laws and the options of differential equations.
+/// @defgroup math Mathematics
+/// Vectors, rotations, poses, splines, motion laws of a drive and the integration of differential equations.
+///
+/// @code
+/// using namespace linkwright::math;
+/// // A drive that moves through 90 degrees in half a second, from rest to rest.
+/// const MotionCurve drive(CycloidalMotion{.from = 0, .to = radians(90), .start = 0, .duration = 0.5});
+/// const Motion middle = drive(0.25);  // middle.value is radians(45), middle.acceleration is 0
+/// @endcode
+
+/// @namespace linkwright::math
+/// Vectors, rotations, poses, splines, motion laws and initial value problems.
 
 #include "linkwright/math/angles.h"
 #include "linkwright/math/function_ref.h"

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Parallel robots: DELTA, HEXA and five-bar, their position, rates and statics, and paths of a tool.
+/// @defgroup parallel Parallel robots
+/// DELTA, HEXA and five-bar robots: their position, rates and statics, and paths of a tool.
+///
+/// @include delta_path.cpp
+
+/// @namespace linkwright::parallel
+/// Parallel robots and paths of their tools.
 
 #include "linkwright/parallel/robot/jacobians.h"
 #include "linkwright/parallel/robot/position.h"

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Planar mechanisms: any linkage, four-bars, serial arms, simulation, path synthesis, balancing.
+/// @defgroup planar Planar mechanisms
+/// Linkages of any form, which are built by names, planned, moved and simulated; four-bars with their joint
+/// forces; serial arms; synthesis of paths; balancing.
+///
+/// A slider-crank, its motion and the forces in its joints:
+///
+/// @include any_linkage.cpp
+
+/// @namespace linkwright::planar
+/// Planar mechanisms.
 
 #include "linkwright/planar/balancing/force_balance.h"
 #include "linkwright/planar/balancing/four_bar.h"

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Study files: they are read, run and described by the kinds of all domains.
+/// @defgroup studies Study files
+/// Study files, which are read, run and described by the kinds of all domains. Every kind of study is reached
+/// this way, the syntheses that have no public header among them.
+///
+/// @include any_study.cpp
+
+/// @namespace linkwright::study
+/// Study files: what they hold, how they are read and run, and their results.
+
+/// @namespace linkwright::app
+/// Kinds of studies of all domains.
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/study/absent.h"

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Wheel suspensions: their position, wheel parameters, sweeps of an axle and samples.
+/// @defgroup suspension Wheel suspensions
+/// Wheel suspensions in space: hard points, position, wheel parameters, sweeps of an axle and samples.
+///
+/// @include wheel_suspension.cpp
+
+/// @namespace linkwright::suspension
+/// Wheel suspensions.
 
 #include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/constructions.h"

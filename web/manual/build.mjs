@@ -2,7 +2,7 @@
 
 // Makes the manual, a folder of pages that open from disk:
 //   node build.mjs LINKWRIGHT OUT [--workbench workbench.html] [--pictures]
-// Texts are docs/manual/*.md; the reference is what the program LINKWRIGHT says of itself. With the workbench the mechanisms of
+// Texts are docs/manual/*.md; the reference is what the program LINKWRIGHT says of itself, and what Doxygen finds in the headers. With the workbench the mechanisms of
 // the lessons are live; with --pictures all examples are drawn, which takes some minutes.
 import { spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -46,7 +46,7 @@ const liveAddress = (name, body) => (body.trim() ? asFragment(name || "study.tom
 
 /** A page: where it goes, what it is called and what is on it; `section` is the entry of the navigation that it belongs to. */
 const pages = [];
-const add = (path, section, title, body, { lead = "", live = false, broad = false } = {}) => pages.push({ path, section, title, body, lead, live, broad });
+const add = (path, section, title, body, { lead = "", live = false, broad = false, cpp = false } = {}) => pages.push({ path, section, title, body, lead, live, broad, cpp });
 
 const listed = (folder) => (existsSync(join(texts, folder)) ? readdirSync(join(texts, folder)).filter((n) => n.endsWith(".md")).sort() : []);
 const page = (file) => {
@@ -87,7 +87,8 @@ const card = ({ name, title }) => ({
 add("gallery.html", "Gallery", "Gallery", groups.map((group) => `<h2>${escaped(group)}</h2>${cards(examples.filter((e) => e.group === group).map(card))}`).join(""),
   { lead: "All examples that come with the program; each opens in the workbench." });
 
-for (const { path, title, html, lead } of referencePages({ ask, json, root })) add(path, "Reference", title, html, { lead });
+const reference = referencePages({ ask, json, root });
+for (const { path, title, html, lead } of reference.pages) add(path, "Reference", title, html, { lead });
 
 const home = existsSync(join(texts, "index.md")) ? page("index.md") : { title: "Linkwright", html: "", lead: "" };
 add("index.html", "Home", home.title, home.html, { lead: home.lead, live: home.html.includes("data-live") });
@@ -95,7 +96,7 @@ add("index.html", "Home", home.title, home.html, { lead: home.lead, live: home.h
 const sections = [["Home", "index.html"], ["Learn", "learn/index.html"], ["Do", "do.html"], ["Gallery", "gallery.html"], ["Reference", "reference/index.html"],
   ["Theory", "theory/index.html"], ["Trust", "trust.html"], ["FAQ", "faq.html"], ["Glossary", "glossary.html"]].filter(([, path]) => pages.some((p) => p.path === path));
 
-function framed({ path, section, title, body, lead, live, broad }) {
+function framed({ path, section, title, body, lead, live, broad, cpp }) {
   const depth = "../".repeat(path.split("/").length - 1);
   const nav = sections.map(([name, href]) => `<a href="${depth}${href}"${name === section ? ' aria-current="page"' : ""}>${name}</a>`).join("");
   return `<!doctype html>
@@ -107,11 +108,11 @@ function framed({ path, section, title, body, lead, live, broad }) {
 <link rel="icon" href="data:,">
 <title>${escaped(title)}${path === "index.html" ? "" : " - Linkwright"}</title>
 ${body.includes("<!--formula-->") ? `<link rel="stylesheet" href="${depth}formulas/katex.min.css">\n` : ""}<link rel="stylesheet" href="${depth}page.css">
-</head>
+${cpp ? `<link rel="stylesheet" href="${depth}cpp.css">\n` : ""}</head>
 <body data-root="${depth}">
 <header><a class="brand" href="${depth}index.html">Linkwright</a><nav aria-label="Manual">${nav}</nav>
 <label class="search"><span>Search</span><input type="search" id="search" placeholder="Search" autocomplete="off" aria-controls="found"></label><div id="found" role="status"></div></header>
-<main${live ? ' class="beside"' : broad ? ' class="broad"' : ""}>
+<main${live ? ' class="beside"' : broad || cpp ? ' class="broad"' : ""}>
 <article>
 <h1>${escaped(title)}</h1>
 ${lead ? `<p class="lead">${escaped(lead)}</p>` : ""}
@@ -136,13 +137,16 @@ function parts({ path, section, title, body, lead }) {
   });
 }
 
+const found = [...pages.flatMap(parts), ...reference.search];
+for (const { path, title, html } of reference.cpp) add(path, "Reference", title, html, { cpp: true });
+
 rmSync(out, { recursive: true, force: true });
 for (const p of pages) {
   mkdirSync(dirname(join(out, p.path)), { recursive: true });
   writeFileSync(join(out, p.path), framed(p));
 }
-writeFileSync(join(out, "search.js"), `const manual = ${JSON.stringify(pages.flatMap(parts))};\n`);
-for (const name of ["page.css", "page.js"]) copyFileSync(join(dirname(fileURLToPath(import.meta.url)), name), join(out, name));
+writeFileSync(join(out, "search.js"), `const manual = ${JSON.stringify(found)};\n`);
+for (const name of ["page.css", "cpp.css", "page.js"]) copyFileSync(join(dirname(fileURLToPath(import.meta.url)), name), join(out, name));
 const katex = join(root, "web/node_modules/katex/dist");
 mkdirSync(join(out, "formulas/fonts"), { recursive: true });
 copyFileSync(join(katex, "katex.min.css"), join(out, "formulas/katex.min.css"));

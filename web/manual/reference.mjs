@@ -4,6 +4,7 @@
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { cppReference } from "./cpp.mjs";
 import { escaped, slug } from "./markdown.mjs";
 
 const pathOf = (kind) => `reference/${kind.replace(/[/.]/g, "-")}.html`;
@@ -116,25 +117,6 @@ function commandPage(ask) {
   return { path: "reference/commands.html", title: "Commands", lead: "The command line.", html: `<pre tabindex="0"><code>${escaped(all)}</code></pre>${commands.map(of).join("")}` };
 }
 
-/** Public functions and types of a module: docstring and declaration. */
-function headerPage(root, module) {
-  const top = readFileSync(join(root, "src/linkwright", `${module}.h`), "utf8");
-  const headers = [...top.matchAll(/#include "linkwright\/([^"]+)"/g)].map((m) => m[1]);
-  const html = headers.map((header) => {
-    const text = readFileSync(join(root, "src/linkwright", header), "utf8");
-    const items = [...text.matchAll(/^((?:\/\/\/[^\n]*\n)+)((?:(?!\/\/\/)[^\n]*\n)+?)(?=\n|\/\/\/|}|$)/gm)].map(([, doc, code]) => {
-      const said = doc.replace(/^\/\/\/ ?/gm, "").replace(/\n/g, " ").trim();
-      const lines = code.replace(/\s+$/, "").split("\n");
-      // A definition ends with its brace, which the pattern above leaves; a long one is only begun.
-      const open = /^(?:struct|class|enum|template)/.test(lines[0]) && code.split("{").length > code.split("}").length;
-      const declared = [...lines.slice(0, 12), ...(lines.length > 12 ? ["  ..."] : []), ...(open || lines.length > 12 ? ["};"] : [])].join("\n");
-      return `<pre tabindex="0"><code>${escaped(declared)}</code></pre><p>${escaped(said)}</p>`;
-    });
-    return items.length ? `<h2 id="${slug(header)}"><a href="#${slug(header)}">${escaped(header)}</a></h2>${items.join("")}` : "";
-  });
-  return { path: `reference/cpp-${module}.html`, title: `C++: linkwright/${module}.h`, lead: "", html: html.join("") };
-}
-
 /** Public classes and functions of a file of the Python package: how each is called, its fields, and its docstring. */
 function pythonItems(text) {
   const items = [];
@@ -169,8 +151,7 @@ function pythonPage(root) {
 export function referencePages({ ask, json, root }) {
   const kinds = json("catalogue", "--json");
   const pages = kinds.map((kind) => kindPage(ask, kind));
-  const modules = readdirSync(join(root, "src/linkwright")).filter((n) => n.endsWith(".h") && !["linkwright.h", "version.h"].includes(n)).map((n) => n.replace(".h", ""));
-  const cpp = modules.map((module) => headerPage(root, module));
+  const { pages: cpp, parts, search } = cppReference(root);
   const result = { path: "reference/result.html", title: "result.json", lead: "What a run writes for programs.", html: keyTable(JSON.parse(ask("schema", "result"))) };
   const groups = [...new Set(kinds.map((k) => k.group))];
   const list = (items) => `<ul>${items.map(({ path, title, lead }) => `<li><a href="${path.replace("reference/", "")}">${escaped(title)}</a>${lead ? `: ${escaped(lead)}` : ""}</li>`).join("")}</ul>`;
@@ -179,7 +160,7 @@ export function referencePages({ ask, json, root }) {
   const index = {
     path: "reference/index.html", title: "Reference", lead: "What the program says of itself: keys, columns, commands, files, functions.",
     html: `${groups.map((group) => `<h2 id="${slug(group)}">${escaped(group)}</h2>${list(kinds.filter((k) => k.group === group).map((k) => pages[kinds.indexOf(k)]))}`).join("")}
-<h2 id="program">Program and files</h2>${list([command, { path: "../files.html", title: "Files of a run" }, result, { path: "../messages.html", title: "Messages", lead: "statuses, exit codes, and every text that the program can say" }])}<h2 id="libraries">Python and C++</h2>${list([python, ...cpp])}`,
+<h2 id="program">Program and files</h2>${list([command, { path: "../files.html", title: "Files of a run" }, result, { path: "../messages.html", title: "Messages", lead: "statuses, exit codes, and every text that the program can say" }])}<h2 id="libraries">Python and C++</h2>${list([python, { ...cpp[0], lead: "all public functions and types" }, ...parts.map(({ path, title, header }) => ({ path, title: `C++: ${title}`, lead: `linkwright/${header}.h` }))])}`,
   };
-  return [index, ...pages, command, result, python, ...cpp];
+  return { pages: [index, ...pages, command, result, python], cpp, search };
 }
