@@ -11,33 +11,44 @@ namespace linkwright {
 /// compiled for one.
 template <class Kernel>
 struct KernelSet {
-  Kernel *baseline = nullptr, *avx2 = nullptr, *avx512 = nullptr;
+  Kernel *baseline = nullptr,  ///< for every processor of the kind
+      *avx2 = nullptr,         ///< AVX2 with fused multiply-add
+          *avx512 = nullptr;   ///< AVX-512
 };
 
 /// A kernel and its instruction set: "avx512", "avx2" or "baseline".
 template <class Kernel>
 struct NamedKernel {
-  Kernel* run = nullptr;
-  const char* name = "";
+  Kernel* run = nullptr;  ///< the kernel
+  const char* name = "";  ///< "avx512", "avx2" or "baseline"
 };
 
-bool has_avx2();  ///< and fused multiply-add
+/// @returns true if the processor has AVX2 and fused multiply-add
+bool has_avx2();
+/// @returns true if the processor has the instructions of AVX-512 that kernels use
 bool has_avx512();
 
-/// The widest that this processor can run.
+/// Chooses a kernel of a set.
+/// @param set kernel for each instruction set; `baseline` is never null
+/// @returns the widest that this processor can run
 template <class Kernel>
 NamedKernel<Kernel> widest(const KernelSet<Kernel>& set) {
   if (set.avx512 && has_avx512()) return {set.avx512, "avx512"};
   if (set.avx2 && has_avx2()) return {set.avx2, "avx2"};
   return {set.baseline, "baseline"};
 }
-/// The same of the set that a function gives, chosen once: `widest_of<path_kernels>().run(...)`.
+/// Chooses a kernel of the set that a function gives, once for all calls:
+/// `widest_of<path_kernels>().run(...)`.
+/// @tparam kernels function that returns a KernelSet
+/// @returns the widest that this processor can run
 template <auto kernels>
 const auto& widest_of() {
   static const auto chosen = widest(kernels());
   return chosen;
 }
-/// All that it can run, narrowest first.
+/// Lists the kernels of a set, for tests that compare them.
+/// @param set kernel for each instruction set; `baseline` is never null
+/// @returns all that this processor can run, narrowest first
 template <class Kernel>
 std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
   std::vector<NamedKernel<Kernel>> out{{set.baseline, "baseline"}};
@@ -48,6 +59,7 @@ std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
 
 }  // namespace linkwright
 
+/// @ingroup core
 /// The set of `name`_baseline, `name`_avx2 and `name`_avx512.
 #ifdef LINKWRIGHT_X86_KERNELS
 #define LINKWRIGHT_KERNEL_SET(name) \
@@ -57,6 +69,7 @@ std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
   { &name##_baseline }
 #endif
 
+/// @ingroup core
 /// The name of a kernel in a source of linkwright_kernels(), which is compiled once for each instruction set:
 /// LINKWRIGHT_COMPILED(sweep) is sweep_baseline, sweep_avx2 and sweep_avx512 in turn.
 #define LINKWRIGHT_COMPILED(name) LINKWRIGHT_COMPILED_FOR(name, LINKWRIGHT_INSTRUCTION_SET)

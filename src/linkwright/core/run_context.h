@@ -26,8 +26,10 @@ struct Progress {
 /// it says so, return the best they have with that status.
 class RunContext {
  public:
+  /// Clock of the time limit.
   using Clock = std::chrono::steady_clock;
 
+  /// A run without limit, progress and checkpoint, on all threads.
   RunContext() = default;
   RunContext(const RunContext&) = delete;
   RunContext& operator=(const RunContext&) = delete;
@@ -35,29 +37,40 @@ class RunContext {
   /// Asks the run to stop; safe in a signal handler and from any thread.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
 
-  /// Time after which the run ends with the best so far; call before the run starts.
+  /// Sets the time after which the run ends with the best so far; call before the run starts.
+  /// @param limit time from now (s), >= 0; a year or more is no limit
+  /// @throws ContractError if the limit is negative
   void set_time_limit(std::chrono::duration<double> limit);
 
   /// Ends with another run of which this one is a part: when that is cancelled or out of time, so is this
-  /// one; call before the run starts. `whole` must outlive this.
+  /// one; call before the run starts.
+  /// @param whole the other run, which must outlive this one
   void set_part_of(const RunContext& whole) { whole_ = &whole; }
 
-  /// Receives progress; call before the run starts. The function must not throw.
+  /// Receives progress; call before the run starts.
+  /// @param report function that is called from any thread, but never by two at once; it must not throw
   void set_progress(std::function<void(const Progress&)> report) { report_ = std::move(report); }
 
-  /// Number of threads that a run may use, 0 = all. Results do not depend on it.
+  /// Sets how many threads the run may use. Results do not depend on it.
+  /// @param threads number of threads, 0 = all
   void set_threads(int threads) { threads_ = threads; }
+  /// @returns number of threads that the run may use, 0 = all
   int threads() const { return threads_; }
 
   /// Sets where the run saves its finished parts, and where it finds those of an earlier run; call before the
-  /// run starts. nullptr = nowhere, the default.
+  /// run starts.
+  /// @param checkpoint store that outlives the run; nullptr = nowhere, the default
   void set_checkpoint(Checkpoint* checkpoint) { checkpoint_ = checkpoint; }
+  /// @returns the store of finished parts; nullptr = nowhere
   Checkpoint* checkpoint() const { return checkpoint_; }
 
-  /// `done` to continue, else `cancelled` or `deadline`.
+  /// @returns `done` to continue, else `cancelled` or `deadline`
   Status interruption() const;
+  /// @returns true if the run is to end
   bool interrupted() const { return interruption() != Status::done; }
 
+  /// Passes progress on to the function of set_progress, or drops it while another thread reports.
+  /// @param progress the present state of the run
   void report(const Progress& progress) const;
 
  private:

@@ -40,7 +40,8 @@ constexpr std::array<EnumName<Status>, 12> names(Status) {
            {Status::cancelled, "cancelled"}}};
 }
 
-/// The name used in files and tables, for example "no_assembly".
+/// @param status any status
+/// @returns the name used in files and tables: "no_assembly"
 constexpr std::string_view to_string(Status status) { return name_of(status); }
 
 }  // namespace linkwright

@@ -7,6 +7,7 @@
 /// radians.
 namespace linkwright::tolerance {
 
+/// Distance from 1 to the next double.
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Rounding of a distance built from a few lengths (some tens of operations): beyond it a loop really does
