@@ -16,6 +16,8 @@ class FunctionRef;
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
+  /// Refers to a callable; implicit, so that a lambda is passed directly.
+  /// @param callable function or object with a call operator, which must live until the last call
   template <class F>
   requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef> &&
            std::is_invocable_r_v<Result, F&, Arguments...>)
@@ -34,6 +36,9 @@ class FunctionRef<Result(Arguments...)> {
     }
   }
 
+  /// Calls what it refers to.
+  /// @param arguments passed on
+  /// @returns result of the call
   Result operator()(Arguments... arguments) const {
     return call_(target_, std::forward<Arguments>(arguments)...);
   }

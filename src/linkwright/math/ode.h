@@ -20,7 +20,13 @@ namespace linkwright::math {
 /// shortened. Values that are not finite count as false.
 using OdeFunction = FunctionRef<bool(double t, std::span<const double> y, std::span<double> rate)>;
 
-enum class OdeMethod { explicit_runge_kutta_5, explicit_runge_kutta_8, adams, bdf };
+/// Methods of integration.
+enum class OdeMethod {
+  explicit_runge_kutta_5,  ///< Dormand and Prince's pair of orders 5 and 4
+  explicit_runge_kutta_8,  ///< Verner's pair of orders 8 and 7
+  adams,                   ///< Adams-Moulton of orders 1 to 12
+  bdf                      ///< backward differentiation of orders 1 to 5, for stiff equations
+};
 constexpr std::array<EnumName<OdeMethod>, 4> names(OdeMethod) {
   return {
       {{OdeMethod::explicit_runge_kutta_5, "explicit_runge_kutta_5",
@@ -31,28 +37,34 @@ constexpr std::array<EnumName<OdeMethod>, 4> names(OdeMethod) {
        {OdeMethod::bdf, "bdf", "backward differentiation of orders 1 to 5; stiff equations"}}};
 }
 
+/// Method, tolerances and limits of an integration.
 struct OdeOptions {
-  OdeMethod method = OdeMethod::explicit_runge_kutta_8;
+  OdeMethod method = OdeMethod::explicit_runge_kutta_8;  ///< method of integration
   /// The error of a step is held below relative_tolerance |y_j| + absolute_tolerance, in the mean square over
   /// the components. The error at the end is the sum of those of the steps as the equations carry them on.
   double relative_tolerance = 1e-8;
-  double absolute_tolerance = 1e-10;
+  double absolute_tolerance = 1e-10;                 ///< in the unit of y, of all components
   std::span<const double> absolute_tolerances = {};  ///< one a component, instead of the one above
   double initial_step = 0;                           ///< length; 0 = chosen from f
-  double max_step = infinity;
-  long max_steps = 100'000;
+  double max_step = infinity;                        ///< longest step, in the unit of t
+  long max_steps = 100'000;                          ///< accepted steps after which the integration ends
   /// Times of events are known to this (in units of t), or to four roundings of t where that is more.
   double event_tolerance = 1e-12;
   /// Jacobian of bdf by difference quotients within this band; negative = all of it.
   int lower_bandwidth = -1;
-  int upper_bandwidth = -1;
+  int upper_bandwidth = -1;  ///< diagonals above the main one; negative = all
 };
 
 /// The direction of a zero crossing, seen in the direction of integration.
-enum class OdeCrossing { rising, falling, either };
+enum class OdeCrossing {
+  rising,   ///< from negative to positive
+  falling,  ///< from positive to negative
+  either    ///< both
+};
+/// A zero crossing to be found.
 struct OdeEvent {
-  OdeCrossing crossing = OdeCrossing::either;
-  bool terminal = false;  ///< the integration ends here
+  OdeCrossing crossing = OdeCrossing::either;  ///< direction that counts
+  bool terminal = false;                       ///< the integration ends here
 };
 
 /// The next action after an event.
@@ -76,6 +88,7 @@ struct OdeHooks {
   /// false when it cannot: the step is shortened. Not with adams.
   std::function<bool(double t, std::span<double> y)> project = {};
 
+  /// Events to be found; their functions are `event_values`.
   std::span<const OdeEvent> events = {};
   /// Values of all events' functions; continuous between events.
   std::function<void(double t, std::span<const double> y, std::span<double> values)> event_values = {};
@@ -89,7 +102,16 @@ struct OdeHooks {
 };
 
 /// The reason why an integration ended.
-enum class OdeEnd { time, event, hook, evaluation, steps, step_size, tolerance, interrupted };
+enum class OdeEnd {
+  time,        ///< the end of the interval was reached
+  event,       ///< a terminal event, or `event` said stop
+  hook,        ///< `output` or `step` said so
+  evaluation,  ///< f or the projection cannot be evaluated
+  steps,       ///< max_steps were used up
+  step_size,   ///< the step became too short
+  tolerance,   ///< the tolerance cannot be met
+  interrupted  ///< the run was cancelled or is out of time
+};
 constexpr std::array<EnumName<OdeEnd>, 8> names(OdeEnd) {
   return {{{OdeEnd::time, "time"},
            {OdeEnd::event, "event"},
@@ -101,12 +123,13 @@ constexpr std::array<EnumName<OdeEnd>, 8> names(OdeEnd) {
            {OdeEnd::interrupted, "interrupted"}}};
 }
 
+/// How an integration ended, and what it took.
 struct OdeReport {
   /// done: `to`, a terminal event, or a hook said stop; infeasible: f cannot be evaluated at the start (y is
   /// left as it was); limit_reached: f (or the projection) cannot be evaluated beyond t; not_converged: steps
   /// used up, or the tolerance cannot be met; cancelled, deadline. t and y are the last good ones.
   Status status = Status::done;
-  OdeEnd end = OdeEnd::time;
+  OdeEnd end = OdeEnd::time;            ///< reason of the end
   double t = 0;                         ///< time of y
   std::size_t event = std::size_t(-1);  ///< first of the events that ended it
   long steps = 0;                       ///< accepted steps
@@ -121,14 +144,20 @@ struct OdeReport {
 /// call of a size, method and direction, but for three small blocks that CVODE makes at every start of bdf.
 class OdeWorkspace {
  public:
+  /// Memory that grows with its first use.
   OdeWorkspace();
+  /// Frees the memory.
   ~OdeWorkspace();
+  /// Takes the memory of another one.
   OdeWorkspace(OdeWorkspace&&) noexcept;
+  /// Takes the memory of another one. @returns this
   OdeWorkspace& operator=(OdeWorkspace&&) noexcept;
 
  private:
+  /// @cond
   friend OdeReport integrate(OdeFunction, std::span<double>, double, double, const OdeOptions&,
                              const OdeHooks&, OdeWorkspace&);
+  /// @endcond
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
@@ -149,12 +178,28 @@ class OdeWorkspace {
 /// is zero at the start, which is no crossing: nothing is reported twice, and flights shorter than that are
 /// not seen.
 ///
-/// Throws ContractError for an empty y, values that are not finite, options out of range, output times out of
-/// order or outside the interval, hooks that miss their partner, and combinations that a method lacks.
+/// @param f right-hand side of the equations
+/// @param y state at `from`, and at the end that at the time of the report; not empty
+/// @param from time at which the integration starts
+/// @param to time at which it ends, later or earlier
+/// @param options method, tolerances and limits
+/// @param hooks outputs, events and projection
+/// @param workspace memory, one for each thread
+/// @returns how it ended; `t` is the time of y
+/// @throws ContractError for an empty y, values that are not finite, options out of range, output times out
+/// of order or outside the interval, hooks that miss their partner, and combinations that a method lacks
 OdeReport integrate(OdeFunction f, std::span<double> y, double from, double to, const OdeOptions& options,
                     const OdeHooks& hooks, OdeWorkspace& workspace);
 
-/// Without hooks.
+/// Integrates without hooks.
+/// @param f right-hand side of the equations
+/// @param y state at `from`, and at the end that at the time of the report; not empty
+/// @param from time at which the integration starts
+/// @param to time at which it ends, later or earlier
+/// @param options method, tolerances and limits
+/// @param workspace memory, one for each thread
+/// @returns how it ended; `t` is the time of y
+/// @throws ContractError as `integrate` with hooks does
 inline OdeReport integrate(OdeFunction f, std::span<double> y, double from, double to,
                            const OdeOptions& options, OdeWorkspace& workspace) {
   return integrate(f, y, from, to, options, {}, workspace);
