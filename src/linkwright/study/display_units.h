@@ -19,56 +19,87 @@ namespace linkwright::study {
 class DisplayUnits {
  public:
   /// Chooses the unit of its dimension.
+  /// @param unit the unit, as split_unit gives it
   void choose(const UnitKey& unit) { chosen_[unit.dimension] = unit.unit; }
   /// Lets speeds, areas and stiffnesses go with the chosen lengths, angular speeds with the chosen angles:
   /// mm/s and N/mm with mm, deg/s with deg, deg/100mm with both, unless they were chosen themselves.
   void follow();
+  /// @param dimension any dimension
+  /// @returns true if a unit was chosen for it
   bool chosen(Dimension dimension) const { return chosen_.contains(dimension); }
 
-  /// The unit of a dimension that has one.
+  /// @param dimension a dimension that has a unit
+  /// @returns its unit, in SI where none is chosen
+  /// @throws ContractError for Dimension::none
   const Unit& of(Dimension dimension) const;
-  /// 0.0031 m as "3.1 mm".
+  /// A number with its unit: 0.0031 m as "3.1 mm".
+  /// @param si value in SI
+  /// @param dimension dimension of the value
+  /// @param digits significant digits, >= 1
+  /// @returns the number in the unit of its dimension
   Measured measured(double si, Dimension dimension, int digits = 4) const;
+  /// @param si value in SI
+  /// @param dimension dimension of the value
+  /// @param digits significant digits, >= 1
+  /// @returns text of the number in the unit of its dimension
   std::string text(double si, Dimension dimension, int digits = 4) const {
     return to_string(measured(si, dimension, digits));
   }
 
-  /// A key and the factor that its numbers take: ("crank_m") -> ("crank_mm", 1000). Unchanged, with factor 1,
-  /// when the key has no unit.
+  /// A key and how its numbers change: "crank_m" becomes "crank_mm" and numbers take the factor 1000.
   struct Key {
-    std::string key;
-    const Unit* from = nullptr;
-    const Unit* to = nullptr;
+    std::string key;             ///< key with the chosen unit
+    const Unit* from = nullptr;  ///< unit of the given key; nullptr = it has none
+    const Unit* to = nullptr;    ///< chosen unit; nullptr = the key has none
+    /// @param value number in the unit of the given key
+    /// @returns number in the chosen unit
     double convert(double value) const { return from == to ? value : to->from_si(from->to_si(value)); }
   };
+  /// @param key any key
+  /// @returns the key with the chosen unit; unchanged when it has no unit
   Key key(std::string_view key) const;
 
  private:
   std::map<Dimension, const Unit*> chosen_;
 };
 
-/// The units that the keys of a document carry: of each dimension the most frequent one, the first of equally
-/// frequent ones.
+/// @param document a study
+/// @returns the units that its keys carry: for each dimension the most frequent one, the first of equally
+/// frequent ones
 DisplayUnits units_of(const Value& document);
 
-/// A table in these units: keys, labels and values.
+/// @param table a table with units in its keys
+/// @param units units to be shown
+/// @returns the table in these units: keys, labels and values
 Table in_units(Table table, const DisplayUnits& units);
-/// An object of numbers by key, such as parameters and objectives; what is no number stays.
+/// @param object an object of numbers by key, such as parameters and objectives
+/// @param units units to be shown
+/// @returns the object in these units; what is no number stays
 Value in_units(const Value& object, const DisplayUnits& units);
 
-/// A sentence with its numbers in these units, those of other dimensions as they were.
+/// @param sentence any sentence
+/// @param units units to be shown
+/// @returns the sentence with its numbers in these units, those of other dimensions as they were
 Sentence in_units(const Sentence& sentence, const DisplayUnits& units);
 
-/// The number with six significant digits.
+/// @param value any number
+/// @returns the number with six significant digits
 double six_digits(double value);
 
 /// `units` of `[output]`: "si", "study" (those of its own keys) or a list of unit suffixes, ["mm", "deg"].
 struct OutputUnits {
-  enum class Choice { si, study, list } choice = Choice::si;
-  std::vector<std::string> list;
+  /// Units of results.
+  enum class Choice {
+    si,                           ///< SI
+    study,                        ///< those of the study's own keys
+    list                          ///< those of `list`
+  } choice = Choice::si;          ///< the choice
+  std::vector<std::string> list;  ///< suffixes: "mm", "deg"
 };
 
-/// The units that a choice gives for a study whose own units are `study`.
+/// @param choice `output.units` of a study
+/// @param study units of the study's own keys
+/// @returns the units that the choice gives
 DisplayUnits chosen_units(const OutputUnits& choice, const DisplayUnits& study);
 
 }  // namespace linkwright::study

@@ -22,7 +22,14 @@ namespace linkwright::study {
 class ObjectReader;  // study/bind.h
 class SchemaWriter;  // study/bind_schema.h
 
-enum class Format { json, csv, html, svg, dxf };
+/// Files that a run writes.
+enum class Format {
+  json,  ///< result.json: everything
+  csv,   ///< one file for each table
+  html,  ///< report.html: the report for people
+  svg,   ///< a drawing of each solution
+  dxf    ///< a drawing of each solution for CAD, in millimetres, 1:1
+};
 constexpr std::array<EnumName<Format>, 5> names(Format) {
   return {{{Format::json, "json", "result.json: everything"},
            {Format::csv, "csv", "one file for each table"},
@@ -32,7 +39,10 @@ constexpr std::array<EnumName<Format>, 5> names(Format) {
 }
 
 /// Digits of the numbers in result.json and CSV.
-enum class Digits { full, six };
+enum class Digits {
+  full,  ///< as many as read back to the same number
+  six    ///< six significant digits
+};
 constexpr std::array<EnumName<Digits>, 2> names(Digits) {
   return {{{Digits::full, "full", "as many as read back to the same number"},
            {Digits::six, "six", "six significant digits"}}};
@@ -41,10 +51,10 @@ constexpr std::array<EnumName<Digits>, 2> names(Digits) {
 /// `[output]` of a study.
 struct Output {
   std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
-  std::vector<Format> formats{Format::json, Format::csv, Format::html};
-  int samples = 361;  ///< number of samples of curves and animations
-  OutputUnits units;  ///< units of tables, parameters and objectives in result.json and CSV
-  Digits digits = Digits::full;
+  std::vector<Format> formats{Format::json, Format::csv, Format::html};  ///< files to write
+  int samples = 361;                    ///< number of samples of curves and animations
+  OutputUnits units;                    ///< units of tables, parameters and objectives in result.json and CSV
+  Digits digits = Digits::full;         ///< digits of the numbers in result.json and CSV
   std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
 };
 template <class Visitor>
@@ -58,8 +68,8 @@ void fields(Visitor&& visit, Output& o) {
 
 /// `[optimiser] seeds` of a study: the seeds first, first + 1, ..., each an independent run.
 struct Seeds {
-  std::int64_t first = 1;
-  int count = 1;
+  std::int64_t first = 1;  ///< first seed, >= 0
+  int count = 1;           ///< number of seeds, >= 1
 };
 template <class Visitor>
 void fields(Visitor&& visit, Seeds& s) {
@@ -70,13 +80,13 @@ void fields(Visitor&& visit, Seeds& s) {
 /// The part that every study has and the study module reads: a domain finds it here and never reads these
 /// keys itself.
 struct Common {
-  std::string title;
-  std::string source;
-  Output output;
-  Seeds seeds;
-  std::vector<CheckRequest> checks;
-  std::filesystem::path folder;  ///< folder of the study file: file names in a study are relative to it
-  DisplayUnits units;            ///< units of the study's keys: for messages, facts and headlines
+  std::string title;                 ///< title of the study; may be empty
+  std::string source;                ///< where the study comes from; may be empty
+  Output output;                     ///< files and units
+  Seeds seeds;                       ///< seeds of a search
+  std::vector<CheckRequest> checks;  ///< what the result is compared with
+  std::filesystem::path folder;      ///< folder of the study file: file names in a study are relative to it
+  DisplayUnits units;                ///< units of the study's keys: for messages, facts and headlines
 };
 
 /// The part of a study that its domain has read.

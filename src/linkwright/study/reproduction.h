@@ -24,16 +24,21 @@ struct Reproduction {
   std::function<Comparisons(RunContext& context)> run;
 };
 
-/// Reads a TOML text of published tables, which is part of the program; throws ContractError when it has a
-/// mistake.
+/// Reads a TOML text of published tables, which is part of the program.
+/// @param toml the text
+/// @returns its tree
+/// @throws ContractError if the text has a mistake
 Value read_published(std::string_view toml);
 
 /// A function that computes a table, whose source it is given.
 using ComputeTable = std::function<Comparisons(const std::string& source, RunContext& context)>;
 
-/// The tables of a text that is part of the program, in its order, each with the function under its id. A
-/// [[table]] has its id, title, source and notes, which end with those of [shared_notes] under the name that
-/// it gives. Throws ContractError when the text and the functions do not belong together.
+/// The tables of a text that is part of the program, each with the function under its id. A [[table]] has its
+/// id, title, source and notes, which end with those of [shared_notes] under the name that it gives.
+/// @param toml the text
+/// @param computed functions that compute the tables, by id
+/// @returns the tables in the order of the text
+/// @throws ContractError if the text and the functions do not belong together
 std::vector<Reproduction> reproductions_of(std::string_view toml,
                                            const std::map<std::string, ComputeTable>& computed);
 
