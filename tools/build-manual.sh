@@ -6,6 +6,10 @@
 set -eu
 cd "$(dirname "$0")/.."
 
+if ! command -v doxygen >/dev/null 2>&1; then
+  echo "The C++ reference needs doxygen: apt-get install doxygen" >&2
+  exit 1
+fi
 program=
 for preset in release ci; do
   [ -x "build/$preset/bin/linkwright" ] && program=build/$preset/bin/linkwright && break

@@ -31,7 +31,7 @@ export function cppReference(root) {
     for (const name of wanted) {
       if (pages.has(name)) continue;
       const html = readFileSync(join(work, name), "utf8");
-      pages.set(name, { path: `${folder}/${name}`, title: plain(first(html, /<!--title (.*?)-->/)), html: bodyOf(html) });
+      pages.set(name, { path: `${folder}/${name}`, title: plain(first(html, /<!--title (.*?)-->/)).replace(/ (?:Struct|Class|Concept|Namespace|File|Directory)(?: Template)? Reference$/, ""), html: bodyOf(html) });
       for (const [, to] of html.matchAll(/ href="(?!https?:)([^"#]+\.html)/g)) if (!wanted.includes(to)) wanted.push(to);
     }
     const names = [...readFileSync(join(work, "names.xml"), "utf8").matchAll(/<compound kind="(\w+)"[^]*?<\/compound>/g)];
