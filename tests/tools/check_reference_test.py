@@ -71,7 +71,7 @@ class CheckReference(ScratchCase):
                       " ".join(self.findings("  ///< m", "")))
 
     def test_enumerators_without_description(self):
-        self.assertIn("Side", " ".join(self.findings("enum class", "enum class")))
+        self.assertIn("Side", " ".join(self.findings("", "")))
 
     def test_headers_that_are_not_public_do_not_count(self):
         self.write("src/linkwright/core/detail/rows.h", "int bare(int x);\n")

@@ -81,7 +81,7 @@ void fields(Visitor&& visit, Seeds& s) {
 /// keys itself.
 struct Common {
   std::string title;                 ///< title of the study; may be empty
-  std::string source;                ///< where the study comes from; may be empty
+  std::string source;                ///< where the numbers come from; may be empty
   Output output;                     ///< files and units
   Seeds seeds;                       ///< seeds of a search
   std::vector<CheckRequest> checks;  ///< what the result is compared with
