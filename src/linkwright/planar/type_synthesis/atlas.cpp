@@ -115,15 +115,15 @@ std::size_t pieces_of(MachineFamily family) {
     case MachineFamily::four_bar:
     case MachineFamily::slider_crank:
     case MachineFamily::inverted_slider:
-      return 8;
+      return 5;
     case MachineFamily::geared_five_bar:
-      return 12;
+      return 6;
     case MachineFamily::watt_1:
     case MachineFamily::stephenson_1:
     case MachineFamily::stephenson_3:
-      return 16;
+      return 10;
     case MachineFamily::eight_bar:
-      return 40;
+      return 24;
     case MachineFamily::ten_bar:
       return 0;
   }

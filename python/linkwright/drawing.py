@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a drawn motion to machines that trace it."""
+
+from __future__ import annotations
+
+from typing import Optional, Sequence
+
+import numpy
+from numpy.typing import ArrayLike
+
+from .studies import Result, Study
+
+__all__ = ["draw", "draw_study"]
+
+
+def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Optional[float] = None,
+               evaluations: Optional[int] = None, most_links: int = 8, families: Optional[Sequence[str]] = None,
+               least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
+               max_solutions: int = 12, seed: int = 1) -> Study:
+    """The study that `draw` runs: "synthesis" of "planar.any" for "path_points". Arguments are those of `draw`."""
+    stroke = numpy.asarray(points)
+    if numpy.iscomplexobj(stroke):
+        stroke = numpy.stack([stroke.real, stroke.imag], axis=-1)
+    stroke = stroke.astype(float)
+    if stroke.ndim != 2 or stroke.shape[1] != 2:
+        raise ValueError(f"points must be an array (n, 2) or complex numbers, got the shape {stroke.shape}")
+    target = {"type": "path_points", "points_m": stroke.tolist()}
+    if closed is not None:
+        target["closed"] = bool(closed)
+    mechanism = {"type": "planar.any", "most_links": most_links}
+    if families is not None:
+        mechanism["families"] = list(families)
+    optimiser = {"seed": seed, "max_solutions": max_solutions}
+    if seconds is not None:
+        optimiser["seconds"] = float(seconds)
+    if evaluations is not None:
+        optimiser["evaluations"] = int(evaluations)
+    return Study({"schema": 1, "kind": "synthesis", "title": "Drawn motion", "mechanism": mechanism, "target": target,
+                  "limits": {"least_pair_angle_deg": least_pair_angle, "shortest_link": shortest_link,
+                             "longest_link": longest_link},
+                  "optimiser": optimiser})
+
+
+def draw(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Optional[float] = None,
+         evaluations: Optional[int] = None, most_links: int = 8, families: Optional[Sequence[str]] = None,
+         least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
+         max_solutions: int = 12, seed: int = 1) -> Result:
+    """Machines of many types that trace a stroke, best first in `solutions`; each has a study of its own (`Solution.study`).
+
+    points: the stroke in metres: an array (n, 2), or n complex numbers; at least 5.
+    closed: whether the last point is followed by the first; None: only where it repeats it.
+    seconds: time of the search, 10 when evaluations are not given. evaluations: number of curves instead, for the same result
+    on every machine with the same instruction set and any number of threads.
+    most_links: 4 to 10. families: "four_bar", "slider_crank", "inverted_slider", "geared_five_bar", "watt_1", "stephenson_1",
+    "stephenson_3", "eight_bar", "ten_bar"; None: all.
+    least_pair_angle: degrees, over the whole turn of the crank. shortest_link, longest_link: in sizes of the stroke, which are
+    its root mean square distance from its mean.
+
+    Raises ValueError for points of another shape and StudyError for a stroke or limits that the study does not take.
+    """
+    return draw_study(points, closed=closed, seconds=seconds, evaluations=evaluations, most_links=most_links,
+                      families=families, least_pair_angle=least_pair_angle, shortest_link=shortest_link,
+                      longest_link=longest_link, max_solutions=max_solutions, seed=seed).run()
