@@ -183,6 +183,45 @@ Value parameters_data(const std::vector<study::Parameter>& parameters) {
   });
 }
 
+/// The study files of the solutions that have one.
+Value designs_data(const ReportInput& input) {
+  Value out = Value::array();
+  const std::vector<study::Solution>& solutions = input.result.solutions;
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    const study::Solution& s = solutions[i];
+    if (s.study.is_null()) continue;
+    Value design;
+    design["solution"] = i;
+    design["name"] = study::design_name(s, i + 1);
+    design["toml"] = study::design_toml(s, i + 1, input.title, input.tool);
+    out.push_back(std::move(design));
+  }
+  return out;
+}
+
+Value plots_data(const std::vector<study::Plot>& plots) {
+  return list(plots, [](Value& o, const study::Plot& p) {
+    o["name"] = p.name;
+    o["title"] = p.title;
+    o["table"] = p.table;
+    o["x"] = p.x;
+    o["y"] = texts(p.y);
+    o["style"] = linkwright::name_of(p.style);
+    o["logarithmic_y"] = p.logarithmic_y;
+    o["scene"] = p.scene;
+    if (!p.group.empty()) o["group"] = p.group;
+    if (!p.group_names.empty()) o["group_names"] = texts(p.group_names);
+    if (!p.bands.empty())
+      o["bands"] = list(p.bands, [](Value& b, const study::Plot::Band& band) {
+        b["lower"] = band.lower;
+        b["upper"] = band.upper;
+        b["label"] = band.label;
+      });
+    if (!p.baseline.empty()) o["baseline"] = p.baseline;
+    if (p.upright) o["upright"] = true;
+  });
+}
+
 }  // namespace
 
 Value view_data(const ReportInput& input) {
@@ -232,42 +271,14 @@ Value view_data(const ReportInput& input) {
     out["parameters"].push_back(parameters_data(s.parameters));
     out["solution_scenes"].push_back(s.scene);
   }
-  out["designs"] = Value::array();
-  for (std::size_t i = 0; i < result.solutions.size(); ++i) {
-    const study::Solution& s = result.solutions[i];
-    if (s.study.is_null()) continue;
-    Value design;
-    design["solution"] = i;
-    design["name"] = study::design_name(s, i + 1);
-    design["toml"] = study::design_toml(s, i + 1, input.title, input.tool);
-    out["designs"].push_back(std::move(design));
-  }
+  out["designs"] = designs_data(input);
   out["scenes"] = Value::array();
   for (const auto& scene : result.scenes) {
     Value drawn = scene_data(scene, shown(scene.title), units, input.lists);
     if (input.lists.apart()) put_handles(drawn, scene, input.lists);
     out["scenes"].push_back(std::move(drawn));
   }
-  out["plots"] = list(result.plots, [](Value& o, const study::Plot& p) {
-    o["name"] = p.name;
-    o["title"] = p.title;
-    o["table"] = p.table;
-    o["x"] = p.x;
-    o["y"] = texts(p.y);
-    o["style"] = linkwright::name_of(p.style);
-    o["logarithmic_y"] = p.logarithmic_y;
-    o["scene"] = p.scene;
-    if (!p.group.empty()) o["group"] = p.group;
-    if (!p.group_names.empty()) o["group_names"] = texts(p.group_names);
-    if (!p.bands.empty())
-      o["bands"] = list(p.bands, [](Value& b, const study::Plot::Band& band) {
-        b["lower"] = band.lower;
-        b["upper"] = band.upper;
-        b["label"] = band.label;
-      });
-    if (!p.baseline.empty()) o["baseline"] = p.baseline;
-    if (p.upright) o["upright"] = true;
-  });
+  out["plots"] = plots_data(result.plots);
   out["changes"] = list(result.changes, [](Value& o, const study::Change& c) {
     o["quantity"] = c.quantity;
     o["label"] = c.label;
