@@ -175,55 +175,86 @@ constexpr Row<Forces> powers[] = {
     {"kinetic_power", power, [](const Forces& f) { return f.kinetic_power; }, "rate of the kinetic energy"}};
 }  // namespace column_rows
 
+using ColumnValue = std::function<double(const LinkageInstant&)>;
+void add_column(std::vector<LinkageColumn>& out, const Quantity& what, ColumnValue value) {
+  out.push_back({what.column_key(), what.label(), std::move(value)});
+}
+
+/// The numbers of what `from` gives at an instant; `pair` says who pushes whom.
+template <class Rows, class From>
+void add_columns(std::vector<LinkageColumn>& out, const Rows& rows, const std::string& key,
+                 const std::string& name, const From& from, const std::string& pair = {}) {
+  for (const auto& row : rows) {
+    std::string words(row.words);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    add_column(out,
+               {key + std::string(row.key), name + words + (row.of_pair ? ", " + pair : ""), row.dimension},
+               [from, of = row.of](const LinkageInstant& i) { return of(from(i)); });
+  }
+}
+
+void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, const LinkagePlan& plan) {
+  for (std::size_t j = 0; j < l.joints.size(); ++j) {
+    const LinkageJoint& joint = l.joints[j];
+    const std::string pair =
+        fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
+    const auto add_rows = [&](const auto& rows) {
+      add_columns(
+          out, rows, identifier(joint.name) + "_", joint.name + " ",
+          [j](const LinkageInstant& i) -> const JointReaction& { return i.forces->joints[j]; }, pair);
+    };
+    if (joint.type != JointType::gear) {
+      add_rows(column_rows::joint_forces);
+      add_column(out, {identifier(joint.name), joint.name, Dimension::force},
+                 [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
+    }
+    const auto meshes = [j](const Group& g) {
+      const Gear* gear = g.as<Gear>();
+      return gear && gear->joint == static_cast<int>(j) && gear->mesh;
+    };
+    if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) add_rows(column_rows::tooth_forces);
+    if (joint.type == JointType::prismatic || joint.type == JointType::fixed || joint.type == JointType::gear)
+      add_rows(column_rows::joint_moments);
+  }
+}
+
 }  // namespace
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
                                            const LinkageQuantities& q, const std::vector<BodyPoint>& traces) {
   std::vector<LinkageColumn> out;
-  const auto add = [&](const Quantity& what, std::function<double(const LinkageInstant&)> value) {
-    out.push_back({what.column_key(), what.label(), std::move(value)});
-  };
-  // The numbers of what `from` gives at an instant; `pair` says who pushes whom.
-  const auto add_all = [&](const auto& rows, const std::string& key, const std::string& name,
-                           const auto& from, const std::string& pair = {}) {
-    for (const auto& row : rows) {
-      std::string words(row.words);
-      std::replace(words.begin(), words.end(), '_', ' ');
-      add({key + std::string(row.key), name + words + (row.of_pair ? ", " + pair : ""), row.dimension},
-          [from, of = row.of](const LinkageInstant& i) { return of(from(i)); });
-    }
-  };
   const auto bodies = [&](const auto& rows, const auto& before) {
     for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b) {
       if (plan.bodies[at(b)].part == 0) continue;
       const std::string &name = l.bodies[at(b)].name, key = identifier(name) + "_";
       before(b, key, name + " ");
-      add_all(rows, key, name + " ",
-              [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b); });
+      add_columns(out, rows, key, name + " ",
+                  [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b); });
     }
   };
   const auto traced = [&](const auto& rows) {
     for (const BodyPoint& t : traces) {
       const LinkageBody& body = l.bodies[at(t.body)];
       const LinkagePoint& point = body.points[at(t.point)];
-      add_all(rows, identifier(body.name) + "_" + identifier(point.name) + "_",
-              body.name + "." + point.name + " ", [&plan, b = t.body, p = point.at](const LinkageInstant& i) {
-                return point_motion(plan, *i.motion, b, p);
-              });
+      add_columns(out, rows, identifier(body.name) + "_" + identifier(point.name) + "_",
+                  body.name + "." + point.name + " ",
+                  [&plan, b = t.body, p = point.at](const LinkageInstant& i) {
+                    return point_motion(plan, *i.motion, b, p);
+                  });
     }
   };
   const auto slides = [&](const auto& rows, bool with_inputs) {
     for (std::size_t j = 0; j < l.joints.size(); ++j) {
       const bool driven = std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end();
       if (l.joints[j].type == JointType::prismatic && (with_inputs || !driven))
-        add_all(rows, identifier(l.joints[j].name) + "_", l.joints[j].name + " ",
-                [&l, &plan, j](const LinkageInstant& i) { return slide_motion(l, plan, i, j); });
+        add_columns(out, rows, identifier(l.joints[j].name) + "_", l.joints[j].name + " ",
+                    [&l, &plan, j](const LinkageInstant& i) { return slide_motion(l, plan, i, j); });
     }
   };
   if (q.position) {
     bodies(column_rows::body_places, [&](int b, const std::string& key, const std::string& name) {
-      add({key + "angle", name + "angle", Dimension::angle},
-          [&plan, b](const LinkageInstant& i) { return angle_with_turns(plan, i, b); });
+      add_column(out, {key + "angle", name + "angle", Dimension::angle},
+                 [&plan, b](const LinkageInstant& i) { return angle_with_turns(plan, i, b); });
       out.back().angle = true;
       out.back().counted = plan.turned[at(plan.bodies[at(b)].part)].has_value();
     });
@@ -236,30 +267,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
     slides(column_rows::slide_rates, true);
     traced(column_rows::point_rates);
   }
-  if (q.reactions)
-    for (std::size_t j = 0; j < l.joints.size(); ++j) {
-      const LinkageJoint& joint = l.joints[j];
-      const std::string pair =
-          fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
-      const auto of_joint = [&](const auto& rows) {
-        add_all(
-            rows, identifier(joint.name) + "_", joint.name + " ",
-            [j](const LinkageInstant& i) -> const JointReaction& { return i.forces->joints[j]; }, pair);
-      };
-      if (joint.type != JointType::gear) {
-        of_joint(column_rows::joint_forces);
-        add({identifier(joint.name), joint.name, Dimension::force},
-            [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
-      }
-      const auto meshes = [j](const Group& g) {
-        const Gear* gear = g.as<Gear>();
-        return gear && gear->joint == static_cast<int>(j) && gear->mesh;
-      };
-      if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) of_joint(column_rows::tooth_forces);
-      if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
-          joint.type == JointType::gear)
-        of_joint(column_rows::joint_moments);
-    }
+  if (q.reactions) add_reaction_columns(out, l, plan);
   if (q.drive)
     for (std::size_t k = 0; k < plan.inputs(); ++k) {
       const std::string& name = input_joint(l, k).name;
@@ -269,20 +277,22 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
     }
   const auto forces = [](const LinkageInstant& i) -> const LinkageForces& { return *i.forces; };
   if (q.shaking) {
-    add_all(column_rows::shaking_forces, "", "", forces);
-    add_all(column_rows::shaking_moments, "", "shaking moment about " + moment_centre_name(l) + ", ", forces);
+    add_columns(out, column_rows::shaking_forces, "", "", forces);
+    add_columns(out, column_rows::shaking_moments, "", "shaking moment about " + moment_centre_name(l) + ", ",
+                forces);
   }
   if (q.transmission_angle)
     for (std::size_t g = 0; g < plan.groups.size(); ++g)
       if (plan.groups[g].as<Dyad>())
-        add({group_key(plan.groups[g].name) + "_transmission_angle",
-             plan.groups[g].name + " transmission angle", Dimension::angle},
-            [g](const LinkageInstant& i) {
-              return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));
-            });
-  if (q.power) add_all(column_rows::powers, "", "", forces);
-  add({"closure_residual", "closure residual", Dimension::length},
-      [](const LinkageInstant& i) { return i.motion->closure_residual; });
+        add_column(out,
+                   {group_key(plan.groups[g].name) + "_transmission_angle",
+                    plan.groups[g].name + " transmission angle", Dimension::angle},
+                   [g](const LinkageInstant& i) {
+                     return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));
+                   });
+  if (q.power) add_columns(out, column_rows::powers, "", "", forces);
+  add_column(out, {"closure_residual", "closure residual", Dimension::length},
+             [](const LinkageInstant& i) { return i.motion->closure_residual; });
   return out;
 }
 
