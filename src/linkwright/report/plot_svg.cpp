@@ -351,81 +351,96 @@ void draw_curve(std::string& out, const Axes& axes, const Curve& curve, const Cu
       faint ? 0.5 : 1.0, escape(curve.label));
 }
 
-}  // namespace
+/// All that a diagram shows, in its units.
+struct Drawing {
+  Shown shown;
+  std::vector<Curve> curves, bands, before;
+  bool raised = false;  // values of nearly zero were raised to the lower edge of a logarithmic axis
+  std::optional<Peak> peak;
+  std::size_t named = 0;   // the curves that have a name in the legend
+  std::string_view faint;  // colour of the others
+  bool bundle() const { return curves.size() > max_named_curves; }
+};
 
-std::string plot_svg(const study::Plot& plot, const Table& table, const Table* baseline) {
-  if (plot.style == Style::map) return map_svg(plot, table);
+Drawing drawing_of(const study::Plot& plot, const Table& table, const Table* baseline) {
   const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
-  const Shown shown = shown_of(plot, table);
-  std::vector<Curve> curves = counts ? histogram(plot, table, shown.y) : curves_of(plot, table, shown);
-  std::vector<Curve> bands, before;
+  Drawing out{.shown = shown_of(plot, table)};
+  out.curves = counts ? histogram(plot, table, out.shown.y) : curves_of(plot, table, out.shown);
   if (plot.style == Style::line || plot.style == Style::points)
     for (const auto& band : plot.bands)
-      if (Curve edges = band_of(plot, band, table, shown); !edges.points.empty())
-        bands.push_back(std::move(edges));
-  if (baseline && !counts) before = curves_of(plot, *baseline, shown);
-  const bool raised = plot.logarithmic_y && !polar && !counts && take_logarithms({&curves, &bands, &before});
-  const bool upright = plot.upright && !polar && !counts, origin = polar && !is_path(plot);
-  if (upright)
-    for (auto* drawn : {&curves, &bands, &before})
+      if (Curve edges = band_of(plot, band, table, out.shown); !edges.points.empty())
+        out.bands.push_back(std::move(edges));
+  if (baseline && !counts) out.before = curves_of(plot, *baseline, out.shown);
+  const std::initializer_list<std::vector<Curve>*> all = {&out.curves, &out.bands, &out.before};
+  out.raised = plot.logarithmic_y && !polar && !counts && take_logarithms(all);
+  if (plot.upright && !polar && !counts)
+    for (auto* drawn : all)
       for (auto& curve : *drawn)
         for (Place& p : curve.points) std::swap(p.x, p.y);
-  const std::optional<Peak> peak =
-      plot.style == Style::line && !plot.logarithmic_y ? peak_of(plot, table, shown) : std::nullopt;
-  const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright, peak);
-  const bool bundle = curves.size() > max_named_curves, empty = axes.box.empty();
-  const bool points = plot.style == Style::points;
+  if (plot.style == Style::line && !plot.logarithmic_y) out.peak = peak_of(plot, table, out.shown);
   // The first curves of a bundle have a name; one that is a family has none but those of its ends.
-  const std::size_t named = !polar && curves.size() == 1 ? 0
-                            : !bundle                    ? curves.size()
-                            : plot.group.empty()         ? max_named_curves
-                                                         : 0;
-  struct Sign {
-    std::string look, text;
-  };
-  std::vector<Sign> legend;
-  for (std::size_t i = 0; i < named; ++i)
-    legend.push_back({points ? fmt::format("stroke=\"{}\" stroke-width=\"7\" stroke-linecap=\"round\" "
-                                           "stroke-dasharray=\"0 17\"",
-                                           curve_look(i).colour)
-                             : fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
-                                           curve_look(i).colour, curve_look(i).dash),
-                      curves[i].label});
-  const std::string_view faint = named ? pale : curve_look(0).colour;  // colour of the curves without a name
-  if (bundle)
-    legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", faint),
-                      fmt::format("{} {}curves, {} to {}", curves.size() - named, named ? "more " : "",
-                                  curves[named].label, curves.back().label)});
-  for (const auto& band : bands)
-    legend.push_back(
+  out.named = !polar && out.curves.size() == 1 ? 0
+              : !out.bundle()                  ? out.curves.size()
+              : plot.group.empty()             ? max_named_curves
+                                               : 0;
+  out.faint = out.named ? pale : curve_look(0).colour;
+  return out;
+}
+
+struct LegendRow {
+  std::string look, text;
+};
+
+std::vector<LegendRow> legend_of(const study::Plot& plot, const Drawing& d, const Table* baseline) {
+  std::vector<LegendRow> out;
+  for (std::size_t i = 0; i < d.named; ++i)
+    out.push_back({plot.style == Style::points
+                       ? fmt::format("stroke=\"{}\" stroke-width=\"7\" stroke-linecap=\"round\" "
+                                     "stroke-dasharray=\"0 17\"",
+                                     curve_look(i).colour)
+                       : fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
+                                     curve_look(i).colour, curve_look(i).dash),
+                   d.curves[i].label});
+  if (d.bundle())
+    out.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", d.faint),
+                   fmt::format("{} {}curves, {} to {}", d.curves.size() - d.named, d.named ? "more " : "",
+                               d.curves[d.named].label, d.curves.back().label)});
+  for (const auto& band : d.bands)
+    out.push_back(
         {fmt::format("stroke=\"{}\" stroke-width=\"12\" stroke-opacity=\"0.16\"", band_colour), band.label});
-  if (!before.empty())
-    legend.push_back(
+  if (!d.before.empty())
+    out.push_back(
         {fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"5 4\"", pale), baseline->name});
-  if (raised)
-    legend.push_back({"stroke=\"none\"",
-                      fmt::format("values below {:g} of the largest lie on the lower edge: they are zero up "
-                                  "to rounding",
-                                  rounding)});
+  if (d.raised)
+    out.push_back({"stroke=\"none\"",
+                   fmt::format("values below {:g} of the largest lie on the lower edge: they are zero up "
+                               "to rounding",
+                               rounding)});
   const auto with_unit = [](double v, const DisplayUnit& unit) {
     return number(v, 5) + (unit.symbol.empty() ? "" : (unit.symbol == "°" ? "" : " ") + unit.symbol);
   };
-  if (peak)
-    legend.push_back(
-        {"stroke=\"none\"", fmt::format("peak {} at {} is outside", with_unit(peak->value, shown.y),
-                                        with_unit(peak->at, shown.x))});
-  const double height =
-      empty ? 60 : axes.height + (legend.empty() ? 0 : line_height * static_cast<double>(legend.size()) + 6);
-  std::string out;
-  put(out,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-      "{1:.0f}\" role=\"img\" font-family=\"system-ui, sans-serif\"><title>{2}</title>"
-      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
-      width, height, escape(plot.title));
-  if (empty) {
-    out += "<text x=\"24\" y=\"36\" font-size=\"14\">No values.</text></svg>\n";
-    return out;
+  if (d.peak)
+    out.push_back(
+        {"stroke=\"none\"", fmt::format("peak {} at {} is outside", with_unit(d.peak->value, d.shown.y),
+                                        with_unit(d.peak->at, d.shown.x))});
+  return out;
+}
+
+void draw_legend(std::string& out, const Axes& axes, const std::vector<LegendRow>& legend) {
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
+    put(out,
+        "<path d=\"M{:.0f} {:.0f}h34\" {}/>"
+        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-size=\"12\" fill=\"#1d2935\">{}</text>\n",
+        left, y, legend[i].look, left + 42, y + 4, escape(legend[i].text));
   }
+}
+
+/// The axes of x and y, as they are labelled.
+std::pair<Side, Side> sides_of(const study::Plot& plot, const Table& table, const Drawing& d) {
+  const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
+  const std::vector<Curve>& curves = d.curves;
+  const Shown& shown = d.shown;
   const Column* first = table.find(plot.y.front());
   const Column* x = table.find(plot.x);
   const std::string unit = !shown.y.symbol.empty() ? "(" + shown.y.symbol + ")"
@@ -442,28 +457,48 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
       : counts ? "count"
       : one ? (curves.size() == 1 && plot.group.empty() ? curves.front().label : label_with(*first, shown.y))
             : unit;
-  const Side along_x{x_label, shown.x.symbol == "°"},
-      along_y{y_label, shown.y.symbol == "°" && !counts, plot.logarithmic_y && !polar};
+  return {{x_label, shown.x.symbol == "°"},
+          {y_label, shown.y.symbol == "°" && !counts, plot.logarithmic_y && !polar}};
+}
+
+}  // namespace
+
+std::string plot_svg(const study::Plot& plot, const Table& table, const Table* baseline) {
+  if (plot.style == Style::map) return map_svg(plot, table);
+  const bool polar = plot.style == Style::polar, origin = polar && !is_path(plot);
+  const bool upright = plot.upright && !polar && plot.style != Style::histogram;
+  const Drawing d = drawing_of(plot, table, baseline);
+  const Axes axes = axes_of({&d.curves, &d.bands, &d.before}, plot.style, origin, upright, d.peak);
+  const std::vector<LegendRow> legend = legend_of(plot, d, baseline);
+  const bool empty = axes.box.empty();
+  const double height =
+      empty ? 60 : axes.height + (legend.empty() ? 0 : line_height * static_cast<double>(legend.size()) + 6);
+  std::string out;
+  put(out,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\" role=\"img\" font-family=\"system-ui, sans-serif\"><title>{2}</title>"
+      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
+      width, height, escape(plot.title));
+  if (empty) {
+    out += "<text x=\"24\" y=\"36\" font-size=\"14\">No values.</text></svg>\n";
+    return out;
+  }
+  const auto [along_x, along_y] = sides_of(plot, table, d);
   draw_axes(out, axes, upright ? along_y : along_x, upright ? along_x : along_y, origin);
   // Nothing is seen outside of the axes.
-  if (peak)
+  if (d.peak)
     put(out,
         "<svg x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"{2:.0f}\" height=\"{3:.0f}\" viewBox=\"{0:.0f} {1:.0f} "
         "{2:.0f} {3:.0f}\">\n",
         left, top, axes.inner_width(), axes.inner_height());
-  for (const auto& band : bands) draw_band(out, axes, band);
-  for (const auto& curve : before) draw_baseline(out, axes, curve, baseline->name);
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    draw_curve(out, axes, curves[i], i < named || !bundle ? curve_look(i) : CurveLook{faint, "none"},
-               bundle && i >= named, points);
-  if (peak) out += "</svg>\n";
-  for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
-    put(out,
-        "<path d=\"M{:.0f} {:.0f}h34\" {}/>"
-        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-size=\"12\" fill=\"#1d2935\">{}</text>\n",
-        left, y, legend[i].look, left + 42, y + 4, escape(legend[i].text));
-  }
+  for (const auto& band : d.bands) draw_band(out, axes, band);
+  for (const auto& curve : d.before) draw_baseline(out, axes, curve, baseline->name);
+  for (std::size_t i = 0; i < d.curves.size(); ++i)
+    draw_curve(out, axes, d.curves[i],
+               i < d.named || !d.bundle() ? curve_look(i) : CurveLook{d.faint, "none"},
+               d.bundle() && i >= d.named, plot.style == Style::points);
+  if (d.peak) out += "</svg>\n";
+  draw_legend(out, axes, legend);
   out += "</svg>\n";
   return out;
 }
