@@ -108,6 +108,27 @@ std::string home_of(const Value::Member& member, const Value& schema) {
   return member.value.is_array() ? std::string() : "the top of the file, before the first table";
 }
 
+/// The one of some bases that a misspelt key was meant to have: "crnk_mm" is compared as "crnk", then whole.
+std::string meant_base(std::string_view key, const std::vector<std::string_view>& bases) {
+  const auto parts = split_unit(key);
+  std::string base;
+  if (parts) base = meant_word(parts->base, bases);
+  return base.empty() ? std::string(meant_word(key, bases)) : base;
+}
+
+/// The key of a field that a misspelt one was meant to be, with its unit when that fits.
+std::string key_meant(std::string_view misspelt, const std::string& base, Dimension dimension) {
+  const auto parts = split_unit(misspelt);
+  return parts && parts->dimension == dimension ? base + "_" + std::string(parts->unit->suffix)
+                                                : si_key(base, dimension);
+}
+
+/// True if a key is a field's but for its unit. Another unit would change the size: which one is meant is not
+/// ours to say.
+bool unit_is_wrong(std::string_view key, const std::string& base, Dimension dimension) {
+  return !split_unit(key) && dimension != Dimension::none && goes_on(key, base);
+}
+
 }  // namespace
 
 DocumentReader::DocumentReader(const Value& document, std::string file, Diagnostics& diagnostics)
@@ -205,19 +226,12 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     // Known, but the reader gave up before it came to it.
     if (gave_up_ && !members_of(schemas, member.key).empty()) continue;
     if (++unknown_ > max_unknown_keys) continue;
-    // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
-    // is more likely than one that may be left out.
-    const auto parts = split_unit(member.key);
     std::string base;
-    // A key with a unit that there is not.
     for (const Known& k : record.known)
-      if (!parts && k.dimension != Dimension::none && goes_on(member.key, k.base) &&
-          k.base.size() > base.size())
-        base = k.base;
-    for (const auto* among : {&missing_bases, &bases}) {
-      if (parts && base.empty()) base = meant_word(parts->base, *among);
-      if (base.empty()) base = meant_word(member.key, *among);
-    }
+      if (unit_is_wrong(member.key, k.base, k.dimension) && k.base.size() > base.size()) base = k.base;
+    // A key that is missing is more likely than one that may be left out.
+    for (const auto* among : {&missing_bases, &bases})
+      if (base.empty()) base = meant_base(member.key, *among);
     const auto known = std::find_if(record.known.begin(), record.known.end(),
                                     [&](const Known& k) { return k.base == base; });
     const Known* const meant = base.empty() || known == record.known.end() ? nullptr : &*known;
@@ -265,12 +279,8 @@ void DocumentReader::finish_unknown(const Value& table, Record& record,
     }
     std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
     if (meant) {
-      const auto parts = split_unit(member->key);
-      const std::string key = parts && parts->dimension == meant->dimension
-                                  ? meant->base + "_" + std::string(parts->unit->suffix)
-                                  : si_key(meant->base, meant->dimension);
-      // Another unit would change the size: which one is meant is not ours to say.
-      hint = !parts && meant->dimension != Dimension::none && goes_on(member->key, meant->base)
+      const std::string key = key_meant(member->key, meant->base, meant->dimension);
+      hint = unit_is_wrong(member->key, meant->base, meant->dimension)
                  ? fmt::format("'{}' is not a unit of {} here; write {}",
                                member->key.substr(meant->base.size() + 1), describe(meant->dimension),
                                keys_with_units(meant->base, meant->dimension))
