@@ -175,6 +175,52 @@ Measured area_or_volume(double value, bool planar) {
   return (planar ? measured("m2", value) : measured(cubic_metre, value)).spelled();
 }
 
+/// The largest body of a form that fits into the nodes that pass.
+void add_inscribed(study::Result& result, const WorkspaceMap& map, const WorkspaceTask& task,
+                   const InscribedForm& form, bool planar, RunContext& context) {
+  InscribedTask inner{.conditions = task.conditions, .rotation = task.rotation, .shape = form.shape};
+  if (form.axis) inner.axis = Vec3{(*form.axis)[0], (*form.axis)[1], 0};
+  inner.height = form.height.value_or(0);
+  inner.ratio = form.ratio.value_or(0);
+  const Inscribed body = inscribed(map, passing(map), inner, context);
+  if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
+  study::AddFact{result.facts}(
+      fmt::format("largest {}", name_of(form.shape)),
+      body.status == Status::infeasible ? "none fits"
+      : body.half.x == 0
+          ? "not found before the run ended"
+          : body_text(body, form, planar) + (body.proven ? ", proven free of singularities" : ""));
+}
+
+void add_rotation_range(study::Result& result, const PoseConditions& conditions, const Pose& home,
+                        RunContext& context) {
+  const study::AddFact fact{result.facts};
+  const RotationRange range =
+      rotation_range(conditions, home, 72, {.longest = pi, .step = 0.02, .tolerance = 1e-6}, context);
+  if (range.status == Status::done) {
+    fact("tilt at home, about any horizontal axis", degrees_of(range.tilt).fixed(2));
+    fact("yaw at home",
+         say("{} to {}", degrees_of(range.min_yaw).fixed(2), degrees_of(range.max_yaw).fixed(2)));
+  }
+}
+
+/// The nodes of the levels that are drawn.
+Table slice_table(const WorkspaceMap& map, const WorkspaceTask& task, const WorkspaceStudy& s,
+                  const std::vector<std::size_t>& levels, const std::vector<double>& heights,
+                  const RunContext& context) {
+  std::vector<WorkspaceMap> coarse;
+  std::vector<ShownNodes> slices;
+  coarse.reserve(levels.size());  // the slices point to its elements
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (s.large) coarse.push_back(coarse_level(task, heights[i], max_slice_rows / levels.size(), context));
+    const std::size_t count = s.large ? coarse.back().count() : map.nodes[0] * map.nodes[1];
+    ShownNodes& slice = slices.emplace_back(ShownNodes{s.large ? &coarse.back() : &map, {}});
+    for (std::size_t n = 0; n < count; ++n) slice.nodes.push_back(s.large ? n : levels[i] * count + n);
+  }
+  return node_table(slices, s, task.conditions.robot.freedom == Freedom::plane_translation,
+                    "workspace_slices");
+}
+
 }  // namespace
 
 PoseConditions conditions_of(const RobotDescription& d, const QualityLimits& limits, const Pose& home) {
@@ -320,29 +366,8 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
                             : say("{} of {} nodes, {} aspect{}", aspects.reachable(), aspects.all(),
                                   aspects.size.size(), aspects.size.size() == 1 ? "" : "s"));
   }
-  if (f.inscribed) {
-    InscribedTask inner{
-        .conditions = task.conditions, .rotation = task.rotation, .shape = f.inscribed->shape};
-    if (f.inscribed->axis) inner.axis = Vec3{(*f.inscribed->axis)[0], (*f.inscribed->axis)[1], 0};
-    inner.height = f.inscribed->height.value_or(0);
-    inner.ratio = f.inscribed->ratio.value_or(0);
-    const Inscribed body = inscribed(map, passing(map), inner, context);
-    if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
-    fact(fmt::format("largest {}", name_of(f.inscribed->shape)),
-         body.status == Status::infeasible ? "none fits"
-         : body.half.x == 0
-             ? "not found before the run ended"
-             : body_text(body, *f.inscribed, planar) + (body.proven ? ", proven free of singularities" : ""));
-  }
-  if (d.tool_turns()) {
-    const RotationRange range =
-        rotation_range(task.conditions, home, 72, {.longest = pi, .step = 0.02, .tolerance = 1e-6}, context);
-    if (range.status == Status::done) {
-      fact("tilt at home, about any horizontal axis", degrees_of(range.tilt).fixed(2));
-      fact("yaw at home",
-           say("{} to {}", degrees_of(range.min_yaw).fixed(2), degrees_of(range.max_yaw).fixed(2)));
-    }
-  }
+  if (f.inscribed) add_inscribed(result, map, task, *f.inscribed, planar, context);
+  if (d.tool_turns()) add_rotation_range(result, task.conditions, home, context);
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < map.count(); ++i)
     if (map.criterion[i] != Criterion::leg && map.criterion[i] != Criterion::open) reached.push_back(i);
@@ -357,16 +382,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   std::vector<double> heights;
   for (const std::size_t level : levels) heights.push_back(f.lower[2] + f.step * static_cast<double>(level));
   if (f.boundary > 0) result.tables.push_back(boundary_table(task, heights, f, home, planar, context));
-  std::vector<WorkspaceMap> coarse;
-  std::vector<ShownNodes> slices;
-  coarse.reserve(levels.size());  // the slices point to its elements
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (s.large) coarse.push_back(coarse_level(task, heights[i], max_slice_rows / levels.size(), context));
-    const std::size_t count = s.large ? coarse.back().count() : map.nodes[0] * map.nodes[1];
-    ShownNodes& slice = slices.emplace_back(ShownNodes{s.large ? &coarse.back() : &map, {}});
-    for (std::size_t n = 0; n < count; ++n) slice.nodes.push_back(s.large ? n : levels[i] * count + n);
-  }
-  result.tables.push_back(node_table(slices, s, planar, "workspace_slices"));
+  result.tables.push_back(slice_table(map, task, s, levels, heights, context));
   for (const PoseIndex index : f.indices)
     result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),
                             .title = fmt::format("Workspace: {}", words_of(index)),
