@@ -164,6 +164,113 @@ bool looks_drawn(const LinkageForm& form) {
   return away > 0;
 }
 
+// Each of these reads [mechanism] as one type of linkage, with the traces where the file has none; false
+// where it does not describe one.
+bool read_slider_crank(study::ObjectReader& mechanism, bool traced, LinkageDescription& out) {
+  SliderCrankMechanism m;
+  mechanism.read(m);
+  out.linkage = slider_crank(m);
+  out.shorthand = study::write_fields(m);
+  // The point of the rod is of interest when it is given.
+  if (!traced && point_index(out.linkage.bodies[2], "C") >= 0)
+    out.traces = points_named(out.linkage, {"rod.C"});
+  return !mechanism.document().has_errors();
+}
+
+bool read_four_bar(study::ObjectReader& mechanism, bool traced, const study::DisplayUnits& units,
+                   LinkageDescription& out) {
+  FourBarMechanism m;
+  mechanism.read(m);
+  check_lengths(mechanism, m.linkage, units);
+  if (mechanism.document().has_errors()) return false;
+  out.linkage = linkage_of(m);
+  out.shorthand = study::write_fields(m);
+  if (!traced) {
+    out.traces = points_named(out.linkage, {"coupler.O3"});
+    if (point_index(out.linkage.bodies[2], "C") >= 0)
+      out.traces.push_back(point_named(out.linkage, "coupler.C"));
+  }
+  out.four_bar = m;
+  return true;
+}
+
+bool read_sample(study::ObjectReader& mechanism, bool traced, LinkageDescription& out) {
+  auto sample = sample_named(mechanism);
+  if (!sample) return false;
+  out.linkage = std::move(sample->linkage);
+  out.sample = sample->name;
+  out.sample_from = sample->from;
+  if (!traced) out.traces = sample->traces;
+  return true;
+}
+
+bool read_form(study::ObjectReader& mechanism, Linkage& l) {
+  LinkageForm form;
+  mechanism.read(form);
+  require_own_names(mechanism, "body", form.bodies);
+  require_own_names(mechanism, "joint", form.joints);
+  if (mechanism.document().has_errors()) return false;
+  if (looks_drawn(form))
+    mechanism.warning(
+        "body",
+        "the two points of every joint coincide as they are written, as in a drawing, but without "
+        "drawn = true they count in the frames of their bodies, which may assemble another way",
+        "write drawn = true in [mechanism]; or give [[mechanism.assembly]] for frames that lie so");
+  std::vector<FormProblem> problems;
+  l = linkage_of(form, problems);
+  for (const FormProblem& p : problems) {
+    auto entries = mechanism.tables(p.list);
+    if (p.index < entries.size())
+      entries[p.index].error(p.key, to_string(p.message), to_string(p.hint));
+    else
+      mechanism.error(p.list, to_string(p.message), to_string(p.hint));
+  }
+  return problems.empty();
+}
+
+/// Reads the drives; a sample or a shorthand brings its own, which the file may repeat in any order.
+void read_driven_joints(std::vector<study::ObjectReader>& drives, Linkage& l) {
+  const bool own_drives = !l.driven.empty();
+  for (study::ObjectReader& drive : drives) {
+    std::string joint;
+    if (!drive(field::entry("joint").required(!own_drives || drives.size() > 1), joint)) continue;
+    const int j = joint_index(l, joint);
+    if (j < 0) {
+      std::vector<std::string_view> known;
+      for (const LinkageJoint& k : l.joints) known.push_back(k.name);
+      drive.no_such("joint", "joint", joint, known);
+    } else if (!own_drives) {
+      l.driven.push_back(j);
+    } else if (std::find(l.driven.begin(), l.driven.end(), j) == l.driven.end()) {
+      std::vector<std::string_view> driven;
+      for (const int d : l.driven) driven.push_back(l.joints[static_cast<std::size_t>(d)].name);
+      drive.error(
+          "joint",
+          fmt::format("this mechanism takes a drive at {}, not at '{}'", fmt::join(driven, " and "), joint),
+          "name that joint, or give bodies and joints instead, of which any may have the drive");
+    }
+  }
+}
+
+void read_traced_points(std::vector<study::ObjectReader>& traces, const Linkage& l,
+                        std::vector<BodyPoint>& out) {
+  for (study::ObjectReader& trace : traces) {
+    std::string point;
+    if (!trace(field::entry("point").required(), point)) continue;
+    const auto dot = point.rfind('.');
+    const int body = dot == std::string::npos ? -1 : body_index(l, std::string_view(point).substr(0, dot));
+    const int index = body < 0 ? -1
+                               : point_index(l.bodies[static_cast<std::size_t>(body)],
+                                             std::string_view(point).substr(dot + 1));
+    if (index < 0) {
+      trace.error("point", fmt::format("there is no point '{}'", point),
+                  "write body.point, as \"coupler.C\"");
+    } else {
+      out.push_back({body, index});
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
@@ -177,106 +284,22 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   auto drives = drive_tables(document);
   auto traces = document.tables("trace");
   if (!mechanism) return std::nullopt;
-  bool good = true;
   Linkage& l = out.linkage;
-  if (type == LinkageType::slider_crank) {
-    SliderCrankMechanism m;
-    mechanism->read(m);
-    l = slider_crank(m);
-    out.shorthand = study::write_fields(m);
-    // The point of the rod is of interest when it is given.
-    if (traces.empty() && point_index(l.bodies[2], "C") >= 0) out.traces = points_named(l, {"rod.C"});
-    if (document.document().has_errors()) return std::nullopt;
-  } else if (type == LinkageType::four_bar) {
-    FourBarMechanism m;
-    mechanism->read(m);
-    check_lengths(*mechanism, m.linkage, units);
-    if (document.document().has_errors()) return std::nullopt;
-    l = linkage_of(m);
-    out.shorthand = study::write_fields(m);
-    if (traces.empty()) {
-      out.traces = points_named(l, {"coupler.O3"});
-      if (point_index(l.bodies[2], "C") >= 0) out.traces.push_back(point_named(l, "coupler.C"));
-    }
-    out.four_bar = m;
-  } else if (mechanism->has(sample_field)) {
-    auto sample = sample_named(*mechanism);
-    if (!sample) return std::nullopt;
-    l = std::move(sample->linkage);
-    out.sample = sample->name;
-    out.sample_from = sample->from;
-    if (traces.empty()) out.traces = sample->traces;
-  } else {
-    LinkageForm form;
-    mechanism->read(form);
-    require_own_names(*mechanism, "body", form.bodies);
-    require_own_names(*mechanism, "joint", form.joints);
-    if (document.document().has_errors()) return std::nullopt;
-    if (looks_drawn(form))
-      mechanism->warning(
-          "body",
-          "the two points of every joint coincide as they are written, as in a drawing, but without "
-          "drawn = true they count in the frames of their bodies, which may assemble another way",
-          "write drawn = true in [mechanism]; or give [[mechanism.assembly]] for frames that lie so");
-    std::vector<FormProblem> problems;
-    l = linkage_of(form, problems);
-    for (const FormProblem& p : problems) {
-      good = false;
-      auto entries = mechanism->tables(p.list);
-      if (p.index < entries.size())
-        entries[p.index].error(p.key, to_string(p.message), to_string(p.hint));
-      else
-        mechanism->error(p.list, to_string(p.message), to_string(p.hint));
-    }
-  }
+  const bool traced = !traces.empty();
+  const bool good = type == LinkageType::slider_crank ? read_slider_crank(*mechanism, traced, out)
+                    : type == LinkageType::four_bar   ? read_four_bar(*mechanism, traced, units, out)
+                    : mechanism->has(sample_field)    ? read_sample(*mechanism, traced, out)
+                                                      : read_form(*mechanism, l);
   if (!good) return std::nullopt;
-  // Drives: those of the file; a sample or a shorthand brings its own, which the file may repeat in any
-  // order.
-  const bool own_drives = !l.driven.empty();
-  for (study::ObjectReader& drive : drives) {
-    std::string joint;
-    if (!drive(field::entry("joint").required(!own_drives || drives.size() > 1), joint)) continue;
-    const int j = joint_index(l, joint);
-    if (j < 0) {
-      std::vector<std::string_view> known;
-      for (const LinkageJoint& k : l.joints) known.push_back(k.name);
-      drive.no_such("joint", "joint", joint, known);
-      good = false;
-    } else if (!own_drives) {
-      l.driven.push_back(j);
-    } else if (std::find(l.driven.begin(), l.driven.end(), j) == l.driven.end()) {
-      std::vector<std::string_view> driven;
-      for (const int d : l.driven) driven.push_back(l.joints[static_cast<std::size_t>(d)].name);
-      drive.error(
-          "joint",
-          fmt::format("this mechanism takes a drive at {}, not at '{}'", fmt::join(driven, " and "), joint),
-          "name that joint, or give bodies and joints instead, of which any may have the drive");
-      good = false;
-    }
-  }
-  for (study::ObjectReader& trace : traces) {
-    std::string point;
-    if (!trace(field::entry("point").required(), point)) continue;
-    const auto dot = point.rfind('.');
-    const int body = dot == std::string::npos ? -1 : body_index(l, std::string_view(point).substr(0, dot));
-    const int index = body < 0 ? -1
-                               : point_index(l.bodies[static_cast<std::size_t>(body)],
-                                             std::string_view(point).substr(dot + 1));
-    if (index < 0) {
-      trace.error("point", fmt::format("there is no point '{}'", point),
-                  "write body.point, as \"coupler.C\"");
-      good = false;
-    } else {
-      out.traces.push_back({body, index});
-    }
-  }
+  read_driven_joints(drives, l);
+  read_traced_points(traces, l, out.traces);
   // A sample brings its own gravity.
   if (surroundings || out.sample.empty()) {
     l.gravity = environment.gravity * std::polar(1.0, environment.direction);
     // Straight down is exactly down.
     if (environment.direction == LinkageEnvironment{}.direction) l.gravity = {0, -environment.gravity};
   }
-  if (!good || document.document().has_errors()) return std::nullopt;
+  if (document.document().has_errors()) return std::nullopt;
   PlanResult planned = plan_linkage(l);
   if (!planned.problems.empty()) {
     report(document, *mechanism, planned.problems);
