@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 
@@ -75,129 +76,141 @@ CornerErrors::CornerErrors(const CarrierTargets& targets, std::span<const LinkTa
     : targets_(targets), technique_(technique) {
   LINKWRIGHT_REQUIRE(!links.empty(), "no link has unknown points");
   LINKWRIGHT_REQUIRE(largest_carrier_pitch > 0, "carrier pitch of at most {} rad", largest_carrier_pitch);
-  const Vec3& origin = targets.wheel.centre;
-  double farthest = 0;
-  bool any_open = false;
-  for (std::size_t i = 0; i < targets.poses.size(); ++i) {
-    const CarrierTarget& target = targets.poses[i];
+  add_poses();
+  LINKWRIGHT_REQUIRE(!poses_.empty(), "no position besides the reference");
+  const bool alone = links.size() == 1 && couplers.empty();
+  for (const LinkTask& task : links) add_link(task, alone);
+  for (const CouplerTask& task : couplers) add_coupler(task, links);
+  add_carrier_pitches(largest_carrier_pitch);
+}
+
+void CornerErrors::add_poses() {
+  const Vec3& origin = targets_.wheel.centre;
+  for (std::size_t i = 0; i < targets_.poses.size(); ++i) {
+    const CarrierTarget& target = targets_.poses[i];
     Pose pose{.target = i,
               .before = math::turn_z(-target.angles.toe) * math::turn_x(-target.angles.camber),
-              .after = math::turn_x(targets.wheel.camber) * math::turn_z(targets.wheel.toe),
+              .after = math::turn_x(targets_.wheel.camber) * math::turn_z(targets_.wheel.toe),
               .rate = {},
               .open = std::isnan(target.angles.carrier_pitch),
               .travel = target.centre.z - origin.z};
     carrier_pitches_.push_back(pose.open ? 0 : target.angles.carrier_pitch);
     const bool reference = target.rack == 0 && norm(target.centre - origin) < 1e-12 &&
-                           std::abs(target.angles.toe - targets.wheel.toe) < 1e-12 &&
-                           std::abs(target.angles.camber - targets.wheel.camber) < 1e-12 &&
+                           std::abs(target.angles.toe - targets_.wheel.toe) < 1e-12 &&
+                           std::abs(target.angles.camber - targets_.wheel.camber) < 1e-12 &&
                            std::abs(carrier_pitches_.back()) < 1e-12;
     if (reference) continue;  // its carrier pitch is 0 by definition
     for (const bool moved : {false, true}) {
       LinkMotion& motion = motions_[moved ? 1 : 0];
       motion.rotation.push_back(pose.before * math::turn_y(carrier_pitches_.back()) * pose.after);
-      motion.shift.push_back(moved ? target.centre - origin - target.rack * targets.rack_direction
+      motion.shift.push_back(moved ? target.centre - origin - target.rack * targets_.rack_direction
                                    : target.centre - origin);
     }
+    LINKWRIGHT_REQUIRE(!pose.open || technique_ != CarrierPitchTechnique::quadratic || target.rack == 0,
+                       "position {} has the rack at {} m: a quadratic of the travel does not know the rack",
+                       i + 1, target.rack);
+    poses_.push_back(pose);
+  }
+}
+
+std::size_t CornerErrors::add_unknown(std::string name, double lower, double upper) {
+  names_.push_back(std::move(name));
+  lower_.push_back(lower);
+  upper_.push_back(upper);
+  return unknowns() - 1;
+}
+
+void CornerErrors::add_link(const LinkTask& task, bool alone) {
+  const std::size_t l = links_.size(), n = poses_.size();
+  const Vec3& origin = targets_.wheel.centre;
+  LinkPart part{.coordinates = LinkCoordinates(task, origin),
+                .link = {},
+                .first_unknown = unknowns(),
+                .first_row = rows_,
+                .rows = error_rows(task.type, n)};
+  part.link = part.coordinates.middle();
+  const int bodies = static_cast<int>(task.body.size());
+  for (const int at : part.coordinates.free()) {
+    const int point = at / 3;
+    add_unknown(
+        fmt::format("{}{}_{}_{}_m", alone ? "" : fmt::format("link_{}_", l + 1),
+                    point < bodies ? "body" : "carrier", 1 + (point < bodies ? point : point - bodies),
+                    axes[static_cast<std::size_t>(at % 3)]),
+        part.coordinates.lower(at) + component(origin, at % 3),
+        part.coordinates.upper(at) + component(origin, at % 3));
+  }
+  rows_ += part.rows;
+  if (dyad_ < 0 && is_rod(task.type)) dyad_ = static_cast<int>(l);
+  links_.push_back(std::move(part));
+}
+
+void CornerErrors::add_coupler(const CouplerTask& task, std::span<const LinkTask> links) {
+  const std::size_t k = couplers_.size();
+  for (const int link : {task.first, task.second})
+    LINKWRIGHT_REQUIRE(link >= 0 && link < static_cast<int>(links.size()), "coupler '{}': link {} of {}",
+                       task.name, link, links.size());
+  LINKWRIGHT_REQUIRE(is_rod(links[at(task.first)].type) && links[at(task.second)].type == LinkType::SR,
+                     "coupler '{}': from a link of type {} to one of type {}, needs US and SR", task.name,
+                     name_of(links[at(task.first)].type), name_of(links[at(task.second)].type));
+  CouplerPart part;
+  part.task = task;
+  part.first_row = rows_;
+  const double most = std::min(task.max_offset, longest(links[at(task.first)]));
+  LINKWRIGHT_REQUIRE(task.min_offset >= 0 && task.min_offset <= most, "coupler '{}': offset from {} to {} m",
+                     task.name, task.min_offset, most);
+  part.offset = task.min_offset;
+  part.columns.fill(-1);
+  if (task.min_offset < most)
+    part.columns[0] =
+        static_cast<int>(add_unknown(fmt::format("coupler_{}_offset_m", k + 1), task.min_offset, most));
+  for (int a = 0; a < 3; ++a) {
+    const double low = component(task.point.lower, a), high = component(task.point.upper, a);
+    LINKWRIGHT_REQUIRE(low <= high, "coupler '{}': box from {} to {} m", task.name, low, high);
+    if (low < high)
+      part.columns[at(a) + 1] =
+          static_cast<int>(add_unknown(fmt::format("coupler_{}_point_{}_m", k + 1, axes[at(a)]), low, high));
+  }
+  part.point = 0.5 * (task.point.lower + task.point.upper) - targets_.wheel.centre;
+  rows_ += poses_.size();
+  couplers_.push_back(part);
+}
+
+void CornerErrors::add_carrier_pitches(double largest_carrier_pitch) {
+  const std::size_t n = poses_.size();
+  double farthest = 0;
+  bool any_open = false;
+  for (const Pose& pose : poses_)
     if (pose.open) {
       any_open = true;
       farthest = std::max(farthest, std::abs(pose.travel));
-      LINKWRIGHT_REQUIRE(technique != CarrierPitchTechnique::quadratic || target.rack == 0,
-                         "position {} has the rack at {} m: a quadratic of the travel does not know the rack",
-                         i + 1, target.rack);
     }
-    poses_.push_back(pose);
-  }
-  const std::size_t n = poses_.size();
-  LINKWRIGHT_REQUIRE(n > 0, "no position besides the reference");
-
-  const auto unknown = [&](std::string name, double lower, double upper) {
-    names_.push_back(std::move(name));
-    lower_.push_back(lower);
-    upper_.push_back(upper);
-    return static_cast<int>(lower_.size()) - 1;
-  };
-  const bool alone = links.size() == 1 && couplers.empty();
-  for (std::size_t l = 0; l < links.size(); ++l) {
-    const LinkTask& task = links[l];
-    LinkPart part{.coordinates = LinkCoordinates(task, origin),
-                  .link = {},
-                  .first_unknown = unknowns(),
-                  .first_row = rows_,
-                  .rows = error_rows(task.type, n)};
-    part.link = part.coordinates.middle();
-    const int bodies = static_cast<int>(task.body.size());
-    for (const int at : part.coordinates.free()) {
-      const int point = at / 3;
-      unknown(fmt::format("{}{}_{}_{}_m", alone ? "" : fmt::format("link_{}_", l + 1),
-                          point < bodies ? "body" : "carrier", 1 + (point < bodies ? point : point - bodies),
-                          axes[static_cast<std::size_t>(at % 3)]),
-              part.coordinates.lower(at) + component(origin, at % 3),
-              part.coordinates.upper(at) + component(origin, at % 3));
-    }
-    rows_ += part.rows;
-    if (dyad_ < 0 && is_rod(task.type)) dyad_ = static_cast<int>(l);
-    links_.push_back(std::move(part));
-  }
-  for (std::size_t k = 0; k < couplers.size(); ++k) {
-    const CouplerTask& task = couplers[k];
-    for (const int link : {task.first, task.second})
-      LINKWRIGHT_REQUIRE(link >= 0 && link < static_cast<int>(links.size()), "coupler '{}': link {} of {}",
-                         task.name, link, links.size());
-    LINKWRIGHT_REQUIRE(is_rod(links[static_cast<std::size_t>(task.first)].type) &&
-                           links[static_cast<std::size_t>(task.second)].type == LinkType::SR,
-                       "coupler '{}': from a link of type {} to one of type {}, needs US and SR", task.name,
-                       name_of(links[static_cast<std::size_t>(task.first)].type),
-                       name_of(links[static_cast<std::size_t>(task.second)].type));
-    CouplerPart part;
-    part.task = task;
-    part.first_row = rows_;
-    const double most = std::min(task.max_offset, longest(links[static_cast<std::size_t>(task.first)]));
-    LINKWRIGHT_REQUIRE(task.min_offset >= 0 && task.min_offset <= most,
-                       "coupler '{}': offset from {} to {} m", task.name, task.min_offset, most);
-    part.offset = task.min_offset;
-    part.columns.fill(-1);
-    if (task.min_offset < most)
-      part.columns[0] = unknown(fmt::format("coupler_{}_offset_m", k + 1), task.min_offset, most);
-    for (int a = 0; a < 3; ++a) {
-      const double low = component(task.point.lower, a), high = component(task.point.upper, a);
-      LINKWRIGHT_REQUIRE(low <= high, "coupler '{}': box from {} to {} m", task.name, low, high);
-      if (low < high)
-        part.columns[static_cast<std::size_t>(a) + 1] = unknown(
-            fmt::format("coupler_{}_point_{}_m", k + 1, axes[static_cast<std::size_t>(a)]), low, high);
-    }
-    part.point = 0.5 * (task.point.lower + task.point.upper) - origin;
-    rows_ += n;
-    couplers_.push_back(part);
-  }
-
   first_carrier_pitch_ = unknowns();
   carrier_pitch_columns_.resize(n);
-  if (any_open && technique == CarrierPitchTechnique::each) {
+  if (any_open && technique_ == CarrierPitchTechnique::each) {
     for (std::size_t i = 0; i < n; ++i)
       if (poses_[i].open)
-        carrier_pitch_columns_[i] = {
-            {static_cast<std::size_t>(unknown(fmt::format("carrier_pitch_{}_rad", poses_[i].target + 1),
-                                              -largest_carrier_pitch, largest_carrier_pitch)),
-             1}};
-  } else if (any_open && technique == CarrierPitchTechnique::quadratic) {
+        carrier_pitch_columns_[i] = {{add_unknown(fmt::format("carrier_pitch_{}_rad", poses_[i].target + 1),
+                                                  -largest_carrier_pitch, largest_carrier_pitch),
+                                      1}};
+  } else if (any_open && technique_ == CarrierPitchTechnique::quadratic) {
     LINKWRIGHT_REQUIRE(farthest > 0, "the wheel does not travel");
     const double slope = largest_carrier_pitch / farthest, bend = slope / farthest;
-    const auto linear = static_cast<std::size_t>(unknown("carrier_pitch_slope_rad_per_m", -slope, slope)),
-               above = static_cast<std::size_t>(unknown("carrier_pitch_bend_above_rad_per_m2", -bend, bend)),
-               below = static_cast<std::size_t>(unknown("carrier_pitch_bend_below_rad_per_m2", -bend, bend));
+    const std::size_t linear = add_unknown("carrier_pitch_slope_rad_per_m", -slope, slope);
+    const std::size_t above = add_unknown("carrier_pitch_bend_above_rad_per_m2", -bend, bend);
+    const std::size_t below = add_unknown("carrier_pitch_bend_below_rad_per_m2", -bend, bend);
     for (std::size_t i = 0; i < n; ++i)
       if (const double z = poses_[i].travel; poses_[i].open)
         carrier_pitch_columns_[i] = {{linear, z}, {z >= 0 ? above : below, z * z}};
   } else if (any_open) {
     LINKWRIGHT_REQUIRE(dyad_ >= 0, "no US link makes a dyad with the carrier");
-    settling_ = settling_order(targets, PoseParameter::carrier_pitch);
-    const LinkPart& part = links_[static_cast<std::size_t>(dyad_)];
+    settling_ = settling_order(targets_, PoseParameter::carrier_pitch);
+    const LinkPart& part = links_[at(dyad_)];
     for (std::size_t i = 0; i < n; ++i)
       if (poses_[i].open)
         for (std::size_t f = 0; f < part.coordinates.free().size(); ++f)
           carrier_pitch_columns_[i].push_back({part.first_unknown + f, 0});
   }
-  if (!any_open || technique != CarrierPitchTechnique::dyad) dyad_ = -1;
+  if (!any_open || technique_ != CarrierPitchTechnique::dyad) dyad_ = -1;
   carrier_pitch_unknowns_ = unknowns() - first_carrier_pitch_;
 }
 

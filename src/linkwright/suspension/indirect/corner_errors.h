@@ -96,6 +96,13 @@ class CornerErrors {
     double travel = 0;
   };
 
+  // Parts of the constructor, in this order; each adds its unknowns and rows.
+  void add_poses();
+  std::size_t add_unknown(std::string name, double lower, double upper);
+  void add_link(const LinkTask& task, bool alone);
+  void add_coupler(const CouplerTask& task, std::span<const LinkTask> links);
+  void add_carrier_pitches(double largest_carrier_pitch);
+
   bool place(std::span<const double> x, bool rates);
   bool set_dyad_carrier_pitches();
   void add_carrier_pitch_derivatives(std::span<double> jacobian);
