@@ -183,6 +183,101 @@ struct Form {
   }
 };
 
+/// The objectives of which the largest is minimised, and those that keep to 1.
+struct MinimaxGoal {
+  const DirectModel& model;
+  std::span<const std::size_t> these, within;
+  bool has(std::span<const std::size_t> objectives, std::size_t row) const {
+    return std::find(objectives.begin(), objectives.end(), model.positions().rows[row].objective) !=
+           objectives.end();
+  }
+};
+constexpr double missed_price = 1e3;  // of a missed limit: more than any deviation costs
+
+double merit(const MinimaxGoal& goal, const DirectPoint& at) {
+  if (!at.assembled) return infinity;
+  double most = 0, over = 0;
+  for (std::size_t r = 0; r < goal.model.rows(); ++r) {
+    if (goal.has(goal.these, r)) most = std::max(most, std::abs(at.deviations[r]));
+    if (goal.has(goal.within, r)) over = std::max(over, std::abs(at.deviations[r]) - 1);
+  }
+  for (const double limit : at.limits) over = std::max(over, limit);
+  return most + missed_price * over;
+}
+
+/// The programme of a step from u in a region, for values of deviations and limits with the derivatives `at`
+/// u; `forms` are its first lines.
+optimise::ConeProgramme step_programme(const MinimaxGoal& goal, const DirectPoint& at,
+                                       const std::vector<double>& u, double region,
+                                       const Eigen::MatrixXd& curvature,
+                                       const std::vector<double>& deviations,
+                                       const std::vector<double>& limits, std::vector<Form>& forms) {
+  // Unknowns: the step, what the objectives come to, by how much limits are missed, and twice what the
+  // curvature costs.
+  const std::size_t n = u.size(), reached = n, over = n + 1, bent = n + 2;
+  forms.clear();
+  optimise::ConeProgramme programme;
+  programme.cost.assign(n + 3, 0);
+  programme.cost[reached] = 1;
+  programme.cost[over] = missed_price;
+  programme.cost[bent] = 0.5;
+  const auto add = [&](std::size_t bound, double constant, const Form& form) {
+    const double* row = form.row(at, n);
+    optimise::Cone cone;
+    for (std::size_t j = 0; j < n; ++j) {
+      cone.bound.variables.push_back(j);
+      cone.bound.factors.push_back(-form.sign * row[j] * region);
+    }
+    cone.bound.variables.push_back(bound);
+    cone.bound.factors.push_back(1);
+    cone.bound.constant = constant;
+    programme.cones.push_back(std::move(cone));
+    forms.push_back(form);
+  };
+  for (std::size_t r = 0; r < goal.model.rows(); ++r)
+    for (const double sign : {1.0, -1.0}) {
+      if (goal.has(goal.these, r)) add(reached, -sign * deviations[r], {sign, false, r});
+      if (goal.has(goal.within, r)) add(over, 1 - sign * deviations[r], {sign, false, r});
+    }
+  for (std::size_t i = 0; i < goal.model.limits(); ++i) add(over, -limits[i], {1, true, i});
+  programme.cones.push_back({.bound = {{over}, {1}, 0}});
+  for (std::size_t j = 0; j < n; ++j) {  // the step in parts of the region
+    programme.cones.push_back({.bound = {{j}, {1}, std::min(1.0, u[j] / region)}});
+    programme.cones.push_back({.bound = {{j}, {-1}, std::min(1.0, (1 - u[j]) / region)}});
+  }
+  const Eigen::MatrixXd root = curvature.llt().matrixL();
+  std::vector<optimise::Affine> parts(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) {
+      parts[i].variables.push_back(j);
+      parts[i].factors.push_back(root(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) * region);
+    }
+  programme.cones.push_back(optimise::rotated_cone(parts, {{bent}, {1}, 0}, {{}, {}, 1}));
+  return programme;
+}
+
+/// Adds to the curvature of the Lagrange function what a step from u to `next` shows of it.
+void learn_curvature(const std::vector<Form>& forms, const std::vector<optimise::ConeMultiplier>& multipliers,
+                     const DirectPoint& at, const std::vector<double>& u, const DirectPoint& trial,
+                     const std::vector<double>& next, Eigen::MatrixXd& curvature) {
+  // Both gradients of the Lagrange function with the multipliers of the programme.
+  const std::size_t n = u.size();
+  const auto size = static_cast<Eigen::Index>(n);
+  Eigen::VectorXd step(size), change = Eigen::VectorXd::Zero(size);
+  for (std::size_t j = 0; j < n; ++j) step(static_cast<Eigen::Index>(j)) = next[j] - u[j];
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const double *before = forms[i].row(at, n), *after = forms[i].row(trial, n);
+    const double weight = forms[i].sign * multipliers[i].bound;
+    for (std::size_t j = 0; j < n; ++j)
+      change(static_cast<Eigen::Index>(j)) += weight * (after[j] - before[j]);
+  }
+  const Eigen::VectorXd bs = curvature * step;
+  const double sbs = step.dot(bs), sy = step.dot(change);
+  const double share = sy >= 0.2 * sbs ? 1 : 0.8 * sbs / (sbs - sy);
+  const Eigen::VectorXd y = share * change + (1 - share) * bs;
+  if (sbs > 0) curvature += y * y.transpose() / step.dot(y) - bs * bs.transpose() / sbs;
+}
+
 /// Minimises the largest of the objectives `these` while those of `within` keep to 1 and limits are met:
 /// quadratic programmes in a region that grows while they hold and shrinks where they do not, or
 /// where a design does not assemble. Their curvature is that of the Lagrange function, learnt from its
@@ -191,73 +286,20 @@ struct Form {
 std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& options,
                                  std::span<const std::size_t> these, std::span<const std::size_t> within,
                                  std::vector<double>& u, RunContext& context) {
-  constexpr double price = 1e3, smallest = 1e-10;
+  constexpr double smallest = 1e-10;
   const std::size_t n = model.size();
-  const auto among = [&](std::span<const std::size_t> objectives, std::size_t row) {
-    return std::find(objectives.begin(), objectives.end(), model.positions().rows[row].objective) !=
-           objectives.end();
-  };
-  const auto merit = [&](const DirectPoint& at) {
-    if (!at.assembled) return infinity;
-    double most = 0, over = 0;
-    for (std::size_t r = 0; r < model.rows(); ++r) {
-      if (among(these, r)) most = std::max(most, std::abs(at.deviations[r]));
-      if (among(within, r)) over = std::max(over, std::abs(at.deviations[r]) - 1);
-    }
-    for (const double limit : at.limits) over = std::max(over, limit);
-    return most + price * over;
-  };
+  const MinimaxGoal goal{model, these, within};
   DirectPoint at, trial, other;
   model.evaluate(u, true, at);
   std::int64_t evaluations = 1;
-  double cost = merit(at), region = 0.05;
-  // Unknowns of a programme: the step, what the objectives come to, by how much limits are missed, and twice
-  // what the curvature costs.
-  const std::size_t reached = n, over = n + 1, bent = n + 2;
+  double cost = merit(goal, at), region = 0.05;
   const auto size = static_cast<Eigen::Index>(n);
   Eigen::MatrixXd curvature = 1e-3 * Eigen::MatrixXd::Identity(size, size);
   std::vector<Form> forms;
-  // The programme for values of deviations and limits, with the derivatives of this place.
-  const auto programme_of = [&](const std::vector<double>& deviations, const std::vector<double>& limits) {
-    forms.clear();
-    optimise::ConeProgramme programme;
-    programme.cost.assign(n + 3, 0);
-    programme.cost[reached] = 1;
-    programme.cost[over] = price;
-    programme.cost[bent] = 0.5;
-    const auto add = [&](std::size_t bound, double constant, const Form& form) {
-      const double* row = form.row(at, n);
-      optimise::Cone cone;
-      for (std::size_t j = 0; j < n; ++j) {
-        cone.bound.variables.push_back(j);
-        cone.bound.factors.push_back(-form.sign * row[j] * region);
-      }
-      cone.bound.variables.push_back(bound);
-      cone.bound.factors.push_back(1);
-      cone.bound.constant = constant;
-      programme.cones.push_back(std::move(cone));
-      forms.push_back(form);
-    };
-    for (std::size_t r = 0; r < model.rows(); ++r)
-      for (const double sign : {1.0, -1.0}) {
-        if (among(these, r)) add(reached, -sign * deviations[r], {sign, false, r});
-        if (among(within, r)) add(over, 1 - sign * deviations[r], {sign, false, r});
-      }
-    for (std::size_t i = 0; i < model.limits(); ++i) add(over, -limits[i], {1, true, i});
-    programme.cones.push_back({.bound = {{over}, {1}, 0}});
-    for (std::size_t j = 0; j < n; ++j) {  // the step in parts of the region
-      programme.cones.push_back({.bound = {{j}, {1}, std::min(1.0, u[j] / region)}});
-      programme.cones.push_back({.bound = {{j}, {-1}, std::min(1.0, (1 - u[j]) / region)}});
-    }
-    const Eigen::MatrixXd root = curvature.llt().matrixL();
-    std::vector<optimise::Affine> parts(n);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i; j < n; ++j) {
-        parts[i].variables.push_back(j);
-        parts[i].factors.push_back(root(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) * region);
-      }
-    programme.cones.push_back(optimise::rotated_cone(parts, {{bent}, {1}, 0}, {{}, {}, 1}));
-    return optimise::solve(programme, {}, context);
+  // The solution of the programme for values of deviations and limits, with the derivatives of this place.
+  const auto solve = [&](const std::vector<double>& deviations, const std::vector<double>& limits) {
+    return optimise::solve(step_programme(goal, at, u, region, curvature, deviations, limits, forms), {},
+                           context);
   };
   const auto try_step = [&](const optimise::ConeReport& found, DirectPoint& there) {
     std::vector<double> next(n);
@@ -267,28 +309,13 @@ std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& 
     return next;
   };
   while (at.assembled && region > smallest && evaluations < options.evaluations && !context.interrupted()) {
-    const optimise::ConeReport found = programme_of(at.deviations, at.limits);
+    const optimise::ConeReport found = solve(at.deviations, at.limits);
     if (found.x.empty()) break;
     std::vector<double> next = try_step(found, trial);
     const double promised = cost - found.cost;
-    double made = cost - merit(trial);
+    double made = cost - merit(goal, trial);
     if (!(promised > 1e-10 * (1 + cost))) break;
-    if (trial.assembled) {
-      // Both gradients of the Lagrange function with the multipliers of the programme.
-      Eigen::VectorXd step(size), change = Eigen::VectorXd::Zero(size);
-      for (std::size_t j = 0; j < n; ++j) step(static_cast<Eigen::Index>(j)) = next[j] - u[j];
-      for (std::size_t i = 0; i < forms.size(); ++i) {
-        const double *before = forms[i].row(at, n), *after = forms[i].row(trial, n);
-        const double weight = forms[i].sign * found.multipliers[i].bound;
-        for (std::size_t j = 0; j < n; ++j)
-          change(static_cast<Eigen::Index>(j)) += weight * (after[j] - before[j]);
-      }
-      const Eigen::VectorXd bs = curvature * step;
-      const double sbs = step.dot(bs), sy = step.dot(change);
-      const double share = sy >= 0.2 * sbs ? 1 : 0.8 * sbs / (sbs - sy);
-      const Eigen::VectorXd y = share * change + (1 - share) * bs;
-      if (sbs > 0) curvature += y * y.transpose() / step.dot(y) - bs * bs.transpose() / sbs;
-    }
+    if (trial.assembled) learn_curvature(forms, found.multipliers, at, u, trial, next, curvature);
     if (trial.assembled && made < 0.75 * promised) {
       // Once more with what the step left out: values there less their linear part, so that the search does
       // not stick where it follows a curved limit (second-order correction, Fletcher 1987, section 14.4).
@@ -299,10 +326,10 @@ std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& 
         return out;
       };
       const optimise::ConeReport again =
-          programme_of(corrected(trial.deviations, at.by), corrected(trial.limits, at.limits_by));
+          solve(corrected(trial.deviations, at.by), corrected(trial.limits, at.limits_by));
       if (!again.x.empty()) {
         const std::vector<double> second = try_step(again, other);
-        if (const double better_made = cost - merit(other); better_made > made) {
+        if (const double better_made = cost - merit(goal, other); better_made > made) {
           made = better_made;
           next = second;
           std::swap(trial, other);
