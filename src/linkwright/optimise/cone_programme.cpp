@@ -58,6 +58,7 @@ class Solver {
   }
   void solve(const VectorView& bx, const VectorView& bz, Vector& x, Vector& z);
   void start();
+  bool advance(const Vector& rx, const Vector& rz, double rt);  // false where rounding leaves no step
   struct Quality {
     double primal = 0, dual = 0, gap = 0;
     double worst() const { return std::max({primal, dual, gap}); }
@@ -339,9 +340,61 @@ ConeReport Solver::answer(ConeEnd end) const {
   return report;
 }
 
+// One step from residuals of the equations; the scaling and its factors are those of the iterate.
+bool Solver::advance(const Vector& rx, const Vector& rz, double rt) {
+  Vector x1, z1, x2, z2, ds(m_), scaled_s(m_), scaled_z(m_), right(m_), t(m_), u(m_);
+  const double mu = (s_.dot(z_) + tau_ * kappa_) / degree_;
+  solve(-c_, h_, x1, z1);
+  const double denominator = c_.dot(x1) + h_.dot(z1) - kappa_ / tau_;
+
+  double sigma = 0, d_tau = 0, d_kappa = 0, step = 0;
+  for (int pass = 0; pass < 2; ++pass) {  // prediction, correction
+    cones_.product(cones_.lambda, cones_.lambda, view(right));
+    double right_kappa = -tau_ * kappa_;
+    right = -right;
+    if (pass == 1) {
+      cones_.product(view(scaled_s), view(scaled_z), view(t));
+      right -= t;
+      cones_.add_unit(sigma * mu, view(right));
+      right_kappa += sigma * mu - d_tau * d_kappa;
+    }
+    const double share = 1 - sigma;
+    cones_.divide(view(right), view(t));
+    apply(t, false, u);  // W (lambda \ d)
+    solve(share * rx, -share * rz - u, x2, z2);
+    d_tau = (-share * rt - right_kappa / tau_ - c_.dot(x2) - h_.dot(z2)) / denominator;
+    x2 += d_tau * x1;
+    z2 += d_tau * z1;
+    d_kappa = (right_kappa - kappa_ * d_tau) / tau_;
+    apply(z2, false, scaled_z);
+    scaled_s = t - scaled_z;
+    step = std::min(cones_.longest_step(view(scaled_s)), cones_.longest_step(view(scaled_z)));
+    if (d_tau < 0) step = std::min(step, -tau_ / d_tau);
+    if (d_kappa < 0) step = std::min(step, -kappa_ / d_kappa);
+    if (pass == 0) {
+      const double a = 1 - std::min(1.0, step);
+      sigma = a * a * a;
+    }
+  }
+  step = std::min(1.0, 0.99 * step);
+  if (!(step > 1e-10) || !std::isfinite(d_tau) || !x2.allFinite() || !z2.allFinite()) return false;
+  apply(scaled_s, false, ds);
+  x_ += step * x2;
+  s_ += step * ds;
+  z_ += step * z2;
+  tau_ += step * d_tau;
+  kappa_ += step * d_kappa;
+  // The embedding is homogeneous: its iterates may be brought to any size.
+  const double size = std::max(tau_, kappa_);
+  for (Vector* v : {&x_, &s_, &z_}) *v /= size;
+  tau_ /= size;
+  kappa_ /= size;
+  return true;
+}
+
 ConeReport Solver::run(RunContext& context) {
   start();
-  Vector rx(n_), rz(m_), x1, z1, x2, z2, ds(m_), dz(m_), scaled_s(m_), scaled_z(m_), right(m_), t(m_), u(m_);
+  Vector rx(n_), rz(m_);
   Vector best_x, best_s, best_z;
   double best_tau = 1, best_kappa = 1, best = infinity;
   ConeEnd end = ConeEnd::iterations;
@@ -385,59 +438,10 @@ ConeReport Solver::run(RunContext& context) {
       end = ConeEnd::interrupted;
       break;
     }
-    if (!cones_.update(view(s_), view(z_)) || !factorise()) {
+    if (!cones_.update(view(s_), view(z_)) || !factorise() || !advance(rx, rz, rt)) {
       end = ConeEnd::rounding;
       break;
     }
-    const double mu = (s_.dot(z_) + tau_ * kappa_) / degree_;
-    solve(-c_, h_, x1, z1);
-    const double denominator = c_.dot(x1) + h_.dot(z1) - kappa_ / tau_;
-
-    double sigma = 0, d_tau = 0, d_kappa = 0, step = 0;
-    for (int pass = 0; pass < 2; ++pass) {  // prediction, correction
-      cones_.product(cones_.lambda, cones_.lambda, view(right));
-      double right_kappa = -tau_ * kappa_;
-      right = -right;
-      if (pass == 1) {
-        cones_.product(view(scaled_s), view(scaled_z), view(t));
-        right -= t;
-        cones_.add_unit(sigma * mu, view(right));
-        right_kappa += sigma * mu - d_tau * d_kappa;
-      }
-      const double share = 1 - sigma;
-      cones_.divide(view(right), view(t));
-      apply(t, false, u);  // W (lambda \ d)
-      solve(share * rx, -share * rz - u, x2, z2);
-      d_tau = (-share * rt - right_kappa / tau_ - c_.dot(x2) - h_.dot(z2)) / denominator;
-      x2 += d_tau * x1;
-      z2 += d_tau * z1;
-      d_kappa = (right_kappa - kappa_ * d_tau) / tau_;
-      apply(z2, false, scaled_z);
-      scaled_s = t - scaled_z;
-      step = std::min(cones_.longest_step(view(scaled_s)), cones_.longest_step(view(scaled_z)));
-      if (d_tau < 0) step = std::min(step, -tau_ / d_tau);
-      if (d_kappa < 0) step = std::min(step, -kappa_ / d_kappa);
-      if (pass == 0) {
-        const double a = 1 - std::min(1.0, step);
-        sigma = a * a * a;
-      }
-    }
-    step = std::min(1.0, 0.99 * step);
-    if (!(step > 1e-10) || !std::isfinite(d_tau) || !x2.allFinite() || !z2.allFinite()) {
-      end = ConeEnd::rounding;
-      break;
-    }
-    apply(scaled_s, false, ds);
-    x_ += step * x2;
-    s_ += step * ds;
-    z_ += step * z2;
-    tau_ += step * d_tau;
-    kappa_ += step * d_kappa;
-    // The embedding is homogeneous: its iterates may be brought to any size.
-    const double size = std::max(tau_, kappa_);
-    for (Vector* v : {&x_, &s_, &z_}) *v /= size;
-    tau_ /= size;
-    kappa_ /= size;
   }
   if (end == ConeEnd::rounding || end == ConeEnd::iterations || end == ConeEnd::interrupted) {
     x_ = best_x, s_ = best_s, z_ = best_z;
