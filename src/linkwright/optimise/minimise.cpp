@@ -54,9 +54,13 @@ struct GenerationCosts {
   }
 };
 
-GenerationLog summarise(GenerationCosts& costs) {
+GenerationLog summarise(GenerationCosts& costs, const Report& report) {
   std::vector<double>& feasible = costs.feasible;
-  GenerationLog entry = {.median = nan, .mean = nan};
+  GenerationLog entry = {.evaluations = report.evaluations,
+                         .best_cost = report.cost,
+                         .best_violation = report.violation,
+                         .median = nan,
+                         .mean = nan};
   const std::size_t n = feasible.size();
   entry.violated = 1 - static_cast<double>(n) / static_cast<double>(costs.candidates);
   if (n == 0) return entry;
@@ -322,12 +326,7 @@ class StateKeeper {
   std::optional<Snapshot> before_;
 };
 
-}  // namespace
-
-Report minimise(const Problem& problem, Optimiser& optimiser, int generations, std::string_view name,
-                const MinimiseOptions& options, RunContext& context) {
-  require_in_range("minimise", options);
-  const StopCriteria& stop = options.stop;
+void require_fit(const Optimiser& optimiser, const Problem& problem, int generations) {
   LINKWRIGHT_REQUIRE(generations >= 1, "{} generations", generations);
   LINKWRIGHT_REQUIRE(optimiser.dimension() == problem.variables.size(),
                      "an optimiser of {} variables for a problem of {}", optimiser.dimension(),
@@ -335,6 +334,63 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   LINKWRIGHT_REQUIRE(optimiser.objectives() == problem.objectives,
                      "an optimiser of {} objectives for a problem of {}", optimiser.objectives(),
                      problem.objectives);
+}
+
+/// Makes a candidate of known costs the best so far.
+void start_from_incumbent(const Incumbent& known, const Combination* combination, Optimiser& optimiser,
+                          Report& report) {
+  LINKWRIGHT_REQUIRE(known.costs.size() == report.costs.size(), "an incumbent of {} costs for {} objectives",
+                     known.costs.size(), report.costs.size());
+  const double cost = combination ? combination->cost(known.costs) : mean_of(known.costs);
+  optimiser.start_from(known.x, combination ? std::span(&cost, 1) : std::span(known.costs));
+  set_best(report, known.x, cost, known.costs, 0);
+}
+
+/// The one cost of each candidate; what its parts exceed is added to its violation.
+void combine_costs(const Combination& combination, std::span<const double> costs, std::span<double> combined,
+                   std::span<double> violations) {
+  const std::size_t of_parts = combination.problem.objectives;
+  for (std::size_t i = 0; i < combined.size(); ++i) {
+    const std::span<const double> of_one = costs.subspan(i * of_parts, of_parts);
+    combined[i] = combination.cost(of_one);
+    violations[i] += excess(combination, of_one);
+  }
+}
+
+/// Tells costs to which every violation adds the same, and no violations.
+void tell_penalised(Optimiser& optimiser, std::span<const double> costs, std::span<const double> violations,
+                    double weight, std::vector<double>& merit, const std::vector<double>& none) {
+  const std::size_t m = violations.empty() ? 0 : costs.size() / violations.size();
+  for (std::size_t i = 0; i < violations.size(); ++i)
+    for (std::size_t k = 0; k < m; ++k)
+      merit[i * m + k] = costs[i * m + k] + (violations[i] > 0 ? weight : 0);
+  optimiser.tell({merit.data(), costs.size()}, {none.data(), violations.size()});
+}
+
+/// Empty where the minimisation continues; `moved`: the last generation has changed or equalled the best.
+std::string reason_to_stop(const StopCriteria& stop, const Report& report, const Optimiser& optimiser,
+                           bool moved, int unimproved, int generations, std::vector<double>& squares) {
+  if (report.violation == 0 && report.cost <= stop.target_cost)
+    return fmt::format("target cost {} reached", stop.target_cost);
+  if (stop.spread > 0 && moved && spread(optimiser.members(), report.x, squares) < stop.spread)
+    return fmt::format("every member within {} of the best", stop.spread);
+  if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), squares))
+    return fmt::format("no two members more than {} apart", stop.diameter);
+  if (stop.stagnation > 0 && unimproved >= stop.stagnation)
+    return fmt::format("no better candidate in {} generations", unimproved);
+  if (report.generations >= generations) return fmt::format("{} generations", report.generations);
+  if (stop.evaluations > 0 &&
+      report.evaluations + static_cast<std::int64_t>(optimiser.largest_generation()) > stop.evaluations)
+    return fmt::format("another generation could exceed {} evaluations", stop.evaluations);
+  return {};
+}
+
+}  // namespace
+
+Report minimise(const Problem& problem, Optimiser& optimiser, int generations, std::string_view name,
+                const MinimiseOptions& options, RunContext& context) {
+  require_in_range("minimise", options);
+  require_fit(optimiser, problem, generations);
   // The evaluated costs are the parts of a combination, `of_parts` a candidate; the optimiser receives `m`
   // costs a candidate.
   const Combination* combination = problem.combination.get();
@@ -353,13 +409,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   Report report;
   report.x.resize(optimiser.dimension());
   report.costs.assign(of_parts, infinity);
-  if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty()) {
-    LINKWRIGHT_REQUIRE(known.costs.size() == of_parts, "an incumbent of {} costs for {} objectives",
-                       known.costs.size(), of_parts);
-    const double cost_of_known = combination ? combination->cost(known.costs) : mean_of(known.costs);
-    optimiser.start_from(known.x, combination ? std::span(&cost_of_known, 1) : std::span(known.costs));
-    set_best(report, known.x, cost_of_known, known.costs, 0);
-  }
+  if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty())
+    start_from_incumbent(known, combination, optimiser, report);
   if (options.log) report.log.reserve(static_cast<std::size_t>(std::min(generations, max_logged)) + 1);
 
   int unimproved = 0;
@@ -390,21 +441,13 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
         take_evaluated(candidates, combination, m, costs, violations, report);
         break;
       }
-      for (std::size_t i = 0; combination && i < asked; ++i) {
-        const std::span<const double> of_one = costs.subspan(i * of_parts, of_parts);
-        combined[i] = combination->cost(of_one);
-        violation[i] += excess(*combination, of_one);
-      }
+      if (combination) combine_costs(*combination, costs, {combined.data(), asked}, violations);
       const std::span<double> told = combination ? std::span(combined.data(), asked) : costs;
       if (front && asked > 0) tell_front(*front, candidates, costs, violations, x);
-      if (penalty) {
-        for (std::size_t i = 0; i < asked; ++i)
-          for (std::size_t k = 0; k < m; ++k)
-            merit[i * m + k] = told[i * m + k] + (violation[i] > 0 ? options.penalty_weight : 0);
-        optimiser.tell({merit.data(), asked * m}, {none.data(), asked});
-      } else {
+      if (penalty)
+        tell_penalised(optimiser, told, violations, options.penalty_weight, merit, none);
+      else
         optimiser.tell(told, violations);
-      }
       report.evaluations += static_cast<std::int64_t>(asked);
       improved |= optimiser.improved();
       equalled |= optimiser.equalled();
@@ -418,38 +461,19 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     if (cut) break;
     ++report.generations;
     unimproved = improved ? 0 : unimproved + 1;
-    if (options.log && log_generation(report.log, report.generations, [&] {
-          GenerationLog entry = summarise(of_generation);
-          entry.evaluations = report.evaluations;
-          entry.best_cost = report.cost;
-          entry.best_violation = report.violation;
-          return entry;
-        }))
+    if (options.log &&
+        log_generation(report.log, report.generations, [&] { return summarise(of_generation, report); }))
       keeper.log_thinned();
     if (options.progress)
       context.report({.stage = name,
                       .fraction = static_cast<double>(report.generations) / generations,
                       .best = report.cost});
-
-    if (report.violation == 0 && report.cost <= stop.target_cost)
-      report.stop_reason = fmt::format("target cost {} reached", stop.target_cost);
-    else if (stop.spread > 0 && (improved || equalled) &&
-             spread(optimiser.members(), report.x, squares) < stop.spread)
-      report.stop_reason = fmt::format("every member within {} of the best", stop.spread);
-    else if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), squares))
-      report.stop_reason = fmt::format("no two members more than {} apart", stop.diameter);
-    else if (stop.stagnation > 0 && unimproved >= stop.stagnation)
-      report.stop_reason = fmt::format("no better candidate in {} generations", unimproved);
-    else if (report.generations >= generations)
-      report.stop_reason = fmt::format("{} generations", report.generations);
-    else if (stop.evaluations > 0 &&
-             report.evaluations + static_cast<std::int64_t>(optimiser.largest_generation()) >
-                 stop.evaluations)
-      report.stop_reason = fmt::format("another generation could exceed {} evaluations", stop.evaluations);
-    else if (interruption = context.interruption(); interruption != Status::done)
-      break;
-    else
-      keeper.generation_done(optimiser, report, unimproved, front);
+    report.stop_reason = reason_to_stop(options.stop, report, optimiser, improved || equalled, unimproved,
+                                        generations, squares);
+    if (!report.stop_reason.empty()) break;
+    interruption = context.interruption();
+    if (interruption != Status::done) break;
+    keeper.generation_done(optimiser, report, unimproved, front);
   }
   if (!was_at_its_end && !cut)
     keeper.ended(optimiser, report, unimproved, front, interruption != Status::done);
