@@ -309,6 +309,194 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   return out;
 }
 
+namespace {
+
+// The search for lengths and masses together: first with the path at zero clearance, then with the path on
+// the periodic orbit of the clearance link.
+class LinkageAndMasses {
+ public:
+  LinkageAndMasses(const ClearancePathProblem& path, const ClearanceMassProblem& mass,
+                   std::span<const double> path_x, std::span<const double> mass_x, RunContext& context)
+      : path_(path),
+        mass_(mass),
+        context_(context),
+        follower_(mass.crank, mass.tolerances, &context),
+        x_(path_x.begin(), path_x.end()),
+        r_(rows()) {
+    for (const Range& r : path.bounds) lower_.push_back(r.lower), upper_.push_back(r.upper);
+    limits(mass, lower_, upper_);
+    x_.insert(x_.end(), mass_x.begin(), mass_x.end());
+    given_ = x_;
+    even_enough_ = std::min(0.25, 0.5 * uniformity(model_of(x_)));
+  }
+  ClearanceDesign run();
+
+ private:
+  std::size_t rows() const { return 2 * path_.x.size(); }
+  ClearanceFourBar model_of(std::span<const double> at) const {
+    ClearanceFourBar model = with_masses(mass_.model, at.subspan(clearance_length_count));
+    model.linkage = clearance_path_design(path_, at.first(clearance_length_count)).model.linkage;
+    return model;
+  }
+  void misses(std::size_t k, const Complex& point, std::span<double> r) const {
+    r[2 * k] = point.real() - path_.x[k];
+    r[2 * k + 1] = point.imag() - path_.y[k];
+  }
+  double rms(std::span<const double> r) const {
+    double sum = 0;
+    for (const double value : r) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(path_.x.size()));
+  }
+  double uniformity(const ClearanceFourBar& model) const;
+  bool at_zero_clearance(std::span<const double> at, std::span<double> r);
+  bool on_periodic_orbit(std::span<const double> at, std::span<double> r);
+  template <class Misfit>
+  bool minimise(Misfit&& misfit, double share, double decrease, int iterations);
+  double on_orbit_from(std::vector<double> start, bool search);
+  ClearanceDesign stopped(Status why);
+
+  const ClearancePathProblem& path_;
+  const ClearanceMassProblem& mass_;
+  RunContext& context_;
+  OrbitFollower follower_;
+  std::vector<double> lower_, upper_, x_, given_, r_;
+  double even_enough_ = 0;  // least uniformity of the force of the ideal pin
+  ClearanceDesign out_;
+  // The best that any trial has shown: what an interrupted search gives back.
+  struct Seen {
+    double rms = infinity;
+    std::vector<double> x;
+    ClearanceOrbit orbit;
+    double min_tension = -infinity;
+  } seen_;
+};
+
+// Least force of the ideal pin over a turn, over the mean one: where it is nearly zero pin and bush part,
+// and its direction says nothing of the clearance link.
+double LinkageAndMasses::uniformity(const ClearanceFourBar& model) const {
+  ClearanceFourBar ideal = model;
+  ideal.clearance = 0;
+  double least = infinity, mean = 0;
+  for (const double angle : even_angles(mass_.crank, mass_.samples)) {
+    const ClearanceInstant now = clearance_instant(ideal, angle, mass_.crank.speed, 0, {});
+    if (now.status != Status::done) return 0.0;
+    least = std::min(least, now.tension);
+    mean += now.tension / mass_.samples;
+  }
+  return mean > 0 ? least / mean : 0.0;
+}
+
+// Misses with the clearance link along the force of the ideal joint: no integration.
+bool LinkageAndMasses::at_zero_clearance(std::span<const double> at, std::span<double> r) {
+  ++out_.evaluations;
+  const ClearanceFourBar model = model_of(at);
+  if (uniformity(model) < even_enough_) return false;
+  for (std::size_t k = 0; k < path_.x.size(); ++k) {
+    const double direction = force_direction(model, path_.crank_angles[k], mass_.crank.speed, 0);
+    const ClearancePosition p = clearance_position(model, path_.crank_angles[k], direction);
+    if (!std::isfinite(direction) || p.status != Status::done) return false;
+    misses(k, p.point, r);
+  }
+  return true;
+}
+
+bool LinkageAndMasses::on_periodic_orbit(std::span<const double> at, std::span<double> r) {
+  ++out_.evaluations;
+  if (context_.interrupted()) return false;
+  const ClearanceFourBar model = model_of(at);
+  if (!turns_fully(model) || !follower_.follow(model)) return false;
+  const ClearanceRun run = over_a_turn(
+      model, mass_.crank, follower_.orbit().start(mass_.crank), path_.crank_angles, mass_.tolerances,
+      &context_, [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+  if (run.status != Status::done || !(run.min_tension > 0)) return false;
+  if (const double now = rms(r); now < seen_.rms)
+    seen_ = {now, {at.begin(), at.end()}, follower_.orbit(), run.min_tension};
+  return true;
+}
+
+template <class Misfit>
+bool LinkageAndMasses::minimise(Misfit&& misfit, double share, double decrease, int iterations) {
+  const std::vector<double> scale = widths(lower_, upper_, share);
+  const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
+    if (!misfit(at, r)) return false;
+    if (jacobian.empty()) return true;
+    const auto inner = [&](std::span<const double> there, std::span<double> rows, std::span<double>) {
+      return misfit(there, rows);
+    };
+    return math::bounded_jacobian(inner, rows(), at, lower_, upper_, jacobian, scale) == Status::done;
+  };
+  math::LeastSquaresOptions options = local_options();
+  options.max_iterations = iterations;
+  options.jacobian_at_trials = false;
+  options.relative_decrease_tolerance = decrease;
+  options.cost_tolerance = 1e-20;
+  math::LeastSquaresWorkspace workspace;
+  std::vector<double> end = x_;
+  const math::LeastSquaresReport report =
+      math::minimise_least_squares(residuals, rows(), end, lower_, upper_, options, workspace);
+  if (report.status == Status::infeasible) return false;
+  x_ = end;
+  return true;
+}
+
+// From x, in place: the distance of the path on the orbit; infinite where there is no orbit in contact.
+double LinkageAndMasses::on_orbit_from(std::vector<double> start, bool search) {
+  x_ = std::move(start);
+  if (!follower_.begin(model_of(x_)) || !on_periodic_orbit(x_, r_)) return infinity;
+  if (search) minimise([this](auto at, auto r) { return on_periodic_orbit(at, r); }, integrated, 1e-2, 30);
+  return follower_.begin(model_of(x_)) && on_periodic_orbit(x_, r_) ? rms(r_) : infinity;
+}
+
+ClearanceDesign LinkageAndMasses::stopped(Status why) {
+  out_.status = why;
+  out_.x = seen_.x.empty() ? given_ : seen_.x;
+  out_.model = model_of(out_.x);
+  out_.limit_rms = at_zero_clearance(out_.x, r_) ? rms(r_) : infinity;
+  out_.path_rms = seen_.rms;
+  out_.orbit = seen_.orbit;
+  out_.min_tension = seen_.min_tension;
+  return out_;
+}
+
+ClearanceDesign LinkageAndMasses::run() {
+  minimise([&](std::span<const double> at,
+               std::span<double> off) { return !context_.interrupted() && at_zero_clearance(at, off); },
+           smooth, 1e-6, 200);
+  // A design that is good for zero clearance may have no orbit that keeps contact at this clearance.
+  double found = on_orbit_from(x_, true);
+  std::vector<double> best = x_;
+  if (!(found <= on_orbit_from(given_, false))) {
+    if (const double other = on_orbit_from(given_, true); other < found) {
+      found = other;
+      best = x_;
+    }
+  }
+  if (const Status why = context_.interruption(); why != Status::done) return stopped(why);
+  x_ = best;
+  const bool there = std::isfinite(found) && follower_.begin(model_of(x_));
+  out_.x = x_;
+  out_.model = model_of(x_);
+  out_.limit_rms = at_zero_clearance(x_, r_) ? rms(r_) : infinity;
+  out_.path_rms = infinity;
+  out_.min_tension = -infinity;
+  if (!there || !follower_.follow(out_.model)) {
+    out_.status = Status::not_converged;
+    const Status why = context_.interruption();
+    return why == Status::done ? out_ : stopped(why);
+  }
+  out_.orbit = find_orbit(out_.model, mass_.crank, follower_.orbit().phase, follower_.orbit().slope,
+                          mass_.tolerances, &context_);
+  const ClearanceRun run = over_a_turn(
+      out_.model, mass_.crank, out_.orbit.start(mass_.crank), path_.crank_angles, mass_.tolerances, &context_,
+      [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r_); });
+  if (const Status why = context_.interruption(); why != Status::done) return stopped(why);
+  if (run.status == Status::done) out_.path_rms = rms(r_);
+  out_.min_tension = run.min_tension;
+  return out_;
+}
+
+}  // namespace
+
 ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const ClearanceMassProblem& mass,
                                          std::span<const double> path_x, std::span<const double> mass_x,
                                          RunContext& context) {
@@ -318,152 +506,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
                      path.x.size());
   LINKWRIGHT_REQUIRE(path_x.size() == clearance_length_count && mass_x.size() == clearance_mass_count,
                      "{} lengths and {} masses", path_x.size(), mass_x.size());
-  std::vector<double> lower, upper, x(path_x.begin(), path_x.end());
-  for (const Range& r : path.bounds) lower.push_back(r.lower), upper.push_back(r.upper);
-  limits(mass, lower, upper);
-  x.insert(x.end(), mass_x.begin(), mass_x.end());
-  const std::size_t m = 2 * path.x.size();
-  ClearanceDesign out;
-
-  const auto model_of = [&](std::span<const double> at) {
-    ClearanceFourBar model = with_masses(mass.model, at.subspan(clearance_length_count));
-    model.linkage = clearance_path_design(path, at.first(clearance_length_count)).model.linkage;
-    return model;
-  };
-  const auto misses = [&](std::size_t k, const Complex& point, std::span<double> r) {
-    r[2 * k] = point.real() - path.x[k];
-    r[2 * k + 1] = point.imag() - path.y[k];
-  };
-  // Least force of the ideal pin over a turn, over the mean one: where it is nearly zero pin and bush part,
-  // and its direction says nothing of the clearance link.
-  const auto uniformity = [&](const ClearanceFourBar& model) {
-    ClearanceFourBar ideal = model;
-    ideal.clearance = 0;
-    double least = infinity, mean = 0;
-    for (const double angle : even_angles(mass.crank, mass.samples)) {
-      const ClearanceInstant now = clearance_instant(ideal, angle, mass.crank.speed, 0, {});
-      if (now.status != Status::done) return 0.0;
-      least = std::min(least, now.tension);
-      mean += now.tension / mass.samples;
-    }
-    return mean > 0 ? least / mean : 0.0;
-  };
-  const double even_enough = std::min(0.25, 0.5 * uniformity(model_of(x)));
-  // The clearance link along the force of the ideal joint: no integration.
-  const auto in_the_limit = [&](std::span<const double> at, std::span<double> r) {
-    ++out.evaluations;
-    const ClearanceFourBar model = model_of(at);
-    if (uniformity(model) < even_enough) return false;
-    for (std::size_t k = 0; k < path.x.size(); ++k) {
-      const double direction = force_direction(model, path.crank_angles[k], mass.crank.speed, 0);
-      const ClearancePosition p = clearance_position(model, path.crank_angles[k], direction);
-      if (!std::isfinite(direction) || p.status != Status::done) return false;
-      misses(k, p.point, r);
-    }
-    return true;
-  };
-  const auto rms = [&](std::span<const double> r) {
-    double sum = 0;
-    for (const double value : r) sum += value * value;
-    return std::sqrt(sum / static_cast<double>(path.x.size()));
-  };
-  OrbitFollower follower(mass.crank, mass.tolerances, &context);
-  // The best that any trial has shown: what an interrupted search gives back.
-  struct Seen {
-    double rms = infinity;
-    std::vector<double> x;
-    ClearanceOrbit orbit;
-    double min_tension = -infinity;
-  } seen;
-  const auto on_periodic_orbit = [&](std::span<const double> at, std::span<double> r) {
-    ++out.evaluations;
-    if (context.interrupted()) return false;
-    const ClearanceFourBar model = model_of(at);
-    if (!turns_fully(model) || !follower.follow(model)) return false;
-    const ClearanceRun run = over_a_turn(
-        model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances, &context,
-        [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
-    if (run.status != Status::done || !(run.min_tension > 0)) return false;
-    if (const double now = rms(r); now < seen.rms)
-      seen = {now, {at.begin(), at.end()}, follower.orbit(), run.min_tension};
-    return true;
-  };
-  const auto minimise = [&](auto&& misfit, double share, double decrease, int iterations) {
-    const std::vector<double> scale = widths(lower, upper, share);
-    const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
-      if (!misfit(at, r)) return false;
-      if (jacobian.empty()) return true;
-      const auto inner = [&](std::span<const double> there, std::span<double> rows, std::span<double>) {
-        return misfit(there, rows);
-      };
-      return math::bounded_jacobian(inner, m, at, lower, upper, jacobian, scale) == Status::done;
-    };
-    math::LeastSquaresOptions options = local_options();
-    options.max_iterations = iterations;
-    options.jacobian_at_trials = false;
-    options.relative_decrease_tolerance = decrease;
-    options.cost_tolerance = 1e-20;
-    math::LeastSquaresWorkspace workspace;
-    std::vector<double> end = x;
-    const math::LeastSquaresReport report =
-        math::minimise_least_squares(residuals, m, end, lower, upper, options, workspace);
-    if (report.status == Status::infeasible) return false;
-    x = end;
-    return true;
-  };
-  std::vector<double> r(m);
-  // From x, in place: the distance of the path on the orbit; infinite where there is no orbit in contact.
-  const auto on_orbit_from = [&](std::vector<double> start, bool search) {
-    x = std::move(start);
-    if (!follower.begin(model_of(x)) || !on_periodic_orbit(x, r)) return infinity;
-    if (search) minimise(on_periodic_orbit, integrated, 1e-2, 30);
-    return follower.begin(model_of(x)) && on_periodic_orbit(x, r) ? rms(r) : infinity;
-  };
-  const std::vector<double> given = x;
-  const auto stopped = [&](Status why) {
-    out.status = why;
-    out.x = seen.x.empty() ? given : seen.x;
-    out.model = model_of(out.x);
-    out.limit_rms = in_the_limit(out.x, r) ? rms(r) : infinity;
-    out.path_rms = seen.rms;
-    out.orbit = seen.orbit;
-    out.min_tension = seen.min_tension;
-    return out;
-  };
-  minimise([&](std::span<const double> at,
-               std::span<double> off) { return !context.interrupted() && in_the_limit(at, off); },
-           smooth, 1e-6, 200);
-  // A design that is good for zero clearance may have no orbit that keeps contact at this clearance.
-  double found = on_orbit_from(x, true);
-  std::vector<double> best = x;
-  if (!(found <= on_orbit_from(given, false))) {
-    if (const double other = on_orbit_from(given, true); other < found) {
-      found = other;
-      best = x;
-    }
-  }
-  if (const Status why = context.interruption(); why != Status::done) return stopped(why);
-  x = best;
-  const bool there = std::isfinite(found) && follower.begin(model_of(x));
-  out.x = x;
-  out.model = model_of(x);
-  out.limit_rms = in_the_limit(x, r) ? rms(r) : infinity;
-  out.path_rms = infinity;
-  out.min_tension = -infinity;
-  if (!there || !follower.follow(out.model)) {
-    out.status = Status::not_converged;
-    const Status why = context.interruption();
-    return why == Status::done ? out : stopped(why);
-  }
-  out.orbit = find_orbit(out.model, mass.crank, follower.orbit().phase, follower.orbit().slope,
-                         mass.tolerances, &context);
-  const ClearanceRun run = over_a_turn(
-      out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances, &context,
-      [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
-  if (const Status why = context.interruption(); why != Status::done) return stopped(why);
-  if (run.status == Status::done) out.path_rms = rms(r);
-  out.min_tension = run.min_tension;
-  return out;
+  return LinkageAndMasses(path, mass, path_x, mass_x, context).run();
 }
 
 }  // namespace linkwright::clearance
