@@ -192,7 +192,8 @@ struct MinimaxGoal {
            objectives.end();
   }
 };
-constexpr double missed_price = 1e3;  // of a missed limit: more than any deviation costs
+/// The price of a missed limit is more than any deviation costs.
+constexpr double missed_price = 1e3;
 
 double merit(const MinimaxGoal& goal, const DirectPoint& at) {
   if (!at.assembled) return infinity;
