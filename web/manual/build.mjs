@@ -72,7 +72,7 @@ for (const [file, section] of [["do.md", "Do"], ["files.md", "Reference"], ["mes
   if (existsSync(join(texts, file))) {
     const made = page(file);
     if (file === "messages.md") {
-      requireWords(root, made.html);
+      requireWords({ ask, json }, made.html);
       made.html += messageList(root, escaped);
     }
     add(made.path, section, made.title, made.html, { lead: made.lead, broad: section === "Glossary" });

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All messages of the program, read from its sources: what says something is a call of one of a few functions, and what it says
-// are the texts in it. tests/tools/check_one_message.py compares them with those that a user meets.
+// All messages of the program, read from its sources: a message is the text in a call of one of a few functions.
+// tests/tools/check_one_message.py compares them with those that a user meets.
 //   node messages.mjs    prints them as JSON
 import { readFileSync, readdirSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
-// The sources of messages: what is wrong with a study, an option or a file; what is remarkable; why a result is what it
-// is; what a caller of the library did wrong; and the program's other remarks.
+// Functions whose calls contain messages: errors of a study, an option or a file; warnings; reasons for the status of a result;
+// errors of a caller of the library.
 const sayers = {
   error: /^(?:error|unreadable|refuse|complain|wrong|refuse_shards|problem|require_memory|CheckpointError|fail_at|unknown|mistake|value_error|clash|trouble)$/,
   warning: /^(?:warn|warning|remark|caution)$/,
   reason: /^(?:fail|fails|stop|end_with|give_up)$/,
   library: /^(?:LINKWRIGHT_REQUIRE|ContractError|type_error|contract_failure)$/,
 };
-// Functions that return what is wrong, or why.
+// Functions that return an error, or the reason of one.
 const returns = { error: /(?:^|_)(?:problem|problems|problem_of|mistake|hint|refusal)$|^(?:member|of_best|of_row|resolve|statistic|unknown|plain_words|start_message)$/, reason: /failure|cause|reason|message|caution|^why|limit_reason|described|free_turn|note_on|singular_home|defect_text/ };
 
 /** Words of C++: texts as they are said, names, and signs. */
@@ -91,7 +91,7 @@ function said(source) {
     if ("([{".includes(sign ?? " ")) opened.push(i);
     if (")]}".includes(sign ?? " ")) opened.pop();
     if (sign === "Severity" && opened.length) {
-      // A diagnostic as it stands: its text, and how to fix it.
+      // A diagnostic that is written out: its text, and how to fix it.
       const telling = argumentsOf(all, opened.at(-1)).parts.map(sentences).filter((s) => s.length);
       put(all[i + 3]?.sign === "warning" ? "warning" : "error", telling[0] ?? [], telling.slice(1).flat());
     }
@@ -121,7 +121,7 @@ function said(source) {
   return out;
 }
 
-/** Messages by module: { module, level, text, hints, files }. A text that is said in several places stands there once. */
+/** Messages by module: { module, level, text, hints, files }. A text that occurs in several places is listed once. */
 export function messages(root) {
   const folder = join(root, "src/linkwright");
   const found = new Map();
@@ -146,12 +146,12 @@ const modules = {
 };
 const levels = [
   ["error", "Errors", "The study, option or file cannot be used (exit code 2)."],
-  ["warning", "Warnings", "Remarks about a study or a result, which is computed all the same."],
-  ["reason", "Reasons", "Why a result or a row of it is not what was asked for; beside the status."],
-  ["library", "Broken contracts", "For callers of the C++ and Python libraries: an argument that no study can contain (ContractError)."],
+  ["warning", "Warnings", "A warning concerns a study or its result, which is computed nevertheless."],
+  ["reason", "Reasons", "A reason is reported together with the status; it says why a result, or a row of it, is incomplete."],
+  ["library", "Broken contracts", "Callers of the C++ and Python libraries get these for an argument that no study can contain (ContractError)."],
 ];
 
-/** All messages as parts of a page: by what they are about, … for what stands there in a message. */
+/** All messages as parts of a page, by level and module; … represents names and numbers. */
 export function messageList(root, escaped) {
   const all = messages(root);
   const unknown = all.find(({ module }) => !modules[module]);
@@ -159,18 +159,16 @@ export function messageList(root, escaped) {
   const table = (list) => `<div class="table" tabindex="0"><table><thead><tr><th>message</th><th>how to fix it</th></tr></thead><tbody>${list.map(({ text, hints }) => `<tr><td>${escaped(text)}</td><td>${hints.map(escaped).join("<br>")}</td></tr>`).join("\n")}</tbody></table></div>`;
   const part = ([level, title, about]) => {
     const groups = Object.entries(modules).map(([module, name]) => [module, name, all.filter((m) => m.module === module && m.level === level)]).filter(([, , list]) => list.length);
-    return `<h2 id="${level}"><a href="#${level}">${title}</a></h2><p>${about} Read from the sources; … stands for names and numbers, and a message may be put together of several of these.</p>${groups.map(([module, name, list]) => `<h3 id="${level}-${module}"><a href="#${level}-${module}">${name}</a></h3>${table(list)}`).join("")}`;
+    return `<h2 id="${level}"><a href="#${level}">${title}</a></h2><p>${about} The list is read from the sources. The sign … represents names and numbers, and a message may be composed of several of these texts.</p>${groups.map(([module, name, list]) => `<h3 id="${level}-${module}"><a href="#${level}-${module}">${name}</a></h3>${table(list)}`).join("")}`;
   };
   return levels.map(part).join("");
 }
 
-/** Throws when a status, a verdict or an exit code of the sources is missing in a text about them. */
-export function requireWords(root, html) {
-  const source = (name) => readFileSync(join(root, "src/linkwright", name), "utf8");
-  const words = [
-    ...[...source("core/status.h").matchAll(/Status::\w+, "(\w+)"/g)], ...[...source("study/answer.h").matchAll(/Verdict::\w+, "(\w+)"/g)]].map((m) => `<code>${m[1]}</code>`);
-  const numbers = { ...Object.fromEntries([...source("cli/arguments.h").matchAll(/(\w+) = (\d+);/g)].map((m) => [m[1], m[2]])) };
-  const codes = [.../exit_codes\[\] = ([^;]*);/.exec(source("cli/arguments.h"))[1].matchAll(/\{(\w+), "/g)].map((m) => `<td>${numbers[m[1]] ?? m[1]}</td>`);
+/** Throws when a status, a verdict or an exit code that the program lists is missing in a text about them. */
+export function requireWords({ ask, json }, html) {
+  const { status, verdict } = json("schema", "result").$defs;
+  const codes = [...ask("help").split("Exit codes:")[1].matchAll(/(\d+)\s[a-z]/g)].map((m) => `<td>${m[1]}</td>`);
+  const words = [...status.enum, ...verdict.enum].map((word) => `<code>${word}</code>`);
   for (const word of [...words, ...codes]) if (!html.includes(word)) throw new Error(`docs/manual/messages.md does not say what ${word} means`);
 }
 
