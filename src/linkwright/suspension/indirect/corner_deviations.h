@@ -28,8 +28,8 @@ struct Deviation {
   double largest = 0, mean = 0;
 };
 
-/// The deviation of the wheel from the prescribed poses, at the wheel does instead, at the prescribed height
-/// of its centre and rack.
+/// The deviations of the wheel from the prescribed poses, at the prescribed heights of its centre and rack
+/// displacements.
 struct PoseDeviations {
   /// done; else why a position could not be reached; deviations are those of the others.
   Status status = Status::done;
