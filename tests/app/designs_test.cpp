@@ -162,6 +162,17 @@ void dwell(const Designed& d) {
   expect_same(found, again, exact, "output");
 }
 
+/// The curve of the search, and that of the solver of any linkage.
+void any_path(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &curve = table_of(d.found, d.numbered("curve"));
+  const std::string point = d.solution().classification.find("traced_point")->as_string();
+  for (const char* axis : {"_x_m", "_y_m"}) {
+    std::string key = point + axis;
+    std::replace(key.begin(), key.end(), '.', '_');
+    expect_same(column(curve, std::string("point") + axis), column(sweep, key), exact, key);
+  }
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -255,6 +266,7 @@ void clearance_masses(const Designed& d) {
 const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.four_bar/path_points", four_bar_path},
     {"synthesis/planar.slider_crank/path_points", slider_crank_path},
+    {"synthesis/planar.any/path_points", any_path},
     {"synthesis/planar.four_bar/poses", poses},
     {"synthesis/planar.four_bar/function", function},
     {"synthesis/planar.slider_crank/function", function},

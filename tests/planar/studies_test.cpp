@@ -17,18 +17,19 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
     names.push_back(study::name_of(kind));
     if (kind.seeded) seeded.push_back(names.back());
   }
-  EXPECT_THAT(names,
-              ::testing::ElementsAre(
-                  "synthesis/planar.four_bar/path_points", "synthesis/planar.slider_crank/path_points",
-                  "synthesis/planar.four_bar/poses", "synthesis/planar.four_bar/function",
-                  "synthesis/planar.slider_crank/function", "synthesis/planar.four_bar/swing",
-                  "synthesis/planar.slider_crank/stroke", "synthesis/planar.six_bar/function",
-                  "synthesis/planar.six_bar/dwell", "analysis/planar.four_bar", "analysis/planar.linkage",
-                  "analysis/planar.slider_crank", "simulation/planar.linkage", "simulation/planar.four_bar",
-                  "simulation/planar.slider_crank", "speed_fluctuation/planar.linkage",
-                  "speed_fluctuation/planar.four_bar", "speed_fluctuation/planar.slider_crank",
-                  "analysis/planar.serial_arm", "balancing/planar.four_bar", "balancing/planar.linkage",
-                  "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
+  EXPECT_THAT(
+      names,
+      ::testing::ElementsAre(
+          "synthesis/planar.four_bar/path_points", "synthesis/planar.slider_crank/path_points",
+          "synthesis/planar.any/path_points", "synthesis/planar.four_bar/poses",
+          "synthesis/planar.four_bar/function", "synthesis/planar.slider_crank/function",
+          "synthesis/planar.four_bar/swing", "synthesis/planar.slider_crank/stroke",
+          "synthesis/planar.six_bar/function", "synthesis/planar.six_bar/dwell", "analysis/planar.four_bar",
+          "analysis/planar.linkage", "analysis/planar.slider_crank", "simulation/planar.linkage",
+          "simulation/planar.four_bar", "simulation/planar.slider_crank", "speed_fluctuation/planar.linkage",
+          "speed_fluctuation/planar.four_bar", "speed_fluctuation/planar.slider_crank",
+          "analysis/planar.serial_arm", "balancing/planar.four_bar", "balancing/planar.linkage",
+          "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                              "synthesis/planar.slider_crank/path_points",
                                              "balancing/planar.four_bar", "balancing/planar.linkage",

@@ -64,7 +64,7 @@ lessons.forEach((lesson, i) => {
   add(lesson.path, "Learn", lesson.title, `${lesson.html}<nav class="around">${around.join("")}</nav>`, { lead: lesson.lead, live: lesson.html.includes("data-live") });
 });
 const cards = (items) => `<ul class="cards">${items.map(({ href, title, text, picture }) => `<li><a href="${href}">${picture ?? ""}<b>${escaped(title)}</b>${text ? `<span>${escaped(text)}</span>` : ""}</a></li>`).join("")}</ul>`;
-if (lessons.length) add("learn/index.html", "Learn", "Learn", `<p>Ten lessons of ten minutes, each with the mechanism beside the text.</p>${cards(lessons.map((l, i) => ({ href: l.path.replace("learn/", ""), title: `${i + 1}. ${l.title}`, text: l.lead })))}`);
+if (lessons.length) add("learn/index.html", "Learn", "Learn", `<p>${lessons.length} lessons of ten minutes, each with the mechanism beside the text.</p>${cards(lessons.map((l, i) => ({ href: l.path.replace("learn/", ""), title: `${i + 1}. ${l.title}`, text: l.lead })))}`);
 const theory = listed("theory").map((name) => page(`theory/${name}`));
 for (const t of theory) add(t.path, "Theory", t.title, t.html, { lead: t.lead });
 if (theory.length) add("theory/index.html", "Theory", "Theory", cards(theory.map((t) => ({ href: t.path.replace("theory/", ""), title: t.title, text: t.lead }))));

@@ -7,6 +7,7 @@
 
 #include "linkwright/planar/type_synthesis/atlas.h"
 #include "planar/type_synthesis_cases.h"
+#include "support/memory_checkpoint.h"
 
 namespace linkwright::planar {
 namespace {
@@ -40,6 +41,43 @@ TEST(TypeSearches, GiveTheSameBitsOnEveryNumberOfThreads) {
   for (std::size_t i = 0; i < one.machines.size(); ++i) {
     EXPECT_EQ(one.machines[i].machine.shape.x, two.machines[i].machine.shape.x);
     EXPECT_EQ(one.machines[i].measures.error, two.machines[i].measures.error);
+  }
+}
+
+// A search that was stopped and goes on ends with the bits of one that was not.
+TEST(TypeSearches, ContinueFromACheckpoint) {
+  const TypeSearchOptions options{.max_links = 6, .max_curves = 250'000};
+  const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case("leg")));
+  RunContext plain;
+  const auto whole = search_types(target, options, plain);
+  linkwright::test::MemoryCheckpoint kept;
+  {
+    RunContext stopped;
+    stopped.set_checkpoint(&kept);
+    int saves = 0;
+    kept.kept = [&](std::string_view) {
+      if (++saves == 25) stopped.cancel();
+    };
+    EXPECT_EQ(search_types(target, options, stopped).status, Status::cancelled);
+    kept.kept = nullptr;
+  }
+  RunContext resumed;
+  resumed.set_checkpoint(&kept);
+  const auto again = search_types(target, options, resumed);
+  EXPECT_EQ(again.curves, whole.curves);
+  ASSERT_EQ(again.machines.size(), whole.machines.size());
+  for (std::size_t i = 0; i < whole.machines.size(); ++i)
+    EXPECT_EQ(again.machines[i].machine.shape.x, whole.machines[i].machine.shape.x);
+  ASSERT_EQ(again.progress.size(), whole.progress.size());
+
+  for (const char* key : {"rounds", "families", "progress"}) {
+    linkwright::test::MemoryCheckpoint wrong;
+    Value changed = kept.entries.at("types");
+    changed[key] = "x";
+    wrong.entries["types"] = changed;
+    RunContext context;
+    context.set_checkpoint(&wrong);
+    EXPECT_THROW(search_types(target, options, context), CheckpointError) << key;
   }
 }
 

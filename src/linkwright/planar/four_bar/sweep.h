@@ -148,8 +148,9 @@ struct FourBarSweepTask {
   double* good = nullptr;  ///< `lanes` numbers an angle: 1 where the result holds, else 0
 };
 
-/// A function that fills the lanes of the rows from `begin` to `end` and returns true if all samples are good. Compiled once for each
-/// instruction set; all but the baseline need the machine to have the instructions.
+/// A function that fills the lanes of the rows from `begin` to `end` and returns true if all samples are
+/// good. Compiled once for each instruction set; all but the baseline need the machine to have the
+/// instructions.
 using FourBarSweepKernel = bool(const FourBarSweepTask&);
 /// The kernel for any machine.
 FourBarSweepKernel four_bar_sweep_baseline,

@@ -17,6 +17,7 @@
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/templates.h"
+#include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_write.h"
@@ -79,6 +80,7 @@ class AnyPathReport {
     out.classification["family"] = std::string(name_of(program.family));
     out.classification["program"] = program.name;
     out.classification["links"] = program.links;
+    out.classification["traced_point"] = of.traced;
     out.classification["crank_range_rad"] = m.span;
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
     if (const std::string limit = limited_by(m); !limit.empty()) out.classification["limited_by"] = limit;
@@ -115,11 +117,45 @@ class AnyPathReport {
     scene.name = fmt::format("solution-{}", number);
     scene.title = say("{}: {}", count_of(static_cast<double>(number)), out.label);
     study::Scene::Target stroke{"stroke", {}, {}, {}, {}, {}, target_.closed};
-    for (const auto& p : s_.stroke.points) stroke.x.push_back(p.real()), stroke.y.push_back(p.imag());
+    for (const auto& p : drawn_points()) stroke.x.push_back(p.real()), stroke.y.push_back(p.imag());
     scene.targets.push_back(std::move(stroke));
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     out.study = motion_study(of.linkage, true, crank, of.traced);
+    curve_table(found, of, crank, number);
+  }
+
+  /// The stroke as it is drawn: thinned out where it has many points.
+  std::vector<std::complex<double>> drawn_points() const {
+    constexpr std::size_t most = 500;
+    if (s_.stroke.points.size() <= most) return s_.stroke.points;
+    return equal_steps(s_.stroke.points, s_.stroke.closed, most);
+  }
+
+  /// The traced curve as the search has it.
+  void curve_table(const FoundMachine& found, const FoundLinkage& of, const std::vector<double>& crank,
+                   std::size_t number) {
+    const std::size_t count = crank.size();
+    std::vector<double> angle = crank, x, y;
+    for (double& a : angle) a -= of.crank_angle;
+    angle.resize((count + 7) / 8 * 8, angle.back());
+    x.resize(angle.size()), y.resize(angle.size());
+    const MachineShape& shape = found.machine.shape;
+    compute_curve({.program = shape.program,
+                   .x = shape.x.data(),
+                   .signs = shape.signs,
+                   .angle = angle.data(),
+                   .count = angle.size(),
+                   .px = x.data(),
+                   .py = y.data()});
+    x.resize(count), y.resize(count);
+    for (double& v : x) v = target_.centre.real() + size() * v;
+    for (double& v : y) v = target_.centre.imag() + size() * v;
+    Table table{.name = number == 1 ? "curve" : fmt::format("curve-{}", number)};
+    table.add("crank_angle_rad", "crank angle (rad)", crank);
+    table.add("point_x_m", "x of the traced point (m)", std::move(x));
+    table.add("point_y_m", "y of the traced point (m)", std::move(y));
+    result_.tables.push_back(std::move(table));
   }
 
   void machine_table() {
@@ -382,6 +418,7 @@ study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& com
   RunContext part;
   part.set_part_of(context);
   part.set_threads(context.threads());
+  part.set_checkpoint(context.checkpoint());
   const auto began = RunContext::Clock::now();
   part.set_progress([&](const Progress& progress) {
     Progress shown = progress;

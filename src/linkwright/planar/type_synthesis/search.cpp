@@ -6,12 +6,15 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/planar/type_synthesis/atlas.h"
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
 
 namespace linkwright::planar {
@@ -19,6 +22,8 @@ namespace {
 
 constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 400, archive_size = 40;
 constexpr int first_rounds = 3;  // of each family, before the better ones get more
+
+constexpr std::string_view saved_as = "types";
 
 enum class TrialKind { pool, hop, grow };
 
@@ -30,21 +35,6 @@ struct Trial {
   bool accepted = false, inside = false;
   MachineMeasures measures;
   long long curves = 0;
-};
-
-struct FamilyState {
-  FamilyReport report;
-  int links = 4;
-  std::shared_ptr<const FamilyAtlas> atlas;
-  std::vector<AtlasMatch> pool;
-  std::size_t next_in_pool = 0;
-  bool prepared = false;
-  int rounds = 0;
-  double last_gain = 1;               ///< relative fall of the error in its last round
-  double grown_from = infinity;       ///< error of the smaller machine that was grown last
-  std::vector<FoundMachine> elite;    ///< best first
-  std::vector<FoundMachine> archive;  ///< not dominated
-  std::optional<FoundMachine> outside;
 };
 
 int links_of(MachineFamily family) {
@@ -73,30 +63,33 @@ bool is_alike(const FoundMachine& a, const FoundMachine& b) {
 class TypeSearch {
  public:
   TypeSearch(const StrokeTarget& target, const TypeSearchOptions& options, RunContext& context)
-      : target_(target), options_(options), context_(context), began_(RunContext::Clock::now()) {
+      : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
     for (const auto& family : names(MachineFamily{})) {
       const auto& wanted = options.families;
       const bool asked =
           wanted.empty() || std::find(wanted.begin(), wanted.end(), family.value) != wanted.end();
       if (!asked || links_of(family.value) > options.max_links) continue;
-      FamilyState& state = families_.emplace_back();
+      FamilyState& state = state_.families.emplace_back();
       state.report.family = family.value, state.links = links_of(family.value);
     }
   }
 
   TypeSearchAnswer run() {
     Status status = Status::done;
-    while (!families_.empty()) {
+    if (Checkpoint* checkpoint = context_.checkpoint())
+      if (const Value value = checkpoint->find(saved_as); !value.is_null()) load_state(value, state_);
+    while (!state_.families.empty()) {
       status = context_.interruption();
-      if (status != Status::done || (options_.max_curves > 0 && curves_ >= options_.max_curves)) break;
-      FamilyState& family = families_[choose_family()];
+      if (status != Status::done || (options_.max_curves > 0 && state_.curves >= options_.max_curves)) break;
+      FamilyState& family = state_.families[choose_family()];
       if (!prepare(family)) continue;
       round(family);
-      ++rounds_;
+      ++state_.rounds;
+      save();
       if (options_.max_curves > 0)
         context_.report({.stage = name_of(family.report.family),
-                         .fraction = std::min(
-                             1.0, static_cast<double>(curves_) / static_cast<double>(options_.max_curves)),
+                         .fraction = std::min(1.0, static_cast<double>(state_.curves) /
+                                                       static_cast<double>(options_.max_curves)),
                          .best = best_error()});
       else
         context_.report({.stage = name_of(family.report.family), .fraction = 0, .best = best_error()});
@@ -105,22 +98,31 @@ class TypeSearch {
   }
 
  private:
+  /// Between two rounds; one that was cut short is done again.
+  void save() {
+    Checkpoint* checkpoint = context_.checkpoint();
+    const auto now = RunContext::Clock::now();
+    if (!checkpoint || now - last_save_ < checkpoint->interval() || context_.interrupted()) return;
+    checkpoint->keep(saved_as, saved_state(state_));
+    last_save_ = now;
+  }
+
   double best_error() const {
     double best = infinity;
-    for (const FamilyState& f : families_) best = std::min(best, f.report.error);
+    for (const FamilyState& f : state_.families) best = std::min(best, f.report.error);
     return best;
   }
 
   std::size_t choose_family() {
     for (int turn = 0; turn < first_rounds; ++turn)
-      for (std::size_t i = 0; i < families_.size(); ++i)
-        if (families_[i].rounds == turn) return i;
+      for (std::size_t i = 0; i < state_.families.size(); ++i)
+        if (state_.families[i].rounds == turn) return i;
     double total = 0;
     std::vector<double> weight;
-    for (const FamilyState& f : families_) {
+    for (const FamilyState& f : state_.families) {
       double w = 0.15 + std::min(1.0, 4 * f.last_gain);
       w *= f.links >= 8 ? 2.5 : f.links == 6 ? 1.6 : 1;
-      for (const FamilyState& smaller : families_)
+      for (const FamilyState& smaller : state_.families)
         if (smaller.links < f.links && smaller.report.error < 0.9 * f.report.error) {
           w *= 0.35;
           break;
@@ -133,13 +135,13 @@ class TypeSearch {
     double at = total * random(0).uniform();
     for (std::size_t i = 0; i < weight.size(); ++i)
       if ((at -= weight[i]) < 0) return i;
-    return families_.size() - 1;
+    return state_.families.size() - 1;
   }
 
   RandomStream random(std::uint32_t individual) const {
     return RandomStream({.seed = options_.seed,
                          .run = 77,
-                         .generation = static_cast<std::uint32_t>(rounds_),
+                         .generation = static_cast<std::uint32_t>(state_.rounds),
                          .individual = individual});
   }
 
@@ -159,7 +161,7 @@ class TypeSearch {
   const FoundMachine* smaller_machine(const FamilyState& f) const {
     const FoundMachine* best = nullptr;
     if (!is_of_pairs(f.report.family)) return nullptr;
-    for (const FamilyState& s : families_)
+    for (const FamilyState& s : state_.families)
       if (s.links == f.links - 2 && is_of_pairs(s.report.family) && !s.elite.empty() &&
           (!best || s.elite[0].measures.error < best->measures.error))
         best = &s.elite[0];
@@ -255,7 +257,7 @@ class TypeSearch {
     // A round that was cut short must not count: what it found depends on the clock.
     const double before = f.report.error;
     for (Trial& t : trials) {
-      curves_ += t.curves;
+      state_.curves += t.curves;
       f.report.curves += t.curves;
       (t.kind == TrialKind::hop    ? f.report.hops
        : t.kind == TrialKind::grow ? f.report.grown
@@ -273,12 +275,11 @@ class TypeSearch {
       return;
     }
     if (found.measures.error < f.report.error) {
-      f.report.error = found.measures.error, f.report.best_at = curves_;
-      progress_.push_back(
-          {.curves = curves_,
-           .seconds = std::chrono::duration<double>(RunContext::Clock::now() - began_).count(),
-           .family = f.report.family,
-           .error = found.measures.error});
+      f.report.error = found.measures.error, f.report.best_at = state_.curves;
+      state_.progress.push_back({.curves = state_.curves,
+
+                                 .family = f.report.family,
+                                 .error = found.measures.error});
     }
     insert(f.archive, found, archive_size, true);
     insert(f.elite, found, elite_size, false);
@@ -323,9 +324,9 @@ class TypeSearch {
   TypeSearchAnswer answer(Status status) {
     TypeSearchAnswer out;
     out.status = status;
-    out.curves = curves_, out.progress = std::move(progress_);
+    out.curves = state_.curves, out.progress = std::move(state_.progress);
     std::vector<FoundMachine> all;
-    for (FamilyState& f : families_) {
+    for (FamilyState& f : state_.families) {
       out.families.push_back(f.report);
       // The best, and the best of those that are clearly kinder in another respect.
       std::vector<FoundMachine> chosen;
@@ -358,10 +359,8 @@ class TypeSearch {
   StrokeTarget target_;
   TypeSearchOptions options_;
   RunContext& context_;
-  RunContext::Clock::time_point began_;
-  std::vector<FamilyState> families_;
-  std::vector<TypeSearchPoint> progress_;
-  long long curves_ = 0, rounds_ = 0;
+  SearchState state_;
+  RunContext::Clock::time_point last_save_;
 };
 
 }  // namespace

@@ -40,7 +40,6 @@ struct FamilyReport {
 /// An improvement of the best machine of a family.
 struct TypeSearchPoint {
   long long curves = 0;
-  double seconds = 0;
   MachineFamily family{};
   double error = infinity;
 };

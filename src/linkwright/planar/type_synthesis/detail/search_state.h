@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "linkwright/core/value.h"
+#include "linkwright/planar/type_synthesis/atlas.h"
+#include "linkwright/planar/type_synthesis/search.h"
+
+namespace linkwright::planar {
+
+/// What a search knows of one family.
+struct FamilyState {
+  FamilyReport report;
+  int links = 4;
+  std::shared_ptr<const FamilyAtlas> atlas;
+  std::vector<AtlasMatch> pool;
+  std::size_t next_in_pool = 0;
+  bool prepared = false;  ///< atlas and pool are there
+  int rounds = 0;
+  double last_gain = 1;               ///< relative fall of the error in its last round
+  double grown_from = infinity;       ///< error of the smaller machine that was grown last
+  std::vector<FoundMachine> elite;    ///< best first
+  std::vector<FoundMachine> archive;  ///< not dominated
+  std::optional<FoundMachine> outside;
+};
+
+/// What a search knows between two rounds.
+struct SearchState {
+  std::vector<FamilyState> families;
+  std::vector<TypeSearchPoint> progress;
+  std::int64_t curves = 0, rounds = 0;
+};
+
+/// The state as a checkpoint keeps it, without atlases and pools, which follow from the stroke.
+Value saved_state(const SearchState& state);
+
+/// Takes up a saved state of a search in the same families. Throws CheckpointError for what no search has
+/// saved.
+void load_state(const Value& value, SearchState& state);
+
+}  // namespace linkwright::planar

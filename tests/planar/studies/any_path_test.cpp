@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/studies/any_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "linkwright/planar/studies/templates.h"
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A study with some of its parts replaced.
+std::string any_path(const std::map<std::string, std::string>& changed = {}) {
+  return test::text_of({{"0", "schema = 1\nkind = \"synthesis\"\n"},
+                        {"1", "[mechanism]\ntype = \"planar.any\"\n"},
+                        {"2",
+                         "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30], [40, "
+                         "50], [0, 40], [-10, 20]]\nclosed = true\n"},
+                        {"3", ""},
+                        {"4", "[optimiser]\nevaluations = 60000\n"}},
+                       changed);
+}
+
+TEST(AnyPathStudies, ListMachinesBestFirst) {
+  const study::Result result = test::run_text(any_path());
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_GE(result.solutions.size(), 2U);
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto& error = machines->find("path_error_rms_m")->values;
+  EXPECT_TRUE(std::is_sorted(error.begin(), error.end()));
+  EXPECT_EQ(error.size(), result.solutions.size());
+  for (const double angle : machines->find("least_pair_angle_rad")->values) EXPECT_GE(angle, 20 * pi / 180);
+  ASSERT_TRUE(result.table("families"));
+  EXPECT_EQ(result.scenes.size(), result.solutions.size());
+  EXPECT_THAT(to_string(result.headline), HasSubstr("follows the stroke"));
+}
+
+TEST(AnyPathStudies, KeepToTheFamiliesAndLinksThatAreAskedFor) {
+  const study::Result result = test::run_text(
+      any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\", \"slider_crank\"]\n"},
+                {"4", "[optimiser]\nevaluations = 20000\nmax_solutions = 3\n"}}));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_LE(result.solutions.size(), 3U);
+  for (const study::Solution& solution : result.solutions)
+    EXPECT_EQ(solution.classification.find("links")->as_number(), 4);
+}
+
+// A stroke that is sampled three times as finely along one side is the same stroke.
+TEST(AnyPathStudies, DoNotDependOnTheSpacingOfThePoints) {
+  const auto run = [](const char* points) {
+    return test::run_text(any_path(
+        {{"2", std::string("[target]\ntype = \"path_points\"\nclosed = true\npoints_mm = ") + points + "\n"},
+         {"4", "[optimiser]\nevaluations = 20000\n"}}));
+  };
+  const study::Result coarse = run("[[0, 0], [40, 0], [40, 30], [0, 30], [0, 15]]");
+  const study::Result fine =
+      run("[[0, 0], [10, 0], [20, 0], [20, 0], [40, 0], [40, 30], [0, 30], [0, 15], [0, 0]]");
+  ASSERT_FALSE(coarse.solutions.empty());
+  ASSERT_EQ(coarse.solutions.size(), fine.solutions.size());
+  EXPECT_NEAR(coarse.solutions[0].objectives.find("path_error_rms_m")->as_number(),
+              fine.solutions[0].objectives.find("path_error_rms_m")->as_number(), 1e-9);
+}
+
+TEST(AnyPathStudies, SayWhatIsWrong) {
+  const auto problems = [](const std::map<std::string, std::string>& changed) {
+    return test::problems_of(any_path(changed));
+  };
+  EXPECT_EQ(problems({}), "");
+  EXPECT_THAT(
+      problems({{"2", "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30]]\n"}}),
+      HasSubstr("3 points make no path, at least 5 are needed"));
+  EXPECT_THAT(
+      problems(
+          {{"2",
+            "[target]\ntype = \"path_points\"\npoints_mm = [[1, 1], [1, 1], [1, 1], [1, 1], [1, 1]]\n"}}),
+      HasSubstr("at least 5 are needed"));
+  EXPECT_THAT(problems({{"2", "[target]\ntype = \"path_points\"\n"}}), HasSubstr("the target has no points"));
+  EXPECT_THAT(
+      problems(
+          {{"2",
+            "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [1, 0], [2, 0], [3, 0], [4, 0]]\n"}}),
+      HasSubstr("straight line"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = []\n"}}),
+              HasSubstr("the list of families is empty"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_2\"]\n"}}),
+              HasSubstr("watt_1"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 12\n"}}),
+              HasSubstr("most_links"));
+  EXPECT_THAT(problems({{"3", "[limits]\nleast_pair_angle_deg = 80\n"}}), HasSubstr("least_pair_angle_deg"));
+  EXPECT_THAT(problems({{"4", "[optimiser]\nevaluations = 20000\nseconds = 1\n"}}),
+              HasSubstr("both seconds and evaluations"));
+}
+
+// A pair angle that no machine keeps for this stroke.
+TEST(AnyPathStudies, NameTheLimitThatTheNearestMachineBreaks) {
+  const study::Result result =
+      test::run_text(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\"]\n"},
+                               {"3", "[limits]\nleast_pair_angle_deg = 70\nlongest_link = 1\n"},
+                               {"4", "[optimiser]\nevaluations = 20000\n"}}));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("No machine within the limits"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar
