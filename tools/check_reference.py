@@ -26,12 +26,15 @@ GROUPS = {"study": "studies", "app": "studies"}
 # Functions that have the same form everywhere; core/field.h explains them once.
 FIELDS = re.compile(r"^template <class Visitor>(?=\nvoid fields\(Visitor&& (\w+), ([\w:]+)& (\w+)\))", re.M)
 NAMES = re.compile(r"^(?=constexpr std::array<EnumName<([\w:]+)>, \d+> names\()", re.M)
+# Points that end no sentence: Doxygen takes the first sentence as the brief description.
+ABBREVIATIONS = re.compile(r"(?<=[ (])(et al|Eqs?|Figs?)\.(?: |$)", re.M)
 # A namespace that only declares what other headers define is no part of a group and ends without its name.
 NAMESPACE = re.compile(r"^(namespace (linkwright[\w:]*) \{)(\n.*?^)(\}  // namespace \2$)", re.M | re.S)
 
 
 def grouped(text, group):
     """The text of a header whose namespaces are parts of a group, line by line as before."""
+    text = ABBREVIATIONS.sub(r"\1.\\ ", text)
     text = FIELDS.sub(r"/** Field list of \2, see Field. @param \1 called with the Field and the value of each member "
                       r"@param \3 whose members are visited */ template <class Visitor>", text)
     text = NAMES.sub(r"/** @returns the names of \1 in files, see EnumName */ ", text)

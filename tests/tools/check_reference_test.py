@@ -82,6 +82,10 @@ class CheckReference(ScratchCase):
         self.assertIn("linkwright::columns", " ".join(found))
         self.assertNotIn("<columns>", " ".join(found))
 
+    def test_abbreviations_end_no_sentence(self):
+        self.assertEqual(check_reference.grouped("/// By Saltelli et al. (2010), Eqs. (1), (2).\n", "core"),
+                         "/// By Saltelli et al.\\ (2010), Eqs.\\ (1), (2).\n")
+
 
 if __name__ == "__main__":
     unittest.main()
