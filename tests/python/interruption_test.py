@@ -51,10 +51,10 @@ class Interruption(unittest.TestCase):
 
     def test_control_c_ends_a_sweep_of_many_samples(self):
         angles = numpy.linspace(0, 1e3, 30_000_000)
-        four_bar = linkwright.FourBar(ground=0.3, crank=0.1, coupler=0.25, rocker=0.25)
-        sweep = linkwright.FourBarSweep(forces=False, shaking=False)
+        four_bar = linkwright.planar.FourBar(ground=0.3, crank=0.1, coupler=0.25, rocker=0.25)
+        sweep = linkwright.planar.FourBarSweep(forces=False, shaking=False)
         self.ends_at_once(lambda: [sweep.run(four_bar, angles) for _ in range(100)])
-        leg = linkwright.LinkageSweep(linkwright.example("jansen-leg"), rates=False)
+        leg = linkwright.planar.LinkageSweep(linkwright.example("jansen-leg"), rates=False)
         self.ends_at_once(lambda: [leg.run(angles[:5_000_000]) for _ in range(100)])
 
     def test_other_threads_of_python_continue(self):

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "linkwright/planar/type_synthesis/atlas.h"
 #include "planar/type_synthesis_cases.h"
 #include "support/memory_checkpoint.h"
 
@@ -106,24 +105,6 @@ TEST(TypeSearches, EndWithTheContext) {
   const auto answer = search_types(stroke_target(test::stroke_of(test::stroke_case("leg"))), {}, context);
   EXPECT_EQ(answer.status, Status::cancelled);
   EXPECT_TRUE(answer.machines.empty());
-}
-
-// The bound leaves out nothing: a few neighbours are the first of all.
-TEST(Atlases, GiveExactNeighbours) {
-  RunContext context;
-  const auto atlas = family_atlas(MachineFamily::stephenson_3, context);
-  ASSERT_TRUE(atlas);
-  ASSERT_GT(atlas->entries.size(), 1000U);
-  for (const char* stroke : {"leg", "figure_eight", "square"}) {
-    const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case(stroke)));
-    const auto few = match_atlas(*atlas, target, 20, context),
-               all = match_atlas(*atlas, target, atlas->entries.size(), context);
-    ASSERT_EQ(all.size(), atlas->entries.size());
-    for (std::size_t i = 0; i < few.size(); ++i) {
-      EXPECT_EQ(few[i].entry, all[i].entry) << stroke;
-      EXPECT_EQ(few[i].score, all[i].score) << stroke;
-    }
-  }
 }
 
 }  // namespace
