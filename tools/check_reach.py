@@ -53,6 +53,7 @@ REASONS = {
     "planar/four_bar_sweep_kernel_name": KERNEL,
     "planar/kernel_name": KERNEL,
     "planar/mode_text": LIBRARY,
+    "planar/pair_machines": LIBRARY,
     "planar/path_curvature": LIBRARY,
     "planar/pole_geometry": LIBRARY,
     "planar/reactions_newton_euler": ROUTE,

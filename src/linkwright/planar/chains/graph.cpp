@@ -147,4 +147,14 @@ bool has_rigid_part(const ChainGraph& graph) {
   return false;
 }
 
+unsigned connected_links(const ChainGraph& graph, unsigned within, int start) {
+  unsigned out = 1u << start;
+  for (unsigned before = 0; before != out;) {
+    before = out;
+    for (unsigned rest = before; rest != 0; rest &= rest - 1)
+      out |= graph.neighbours[at(std::countr_zero(rest))] & within;
+  }
+  return out;
+}
+
 }  // namespace linkwright::planar

@@ -50,4 +50,8 @@ int freedoms(const ChainGraph& graph);
 /// True if some of the links, but not all, have no freedom among themselves: 3 (links - 1) - 2 joints < 1.
 bool has_rigid_part(const ChainGraph& graph);
 
+/// The links that are joined to `start`, directly or through others, within a set of links that holds it; bit
+/// k of a set stands for link k.
+unsigned connected_links(const ChainGraph& graph, unsigned within, int start);
+
 }  // namespace linkwright::planar
