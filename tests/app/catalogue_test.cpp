@@ -47,6 +47,7 @@ TEST(Catalogue, EveryKindHasAGroup) {
   EXPECT_EQ(group_of("synthesis", "planar.slider_crank", "path_points"), "Follow a path");
   EXPECT_EQ(group_of("synthesis", "planar.four_bar", "poses"), "Guide a body");
   EXPECT_EQ(group_of("synthesis", "planar.six_bar", "dwell"), "Generate a function");
+  EXPECT_EQ(group_of("enumeration", "planar.chain", ""), "Choose a structure");
   EXPECT_EQ(group_of("analysis", "suspension.corner", ""), "Wheel suspensions");
   EXPECT_EQ(group_of("analysis", "sample.wheel", ""), "Other studies");
   EXPECT_EQ(place_of_group(well_known), 0u);

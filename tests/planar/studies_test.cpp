@@ -24,12 +24,12 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
           "synthesis/planar.any/path_points", "synthesis/planar.four_bar/poses",
           "synthesis/planar.four_bar/function", "synthesis/planar.slider_crank/function",
           "synthesis/planar.four_bar/swing", "synthesis/planar.slider_crank/stroke",
-          "synthesis/planar.six_bar/function", "synthesis/planar.six_bar/dwell", "analysis/planar.four_bar",
-          "analysis/planar.linkage", "analysis/planar.slider_crank", "simulation/planar.linkage",
-          "simulation/planar.four_bar", "simulation/planar.slider_crank", "speed_fluctuation/planar.linkage",
-          "speed_fluctuation/planar.four_bar", "speed_fluctuation/planar.slider_crank",
-          "analysis/planar.serial_arm", "balancing/planar.four_bar", "balancing/planar.linkage",
-          "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
+          "synthesis/planar.six_bar/function", "synthesis/planar.six_bar/dwell", "enumeration/planar.chain",
+          "analysis/planar.four_bar", "analysis/planar.linkage", "analysis/planar.slider_crank",
+          "simulation/planar.linkage", "simulation/planar.four_bar", "simulation/planar.slider_crank",
+          "speed_fluctuation/planar.linkage", "speed_fluctuation/planar.four_bar",
+          "speed_fluctuation/planar.slider_crank", "analysis/planar.serial_arm", "balancing/planar.four_bar",
+          "balancing/planar.linkage", "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                              "synthesis/planar.slider_crank/path_points",
                                              "balancing/planar.four_bar", "balancing/planar.linkage",

@@ -32,14 +32,14 @@ using Kinds = std::vector<study::Kind>;
 // The tasks of users, in the order of lists.
 constexpr std::string_view find_motion = "Find motion and forces", follow_path = "Follow a path",
                            guide_body = "Guide a body", generate_function = "Generate a function",
-                           balance = "Balance a machine", suspensions = "Wheel suspensions",
-                           robots = "Robots and Pi-joints",
+                           find_structure = "Choose a structure", balance = "Balance a machine",
+                           suspensions = "Wheel suspensions", robots = "Robots and Pi-joints",
                            real_joints = "Real joints: clearance and tolerances",
                            flexible_links = "Flexible links", parameter_studies = "Parameter studies",
                            no_group = "Other studies";
-constexpr std::array titles{well_known,        find_motion,    follow_path,       guide_body,
-                            generate_function, balance,        suspensions,       robots,
-                            real_joints,       flexible_links, parameter_studies, no_group};
+constexpr std::array titles{well_known,     find_motion,       follow_path, guide_body, generate_function,
+                            find_structure, balance,           suspensions, robots,     real_joints,
+                            flexible_links, parameter_studies, no_group};
 
 /// The group of a study; the first that fits counts.
 struct Group {
@@ -52,6 +52,7 @@ constexpr Group groups[] = {
     {"synthesis", "planar.", "path_points", follow_path},
     {"synthesis", "planar.", "poses", guide_body},
     {"synthesis", "planar.", "", generate_function},
+    {"enumeration", "planar.", "", find_structure},
     {"balancing", "planar.", "", balance},
     {"analysis", "planar.serial_arm", "", robots},
     {"", "planar.", "", find_motion},

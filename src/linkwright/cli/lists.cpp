@@ -106,7 +106,7 @@ constexpr std::array concepts{
             "crank with drives of their own"},
     Concept{"belt chain",
             "belts and chains are not modelled. Nearest: a joint of type \"gear\" with a negative ratio "
-            "(analysis/planar.linkage)"},
+            "(analysis/planar.linkage). Kinematic chains are listed by enumeration/planar.chain"},
     Concept{"cylinder actuator ram hydraulic",
             "a cylinder is two bodies with a joint of type \"prismatic\" that is driven "
             "(analysis/planar.linkage)"},

@@ -3,6 +3,7 @@
 
 #include "linkwright/planar/studies/any_path.h"
 #include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/chain.h"
 #include "linkwright/planar/studies/dwell.h"
 #include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/function.h"
@@ -27,6 +28,7 @@ std::vector<study::Kind> studies() {
                                     stroke_kind(),
                                     six_bar_function_kind(),
                                     dwell_kind(),
+                                    chain_kind(),
                                     four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),

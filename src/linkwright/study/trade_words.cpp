@@ -59,6 +59,9 @@ constexpr std::array synonyms{
     Synonyms{"transmission_angle", "übertragungswinkel uebertragungswinkel angledetransmission"},
     Synonyms{"synthesis", "design optimise optimize optimisation optimization auslegung"},
     Synonyms{"simulation", "dynamics dynamik dynamique"},
+    Synonyms{"enumeration", "typesynthesis numbersynthesis structuralsynthesis typsynthese strukturanalyse"},
+    Synonyms{"chain", "kinematicchain getriebekette kette chaînecinématique cadenacinemática"},
+    Synonyms{"freedoms", "dof mobility degreesoffreedom freiheitsgrad freiheitsgrade"},
     Synonyms{"balancing", "massenausgleich équilibrage"},
 };
 
