@@ -355,6 +355,20 @@ class ContactMotion {
 
   // ---- start, steps, rows -------------------------------------------------------------------------------
 
+  /// The accelerations of a start whose pins are placed.
+  bool begin_motion(double t) {
+    if (run_.status == Status::done) {
+      press();
+      run_.status = accelerate(t);
+    }
+    if (run_.status != Status::done) {
+      run_.message = "the start does not work: " + std::string(to_string(run_.status));
+      return false;
+    }
+    planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
+    return true;
+  }
+
   bool start(double t) {
     run_.time = start_time_ = t;
     noise_ = 2e-15 * open_.plan.size;
@@ -371,15 +385,7 @@ class ContactMotion {
     }
     run_.status = place_pins(open_, gaps, inputs_, original_);
     if (run_.status == Status::done) run_.status = place();
-    if (run_.status == Status::done) {
-      press();
-      run_.status = accelerate(t);
-    }
-    if (run_.status != Status::done) {
-      run_.message = "the start does not work: " + std::string(to_string(run_.status));
-      return false;
-    }
-    planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
+    if (!begin_motion(t)) return false;
     start_kinetic_ = planar::kinetic_energy(open_.plan, dynamics_->motion);
     start_potential_ = planar::potential_energy(open_.linkage, open_.plan, dynamics_->motion);
     // Pins that press into their bushes are in contact; the others come into contact where the forces drive
@@ -387,13 +393,7 @@ class ContactMotion {
     const double rounding = 10 * noise_;
     for (std::size_t k = 0; k < joints_.size(); ++k)
       if (pins_[k].depth > rounding) begin(k, t, std::max(pins_[k].depth_rate, 0.0));
-    press();
-    run_.status = accelerate(t);
-    if (run_.status != Status::done) {
-      run_.message = "the start does not work: " + std::string(to_string(run_.status));
-      return false;
-    }
-    planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
+    if (!begin_motion(t)) return false;
     std::vector<std::size_t> touching;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const double pace = 1e-9 * (norm(pins_[k].rate) + std::abs(pins_[k].slip));
