@@ -157,13 +157,7 @@ class RobotDrawing {
 
 study::Scene robot_scene(const Robot& robot, const Drives& drives, const SceneInput& input,
                          std::span<const double> values, std::span<const RobotSample> samples) {
-  Scene scene;
-  scene.name = input.name;
-  scene.title = input.title;
-  scene.input_key = input.key;
-  scene.input_label = input.label;
-  scene.input.assign(values.begin(), values.end());
-  for (const RobotSample& s : samples) scene.status.emplace_back(to_string(s.status));
+  Scene scene = scene_over(input, values, samples);
   RobotDrawing(scene, robot, drives, samples).all();
   return scene;
 }

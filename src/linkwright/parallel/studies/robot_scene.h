@@ -24,6 +24,19 @@ struct SceneInput {
   std::string name, title;  ///< "motion", "motion along the path"
   std::string key, label;   ///< "time_s", "time"
 };
+/// A scene over samples with a status, without anything in it.
+template <class Sample>
+study::Scene scene_over(const SceneInput& input, std::span<const double> values,
+                        std::span<const Sample> samples) {
+  study::Scene scene;
+  scene.name = input.name;
+  scene.title = input.title;
+  scene.input_key = input.key;
+  scene.input_label = input.label;
+  scene.input.assign(values.begin(), values.end());
+  for (const Sample& s : samples) scene.status.emplace_back(to_string(s.status));
+  return scene;
+}
 
 /// A robot over samples: base, arms, rods (those of a DELTA as parallelograms), platform, the path of its
 /// point with its velocity, and of Pi-joints parallelogram and screw. Planar robots give a planar scene.

@@ -117,13 +117,7 @@ class ArmDrawing {
 
 study::Scene serial_arm_scene(const SerialPiArm& arm, const SceneInput& input, std::span<const double> values,
                               std::span<const SerialSample> samples) {
-  Scene scene;
-  scene.name = input.name;
-  scene.title = input.title;
-  scene.input_key = input.key;
-  scene.input_label = input.label;
-  scene.input.assign(values.begin(), values.end());
-  for (const SerialSample& s : samples) scene.status.emplace_back(to_string(s.status));
+  Scene scene = scene_over(input, values, samples);
   ArmDrawing(scene, arm, samples).all();
   return scene;
 }
