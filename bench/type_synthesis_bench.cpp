@@ -94,7 +94,7 @@ Stroke superellipse(bool closed) {
 }
 
 void polish(benchmark::State& state, const char* name) {
-  const StrokeTarget target = stroke_target(superellipse(true));
+  const SampledStroke target = sampled_stroke(superellipse(true));
   MachineFitter fitter(target, {});
   FittedMachine placed{.shape = some_shape(name)};
   fitter.place(placed);
@@ -111,7 +111,7 @@ BENCHMARK_CAPTURE(polish, eight_bar, "eight_bar:1315b")->Unit(benchmark::kMicros
 void match(benchmark::State& state, bool closed) {
   RunContext context;
   context.set_threads(1);
-  const StrokeTarget target = stroke_target(superellipse(closed));
+  const SampledStroke target = sampled_stroke(superellipse(closed));
   std::size_t entries = 0;
   std::vector<std::shared_ptr<const FamilyAtlas>> atlases;
   for (const auto& family : names(MachineFamily{}))

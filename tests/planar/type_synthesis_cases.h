@@ -32,7 +32,7 @@ inline const Value& stroke_case(const std::string& name) {
 
 inline Stroke stroke_of(const Value& published) {
   Stroke out;
-  out.closed = linkwright::test::at(published, "closed").as_boolean();
+  out.closed = linkwright::test::at(published, "closed").as_bool();
   for (const Value& point : linkwright::test::at(published, "points").as_array()) {
     const std::vector<double> xy = linkwright::test::numbers(point);
     out.points.emplace_back(xy[0], xy[1]);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "linkwright/planar/studies/templates.h"
 #include "planar/studies.h"
 
 namespace linkwright::planar {
@@ -92,6 +91,8 @@ TEST(AnyPathStudies, SayWhatIsWrong) {
               HasSubstr("watt_1"));
   EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 12\n"}}),
               HasSubstr("most_links"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"ten_bar\"]\n"}}),
+              HasSubstr("ten_bar has 10 links, most_links allows 8"));
   EXPECT_THAT(problems({{"3", "[limits]\nleast_pair_angle_deg = 80\n"}}), HasSubstr("least_pair_angle_deg"));
   EXPECT_THAT(problems({{"4", "[optimiser]\nevaluations = 20000\nseconds = 1\n"}}),
               HasSubstr("both seconds and evaluations"));

@@ -15,7 +15,7 @@ TEST(Atlases, GiveExactNeighbours) {
   ASSERT_TRUE(atlas);
   ASSERT_GT(atlas->entries.size(), 1000U);
   for (const char* stroke : {"leg", "figure_eight", "square"}) {
-    const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case(stroke)));
+    const SampledStroke target = sampled_stroke(test::stroke_of(test::stroke_case(stroke)));
     const auto few = match_atlas(*atlas, target, 20, context),
                all = match_atlas(*atlas, target, atlas->entries.size(), context);
     ASSERT_EQ(all.size(), atlas->entries.size());

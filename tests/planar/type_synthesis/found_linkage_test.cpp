@@ -12,7 +12,7 @@ namespace {
 
 // The solver of any linkage knows nothing of programs.
 TEST(FoundLinkages, TraceTheCurveOfTheirProgram) {
-  const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case("leg")));
+  const SampledStroke target = sampled_stroke(test::stroke_of(test::stroke_case("leg")));
   for (const PointProgram* p : test::all_programs()) {
     FittedMachine m;
     m.shape = test::some_shape(*p, 11);

@@ -10,12 +10,8 @@
 namespace linkwright::planar {
 namespace {
 
-using linkwright::test::at;
-using linkwright::test::number_at;
-using linkwright::test::numbers;
-
 /// Crank angles, in order, at which a curve comes nearest to the points of a stroke: by dynamic programming.
-void meet_in_order(FittedMachine& m, const StrokeTarget& target, double from, double to) {
+void meet_in_order(FittedMachine& m, const SampledStroke& target, double from, double to) {
   constexpr std::size_t fine = 1440;
   std::vector<double> angles(fine);
   for (std::size_t j = 0; j < fine; ++j) angles[j] = from + (to - from) * static_cast<double>(j) / (fine - 1);
@@ -38,15 +34,16 @@ void meet_in_order(FittedMachine& m, const StrokeTarget& target, double from, do
 }
 
 /// A published machine, in sizes of the stroke from its mean.
-FittedMachine machine_of(const Value& published, const StrokeTarget& target) {
+FittedMachine machine_of(const Value& published, const SampledStroke& target) {
   FittedMachine m;
-  m.shape = {.program = program_named(at(published, "program").as_string()),
-             .signs = static_cast<unsigned>(number_at(published, "bits")),
-             .x = numbers(at(published, "x"))};
+  m.shape = {.program = program_named(linkwright::test::at(published, "program").as_string()),
+             .signs = static_cast<unsigned>(linkwright::test::number_at(published, "bits")),
+             .x = linkwright::test::numbers(linkwright::test::at(published, "x"))};
   double* x = m.shape.x.data() + m.shape.x.size() - 4;
   const std::complex<double> place = (std::complex<double>(x[0], x[1]) - target.centre) / target.size;
   x[0] = place.real(), x[1] = place.imag(), x[2] /= target.size, x[3] /= target.size;
-  const double from = number_at(published, "crank_from_rad"), to = number_at(published, "crank_to_rad");
+  const double from = linkwright::test::number_at(published, "crank_from_rad"),
+               to = linkwright::test::number_at(published, "crank_to_rad");
   m.sense = to > from ? 1 : -1;
   meet_in_order(m, target, from, to);
   return m;
@@ -57,21 +54,24 @@ TEST(MachineMeasuresOfPublishedMachines, AreReproduced) {
   int machines = 0;
   for (const std::string& name : test::stroke_names()) {
     const Value& published = test::stroke_case(name);
-    const StrokeTarget target = stroke_target(test::stroke_of(published));
+    const SampledStroke target = sampled_stroke(test::stroke_of(published));
     MachineFitter fitter(target, {});
-    for (const Value& machine : at(published, "machines").as_array()) {
-      const std::string program = at(machine, "program").as_string();
+    for (const Value& machine : linkwright::test::at(published, "machines").as_array()) {
+      const std::string program = linkwright::test::at(machine, "program").as_string();
       ASSERT_TRUE(program_named(program)) << program;
       FittedMachine m = machine_of(machine, target);
       const MachineMeasures found = fitter.measure(m);
-      const double e = number_at(machine, "e");
+      const double e = linkwright::test::number_at(machine, "e");
       // The stored machines are places where their search stopped: those with corners can still come closer.
       EXPECT_LT(found.error, e + 1e-5) << name << ' ' << program;
       EXPECT_GT(found.error, 0.99 * e - 1e-5) << name << ' ' << program;
-      EXPECT_NEAR(found.min_pair_angle * 180 / pi, number_at(machine, "least_pair_angle_deg"), 0.1)
+      EXPECT_NEAR(found.min_pair_angle * 180 / pi,
+                  linkwright::test::number_at(machine, "least_pair_angle_deg"), 0.1)
           << name << ' ' << program;
-      EXPECT_NEAR(found.max_length, number_at(machine, "longest_length"), 1e-3) << name << ' ' << program;
-      EXPECT_NEAR(found.min_length, number_at(machine, "shortest_length"), 1e-3) << name << ' ' << program;
+      EXPECT_NEAR(found.max_length, linkwright::test::number_at(machine, "longest_length"), 1e-3)
+          << name << ' ' << program;
+      EXPECT_NEAR(found.min_length, linkwright::test::number_at(machine, "shortest_length"), 1e-3)
+          << name << ' ' << program;
       ++machines;
     }
   }
@@ -86,7 +86,7 @@ TEST(MachineFitters, PlaceACurveOnItself) {
     Stroke stroke{.closed = true};
     for (const auto& p : test::traced(shape, angles))
       stroke.points.push_back(std::polar(2.5, 0.7) * p + std::complex<double>(3, -1));
-    MachineFitter fitter(stroke_target(stroke),
+    MachineFitter fitter(sampled_stroke(stroke),
                          {.min_pair_angle = 0.01, .min_length = 1e-6, .max_length = 1e6});
     FittedMachine m{.shape = shape};
     EXPECT_LT(fitter.place(m), 1e-3) << name;

@@ -14,7 +14,7 @@ namespace {
 TypeSearchAnswer search(const char* stroke, const TypeSearchOptions& options, int threads = 1) {
   RunContext context;
   context.set_threads(threads);
-  return search_types(stroke_target(test::stroke_of(test::stroke_case(stroke))), options, context);
+  return search_types(sampled_stroke(test::stroke_of(test::stroke_case(stroke))), options, context);
 }
 
 const FamilyReport& report_of(const TypeSearchAnswer& answer, MachineFamily family) {
@@ -46,7 +46,7 @@ TEST(TypeSearches, GiveTheSameBitsOnEveryNumberOfThreads) {
 // A search that was stopped and goes on ends with the bits of one that was not.
 TEST(TypeSearches, ContinueFromACheckpoint) {
   const TypeSearchOptions options{.max_links = 6, .max_curves = 250'000};
-  const StrokeTarget target = stroke_target(test::stroke_of(test::stroke_case("leg")));
+  const SampledStroke target = sampled_stroke(test::stroke_of(test::stroke_case("leg")));
   RunContext plain;
   const auto whole = search_types(target, options, plain);
   linkwright::test::MemoryCheckpoint kept;
@@ -102,7 +102,7 @@ TEST(TypeSearches, AnswerWithinTheLimitsAndInOrder) {
 TEST(TypeSearches, EndWithTheContext) {
   RunContext context;
   context.cancel();
-  const auto answer = search_types(stroke_target(test::stroke_of(test::stroke_case("leg"))), {}, context);
+  const auto answer = search_types(sampled_stroke(test::stroke_of(test::stroke_case("leg"))), {}, context);
   EXPECT_EQ(answer.status, Status::cancelled);
   EXPECT_TRUE(answer.machines.empty());
 }

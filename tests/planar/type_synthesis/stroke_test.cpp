@@ -14,11 +14,11 @@ TEST(ChamferDistances, AreThoseOfParallelSegments) {
   EXPECT_NEAR(chamfer_distance(a, false, a, false), 0, 1e-15);
 }
 
-TEST(StrokeTargets, DoNotDependOnTheSpacingOfThePoints) {
+TEST(SampledStrokes, DoNotDependOnTheSpacingOfThePoints) {
   const Stroke coarse{.points = {{0, 0}, {4, 0}, {4, 3}, {0, 3}}, .closed = true};
   const Stroke fine{.points = {{0, 0}, {0.5, 0}, {1, 0}, {4, 0}, {4, 0.1}, {4, 3}, {2, 3}, {0, 3}},
                     .closed = true};
-  const StrokeTarget a = stroke_target(coarse), b = stroke_target(fine);
+  const SampledStroke a = sampled_stroke(coarse), b = sampled_stroke(fine);
   EXPECT_NEAR(a.size, b.size, 1e-12);
   EXPECT_NEAR(std::abs(a.centre - b.centre), 0, 1e-12);
   for (std::size_t k = 0; k < stroke_samples; ++k) {
@@ -28,7 +28,7 @@ TEST(StrokeTargets, DoNotDependOnTheSpacingOfThePoints) {
   EXPECT_NEAR(a.length * a.size, 14, 1e-12);
 }
 
-TEST(StrokeTargets, HaveEqualSteps) {
+TEST(SampledStrokes, HaveEqualSteps) {
   const Stroke stroke{.points = {{0, 0}, {1, 0}, {1, 2}}, .closed = false};
   const auto points = equal_steps(stroke.points, false, 7);
   for (std::size_t k = 1; k < points.size(); ++k)

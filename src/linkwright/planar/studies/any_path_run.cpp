@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/remarks.h"
+#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
@@ -36,7 +38,7 @@ std::string family_words(MachineFamily family) {
 
 class AnyPathReport {
  public:
-  AnyPathReport(const AnyPathStudy& s, const study::Common& common, const StrokeTarget& target,
+  AnyPathReport(const AnyPathStudy& s, const study::Common& common, const SampledStroke& target,
                 TypeSearchAnswer answer)
       : s_(s), common_(common), target_(target), answer_(std::move(answer)) {}
 
@@ -235,8 +237,8 @@ class AnyPathReport {
   }
 
   void statistics() {
-    const auto sum = [&](long long FamilyReport::*part) {
-      long long out = 0;
+    const auto sum = [&](std::int64_t FamilyReport::*part) {
+      std::int64_t out = 0;
       for (const FamilyReport& f : answer_.families) out += f.*part;
       return out;
     };
@@ -304,7 +306,7 @@ class AnyPathReport {
 
   const AnyPathStudy& s_;
   const study::Common& common_;
-  const StrokeTarget& target_;
+  const SampledStroke& target_;
   const TypeSearchAnswer answer_;
   study::Result result_;
 };
@@ -364,6 +366,12 @@ AnyPathStudy read_any_path(study::ObjectReader& document, const study::Common& c
     table->read(s.mechanism);
     if (s.mechanism.families && s.mechanism.families->empty())
       table->error("families", "the list of families is empty", "leave it out to search all");
+    for (const MachineFamily family : s.mechanism.families.value_or(std::vector<MachineFamily>{}))
+      if (links_of(family) > s.mechanism.most_links)
+        table->error("families",
+                     fmt::format("{} has {} links, most_links allows {}", name_of(family), links_of(family),
+                                 s.mechanism.most_links),
+                     fmt::format("write most_links = {}, or leave the family out", links_of(family)));
   }
   read_stroke_of(document, common, s);
   if (auto table = document.table("limits")) table->read(s.limits);
@@ -405,7 +413,7 @@ study::Kind any_path_kind() {
 }
 
 study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& common, RunContext& context) {
-  const StrokeTarget target = stroke_target(s.stroke);
+  const SampledStroke target = sampled_stroke(s.stroke);
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -154,7 +155,7 @@ std::shared_ptr<const FamilyAtlas> make_atlas(MachineFamily family, const RunCon
   for (const auto& piece : found)
     for (const FamilyAtlas::Entry& e : piece)
       if (++cells[cell_of(e)] <= most_in_a_cell) out->entries.push_back(e);
-  out->drawn = static_cast<long long>(pieces * drawn_a_piece);
+  out->drawn = static_cast<std::int64_t>(pieces * drawn_a_piece);
   return out;
 }
 
@@ -198,7 +199,7 @@ AtlasMatch match_closed(const FamilyAtlas::Entry& e, const Descriptor& stroke) {
   return out;
 }
 
-std::vector<AtlasMatch> closed_matches(const FamilyAtlas& atlas, const StrokeTarget& target,
+std::vector<AtlasMatch> closed_matches(const FamilyAtlas& atlas, const SampledStroke& target,
                                        std::size_t count, const RunContext& context) {
   std::vector<std::complex<double>> points;
   for (std::size_t k = 0; k < stroke_samples; ++k) points.emplace_back(target.x[k], target.y[k]);
@@ -243,7 +244,7 @@ std::vector<AtlasMatch> closed_matches(const FamilyAtlas& atlas, const StrokeTar
 /// mirror images.
 class OpenMatcher {
  public:
-  explicit OpenMatcher(const StrokeTarget& target) {
+  explicit OpenMatcher(const SampledStroke& target) {
     float squares = 0, mx = 0, my = 0;
     for (std::size_t k = 0; k < few; ++k) {
       const std::size_t from = (k * (stroke_samples - 1) + (few - 1) / 2) / (few - 1);
@@ -319,7 +320,7 @@ std::shared_ptr<const FamilyAtlas> family_atlas(MachineFamily family, const RunC
   return kept.atlas;
 }
 
-std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const StrokeTarget& target, std::size_t count,
+std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const SampledStroke& target, std::size_t count,
                                     const RunContext& context) {
   if (target.closed) return closed_matches(atlas, target, count, context);
   const OpenMatcher matcher(target);

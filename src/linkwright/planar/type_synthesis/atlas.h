@@ -28,7 +28,7 @@ struct FamilyAtlas {
     std::array<std::array<std::int16_t, 32>, 2> points{};  ///< x and y at equal steps of arc length, scaled
   };
   std::vector<Entry> entries;
-  long long drawn = 0;  ///< shapes that were tried
+  std::int64_t drawn = 0;  ///< shapes that were tried
 
   MachineShape shape(std::size_t i) const;
 };
@@ -46,7 +46,7 @@ std::shared_ptr<const FamilyAtlas> family_atlas(MachineFamily family, const RunC
 
 /// The best matches of a stroke, best first, at most `count`. For closed strokes these are exact nearest
 /// neighbours.
-std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const StrokeTarget& target, std::size_t count,
+std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const SampledStroke& target, std::size_t count,
                                     const RunContext& context);
 
 }  // namespace linkwright::planar

@@ -36,7 +36,7 @@ std::string body_name(const PointProgram& p, std::size_t link) {
 /// Writes the linkage of one machine.
 class LinkageWriter {
  public:
-  LinkageWriter(const FittedMachine& machine, const StrokeTarget& target)
+  LinkageWriter(const FittedMachine& machine, const SampledStroke& target)
       : p_(*machine.shape.program), shape_(machine.shape) {
     const double* v = shape_.x.data() + p_.place();
     place_ = target.centre + target.size * Complex(v[0], v[1]);
@@ -217,7 +217,7 @@ class LinkageWriter {
 
 }  // namespace
 
-FoundLinkage found_linkage(const FittedMachine& machine, const StrokeTarget& target) {
+FoundLinkage found_linkage(const FittedMachine& machine, const SampledStroke& target) {
   return LinkageWriter(machine, target).write();
 }
 

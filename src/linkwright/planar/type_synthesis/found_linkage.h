@@ -16,6 +16,6 @@ struct FoundLinkage {
 };
 
 /// The linkage of a machine that was fitted to a target: `machine` is in sizes of the stroke from its mean.
-FoundLinkage found_linkage(const FittedMachine& machine, const StrokeTarget& target);
+FoundLinkage found_linkage(const FittedMachine& machine, const SampledStroke& target);
 
 }  // namespace linkwright::planar

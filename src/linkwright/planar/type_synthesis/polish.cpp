@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -109,9 +110,9 @@ void restore_order(Samples& v) {
 }  // namespace
 
 struct MachineFitter::Memory {
-  StrokeTarget target;
+  SampledStroke target;
   MachineLimits limits;
-  long long curves = 0;
+  std::int64_t curves = 0;
   const PointProgram* prepared = nullptr;  // program whose lengths are in `terms`
   std::vector<LengthTerm> terms;
   double min_quality = 0;
@@ -361,7 +362,7 @@ struct MachineFitter::Memory {
   double phase_ = 0;
 };
 
-MachineFitter::MachineFitter(const StrokeTarget& target, const MachineLimits& limits)
+MachineFitter::MachineFitter(const SampledStroke& target, const MachineLimits& limits)
     : memory_(std::make_unique<Memory>()) {
   memory_->target = target;
   memory_->limits = limits;
@@ -373,7 +374,7 @@ MachineFitter::MachineFitter(const StrokeTarget& target, const MachineLimits& li
 MachineFitter::~MachineFitter() = default;
 MachineFitter::MachineFitter(MachineFitter&&) noexcept = default;
 
-long long MachineFitter::curves() const { return memory_->curves; }
+std::int64_t MachineFitter::curves() const { return memory_->curves; }
 
 bool MachineFitter::polish(FittedMachine& machine, double best) {
   Memory& m = *memory_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -54,7 +55,7 @@ struct MachineMeasures {
 /// Fits machines to one stroke; one a thread.
 class MachineFitter {
  public:
-  MachineFitter(const StrokeTarget& target, const MachineLimits& limits);
+  MachineFitter(const SampledStroke& target, const MachineLimits& limits);
   ~MachineFitter();
   MachineFitter(MachineFitter&&) noexcept;
 
@@ -71,7 +72,7 @@ class MachineFitter {
   MachineMeasures measure(FittedMachine& machine);
 
   /// Number of curves that were computed, each of 96 points.
-  long long curves() const;
+  std::int64_t curves() const;
 
  private:
   struct Memory;

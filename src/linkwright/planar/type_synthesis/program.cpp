@@ -285,6 +285,10 @@ std::span<const PointProgram* const> programs_of(MachineFamily family) {
   return catalogue().families[static_cast<std::size_t>(family)];
 }
 
+int links_of(MachineFamily family) {
+  return family == MachineFamily::ten_bar ? 10 : programs_of(family).front()->links;
+}
+
 const PointProgram* program_named(std::string_view name) {
   for (const auto& family : catalogue().families)
     for (const PointProgram* p : family)

@@ -105,6 +105,9 @@ struct MachineShape {
 /// left out, and machines whose traced point moves with a chain of fewer links.
 std::span<const PointProgram* const> programs_of(MachineFamily family);
 
+/// Number of links of the machines of a family, the ground among them.
+int links_of(MachineFamily family);
+
 /// The program of 1 to 4 pairs, of which the first joins crank and ground, {1, 0}; the same address for the
 /// same pairs. Parameters are in the order of these pairs.
 const PointProgram& pair_program(std::span<const PairOfBars> pairs, bool trace_second);

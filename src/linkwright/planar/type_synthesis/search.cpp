@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -34,13 +35,8 @@ struct Trial {
   double best = infinity;
   bool accepted = false, inside = false;
   MachineMeasures measures;
-  long long curves = 0;
+  std::int64_t curves = 0;
 };
-
-int links_of(MachineFamily family) {
-  if (family == MachineFamily::ten_bar) return 10;
-  return programs_of(family).front()->links;
-}
 
 bool is_of_pairs(MachineFamily family) {
   return family == MachineFamily::ten_bar || !programs_of(family).front()->pairs.empty();
@@ -62,7 +58,7 @@ bool is_alike(const FoundMachine& a, const FoundMachine& b) {
 
 class TypeSearch {
  public:
-  TypeSearch(const StrokeTarget& target, const TypeSearchOptions& options, RunContext& context)
+  TypeSearch(const SampledStroke& target, const TypeSearchOptions& options, RunContext& context)
       : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
     for (const auto& family : names(MachineFamily{})) {
       const auto& wanted = options.families;
@@ -152,7 +148,7 @@ class TypeSearch {
       if (!f.atlas) return false;
       f.pool = match_atlas(*f.atlas, target_, pool_size, context_);
       if (context_.interrupted()) return false;
-      f.report.atlas_entries = static_cast<long long>(f.atlas->entries.size());
+      f.report.atlas_entries = static_cast<std::int64_t>(f.atlas->entries.size());
     }
     return f.prepared = true;
   }
@@ -356,7 +352,7 @@ class TypeSearch {
     return out;
   }
 
-  StrokeTarget target_;
+  SampledStroke target_;
   TypeSearchOptions options_;
   RunContext& context_;
   SearchState state_;
@@ -365,7 +361,7 @@ class TypeSearch {
 
 }  // namespace
 
-TypeSearchAnswer search_types(const StrokeTarget& target, const TypeSearchOptions& options,
+TypeSearchAnswer search_types(const SampledStroke& target, const TypeSearchOptions& options,
                               RunContext& context) {
   return TypeSearch(target, options, context).run();
 }

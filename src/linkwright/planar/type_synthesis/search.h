@@ -17,7 +17,8 @@ struct TypeSearchOptions {
       families;  ///< in which machines are looked for; none = all with at most `max_links`
   int max_links = 8;
   MachineLimits limits;
-  long long max_curves = 0;  ///< number of curves after which the search ends; 0 = only the context ends it
+  std::int64_t max_curves =
+      0;  ///< number of curves after which the search ends; 0 = only the context ends it
   std::uint64_t seed = 1;
   std::size_t max_solutions = 12;
 };
@@ -33,13 +34,13 @@ struct FoundMachine {
 struct FamilyReport {
   MachineFamily family{};
   double error = infinity;  ///< of its best machine within the limits
-  long long polished = 0, hops = 0, grown = 0, curves = 0, atlas_entries = 0;
-  long long best_at = 0;  ///< curves of the whole search when the best was found
+  std::int64_t polished = 0, hops = 0, grown = 0, curves = 0, atlas_entries = 0;
+  std::int64_t best_at = 0;  ///< curves of the whole search when the best was found
 };
 
 /// An improvement of the best machine of a family.
 struct TypeSearchPoint {
-  long long curves = 0;
+  std::int64_t curves = 0;
   MachineFamily family{};
   double error = infinity;
 };
@@ -51,13 +52,13 @@ struct TypeSearchAnswer {
   std::vector<FoundMachine> outside;  ///< the best machine of each family that has none within the limits
   std::vector<FamilyReport> families;
   std::vector<TypeSearchPoint> progress;
-  long long curves = 0;
+  std::int64_t curves = 0;
 };
 
 /// Finds machines of many types that trace a stroke. The sequence of its trials depends on the seed alone;
 /// the context or the number of curves says where it ends. `found` is called after each improvement with what
 /// is known so far.
-TypeSearchAnswer search_types(const StrokeTarget& target, const TypeSearchOptions& options,
+TypeSearchAnswer search_types(const SampledStroke& target, const TypeSearchOptions& options,
                               RunContext& context);
 
 }  // namespace linkwright::planar

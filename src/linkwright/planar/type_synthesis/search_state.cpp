@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -92,7 +93,7 @@ void counts(FamilyState& f, Visit&& visit) {
 Value saved_family(FamilyState f) {
   Value out;
   out["family"] = std::string(name_of(f.report.family));
-  counts(f, [&](const char* key, long long& count) { out[key] = static_cast<std::int64_t>(count); });
+  counts(f, [&](const char* key, std::int64_t& count) { out[key] = static_cast<std::int64_t>(count); });
   out["next_in_pool"] = static_cast<std::int64_t>(f.next_in_pool);
   out["rounds"] = static_cast<std::int64_t>(f.rounds);
   out["numbers"] = pack_numbers(std::vector{f.report.error, f.last_gain, f.grown_from});
@@ -107,8 +108,9 @@ void load_family(const Value& value, FamilyState& f) {
   const std::vector<double> n = unpack_numbers(load_member(value, "numbers", what), what);
   if (!name.is_string() || name.as_string() != name_of(f.report.family) || n.size() != 3)
     throw CheckpointError(std::string(what) + ": its families are others");
-  counts(f,
-         [&](const char* key, long long& count) { count = load_integer(value, key, 0, most_counted, what); });
+  counts(f, [&](const char* key, std::int64_t& count) {
+    count = load_integer(value, key, 0, most_counted, what);
+  });
   f.next_in_pool = static_cast<std::size_t>(load_integer(value, "next_in_pool", 0, 1'000'000, what));
   f.rounds = static_cast<int>(load_integer(value, "rounds", 0, 2'000'000'000, what));
   f.report.error = n[0], f.last_gain = n[1], f.grown_from = n[2];
@@ -146,7 +148,7 @@ void load_state(const Value& value, SearchState& state) {
     if (!(progress[i] >= 0 && progress[i] < 1e17 && progress[i + 1] >= 0 &&
           progress[i + 1] < static_cast<double>(names(MachineFamily{}).size())))
       throw CheckpointError(std::string(what) + ": its progress is none");
-    state.progress.push_back({.curves = static_cast<long long>(progress[i]),
+    state.progress.push_back({.curves = static_cast<std::int64_t>(progress[i]),
                               .family = static_cast<MachineFamily>(static_cast<int>(progress[i + 1])),
                               .error = progress[i + 2]});
   }

@@ -86,8 +86,8 @@ std::vector<std::complex<double>> equal_steps(std::span<const std::complex<doubl
   return out;
 }
 
-StrokeTarget stroke_target(const Stroke& stroke) {
-  StrokeTarget out;
+SampledStroke sampled_stroke(const Stroke& stroke) {
+  SampledStroke out;
   out.closed = stroke.closed;
   const auto fine = equal_steps(stroke.points, stroke.closed, fine_steps);
   out.centre =

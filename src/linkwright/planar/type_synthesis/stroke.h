@@ -20,7 +20,7 @@ struct Stroke {
 };
 
 /// A stroke as the search sees it: equal steps of arc length, moved to its mean and divided by its size.
-struct StrokeTarget {
+struct SampledStroke {
   bool closed = false;
   std::complex<double> centre{};  ///< mean of the stroke by arc length (m)
   double size = 1;                ///< root mean square distance of the stroke from its mean (m)
@@ -35,7 +35,7 @@ std::vector<std::complex<double>> equal_steps(std::span<const std::complex<doubl
                                               std::size_t count);
 
 /// Throws ContractError for fewer than two different points.
-StrokeTarget stroke_target(const Stroke& stroke);
+SampledStroke sampled_stroke(const Stroke& stroke);
 
 /// Mean distance of the points of each curve from the nearest point of the other one, added up: the chamfer
 /// distance of two curves of 2000 equal steps, in the unit of the points.
