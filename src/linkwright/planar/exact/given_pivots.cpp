@@ -32,20 +32,13 @@ FourBarSolutions solve_with_pivots(std::span<const std::complex<double>> points,
     size = std::max(size, std::sqrt(math::norm(target[j])));
   }
   const PointSolutions<System> solutions = solve_points<System>(*starts, target, context, "solutions");
-  out.status = solutions.status;
-  out.finite = static_cast<int>(solutions.found.size());
-  out.infinite = solutions.infinite;
-  out.lost = solutions.lost;
-  out.singular = solutions.singular;
+  solutions.count(out);
   for (const SystemPoint<System>& z : solutions.found) {
     if (!is_real_solution<System>(z, size)) continue;
     const auto place = [&](std::size_t i) { return points[0] + real_place<System>(z, i); };
     out.real.push_back({pivots[0], place(0), place(1), given == 2 ? pivots[given - 1] : place(2)});
   }
-  std::sort(out.real.begin(), out.real.end(), [](const TracingFourBar& a, const TracingFourBar& b) {
-    return std::pair(a.crank_pin.real(), a.crank_pin.imag()) <
-           std::pair(b.crank_pin.real(), b.crank_pin.imag());
-  });
+  sort_by_place(out.real, [](const TracingFourBar& s) { return s.crank_pin; });
   return out;
 }
 

@@ -98,11 +98,7 @@ void solve_mixed(const MixedPoses& target, MixedPoseSolutions& out, RunContext& 
       data[2 * System::half + j - 1] = complex_number(std::polar(1.0, pose.angle - first.angle));
   }
   const PointSolutions<System> solutions = solve_points<System>(*starts, data, context, "solutions", system);
-  out.status = solutions.status;
-  out.finite = static_cast<int>(solutions.found.size());
-  out.infinite = solutions.infinite;
-  out.lost = solutions.lost;
-  out.singular = solutions.singular;
+  solutions.count(out);
   for (const SystemPoint<System>& z : solutions.found) {
     if (!is_real_solution<System>(z, size)) continue;
     const auto [one, other] = dyads_of<System>(z, first);
@@ -116,10 +112,7 @@ void solve_mixed(const MixedPoses& target, MixedPoseSolutions& out, RunContext& 
     }
     out.real.push_back(std::move(pair));
   }
-  std::sort(out.real.begin(), out.real.end(), [](const GuidedPair& a, const GuidedPair& b) {
-    return std::pair(a.first.moving.real(), a.first.moving.imag()) <
-           std::pair(b.first.moving.real(), b.first.moving.imag());
-  });
+  sort_by_place(out.real, [](const GuidedPair& s) { return s.first.moving; });
 }
 
 }  // namespace

@@ -28,11 +28,7 @@ SliderPointSolutions solve_slider_points(std::span<const std::complex<double>, 8
     size = std::max(size, std::abs(points[j + 1] - points[0]));
   }
   const PointSolutions<System> solutions = solve_points<System>(*starts, target, context, "solutions");
-  out.status = solutions.status;
-  out.finite = static_cast<int>(solutions.found.size());
-  out.infinite = solutions.infinite;
-  out.lost = solutions.lost;
-  out.singular = solutions.singular;
+  solutions.count(out);
   for (const SystemPoint<System>& z : solutions.found) {
     if (!is_real_solution<System>(z, size)) continue;
     const auto place = [&](std::size_t i) { return points[0] + real_place<System>(z, i); };
@@ -40,10 +36,7 @@ SliderPointSolutions solve_slider_points(std::span<const std::complex<double>, 8
     const std::complex<double> normal = std::polar(1.0, 0.5 * std::arg(standard_complex(z[guide_nu])));
     out.real.push_back({place(slider_a), place(slider_x), place(slider_y), normal * std::complex(0.0, -1.0)});
   }
-  std::sort(out.real.begin(), out.real.end(), [](const TracingSliderCrank& a, const TracingSliderCrank& b) {
-    return std::pair(a.crank_pin.real(), a.crank_pin.imag()) <
-           std::pair(b.crank_pin.real(), b.crank_pin.imag());
-  });
+  sort_by_place(out.real, [](const TracingSliderCrank& s) { return s.crank_pin; });
   return out;
 }
 

@@ -26,7 +26,24 @@ struct PointSolutions {
   int infinite = 0, lost = 0;
   int singular = 0;  ///< ends where solutions meet
   std::vector<SystemPoint<System>> found;
+
+  /// Copies status and numbers of ends.
+  template <class Solutions>
+  void count(Solutions& out) const {
+    out.status = status;
+    out.finite = static_cast<int>(found.size());
+    out.infinite = infinite;
+    out.lost = lost;
+    out.singular = singular;
+  }
 };
+
+/// Sorts real solutions by a place of theirs.
+template <class Solution, class PlaceOf>
+void sort_by_place(std::vector<Solution>& real, const PlaceOf& place_of) {
+  const auto key = [&](const Solution& s) { return std::pair(place_of(s).real(), place_of(s).imag()); };
+  std::sort(real.begin(), real.end(), [&](const Solution& a, const Solution& b) { return key(a) < key(b); });
+}
 
 namespace solve_points_detail {
 
