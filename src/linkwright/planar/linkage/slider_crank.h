@@ -23,8 +23,7 @@ struct SliderCrankForm {
   double pivot_x = 0, pivot_y = 0;
   double rod_u = 0, rod_v = 0;  ///< tracing point on the rod, from A along A->B and along its left normal
 };
-struct SliderCrankMass {
-  double mass = 0, inertia = 0, centre_distance = 0, centre_angle = 0;
+struct SliderCrankMass : LinkMass {
   std::vector<PointMass> attached;
 };
 struct SliderCrankMasses {
@@ -62,14 +61,7 @@ void fields(Visitor&& visit, SliderCrankForm& s) {
 }
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMass& m) {
-  visit(field::mass("mass", "mass of the link").not_negative().required(), m.mass);
-  visit(field::inertia("inertia", "moment of inertia about the mass centre").not_negative().required(),
-        m.inertia);
-  visit(field::length("centre_distance", "distance of the mass centre from the link's own joint")
-            .not_negative()
-            .required(),
-        m.centre_distance);
-  visit(field::angle("centre_angle", "angle of the mass centre from the link line"), m.centre_angle);
+  fields(visit, static_cast<LinkMass&>(m));
   visit(field::entry("attached", "masses fixed to it: counterweights"), m.attached);
 }
 template <class Visitor>
