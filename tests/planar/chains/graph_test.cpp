@@ -106,7 +106,7 @@ TEST(CanonicalForm, KeepsColoursApart) {
   std::set<ChainGraph> classes;
   for (int link = 1; link < 6; ++link) {
     std::vector<int> colours(6, 1);
-    colours[0] = colours[at(link)] = 0;
+    colours[0] = colours[static_cast<std::size_t>(link)] = 0;
     const CanonicalForm found = form(colours);
     classes.insert(found.graph);
     EXPECT_EQ(found.labellings.size(), link == 3 ? 4u : 2u);

@@ -87,7 +87,8 @@ TEST(Markings, OfGearPairsAgreeWithAllPermutations) {
           if (!chain.graph.joined(c, a) || !chain.graph.joined(c, b) || chain.graph.joined(a, b)) continue;
           std::set<std::array<int, 3>> orbit;
           for (const Labelling& s : symmetries)
-            orbit.insert({s[at(c)], std::min(s[at(a)], s[at(b)]), std::max(s[at(a)], s[at(b)])});
+            orbit.insert({s[linkwright::at(c)], std::min(s[linkwright::at(a)], s[linkwright::at(b)]),
+                          std::max(s[linkwright::at(a)], s[linkwright::at(b)])});
           orbits.insert(orbit);
         }
     EXPECT_EQ(markings(chain, {.gear = true}).size(), orbits.size());

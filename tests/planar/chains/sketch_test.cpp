@@ -18,12 +18,14 @@ void expect_drawn(const ChainGraph& graph, const ChainSketch& drawn) {
   ASSERT_EQ(drawn.joints.size(), joints.size());
   ASSERT_EQ(std::ssize(drawn.links), graph.links);
   for (int link = 0; link < graph.links; ++link) {
-    const std::vector<int>& around = drawn.links[at(link)];
+    const std::vector<int>& around = drawn.links[linkwright::at(link)];
     EXPECT_EQ(std::ssize(around), graph.degree(link));
-    for (const int j : around) EXPECT_TRUE(joints[at(j)][0] == link || joints[at(j)][1] == link);
+    for (const int j : around)
+      EXPECT_TRUE(joints[linkwright::at(j)][0] == link || joints[linkwright::at(j)][1] == link);
     for (std::size_t k = 0, n = around.size(); k < n; ++k) {
-      const Vec<double> a = drawn.joints[at(around[k])], b = drawn.joints[at(around[(k + 1) % n])],
-                        c = drawn.joints[at(around[(k + 2) % n])];
+      const Vec<double> a = drawn.joints[linkwright::at(around[k])],
+                        b = drawn.joints[linkwright::at(around[(k + 1) % n])],
+                        c = drawn.joints[linkwright::at(around[(k + 2) % n])];
       // Bars are of similar length, and links turn left at each joint.
       EXPECT_GT(std::hypot(b.x - a.x, b.y - a.y), 0.2);
       EXPECT_LT(std::hypot(b.x - a.x, b.y - a.y), 4);
@@ -68,9 +70,9 @@ TEST(Sketch, LaysTheGroundAtTheBottom) {
   for (const Chain& chain : chains(8, 1))
     for (int ground = 0; ground < 8; ++ground) {
       const ChainSketch drawn = sketch(chain.graph, ground);
-      const std::vector<int>& around = drawn.links[at(ground)];
-      EXPECT_NEAR(drawn.joints[at(around.front())].y, 0, 1e-12);
-      EXPECT_NEAR(drawn.joints[at(around.back())].y, 0, 1e-12);
+      const std::vector<int>& around = drawn.links[linkwright::at(ground)];
+      EXPECT_NEAR(drawn.joints[linkwright::at(around.front())].y, 0, 1e-12);
+      EXPECT_NEAR(drawn.joints[linkwright::at(around.back())].y, 0, 1e-12);
       // Most of the chain lies above it.
       double mean = 0;
       for (const Vec<double>& p : drawn.joints) mean += p.y;

@@ -62,8 +62,8 @@ class AnyPathReport {
     const PointProgram& program = *found.machine.shape.program;
     const MachineMeasures& m = found.measures;
     study::Solution out;
-    out.label = say("{} ({} links), rms error {}, least pair angle {}", program.name, count_of(program.links),
-                    length(m.error), degrees_of(m.min_pair_angle).fixed(1));
+    out.label = say("{}, rms error {}, pair angle {}", program.name, length(m.error),
+                    degrees_of(m.min_pair_angle).fixed(1));
     const FoundLinkage of = found_linkage(found.machine, target_);
     for (const LinkageBody& body : of.linkage.bodies)
       for (std::size_t k = 1; &body != &of.linkage.bodies[0] && k < body.points.size(); ++k)
