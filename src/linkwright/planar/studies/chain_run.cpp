@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,16 @@ std::string row_name(const Family& family, const Marking& marking) {
   const std::string name = mechanism_name(family.chain, marking),
                     common = common_name(family.chain.graph, marking);
   return common.empty() ? name : fmt::format("{} ({})", common, name);
+}
+
+// The name in a drawing: "8-07/3/5" for ground 3 and driven link 5.
+std::string figure_name(const Family& family, const Marking& marking) {
+  std::string out = common_name(family.chain.graph, marking);
+  if (!out.empty()) return out;
+  out = mechanism_name(family.chain, marking);
+  for (const std::string_view word : {"sliders ", "gears ", "ground ", "driver "})
+    if (const std::size_t place = out.find(word); place != std::string::npos) out.erase(place, word.size());
+  return out;
 }
 
 // The driver of a mechanism of one freedom decides the groups in which it is solved.
@@ -239,10 +250,8 @@ class ChainReport {
     const bool each = is_marked_ && at(sum(mechanisms)) <= max_figures;
     for (const Family& f : families_) {
       if (each)
-        for (const Marking& marking : f.mechanisms) {
-          const std::string common = common_name(f.chain.graph, marking);
-          figures.push_back({&f.chain, marking, common.empty() ? mechanism_name(f.chain, marking) : common});
-        }
+        for (const Marking& marking : f.mechanisms)
+          figures.push_back({&f.chain, marking, figure_name(f, marking)});
       else
         figures.push_back({&f.chain, {}, f.chain.name});
     }

@@ -96,7 +96,7 @@ class FigureDrawer {
     const auto self = std::find(around.begin(), around.end(), joint);
     const int beside = self + 1 == around.end() ? around.front() : *(self + 1);
     const Point centre = place(joint), towards = place(beside) - centre;
-    const Point along = 1 / length(towards) * towards, across = perpendicular(along);
+    const Point along = slide_direction(joint, 1 / length(towards) * towards), across = perpendicular(along);
     const std::string name = fmt::format("slide {}-{}", owner + 1, other(joint, owner) + 1);
     Scene::Body block{name, {}, Scene::BodyStyle::plate};
     for (const auto& [u, v] : {std::pair{-1, -1}, std::pair{1, -1}, std::pair{1, 1}, std::pair{-1, 1}})
@@ -104,6 +104,19 @@ class FigureDrawer {
     const int from = add_point(name, centre - 0.4 * along), to = add_point(name, centre + 0.4 * along);
     scene_.bodies.push_back({"guide of " + name, {from, to}, Scene::BodyStyle::guide});
     scene_.bodies.push_back(std::move(block));
+  }
+
+  // Slides of one link cross each other: parallel ones would let it slip through both.
+  Point slide_direction(int joint, Point along) {
+    const JointEnds& ends = joints_[at(joint)];
+    const auto shares_link = [&](int before) {
+      const JointEnds& others = joints_[at(before)];
+      return std::find_first_of(ends.begin(), ends.end(), others.begin(), others.end()) != ends.end();
+    };
+    for (const auto& [before, direction] : slides_)
+      if (shares_link(before) && std::abs(cross(direction, along)) < 0.3) along = perpendicular(along);
+    slides_.emplace_back(joint, along);
+    return along;
   }
 
   int joint_between(int a, int b) const {
@@ -132,12 +145,12 @@ class FigureDrawer {
     scene_.circles.push_back({"driven joint", first_ + joint, rim});
   }
 
-  // The first joint of the drawing from the left carries the name.
+  // The uppermost joint carries the name.
   void pins(const ChainSketch& drawn) {
-    const auto left = std::min_element(drawn.joints.begin(), drawn.joints.end(),
-                                       [](const Point& a, const Point& b) { return a.x < b.x; });
+    const auto top = std::max_element(drawn.joints.begin(), drawn.joints.end(),
+                                      [](const Point& a, const Point& b) { return a.y < b.y; });
     for (int j = 0; j < std::ssize(joints_); ++j) {
-      const bool named = j == left - drawn.joints.begin();
+      const bool named = j == top - drawn.joints.begin();
       const bool fixed = is_ground(joints_[at(j)][0]) || is_ground(joints_[at(j)][1]);
       if (!named && (figure_.marking.sliders >> j & 1) != 0) continue;
       scene_.joints.push_back({named ? figure_.name : std::string(), first_ + j,
@@ -151,7 +164,8 @@ class FigureDrawer {
   const ChainFigure& figure_;
   const ChainGraph& graph_;
   const std::vector<JointEnds> joints_;
-  int first_;  // index of the point of the first joint
+  int first_;                                  // index of the point of the first joint
+  std::vector<std::pair<int, Point>> slides_;  // joints that slide, and along which directions
 };
 
 Scene sheet(std::span<const ChainFigure> figures, std::size_t number, std::size_t sheets) {

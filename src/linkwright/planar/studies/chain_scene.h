@@ -14,7 +14,7 @@ namespace linkwright::planar {
 struct ChainFigure {
   const Chain* chain = nullptr;
   Marking marking;
-  std::string name;  ///< written beside its first joint
+  std::string name;  ///< written at its uppermost joint
 };
 
 /// Sheets of figures in rows, all with bars of one length, "sheet-1" and so on. Ground joints have their
