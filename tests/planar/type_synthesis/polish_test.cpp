@@ -62,9 +62,9 @@ TEST(MachineMeasuresOfPublishedMachines, AreReproduced) {
       FittedMachine m = machine_of(machine, target);
       const MachineMeasures found = fitter.measure(m);
       const double e = linkwright::test::number_at(machine, "e");
-      // The stored machines are places where their search stopped: those with corners can still come closer.
-      EXPECT_LT(found.error, e + 1e-5) << name << ' ' << program;
-      EXPECT_GT(found.error, 0.99 * e - 1e-5) << name << ' ' << program;
+      // Where a stroke has a corner or crosses itself, closest points in order are found to a per cent or so.
+      EXPECT_LT(found.error, 1.001 * e + 1e-5) << name << ' ' << program;
+      EXPECT_GT(found.error, 0.98 * e - 1e-5) << name << ' ' << program;
       EXPECT_NEAR(found.min_pair_angle * 180 / pi,
                   linkwright::test::number_at(machine, "least_pair_angle_deg"), 0.1)
           << name << ' ' << program;
