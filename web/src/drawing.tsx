@@ -295,6 +295,12 @@ function Pose({ scene, under }: { scene: Scene; under: boolean }) {
 // A press on a moving joint drags the mechanism along its motion; elsewhere it moves the sheet.
 type Gesture = { kind: "hand" } | { kind: "joint"; point: number } | { kind: "sheet"; from: Place; camera: Camera };
 
+/** The path that the mechanism was found for. */
+function Backdrop() {
+  const path = state.backdrop.value;
+  return path && <path class="backdrop" d={pathOf(path.places.map((p) => toScreen(camera.value, size.value, p)), path.closed)} />;
+}
+
 function Stroke() {
   const places = state.stroke.value.map((p) => toScreen(camera.value, size.value, p));
   return places.length > 1 ? <path class="stroke" d={`M${places.map((p) => `${p.x.toFixed(1)} ${p.y.toFixed(1)}`).join("L")}`} /> : null;
@@ -375,6 +381,7 @@ export function Drawing(): JSX.Element {
         <Grid />
         {scene && (
           <>
+            <Backdrop />
             <Ghosts scene={scene} />
             <Pose scene={scene} under />
             <Traces scene={scene} />

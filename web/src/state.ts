@@ -169,6 +169,9 @@ export const pacedScene = computed(() => {
 /** The curves that the diagrams draw behind their own curves, to compare with. */
 export const behind = signal<{ name: string; tables: Result["tables"] } | null>(null);
 
+/** The path that is drawn behind the mechanism (m). */
+export const backdrop = signal<{ places: Place[]; closed: boolean } | null>(null);
+
 /** The stroke that is being drawn by hand. */
 export const stroke = signal<Place[]>([]);
 

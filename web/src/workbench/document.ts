@@ -8,6 +8,7 @@ export interface Document {
   name: string;  // name of the file
   text: string;
   files: Record<string, string>;  // files that the study reads
+  stroke?: { points_mm: number[][]; closed: boolean }; // path that is drawn behind its mechanism
 }
 
 const empty: Document = { name: "study.toml", text: "", files: {} };
@@ -57,6 +58,14 @@ export function begin(next: Document): void {
   });
 }
 
+/** A document that was kept or came with a link; a stroke that is none is left out. */
+function asDocument(read: Partial<Document> | null): Document | null {
+  if (typeof read?.text !== "string") return null;
+  const points: unknown = read.stroke?.points_mm;
+  const drawn = Array.isArray(points) && points.every((p) => Array.isArray(p) && p.length === 2 && p.every(Number.isFinite));
+  return { ...empty, ...read, stroke: drawn ? read.stroke : undefined };
+}
+
 // Pages opened from disk may have no storage, and then nothing is kept.
 const place = "linkwright.workbench";
 export function keep(document: Document): void {
@@ -68,8 +77,8 @@ export function keep(document: Document): void {
 }
 export function kept(): Document | null {
   try {
-    const read = JSON.parse(localStorage.getItem(place) ?? "null");
-    return typeof read?.text === "string" && read.text !== "" ? { ...empty, ...read } : null;
+    const read = asDocument(JSON.parse(localStorage.getItem(place) ?? "null"));
+    return read?.text ? read : null;
   } catch {
     return null;
   }
@@ -142,8 +151,7 @@ export async function fromFragment(hash: string): Promise<Document | null> {
   const packed = /^#study=([\w-]+)$/.exec(hash)?.[1];
   if (!packed) return null;
   try {
-    const read = JSON.parse(await unpack(packed));
-    return typeof read?.text === "string" ? { ...empty, ...read } : null;
+    return asDocument(JSON.parse(await unpack(packed)));
   } catch {
     return null;
   }

@@ -11,6 +11,12 @@ import { small, viewBox } from "./thumbnail";
 export const showGallery = signal(false);
 const words = signal("");
 
+/** Opens the gallery with the examples that have these words. */
+export function showExamples(with_: string): void {
+  words.value = with_;
+  showGallery.value = true;
+}
+
 const Card = ({ example }: { example: Example }) => (
   <button type="button" class="example" data-example={example.name} onClick={() => {
     open({ name: `${example.name}.toml`, text: example.text, files: example.beside });

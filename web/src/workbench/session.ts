@@ -356,6 +356,10 @@ export function connect(to: Engine, other: Engine): void {
     if (catalogue.value && canonical.peek()) void learn(canonical.peek()!);
   });
   effect(() => {
+    const { stroke } = document_.value;
+    state.backdrop.value = stroke ? { places: stroke.points_mm.map(([x, y]) => ({ x: x / 1000, y: y / 1000 })), closed: stroke.closed } : null;
+  });
+  effect(() => {
     const { text, files } = document_.value;
     if (text === "") return;
     keep(document_.value);

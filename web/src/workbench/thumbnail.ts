@@ -3,7 +3,7 @@
 // A picture of a mechanism for a page that has no engine yet: its path and one pose, as what stands in an <svg>.
 import type { Scene } from "../data";
 import { isSpatial, middleRow, rowOf } from "../grid";
-import { analyse, placeAt, type Place } from "../motion";
+import { analyse, placeAt, placeNear, type Motion, type Place } from "../motion";
 import { bodyColours, bounds, fit, toScreen, type Size } from "../view";
 
 /** Size of the pictures in the gallery; on the screen they are half as large. */
@@ -56,37 +56,52 @@ function briefPathOf(places: (Place | null)[], closed: boolean): string {
   }
 }
 
-export function thumbnail(whole: Scene, size: Size): string {
+/** A mechanism in parts: what stays, one pose, and what lies over it, each as what stands in an <svg>. */
+export interface Picture {
+  under: string;
+  pose: (position: number) => string; // a fractional sample number
+  over: string;
+  motion: Motion;
+}
+
+const path = (kind: string, d: string, colours = "") => (d ? `<path class="${kind}"${colours} d="${d}"/>` : "");
+
+export function pictureOf(whole: Scene, size: Size): Picture | null {
   const scene = rowOf(whole, middleRow(whole));
   const flat = isSpatial(scene) ? fromTheSide(scene) : scene;
   const all = bounds(flat);
-  if (!all) return "";
-  const { runs } = analyse(flat);
-  const at = runs.length ? Math.round(runs[0][0] + 0.15 * (runs[0][1] - runs[0][0])) : 0;
-  const wheels = rims(scene, at);
+  if (!all) return null;
+  const motion = analyse(flat);
+  const wheels = rims(scene, restOf(motion));
   const box = wheels.flat().reduce((b, { x, y }) => ({ left: Math.min(b.left, x), right: Math.max(b.right, x), bottom: Math.min(b.bottom, y), top: Math.max(b.top, y) }), all);
   const camera = fit(box, size, size.height / 10);
   const screen = (p: Place | null) => p && toScreen(camera, size, p);
-  const place = (point: number, i = at) => screen(placeAt(flat, point, i));
-  const path = (kind: string, d: string, colours = "") => (d ? `<path class="${kind}"${colours} d="${d}"/>` : "");
   const colours = bodyColours(flat.bodies);
   const bodies = flat.bodies.map((body, k) => ({ ...body, colour: colours[k] })).filter(({ run, style }) => !run && style !== "ground" && style !== "gap");
-  const traces = flat.traces.filter((t) => !t.run).map((t) => briefPathOf(flat.input.map((_, i) => place(t.point, i)), t.closed));
+  const traces = flat.traces.filter((t) => !t.run).map((t) => briefPathOf(flat.input.map((_, i) => screen(placeAt(flat, t.point, i))), t.closed));
   const targets = flat.targets.flatMap((t) => t.x.map((x, i) => (x === null || t.y[i] == null ? "" : pathOf([screen({ x, y: t.y[i]! })]))));
-  return [
-    path("rims", wheels.map((rim) => pathOf(rim.map(screen), true)).join("")),
-    path("path", traces.join("")),
-    ...bodies.map(({ style, points, colour }) => {
+  const pose = (position: number) => {
+    const place = (point: number) => screen(placeNear(flat, point, position));
+    const bars = bodies.map(({ style, points, colour }) => {
       const plate = style === "plate" && points.length > 2;
       const ink = `var(--c${colour})`;
-      return path(plate ? "plate" : "stroke", pathOf(points.map((p) => place(p)), plate), ` stroke="${ink}"${plate ? ` fill="${ink}"` : ""}`);
-    }),
-    ...flat.joints.map((j) => {
+      return path(plate ? "plate" : "stroke", pathOf(points.map(place), plate), ` stroke="${ink}"${plate ? ` fill="${ink}"` : ""}`);
+    });
+    const pins = flat.joints.map((j) => {
       const p = place(j.point);
       return p ? `<circle cx="${Math.round(p.x)}" cy="${Math.round(p.y)}" r="${j.style === "ground_pivot" ? 6 : 4}"/>` : "";
-    }),
-    path("targets", targets.join("")),
-  ].join("");
+    });
+    return [...bars, ...pins].join("");
+  };
+  return { under: path("rims", wheels.map((rim) => pathOf(rim.map(screen), true)).join("")) + path("path", traces.join("")), pose, over: path("targets", targets.join("")), motion };
+}
+
+/** The sample at which a picture that does not move shows the mechanism. */
+export const restOf = ({ runs }: Motion) => (runs.length ? Math.round(runs[0][0] + 0.15 * (runs[0][1] - runs[0][0])) : 0);
+
+export function thumbnail(scene: Scene, size: Size): string {
+  const picture = pictureOf(scene, size);
+  return picture ? picture.under + picture.pose(restOf(picture.motion)) + picture.over : "";
 }
 
 // Seen obliquely: x towards the reader's left below, y to the right, z up.

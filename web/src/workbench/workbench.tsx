@@ -13,13 +13,17 @@ import "../report.css";
 import "../viewer.css";
 import "./workbench.css";
 import "./lists.css";
+import "./path.css";
 import { asFragment, begin, canRedo, canUndo, copies, document_, fromFragment, kept, redo, replace, undo, type Document } from "./document";
 import { Draw, showDraw } from "./draw";
+import { Entries } from "./entries";
 import { workerEngine, type Catalogue, type Engine, type Example, type Progress } from "./engine";
 import { sortOut } from "./files";
 import { Gallery, showGallery } from "./gallery";
 import { opened, saveStudy, unsaved } from "./opened";
 import { Panel } from "./panel";
+import { PathDialog } from "./path_dialog";
+import { connectSearch } from "./path_search";
 import { pictures } from "./pictures";
 import { isPoses } from "./points";
 import { asks, openedFile, serverEngine, takeToken, type Opened, type Ask } from "./server_engine";
@@ -112,12 +116,14 @@ function Workbench() {
   return (
     <>
       <Bar />
+      <Entries />
       <div class="bench">
         <main class="page">{shown.value ? <Report /> : <div class="opening" dangerouslySetInnerHTML={{ __html: opening }} />}</main>
         <Panel />
       </div>
       <Gallery />
       <Draw />
+      <PathDialog />
     </>
   );
 }
@@ -181,6 +187,7 @@ async function main(): Promise<void> {
   const { engine: make, file } = await source();
   const [engine, second] = [make(), make()];
   connect(engine, second);
+  connectSearch(make);
   // By the second engine, while the first one runs the study.
   const known = second.catalogue();
   const shared = await asked(location.hash, known);
