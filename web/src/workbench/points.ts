@@ -40,31 +40,38 @@ export function withoutPoint(study: JsonObject | null, key: string, index: numbe
   return isPoses(key) ? [{ key: `${key}[${index}]`, value: null }] : [{ key, value: all.filter((_, i) => i !== index) }];
 }
 
-/** Points at equal steps along a stroke, its ends included; of one that comes back to its beginning the end is left out. */
-export function along(stroke: readonly Place[], count: number, size: number): { points: number[][]; closed: boolean } {
-  const closed = Math.hypot(stroke[0].x - stroke[stroke.length - 1].x, stroke[0].y - stroke[stroke.length - 1].y) < 0.03 * size;
+/** Places at equal steps along a stroke, its ends included; of a closed one the beginning does not come again at the end. */
+export function evenly(stroke: readonly Place[], closed: boolean, count: number): Place[] {
   const ring = closed ? [...stroke, stroke[0]] : stroke;
   const way = [0];
   for (let i = 1; i < ring.length; ++i) way.push(way[i - 1] + Math.hypot(ring[i].x - ring[i - 1].x, ring[i].y - ring[i - 1].y));
   const step = way[way.length - 1] / (closed ? count : count - 1);
   let i = 1;
-  const points = Array.from({ length: count }, (_, k) => {
+  return Array.from({ length: count }, (_, k) => {
     const s = Math.min(k * step, way[way.length - 1]);
     while (i < ring.length - 1 && way[i] < s) ++i;
     const part = way[i] > way[i - 1] ? (s - way[i - 1]) / (way[i] - way[i - 1]) : 0;
-    return [tidy(ring[i - 1].x + part * (ring[i].x - ring[i - 1].x), size), tidy(ring[i - 1].y + part * (ring[i].y - ring[i - 1].y), size)];
+    return { x: ring[i - 1].x + part * (ring[i].x - ring[i - 1].x), y: ring[i - 1].y + part * (ring[i].y - ring[i - 1].y) };
   });
-  return { points, closed };
+}
+
+/** Points at equal steps along a stroke; of one that comes back to its beginning the end is left out. */
+export function along(stroke: readonly Place[], count: number, size: number): { points: number[][]; closed: boolean } {
+  const closed = Math.hypot(stroke[0].x - stroke[stroke.length - 1].x, stroke[0].y - stroke[stroke.length - 1].y) < 0.03 * size;
+  return { points: evenly(stroke, closed, count).map((p) => [tidy(p.x, size), tidy(p.y, size)]), closed };
+}
+
+/** The numbers of a row, divided by tabs, semicolons, spaces or commas; NaN for what is none. */
+export function numbersOf(line: string): number[] {
+  const cells = line.trim().split(/\t|;|\s+|,(?=\s)/).filter(Boolean);
+  // A decimal comma is one where nothing else divides the two.
+  return (cells.length === 1 ? line.trim().split(",") : cells).map((cell) => Number(cell.trim().replace(",", ".").replace("\u2212", "-")));
 }
 
 /** Rows as a spreadsheet copies them, or as they are typed: two numbers each, in the unit of the page; null = it is none. */
 export function pastedRows(text: string, factor: number): number[][] | null {
   const lines = text.split(/\r?\n/).filter((line) => line.trim() !== "");
-  const rows = lines.map((line) => {
-    const cells = line.trim().split(/\t|;|\s+|,(?=\s)/).filter(Boolean);
-    // A decimal comma is one where nothing else divides the two.
-    return (cells.length === 1 ? line.trim().split(",") : cells).map((cell) => Number(cell.trim().replace(",", ".").replace("\u2212", "-")) / factor);
-  });
+  const rows = lines.map((line) => numbersOf(line).map((v) => v / factor));
   return rows.length && rows.every((row) => row.length === 2 && row.every(Number.isFinite)) ? rows : null;
 }
 

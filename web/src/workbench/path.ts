@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The path that a machine is wanted for, in mm on a board whose y axis points up: made by hand or read, thinned out, and written as a study.
+import type { Place } from "../motion";
+import { evenly, tidy } from "./points";
+
+export interface Path {
+  points: Place[];
+  closed: boolean;
+}
+
+/** The reason why something is not a path, and the way out. */
+export class PathError extends Error {
+  constructor(message: string, readonly hint: string) {
+    super(message);
+  }
+}
+
+export const mostPoints = 200;
+const evenPoints = 120; // of a path with corners, so that its long sides have points, too
+
+const distance = (a: Place, b: Place) => Math.hypot(a.x - b.x, a.y - b.y);
+const withEnd = ({ points, closed }: Path) => (closed && points.length ? [...points, points[0]] : points);
+export const lengthOf = (path: Path): number => withEnd(path).reduce((sum, p, i, all) => sum + (i ? distance(p, all[i - 1]) : 0), 0);
+
+export function boxOf(points: readonly Place[]): { x: number; y: number; width: number; height: number } {
+  const [xs, ys] = [points.map((p) => p.x), points.map((p) => p.y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+}
+
+/** The path without its end, if that comes back to within `reach` of its beginning: up to where it is nearest. */
+function snapped(stroke: Place[], reach: number): Path {
+  const start = stroke[0];
+  let tail = stroke.length;
+  while (tail > 0 && distance(stroke[tail - 1], start) <= reach) --tail;
+  const open = { points: stroke, closed: false };
+  if (tail === stroke.length || lengthOf({ points: stroke.slice(0, tail + 1), closed: false }) < 4 * reach) return open;
+  const near = stroke.slice(tail).reduce((best, p, i, all) => (distance(p, start) < distance(all[best], start) ? i : best), 0);
+  return { points: stroke.slice(0, tail + near), closed: true };
+}
+
+/** A path drawn by hand, closed if it ends within `reach` mm of its beginning, with points at equal steps; null = a press, no path. */
+export function byHand(stroke: Place[], reach: number): Path | null {
+  const path = snapped(stroke, reach);
+  const length = lengthOf(path);
+  if (path.points.length < 2 || length < reach) return null;
+  const count = Math.min(mostPoints, Math.max(24, Math.round(length)));
+  return { points: evenly(path.points, path.closed, count), closed: path.closed };
+}
+
+/** A path that was read, with its corners kept where there are not too many, and with points between them. */
+export function prepared(read: Path): Path {
+  const points = read.points.filter((p, i, all) => i === 0 || distance(p, all[i - 1]) > 0);
+  const size = Math.max(boxOf(points).width, boxOf(points).height);
+  if (!(size > 0)) throw new PathError("All points of the path are at the same place.", "Give at least two different points; three for a closed path.");
+  const gap = distance(points[0], points[points.length - 1]);
+  const closed = read.closed || (points.length > 3 && gap <= 1e-6 * size);
+  if (closed && gap <= 1e-6 * size) points.pop();
+  const step = lengthOf({ points, closed }) / evenPoints;
+  const ring = withEnd({ points, closed });
+  const filled = ring.slice(1).flatMap((b, i) => {
+    const a = ring[i];
+    const count = Math.max(1, Math.round(distance(a, b) / step));
+    return Array.from({ length: count }, (_, k) => ({ x: a.x + (k / count) * (b.x - a.x), y: a.y + (k / count) * (b.y - a.y) }));
+  });
+  if (!closed) filled.push(points[points.length - 1]);
+  return { points: filled.length > mostPoints ? evenly(points, closed, mostPoints) : filled, closed };
+}
+
+/** Path data with the corners of the hand rounded off, for the eye alone; y points down on the screen. */
+export function smoothed({ points, closed }: Path): string {
+  const written = (p: Place) => `${p.x.toFixed(2)} ${(-p.y).toFixed(2)}`;
+  const middle = (a: Place, b: Place) => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 });
+  if (points.length < 3) return points.length ? `M${points.map(written).join("L")}` : "";
+  const [first, last] = [points[0], points[points.length - 1]];
+  const curve = (list: Place[]) => list.map((p, i, all) => `Q${written(p)} ${written(i + 1 < all.length ? middle(p, all[i + 1]) : closed ? middle(p, first) : last)}`).join("");
+  return closed ? `M${written(middle(last, first))}${curve(points)}Z` : `M${written(first)}${curve(points.slice(1, -1))}L${written(last)}`;
+}
+
+/** The wishes that go into the study beside the path. */
+export interface Wishes {
+  mostLinks: number;
+  leastPairAngle: number; // degrees
+  longestLink: number; // sizes of the path
+}
+
+/** The study that asks for machines of every type along a path, with so many seconds for the search. */
+export function studyOf({ points, closed }: Path, { mostLinks, leastPairAngle, longestLink }: Wishes, seconds: number): string {
+  const size = Math.max(boxOf(points).width, boxOf(points).height);
+  const rows = points.map((p) => `[${tidy(p.x, size)}, ${tidy(p.y, size)}]`);
+  const lines = Array.from({ length: Math.ceil(rows.length / 6) }, (_, k) => `  ${rows.slice(6 * k, 6 * k + 6).join(", ")},`);
+  return `schema = 1
+kind   = "synthesis"
+title  = "Drawn motion"
+
+[mechanism]
+type       = "planar.any"
+most_links = ${mostLinks}
+
+[target]
+type      = "path_points"
+closed    = ${closed}
+points_mm = [
+${lines.join("\n")}
+]
+
+[limits]
+least_pair_angle_deg = ${leastPairAngle}
+longest_link         = ${longestLink}
+
+[optimiser]
+seconds       = ${seconds}
+seed          = 1
+max_solutions = 12
+`;
+}

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import { expect, test } from "vitest";
+import { boxOf, byHand, lengthOf, mostPoints, PathError, prepared, smoothed, studyOf } from "../src/workbench/path";
+import { dxfPath } from "../src/workbench/path_dxf";
+import { svgFile, svgPath } from "../src/workbench/path_svg";
+import { csvPath, readPath } from "../src/workbench/path_text";
+
+const ends = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
+const last = (d: string) => ends(svgPath(d).points).pop();
+/** What is wrong, and how to correct it. */
+function refusal(run: () => unknown): string {
+  try {
+    run();
+  } catch (error) {
+    expect(error).toBeInstanceOf(PathError);
+    expect((error as PathError).hint).toMatch(/\.$/);
+    return (error as PathError).message;
+  }
+  throw new Error("it was taken");
+}
+
+test("lines of SVG, absolute and relative, with the y axis upwards", () => {
+  const square = [[1, -1], [5, -1], [5, -4], [1, -4]];
+  for (const d of ["M1 1 L5 1 L5 4 L1 4 Z", "m1,1 4,0 0,3 -4,0z", "M1 1H5V4H1Z", "M1 1h4v3h-4z", "M1 1 5 1 5 4 1 4z", "M1 1L5,1 5,4l-4 0z"])
+    expect(svgPath(d), d).toEqual({ points: square.map(([x, y]) => ({ x, y })), closed: true });
+  expect(svgPath("M0 0L1.5.5").points).toEqual([{ x: 0, y: 0 }, { x: 1.5, y: -0.5 }]);
+  expect(svgPath("M0 0L1e1-2E-1").points[1]).toEqual({ x: 10, y: 0.2 });
+  expect(svgPath("M0 0L4 0").closed).toBe(false);
+});
+
+test("curves of Bézier pass through the places of their formula", () => {
+  const { points } = svgPath("M0 0C0 6 6 6 6 0");
+  expect(points).toHaveLength(25);
+  expect(ends(points)[12]).toEqual([3, -4.5]); // (P0 + 3 P1 + 3 P2 + P3) / 8
+  expect(ends(svgPath("M0 0Q4 8 8 0").points)[12]).toEqual([4, -4]); // (P0 + 2 P1 + P2) / 4
+  expect(svgPath("M1 1c0 6 6 6 6 0").points[12]).toEqual({ x: 4, y: -5.5 });
+  expect(ends(svgPath("m1 1q4 8 8 0").points)[12]).toEqual([5, -5]);
+});
+
+test("S and T mirror the last control point of their own kind", () => {
+  const whole = svgPath("M0 0C0 6 6 6 6 0C6 -6 12 -6 12 0").points;
+  expect(svgPath("M0 0C0 6 6 6 6 0S12 -6 12 0").points).toEqual(whole);
+  expect(svgPath("M0 0c0 6 6 6 6 0s6 -6 6 0").points).toEqual(whole);
+  expect(svgPath("M0 0Q2 4 4 0T8 0").points).toEqual(svgPath("M0 0Q2 4 4 0Q6 -4 8 0").points);
+  expect(svgPath("M0 0q2 4 4 0t4 0").points).toEqual(svgPath("M0 0Q2 4 4 0Q6 -4 8 0").points);
+  // After another command the control point is the present place.
+  expect(svgPath("M0 0L4 0S8 4 8 0").points).toEqual(svgPath("M0 0L4 0C4 0 8 4 8 0").points);
+  expect(ends(svgPath("M0 0L4 0T8 0").points).pop()).toEqual([8, 0]);
+});
+
+test("arcs go the way of their flags, and small radii grow", () => {
+  // With the sweep flag the angle grows in a plane whose y axis points down.
+  for (const [flags, y] of [["0 0", -5], ["0 1", 5]] as const) expect(ends(svgPath(`M-5 0A5 5 0 ${flags} 5 0`).points)[12], flags).toEqual([0, y]);
+  for (const p of svgPath("M3 0A3 3 0 1 0 0 3").points) expect(Math.hypot(p.x, p.y)).toBeLessThan(9);
+  expect(ends(svgPath("M0 0a1 1 0 0110 0").points)[12]).toEqual([5, 5]); // flags that touch, and a radius of 5
+  const turned = svgPath("M0 -4A2 4 90 0 1 0 4").points;
+  expect(Math.max(...turned.map((p) => Math.abs(p.x)))).toBeCloseTo(8, 6);
+  expect(last("M0 0A0 3 0 0 1 4 4")).toEqual([4, -4]);
+});
+
+test("a large arc is the longer one", () => {
+  const long = (d: string) => lengthOf(svgPath(d));
+  expect(long("M3 0A3 3 0 0 1 0 3")).toBeCloseTo((3 * Math.PI) / 2, 2);
+  expect(long("M3 0A3 3 0 1 1 0 3")).toBeCloseTo((9 * Math.PI) / 2, 1);
+});
+
+test("path data that are wrong are refused with the way out", () => {
+  expect(refusal(() => svgPath("L0 0"))).toMatch(/do not begin with M/);
+  expect(refusal(() => svgPath("M0 0K4 4"))).toMatch(/no path command K/);
+  expect(refusal(() => svgPath("M0 0L4"))).toMatch(/command L has 1 numbers; it takes 2/);
+  expect(refusal(() => svgPath("M0 0A1 1 0 2 0 4 4"))).toMatch(/flag \(0 or 1\)/);
+  expect(refusal(() => svgPath("M0 0L4 4M5 5L6 6"))).toMatch(/2 separate parts/);
+  expect(refusal(() => svgPath("M0 0L4 4 4 0ZL6 6"))).toMatch(/second part after Z/);
+  expect(refusal(() => svgPath("M0 0L4 4Z5"))).toMatch(/follow the command Z/);
+  expect(refusal(() => svgPath("M0 0L4 #"))).toMatch(/“#” after the command L/);
+});
+
+test("an SVG file has one path", () => {
+  expect(svgFile('<svg><g id="a"><path id="p" d="M0 0L4 4"/></g></svg>').points).toHaveLength(2);
+  expect(refusal(() => svgFile("<svg><circle r='4'/></svg>"))).toMatch(/no <path>/);
+  expect(refusal(() => svgFile('<svg><path d="M0 0L1 1"/><path d="M0 0L1 1"/></svg>'))).toMatch(/2 paths/);
+  expect(refusal(() => svgFile('<svg><g transform="scale(2)"><path d="M0 0L1 1"/></g></svg>'))).toMatch(/transform/);
+});
+
+test("rows of coordinates with every separator and decimal commas", () => {
+  const points = [{ x: 1.5, y: 2 }, { x: -3, y: 4.25 }];
+  for (const text of ["1.5,2\n-3,4.25", "1,5;2\n-3;4,25", "1,5\t2\n-3\t4,25", "1.5 2\r\n\u22123 4.25\r\n", "x; y\n1,5; 2\n# a remark\n\n-3; 4,25", "x_mm,y_mm\n1.5,2\n-3,4.25", "x (cm); y (cm)\n0,15; 0,2\n-0,3; 0,425"])
+    expect(ends(csvPath(text).points), text).toEqual(ends(points));
+  expect(csvPath("x_m,y_m\n0.001,0.002\n0,0").points[0]).toEqual({ x: 1, y: 2 });
+  expect(refusal(() => csvPath("1,5,2,5\n3,1,4,2"))).toMatch(/Line 1, “1,5,2,5”, has 4 numbers/);
+  expect(refusal(() => csvPath("1;2\n3;a"))).toMatch(/Line 2, “3;a”, is not a pair/);
+  expect(refusal(() => csvPath("1;2\n7"))).toMatch(/Line 2, “7”, has only one number/);
+  expect(refusal(() => csvPath("1;2"))).toMatch(/only one point/);
+  expect(refusal(() => csvPath(""))).toMatch(/no points/);
+  expect(refusal(() => csvPath("x (furlong)\n1 2\n3 4"))).toMatch(/unit “furlong”/);
+});
+
+const dxf = (entities: string, header = "") => `0\nSECTION\n2\nHEADER\n${header}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n${entities}0\nENDSEC\n0\nEOF\n`;
+const group = (...values: (string | number)[]) => values.map((v) => `${v}\n`).join("");
+
+test("polylines of DXF, light and old, with their arcs and units", () => {
+  const light = group(0, "LWPOLYLINE", 90, 3, 70, 1, 10, 0, 20, 0, 10, 4, 20, 0, 10, 4, 20, 3);
+  expect(dxfPath(dxf(light))).toEqual({ points: [{ x: 0, y: 0 }, { x: 4, y: 0 }, { x: 4, y: 3 }], closed: true });
+  expect(dxfPath(dxf(light, group(9, "$INSUNITS", 70, 1))).points[1].x).toBeCloseTo(101.6, 9);
+  const old = group(0, "POLYLINE", 66, 1, 70, 0, 0, "VERTEX", 10, 0, 20, 0, 0, "VERTEX", 10, 4, 20, 3, 0, "SEQEND");
+  expect(dxfPath(dxf(old))).toEqual({ points: [{ x: 0, y: 0 }, { x: 4, y: 3 }], closed: false });
+  // A bulge of 1 is a half circle to the right of the way, counterclockwise.
+  const half = dxfPath(dxf(group(0, "LWPOLYLINE", 70, 0, 10, -2, 20, 0, 42, 1, 10, 2, 20, 0))).points;
+  expect(half).toHaveLength(17);
+  expect(ends(half)[8]).toEqual([0, -2]);
+  const quarter = dxfPath(dxf(group(0, "LWPOLYLINE", 70, 0, 10, 2, 20, 0, 42, Math.tan(Math.PI / 8), 10, 0, 20, 2))).points;
+  for (const p of quarter) expect(Math.hypot(p.x, p.y)).toBeCloseTo(2, 9);
+});
+
+test("lines of DXF are joined to a chain whatever their order and direction", () => {
+  const line = (...n: number[]) => group(0, "LINE", 8, 0, 10, n[0], 20, n[1], 11, n[2], 21, n[3]);
+  const chain = dxfPath(dxf(line(4, 0, 0, 0) + line(4, 3, 0, 3) + line(4, 0, 4, 3)));
+  expect(chain.closed).toBe(false);
+  expect(chain.points).toHaveLength(4);
+  expect(lengthOf(chain)).toBe(11);
+  const ring = dxfPath(dxf(line(4, 0, 0, 0) + line(4, 3, 0, 3) + line(4, 0, 4, 3) + line(0, 3, 0, 0)));
+  expect(ring.closed).toBe(true);
+  expect(lengthOf(ring)).toBe(14);
+  expect(refusal(() => dxfPath(dxf(line(0, 0, 1, 0) + line(5, 5, 6, 6))))).toMatch(/2 separate lines/);
+});
+
+test("drawings of DXF that hold no path are refused", () => {
+  expect(refusal(() => dxfPath("AutoCAD Binary DXF\r\n"))).toMatch(/binary/);
+  expect(refusal(() => dxfPath(dxf(group(0, "SPLINE", 10, 0))))).toMatch(/no polyline and no line, only SPLINE/);
+  expect(refusal(() => dxfPath("0\nSECTION\nhello\nENTITIES\n"))).toMatch(/Line 3 .*“hello”/);
+  expect(refusal(() => dxfPath(dxf(group(0, "LWPOLYLINE", 10, "a", 20, 0, 10, 1, 20, 1))))).toMatch(/not a number/);
+});
+
+test("the form of a text is recognised", () => {
+  expect(readPath("M0 0 L40 0 L40 30 Z").closed).toBe(true);
+  expect(readPath('<?xml version="1.0"?><svg><path d="M0 0L40 0"/></svg>').closed).toBe(false);
+  expect(readPath(dxf(group(0, "LINE", 10, 0, 20, 0, 11, 9, 21, 0))).points.length).toBe(121);
+  expect(readPath("0;0\n4;0\n4;3\n0;0")).toMatchObject({ closed: true });
+  expect(refusal(() => readPath("5 5\n5 5"))).toMatch(/same place/);
+});
+
+test("a path that is read keeps its corners and has points between them", () => {
+  const square = prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 20 }, { x: 0, y: 20 }], closed: true });
+  for (const corner of [[0, 0], [40, 0], [40, 20], [0, 20]]) expect(ends(square.points)).toContainEqual(corner);
+  expect(square.points).toHaveLength(120);
+  const many = prepared({ points: Array.from({ length: 5000 }, (_, k) => ({ x: 50 * Math.cos(k / 800), y: 50 * Math.sin(k / 800) })), closed: false });
+  expect(many.points).toHaveLength(mostPoints);
+});
+
+test("a stroke that comes back is closed, and has points at equal steps", () => {
+  const circle = (turn: number) => Array.from({ length: 90 }, (_, k) => ({ x: 50 * Math.cos((turn * k) / 89), y: 50 * Math.sin((turn * k) / 89) }));
+  const ring = byHand(circle(2 * Math.PI - 0.05), 6)!;
+  expect(ring.closed).toBe(true);
+  const steps = ring.points.map((p, i, all) => Math.hypot(p.x - all[(i + 1) % all.length].x, p.y - all[(i + 1) % all.length].y));
+  expect(Math.max(...steps) / Math.min(...steps)).toBeLessThan(1.05);
+  // What goes beyond the beginning is left out.
+  expect(lengthOf(byHand(circle(2 * Math.PI + 0.08), 6)!)).toBeCloseTo(100 * Math.PI, -0.5);
+  expect(byHand(circle(5), 6)!.closed).toBe(false);
+  expect(byHand([{ x: 0, y: 0 }, { x: 1, y: 0 }], 6)).toBeNull();
+  expect(byHand(circle(5), 6)!.points.length).toBeLessThanOrEqual(mostPoints);
+});
+
+test("smoothing is for the eye: it begins and ends where the path does", () => {
+  const open = { points: [{ x: 0, y: 0 }, { x: 4, y: 4 }, { x: 8, y: 0 }], closed: false };
+  expect(smoothed(open)).toBe("M0.00 0.00Q4.00 -4.00 8.00 0.00L8.00 0.00".replaceAll("-0.00", "0.00"));
+  expect(smoothed({ ...open, closed: true })).toMatch(/^M4\.00 -?0\.00Q.*Z$/);
+});
+
+test("the study holds the path in mm and what is wished", () => {
+  const text = studyOf(prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 30 }], closed: true }), { mostLinks: 6, leastPairAngle: 25, longestLink: 4 }, 0.7);
+  for (const line of ['type       = "planar.any"', "most_links = 6", "closed    = true", "least_pair_angle_deg = 25", "longest_link         = 4", "seconds       = 0.7"]) expect(text).toContain(line);
+  expect(text.match(/\[-?[\d.]+, -?[\d.]+\]/g)!.length).toBe(120);
+  expect(boxOf([{ x: 1, y: 2 }, { x: 4, y: 8 }])).toEqual({ x: 1, y: 2, width: 3, height: 6 });
+});
