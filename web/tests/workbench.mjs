@@ -1197,6 +1197,90 @@ test("it is found by keyboard and screen reader", async () => {
   await close();
 });
 
+/** Draws with the mouse on the board for a path, from place to place (mm). */
+async function drawPath(page, places) {
+  const [a, e, d, f] = await page.locator("#path-board").evaluate((svg) => {
+    const m = svg.getScreenCTM();
+    return [m.a, m.e, m.d, m.f];
+  });
+  for (const [i, [x, y]] of places.entries()) {
+    await page.mouse.move(a * x + e, -d * y + f);
+    if (i === 0) await page.mouse.down();
+  }
+  await page.mouse.up();
+}
+/** A stroke with a flat foot, as of a leg; it ends where it begins. */
+const foot = [...Array.from({ length: 21 }, (_, k) => [-50 + 5 * k, -30]), ...Array.from({ length: 30 }, (_, k) => [50 * Math.cos((Math.PI * (k + 1)) / 30), -30 + 45 * Math.sin((Math.PI * (k + 1)) / 30)])];
+
+for (const [size, options] of [["a laptop", {}], ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]])
+  test(`a path that is drawn on ${size} finds machines, and one opens with the path behind it`, async () => {
+    const { page, errors, close } = await open(options);
+    const said = () => page.locator("#path-said").innerText();
+    await page.locator('[data-entry="path"]').click();
+    assert.match(await said(), /Press on the board and draw/);
+    await page.evaluate(axe);
+    const problems = async () => (await page.evaluate(() => globalThis.axe.run(document.querySelector(".path-dialog")))).violations.map((v) => `${v.id}: ${v.nodes[0].html}`);
+    assert.deepEqual(await problems(), []);
+    await drawPath(page, foot);
+    assert.match(await said(), /^Closed path of (100|99\.\d) × \d\d(\.\d)? mm, 2\d\d mm long, with \d+ points\.$/);
+    await page.locator(".found").first().waitFor();
+    assert.ok((await page.locator(".found").count()) > 1, "several machines");
+    assert.match(await page.locator(".found").first().innerText(), /rms error/);
+    await page.locator('[data-compare="1"]').check();
+    await page.locator('[data-compare="2"]').check();
+    assert.equal(await page.locator(".comparison svg").count(), 2);
+    assert.deepEqual(await problems(), []);
+    await page.locator("#path-stop").click({ timeout: 5000 }).catch(() => {}); // unless it has ended by itself
+    await page.locator("#path-again").waitFor();
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, "nothing is wider than the screen");
+    const title = (await page.locator('[data-machine="1"] h3').innerText()).replace(/^1\. /, "");
+    assert.ok(title.length > 3, title);
+    await page.locator('[data-open="1"]').click();
+    await page.locator("#drawing .backdrop").waitFor();
+    await settled(page);
+    assert.match(await studyText(page), /type\s*=\s*"planar\.linkage"/);
+    // The board is as it was left.
+    await page.locator('[data-entry="path"]').click();
+    await page.locator(".found").first().waitFor();
+    assert.deepEqual(errors, []);
+    await close();
+  });
+
+test("a path comes from text and by keyboard, and what is wrong is said", async () => {
+  const { page, errors, close } = await open();
+  const said = () => page.locator("#path-said").innerText();
+  const paste = async (text) => {
+    await page.locator("#path-text").fill(text);
+    await page.locator("#path-use").click();
+  };
+  await page.locator('[data-entry="path"]').click();
+  await page.locator("#path-paste").click();
+  await paste("M 0 0 L 4");
+  assert.match(await page.locator("#path-problems").innerText(), /command L has 1 number; it takes 2 at a time\.\s+Copy the path once more/);
+  await paste("x_cm; y_cm\n0; 0\n6,5; 0\n6,5; 4\n0; 0");
+  assert.equal(await page.locator("#path-problems").innerText(), "");
+  assert.match(await said(), /^Closed path of 65 × 40 mm, 181 mm long/);
+  await page.locator("#path-clear").click();
+  assert.match(await said(), /Press on the board/);
+  await page.keyboard.press("Control+z");
+  assert.match(await said(), /^Closed path of 65 × 40 mm/);
+  await page.locator("#path-closed").uncheck();
+  assert.match(await said(), /^Open path of 65 × 40 mm/);
+  await page.locator("#path-clear").click();
+  await page.locator("#path-board").focus();
+  await page.keyboard.press("Enter");
+  for (const key of ["ArrowRight", "ArrowRight", "ArrowUp", "ArrowUp", "ArrowUp"]) await page.keyboard.press(key);
+  await page.keyboard.press("Enter");
+  assert.match(await said(), /^Open path of 10 × 15 mm, 25 mm long/);
+  await page.keyboard.press("Escape");
+  await page.locator("#path-board").waitFor({ state: "detached" });
+  // The other beginnings lead to the examples of their kind.
+  await page.locator('[data-entry="poses"]').click();
+  await page.locator(".gallery[open] .example").first().waitFor();
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("target points come from a table, in its units", async () => {
   const { page, errors, close } = await open({ example: "line-6-points" });
   const text = await studyText(page);

@@ -17,7 +17,7 @@ export class PathError extends Error {
 }
 
 export const mostPoints = 200;
-const evenPoints = 120; // of a path with corners, so that its long sides have points, too
+const evenPoints = 120; // a path with corners has some as well along its long sides
 
 const distance = (a: Place, b: Place) => Math.hypot(a.x - b.x, a.y - b.y);
 const withEnd = ({ points, closed }: Path) => (closed && points.length ? [...points, points[0]] : points);
@@ -40,12 +40,27 @@ function snapped(stroke: Place[], reach: number): Path {
   return { points: stroke.slice(0, tail + near), closed: true };
 }
 
-/** A path drawn by hand, closed if it ends within `reach` mm of its beginning, with points at equal steps; null = a press, no path. */
+/** The corners of a path, with points between them. */
+function filled(path: Path): Place[] {
+  const ring = withEnd(path);
+  const step = lengthOf(path) / evenPoints;
+  const points = ring.slice(1).flatMap((b, i) => {
+    const a = ring[i];
+    const count = Math.max(1, Math.round(distance(a, b) / step));
+    return Array.from({ length: count }, (_, k) => ({ x: a.x + (k / count) * (b.x - a.x), y: a.y + (k / count) * (b.y - a.y) }));
+  });
+  return path.closed ? points : [...points, ring[ring.length - 1]];
+}
+
+/** A path drawn by hand, closed if it ends within `reach` mm of its beginning; null = a press, no path. Its points are at equal steps, but
+ *  the few of a pen that the keyboard moves are corners. */
 export function byHand(stroke: Place[], reach: number): Path | null {
   const path = snapped(stroke, reach);
   const length = lengthOf(path);
   if (path.points.length < 2 || length < reach) return null;
   const count = Math.min(mostPoints, Math.max(24, Math.round(length)));
+  const coarse = path.points.length < count / 4;
+  if (coarse) return { points: filled(path), closed: path.closed };
   return { points: evenly(path.points, path.closed, count), closed: path.closed };
 }
 
@@ -57,15 +72,8 @@ export function prepared(read: Path): Path {
   const gap = distance(points[0], points[points.length - 1]);
   const closed = read.closed || (points.length > 3 && gap <= 1e-6 * size);
   if (closed && gap <= 1e-6 * size) points.pop();
-  const step = lengthOf({ points, closed }) / evenPoints;
-  const ring = withEnd({ points, closed });
-  const filled = ring.slice(1).flatMap((b, i) => {
-    const a = ring[i];
-    const count = Math.max(1, Math.round(distance(a, b) / step));
-    return Array.from({ length: count }, (_, k) => ({ x: a.x + (k / count) * (b.x - a.x), y: a.y + (k / count) * (b.y - a.y) }));
-  });
-  if (!closed) filled.push(points[points.length - 1]);
-  return { points: filled.length > mostPoints ? evenly(points, closed, mostPoints) : filled, closed };
+  const all = filled({ points, closed });
+  return { points: all.length > mostPoints ? evenly(points, closed, mostPoints) : all, closed };
 }
 
 /** Path data with the corners of the hand rounded off, for the eye alone; y points down on the screen. */

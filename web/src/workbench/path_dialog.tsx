@@ -5,6 +5,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import * as state from "../state";
 import { format } from "../units";
+import type { Diagnostic } from "./engine";
 import { boxOf, lengthOf, PathError, type Wishes } from "./path";
 import { liftPen, PathBoard, penIsDown } from "./path_board";
 import { PathList } from "./path_list";
@@ -66,15 +67,13 @@ function Paste() {
   );
 }
 
-/** What is wrong, where, and what helps. */
+/** Errors with their place in the study and their remedy. */
 function Problems() {
-  const wrong = refused.value;
+  const all: Diagnostic[] = [...(refused.value ? [{ severity: "error" as const, ...refused.value }] : []), ...problems.value];
   return (
-    <ul class="problems" id="path-problems" role="status">
-      {wrong && <li class="error"><span>{wrong.message}<small>{wrong.hint}</small></span></li>}
-      {problems.value.map((d, i) => (
-        <li key={i} class={d.severity}><span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span></li>))}
-    </ul>
+    <div id="path-problems" role="status">
+      {all.length > 0 && <ul class="problems">{all.map((d, i) => <li key={i} class={d.severity}><span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span></li>)}</ul>}
+    </div>
   );
 }
 
@@ -89,7 +88,7 @@ function Description() {
 const sliders: { key: keyof Wishes; label: string; min: number; max: number; step: number; unit: string; hint: string }[] = [
   { key: "mostLinks", label: "most links", min: 4, max: 10, step: 1, unit: "", hint: "The frame counts as a link: a four-bar has four" },
   { key: "leastPairAngle", label: "least pair angle", min: 5, max: 45, step: 1, unit: "°", hint: "The smallest angle between two links that hold a pin, over the whole turn: large angles transmit forces well" },
-  { key: "longestLink", label: "longest link", min: 1, max: 20, step: 1, unit: "×", hint: "In sizes of the path" },
+  { key: "longestLink", label: "longest link", min: 1, max: 20, step: 1, unit: "×", hint: "In sizes of the path, which are the root mean square distance of its points from their middle" },
 ];
 
 function Sliders() {
@@ -127,7 +126,7 @@ function onKey(event: KeyboardEvent): void {
   event.stopPropagation();
 }
 
-/** What lies behind the dialog rests meanwhile. */
+/** The mechanism behind the dialog rests meanwhile. */
 function useDialog() {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => {
@@ -135,6 +134,10 @@ function useDialog() {
     if (shown && !dialog.current!.open) dialog.current!.showModal();
     if (!shown && dialog.current!.open) dialog.current!.close();
     state.held.value = watched.value = shown;
+    if (!shown) return undefined;
+    // A button that has become disabled has no focus any more, and then keys go to the page.
+    document.addEventListener("keydown", onKey, true);
+    return () => document.removeEventListener("keydown", onKey, true);
   }, [showPath.value]);
   return dialog;
 }
@@ -142,7 +145,7 @@ function useDialog() {
 export function PathDialog() {
   const dialog = useDialog();
   return (
-    <dialog ref={dialog} class="path-dialog" aria-label="Draw a motion" onClose={close} onKeyDown={onKey}
+    <dialog ref={dialog} class="path-dialog" aria-label="Draw a motion" onClose={close}
       onPaste={(e) => {
         if (e.target instanceof HTMLTextAreaElement) return;
         take(e.clipboardData?.getData("text") ?? "");

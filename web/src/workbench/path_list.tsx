@@ -58,7 +58,7 @@ function Comparison() {
     <section class="comparison" aria-label="Comparison">
       <div class="two">{two.map((m, k) => <Moving key={k} scene={m.scene} size={half} label={m.label} />)}</div>
       <table>
-        <thead><tr><td />{two.map((m, k) => <th key={k} scope="col">{m.label}</th>)}</tr></thead>
+        <thead><tr><td />{two.map((m, k) => <th key={k} scope="col">{m.place}. {m.label}</th>)}</tr></thead>
         <tbody>{labels.map((label) => <tr key={label}><th scope="row">{label}</th>{two.map((m, k) => <td key={k}>{m.numbers.find((n) => n.label === label)?.text ?? "–"}</td>)}</tr>)}</tbody>
         <tfoot><tr><td />{two.map((m, k) => <td key={k}><button type="button" class="main" onClick={() => openMachine(m)}>Open</button></td>)}</tr></tfoot>
       </table>

@@ -3,8 +3,8 @@
 // The search for machines along the path: runs that take longer and longer, each of which replaces the list of the one before.
 import { effect, signal } from "@preact/signals";
 import { readResult, type Carried, type JsonObject, type Scene } from "../data";
-import { quantity } from "../units";
-import { Stopped, type Diagnostic, type Engine } from "./engine";
+import { format, quantity } from "../units";
+import { Stopped, type Answer, type Diagnostic, type Engine } from "./engine";
 import { studyOf, type Path, type Wishes } from "./path";
 import { sheet, wishes } from "./path_sheet";
 
@@ -33,6 +33,7 @@ const measures = [
   { key: "path_error_rms_m", label: "rms error" },
   { key: "largest_deviation_m", label: "largest deviation" },
   { key: "chamfer_distance_m", label: "chamfer distance" },
+  { key: "chamfer_distance_share", label: "chamfer distance" },
   { key: "least_pair_angle_rad", label: "least pair angle" },
   { key: "size_m", label: "size" },
 ];
@@ -43,9 +44,23 @@ function numbersOf(objectives: JsonObject | null, classification: JsonObject | n
     ...(typeof links === "number" ? [{ label: "links", text: String(links) }] : []),
     ...measures.flatMap(({ key, label }) => {
       const value = objectives?.[key];
-      return typeof value === "number" ? [{ label, text: quantity(key, value, 3) }] : [];
+      if (typeof value !== "number") return [];
+      return [{ label, text: key.endsWith("_share") ? `${format(100 * value, 3)}\u202f%` : quantity(key, value, 3) }];
     }),
   ];
+}
+
+const families: Record<string, string> = {
+  four_bar: "Four-bar", slider_crank: "Slider-crank", inverted_slider: "Inverted slider-crank", geared_five_bar: "Geared five-bar",
+  watt_1: "Watt I six-bar", stephenson_1: "Stephenson I six-bar", stephenson_2: "Stephenson II six-bar", stephenson_3: "Stephenson III six-bar", eight_bar: "Eight-bar", ten_bar: "Ten-bar",
+};
+
+/** The name of a type, and what tells it from others of its family: "Eight-bar 1324b". */
+function titleOf(classification: JsonObject | null, label: string): string {
+  const { family, program } = classification ?? {};
+  if (typeof family !== "string") return label;
+  const [, variant] = typeof program === "string" ? program.split(":") : [];
+  return [families[family] ?? family.replace(/_/g, " "), ...(variant ? [variant] : [])].join(" ");
 }
 
 /** The machines of a result that can be drawn and opened, best first. */
@@ -55,10 +70,18 @@ export function machinesOf(carried: Carried): Machine[] {
     const scene = view.scenes.find((s) => s.name === view.solution_scenes[i]);
     const design = view.designs.find((d) => d.solution === i);
     return scene && design ? [{
-      place: i + 1, label: solution.label, name: `${design.name}.toml`, study: design.toml, scene,
+      place: i + 1, label: titleOf(solution.classification, solution.label), name: `${design.name}.toml`, study: design.toml, scene,
       numbers: numbersOf(solution.objectives, solution.classification), defects: solution.defects ?? [],
     }] : [];
   });
+}
+
+/** What the engine says about the study and about what it has found. */
+function problemsOf({ diagnostics, carried }: Answer): Diagnostic[] {
+  if (!carried) return diagnostics;
+  const said = readResult(carried).diagnostics.map(({ severity, key, message, hint }): Diagnostic => ({ severity: severity === "error" ? "error" : "warning", key, message, hint }));
+  const { headline, solutions } = carried.view;
+  return [...diagnostics, ...(solutions.length || !headline ? [] : [{ severity: "warning" as const, message: headline, hint: "Allow more or longer links, or smaller pair angles." }]), ...said];
 }
 
 let make: () => Engine;
@@ -82,12 +105,9 @@ async function search(path: Path, wanted: Wishes): Promise<void> {
     try {
       const answer = await by.run({ text: studyOf(path, wanted, seconds) });
       if (own !== current) return;
-      problems.value = answer.diagnostics;
-      if (!answer.carried) {
-        machines.value = [];
-        break;
-      }
-      machines.value = machinesOf(answer.carried);
+      problems.value = problemsOf(answer);
+      machines.value = answer.carried ? machinesOf(answer.carried) : [];
+      if (!answer.carried) break;
       ended.value = number + 1;
     } catch (error) {
       if (own !== current || error instanceof Stopped) return;
@@ -104,10 +124,10 @@ export function startSearch(): void {
   if (path) void search(path, wishes.peek());
 }
 
-/** From now on each change of the path or of a wish starts the search again. */
-export function connectSearch(makeEngine: () => Engine): void {
-  make = makeEngine;
-  effect(() => {
+/** From now on each change of the path or of a wish starts the search again; gives back what ends that. */
+export function connectSearch(makeEngine: () => Engine): () => void {
+  [make, engine] = [makeEngine, null];
+  return effect(() => {
     const { path } = sheet.value;
     const wanted = wishes.value;
     problems.value = [];

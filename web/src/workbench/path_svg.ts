@@ -40,7 +40,7 @@ function commandsOf(data: string): Command[] {
       if (numbers.length) throw new PathError(`Numbers follow the command ${letter}, which takes none.`, "Put a command such as L before them, or remove them.");
       return [{ letter, numbers }];
     }
-    if (!numbers.length || numbers.length % count) throw new PathError(`The command ${letter} has ${numbers.length} numbers; it takes ${count} at a time.`, "Copy the path once more: a number is missing, or there is one too many.");
+    if (!numbers.length || numbers.length % count) throw new PathError(`The command ${letter} has ${numbers.length || "no"} number${numbers.length === 1 ? "" : "s"}; it takes ${count} at a time.`, "Copy the path once more: a number is missing, or there is one too many.");
     return Array.from({ length: numbers.length / count }, (_, k) => ({
       letter: k > 0 && letter === "M" ? "L" : k > 0 && letter === "m" ? "l" : letter,
       numbers: numbers.slice(k * count, (k + 1) * count),

@@ -120,6 +120,8 @@ function accept(answer: Answer): void {
   const mechanism = answer.canonical?.mechanism as JsonObject | undefined;
   const now = `${document_.peek().name} ${mechanism?.type}`;
   state.load(answer.carried, now === subject);
+  const { stroke } = document_.peek();
+  state.backdrop.value = stroke ? { places: stroke.points_mm.map(([x, y]) => ({ x: x / 1000, y: y / 1000 })), closed: stroke.closed } : null;
   if (now !== subject) state.playing.value = state.motion.value.runs.length > 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   subject = now;
   const scenes = answer.carried.view.scenes;
@@ -354,10 +356,6 @@ export function connect(to: Engine, other: Engine): void {
   state.goOn.now = (name, text) => replace({ name, text, files: {} });
   effect(() => {
     if (catalogue.value && canonical.peek()) void learn(canonical.peek()!);
-  });
-  effect(() => {
-    const { stroke } = document_.value;
-    state.backdrop.value = stroke ? { places: stroke.points_mm.map(([x, y]) => ({ x: x / 1000, y: y / 1000 })), closed: stroke.closed } : null;
   });
   effect(() => {
     const { text, files } = document_.value;
