@@ -133,9 +133,10 @@ struct FourBarSweepTask {
   bool over_machines = false;         ///< registers hold machines, else angles
   double gravity = 0;                 ///< m/s2, along -y
   const double* constants = nullptr;  ///< `four_bar_constants` rows over the machines, `lanes` numbers each
-  std::size_t lanes = 0;  ///< length of a row, a multiple of 8: the last machine or angle is repeated
-  std::size_t begin = 0, end = 0;  ///< the lanes that this call fills, multiples of 8
-  std::size_t angles = 0;          ///< number of rows of a kind: 1, or angles where registers hold machines
+  std::size_t lanes = 0;   ///< length of a row, a multiple of 8: the last machine or angle is repeated
+  std::size_t begin = 0;   ///< first lane that this call fills, a multiple of 8
+  std::size_t end = 0;     ///< the lane after the last one, a multiple of 8
+  std::size_t angles = 0;  ///< number of rows of a kind: 1, or angles where registers hold machines
   // Over `lanes`, the angle from the global x axis; over machines, cosine and sine of the crank angle.
   const double *angle = nullptr,  ///< over `lanes`: angle of the crank from the global x axis (rad)
       *cosine = nullptr,          ///< over machines: cosine of the crank angle
