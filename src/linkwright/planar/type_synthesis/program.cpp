@@ -170,15 +170,21 @@ std::string digits(std::span<const PairOfBars> pairs) {
   return out;
 }
 
-/// Names of six-bars by their second pair.
-std::pair<MachineFamily, std::string> six_bar_name(PairOfBars pair, bool trace_second) {
-  const std::string bar = trace_second ? "b" : "a";
-  if (pair == PairOfBars{2, 3}) return {MachineFamily::watt_1, "watt_1:" + bar};
-  if (pair == PairOfBars{1, 2}) return {MachineFamily::watt_1, "watt_1:" + bar + "'"};
-  if (pair == PairOfBars{1, 3}) return {MachineFamily::stephenson_1, "stephenson_1:" + bar};
-  if (pair == PairOfBars{0, 2})
-    return {MachineFamily::stephenson_3, trace_second ? "stephenson_3:a" : "stephenson_3:0"};
-  return {MachineFamily::stephenson_3, fmt::format("watt_2:{}{}{}", pair[0], pair[1], bar)};
+MachineFamily six_bar_family(PairOfBars pair) {
+  std::sort(pair.begin(), pair.end());
+  if (pair == PairOfBars{2, 3} || pair == PairOfBars{1, 2}) return MachineFamily::watt_1;
+  return pair == PairOfBars{1, 3} ? MachineFamily::stephenson_1 : MachineFamily::stephenson_3;
+}
+
+/// Six-bars have short names; with a pair in the other order, which other parameters go with, that of the
+/// pair.
+std::string six_bar_name(PairOfBars pair, bool trace_second) {
+  const char bar = trace_second ? 'b' : 'a';
+  if (pair == PairOfBars{2, 3}) return fmt::format("watt_1:{}", bar);
+  if (pair == PairOfBars{1, 2}) return fmt::format("watt_1:{}'", bar);
+  if (pair == PairOfBars{1, 3}) return fmt::format("stephenson_1:{}", bar);
+  if (pair == PairOfBars{0, 2} && trace_second) return "stephenson_3:a";
+  return fmt::format("{}:{}{}{}", name_of(six_bar_family(pair)), pair[0], pair[1], bar);
 }
 
 /// Programs that are not of pairs alone, and those of pairs that represent their isomorphs.
@@ -251,7 +257,7 @@ PointProgram make_pair_program(std::span<const PairOfBars> pairs, bool trace_sec
   MachineFamily family = MachineFamily::four_bar;
   std::string name = "four_bar";
   const char bar = trace_second ? 'b' : 'a';
-  if (pairs.size() == 2) std::tie(family, name) = six_bar_name(pairs[1], trace_second);
+  if (pairs.size() == 2) family = six_bar_family(pairs[1]), name = six_bar_name(pairs[1], trace_second);
   if (pairs.size() == 3)
     family = MachineFamily::eight_bar, name = fmt::format("eight_bar:{}{}", digits(pairs), bar);
   if (pairs.size() == 4)

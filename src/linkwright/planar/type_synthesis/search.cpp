@@ -348,7 +348,6 @@ class TypeSearch {
     });
     if (out.machines.size() > options_.max_solutions) out.machines.resize(options_.max_solutions);
     for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(found);
-    for (FoundMachine& found : out.outside) found.chamfer = chamfer_of(found);
     return out;
   }
 

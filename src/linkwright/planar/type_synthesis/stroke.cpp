@@ -28,19 +28,26 @@ class Nearest {
   }
 
   double distance(std::complex<double> p) const {
-    const auto [column, row] = place_of(p);
+    const std::pair<int, int> place = place_of(p);
+    const int column = place.first, row = place.second;
     double least = INFINITY;
-    for (int ring = 0; ring < 2 * across; ++ring) {
-      // Points of this ring and those outside are at least ring - 1 cells away from a point within the box.
-      const double outside = std::abs(p - clamped(p));
-      if (least < (ring - 1) * cell_ - outside) break;
-      for (int i = column - ring; i <= column + ring; ++i)
-        for (int j = row - ring; j <= row + ring; ++j) {
-          if (std::max(std::abs(i - column), std::abs(j - row)) != ring) continue;
-          if (i < 0 || j < 0 || i >= across || j >= across) continue;
-          for (const std::size_t k : cells_[static_cast<std::size_t>(j * across + i)])
-            least = std::min(least, std::abs(points_[k] - p));
-        }
+    const auto look = [&](int i, int j) {
+      if (i < 0 || j < 0 || i >= across || j >= across) return;
+      for (const std::size_t k : cells_[static_cast<std::size_t>(j * across + i)])
+        least = std::min(least, std::abs(points_[k] - p));
+    };
+    // Points in a ring of cells are at least ring - 1 cells away from p, or from its nearest point in the
+    // box, which is not farther from them than p.
+    for (int ring = 0; ring < across && least >= (ring - 1) * cell_; ++ring) {
+      const int left = column - ring, right = column + ring, low = row - ring, high = row + ring;
+      for (int i = left; i <= right; ++i) {
+        look(i, low);
+        if (ring > 0) look(i, high);
+      }
+      for (int j = low + 1; j < high; ++j) {
+        look(left, j);
+        look(right, j);
+      }
     }
     return least;
   }
