@@ -145,10 +145,11 @@ class FigureDrawer {
     scene_.circles.push_back({"driven joint", first_ + joint, rim});
   }
 
-  // The uppermost joint carries the name.
+  // The uppermost joint carries the name, the left one of several.
   void pins(const ChainSketch& drawn) {
-    const auto top = std::max_element(drawn.joints.begin(), drawn.joints.end(),
-                                      [](const Point& a, const Point& b) { return a.y < b.y; });
+    const auto top =
+        std::max_element(drawn.joints.begin(), drawn.joints.end(),
+                         [](const Point& a, const Point& b) { return a.y - 0.3 * a.x < b.y - 0.3 * b.x; });
     for (int j = 0; j < std::ssize(joints_); ++j) {
       const bool named = j == top - drawn.joints.begin();
       const bool fixed = is_ground(joints_[at(j)][0]) || is_ground(joints_[at(j)][1]);
