@@ -11,6 +11,7 @@
 
 #include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/constructions.h"
+#include "linkwright/suspension/corner/former_names.h"
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/suspension.h"
