@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace linkwright::planar {
@@ -21,7 +22,10 @@ struct ChainGraph {
   /// Number of joints of a link: 2 of a binary link, 3 of a ternary one.
   int degree(int link) const;
   int joints() const;
-  friend auto operator<=>(const ChainGraph&, const ChainGraph&) = default;
+  friend bool operator==(const ChainGraph&, const ChainGraph&) = default;
+  friend bool operator<(const ChainGraph& a, const ChainGraph& b) {
+    return std::tie(a.links, a.neighbours) < std::tie(b.links, b.neighbours);
+  }
 };
 
 using JointEnds = std::array<int, 2>;  ///< the two links of a joint, the smaller number first

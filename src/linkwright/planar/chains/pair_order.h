@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "linkwright/planar/chains/markings.h"
@@ -20,7 +21,10 @@ struct PairProgram {
 
   int links() const { return 2 * static_cast<int>(pairs.size()) + 2; }
   ChainGraph graph() const;
-  friend auto operator<=>(const PairProgram&, const PairProgram&) = default;
+  friend bool operator==(const PairProgram&, const PairProgram&) = default;
+  friend bool operator<(const PairProgram& a, const PairProgram& b) {
+    return std::tie(a.pairs, a.traced) < std::tie(b.pairs, b.traced);
+  }
 };
 
 /// All sequences of pairs, in order: 1, 12, 360 for 1, 2, 3 pairs.
