@@ -4,7 +4,7 @@
 
     tools/workbench_pictures.py LINKWRIGHT FOLDER [SCREEN ...] [--chromium CHROMIUM]
 
-Takes eight screens - start, gallery, draw, error, search, poses, suspension, robot - of `linkwright serve` on a laptop and on
+Takes nine screens - start, gallery, draw, path, error, search, poses, suspension, robot - of `linkwright serve` on a laptop and on
 a phone, in light and in dark colours, into FOLDER/SCREEN-SIZE-COLOURS.png. Says which are wider than the window, and then
 ends with 1.
 """

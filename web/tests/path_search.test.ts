@@ -47,7 +47,7 @@ test("each change starts the search, whose runs grow and replace the list", asyn
   expect(asked[0].task.text).toContain("seconds       = 0.7");
   asked[0].answer({ carried: carried(1) });
   await settle();
-  expect(machines.value.map((m) => [m.place, m.label, m.name])).toEqual([[1, "Eight-bar 1324b", "machine-1.toml"]]);
+  expect(machines.value.map((m) => [m.place, m.label, m.name])).toEqual([[1, "Eight-bar 1324b", "eight-bar-1324b.toml"]]);
   expect(machines.value[0].numbers).toEqual([{ label: "links", text: "8" }, { label: "rms error", text: "0.4\u202fmm" }, { label: "chamfer distance", text: "1.23\u202f%" }, { label: "least pair angle", text: "30°" }]);
   expect(asked[1].task.text).toContain("seconds       = 2\n");
   asked[1].answer({ carried: carried(2) });

@@ -1223,15 +1223,14 @@ for (const [size, options] of [["a laptop", {}], ["a phone", { viewport: { width
     assert.deepEqual(await problems(), []);
     await drawPath(page, foot);
     assert.match(await said(), /^Closed path of (100|99\.\d) × \d\d(\.\d)? mm, 2\d\d mm long, with \d+ points\.$/);
-    await page.locator(".found").first().waitFor();
-    assert.ok((await page.locator(".found").count()) > 1, "several machines");
+    await until(async () => (await page.locator(".found").count()) > 1);
+    await page.locator("#path-stop").click({ timeout: 5000 }).catch(() => {}); // unless it has ended by itself
+    await page.locator("#path-again").waitFor();
     assert.match(await page.locator(".found").first().innerText(), /rms error/);
     await page.locator('[data-compare="1"]').check();
     await page.locator('[data-compare="2"]').check();
     assert.equal(await page.locator(".comparison svg").count(), 2);
     assert.deepEqual(await problems(), []);
-    await page.locator("#path-stop").click({ timeout: 5000 }).catch(() => {}); // unless it has ended by itself
-    await page.locator("#path-again").waitFor();
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, "nothing is wider than the screen");
     const title = (await page.locator('[data-machine="1"] h3').innerText()).replace(/^1\. /, "");
     assert.ok(title.length > 3, title);

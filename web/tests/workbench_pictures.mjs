@@ -44,6 +44,13 @@ const screens = {
     await page.locator(".example svg").nth(1).waitFor();
   },
   draw: sketch,
+  path: async (page) => {
+    await page.locator('[data-entry="path"]').click();
+    await page.locator("#path-paste").click();
+    await page.locator("#path-text").fill("M -50 30 H 50 A 50 55 0 0 0 -50 30 Z");
+    await page.locator("#path-use").click();
+    await page.locator(".found").first().waitFor();
+  },
   error: async (page) => {
     await page.locator("#tab-text").click();
     const text = page.locator("textarea.study");

@@ -2,10 +2,11 @@
 
 // The machines that were found, best first: they move, two of them can be compared, and one can be opened.
 import { computed, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
 import { Switch } from "../controls";
 import type { Size } from "../view";
 import { replace } from "./document";
-import { ended, machines, round, rounds, startSearch, stopSearch, type Machine } from "./path_search";
+import { ended, machines, round, rounds, share, startSearch, stopSearch, type Machine } from "./path_search";
 import { moving, Moving } from "./path_pictures";
 import { sheet, showPath } from "./path_sheet";
 import { small } from "./thumbnail";
@@ -15,8 +16,10 @@ const chosen = signal<Machine[]>([]);
 const compared = computed(() => (machines.value.length ? chosen.value : []));
 const half: Size = { width: 560, height: 440 };
 
+const same = (machine: Machine) => (other: Machine) => other.study === machine.study;
+
 function choose(machine: Machine, on: boolean): void {
-  const others = chosen.value.filter((m) => m !== machine);
+  const others = chosen.value.filter((m) => !same(machine)(m));
   chosen.value = on ? [...others, machine].slice(-2) : others;
 }
 
@@ -43,7 +46,7 @@ function Card({ machine }: { machine: Machine }) {
       {defects.length > 0 && <p class="note">{defects.join(", ")}</p>}
       <div class="acts">
         <button type="button" class="main" data-open={place} aria-label={`Open ${name}`} onClick={() => openMachine(machine)}>Open</button>
-        <label><input type="checkbox" data-compare={place} aria-label={`Compare ${name}`} checked={compared.value.includes(machine)} onChange={(e) => choose(machine, e.currentTarget.checked)} /> Compare</label>
+        <label><input type="checkbox" data-compare={place} aria-label={`Compare ${name}`} checked={compared.value.some(same(machine))} onChange={(e) => choose(machine, e.currentTarget.checked)} /> Compare</label>
       </div>
     </li>
   );
@@ -52,13 +55,15 @@ function Card({ machine }: { machine: Machine }) {
 /** Two machines side by side, at the same angle of the crank. */
 function Comparison() {
   const two = compared.value;
+  const box = useRef<HTMLElement>(null);
+  useEffect(() => box.current?.scrollIntoView({ block: "nearest" }), [two]);
   if (two.length < 2) return two.length ? <p class="note" role="status">Choose a second machine to compare the two.</p> : null;
   const labels = [...new Set(two.flatMap((m) => m.numbers.map((n) => n.label)))];
   return (
-    <section class="comparison" aria-label="Comparison">
+    <section ref={box} class="comparison" aria-label="Comparison">
       <div class="two">{two.map((m, k) => <Moving key={k} scene={m.scene} size={half} label={m.label} />)}</div>
       <table>
-        <thead><tr><td />{two.map((m, k) => <th key={k} scope="col">{m.place}. {m.label}</th>)}</tr></thead>
+        <thead><tr><td />{two.map((m, k) => <th key={k} scope="col">{m.label}</th>)}</tr></thead>
         <tbody>{labels.map((label) => <tr key={label}><th scope="row">{label}</th>{two.map((m, k) => <td key={k}>{m.numbers.find((n) => n.label === label)?.text ?? "–"}</td>)}</tr>)}</tbody>
         <tfoot><tr><td />{two.map((m, k) => <td key={k}><button type="button" class="main" onClick={() => openMachine(m)}>Open</button></td>)}</tr></tfoot>
       </table>
@@ -66,8 +71,6 @@ function Comparison() {
     </section>
   );
 }
-
-const seconds = (value: number) => `${value} s`;
 
 /** The state of the search, in words and as a bar. */
 function Progress() {
@@ -77,8 +80,8 @@ function Progress() {
   const found = count === 1 ? "1 machine" : `${count} machines`;
   return (
     <div class="progress">
-      <p id="path-state" role="status" data-ended={ended.value}>{now === null ? `${found} found.` : `${count ? `${found} so far; the` : "The"} search runs for ${seconds(rounds[now])}.`}</p>
-      <progress max={rounds.length} value={now === null ? ended.value : now + 0.5} aria-label="Progress of the search" />
+      <p id="path-state" role="status" data-ended={ended.value}>{now === null ? `${found} found.` : `${count ? `${found} so far. ` : ""}Run ${now + 1} of ${rounds.length} takes ${rounds[now]} s.`}</p>
+      <progress max={rounds.length} value={now === null ? ended.value : now + share.value} aria-label="Progress of the search" />
       {now === null ? <button type="button" id="path-again" onClick={startSearch}>Search again</button> : <button type="button" id="path-stop" onClick={stopSearch}>Stop</button>}
       <Switch flag={moving} text="Move" hint="The pictures move" />
     </div>

@@ -26,6 +26,8 @@ export const machines = signal<Machine[]>([]);
 export const problems = signal<Diagnostic[]>([]);
 /** The run of now, from 0; null = there is none. */
 export const round = signal<number | null>(null);
+/** The share of it that has passed, as far as the engine says. */
+export const share = signal(0);
 /** Runs that have ended since the path or a wish was changed. */
 export const ended = signal(0);
 
@@ -69,8 +71,9 @@ export function machinesOf(carried: Carried): Machine[] {
   return readResult(carried).solutions.flatMap((solution, i) => {
     const scene = view.scenes.find((s) => s.name === view.solution_scenes[i]);
     const design = view.designs.find((d) => d.solution === i);
+    const label = titleOf(solution.classification, solution.label);
     return scene && design ? [{
-      place: i + 1, label: titleOf(solution.classification, solution.label), name: `${design.name}.toml`, study: design.toml, scene,
+      place: i + 1, label, name: `${label.toLowerCase().replace(/[^a-z0-9]+/g, "-")}.toml`, study: design.toml, scene,
       numbers: numbersOf(solution.objectives, solution.classification), defects: solution.defects ?? [],
     }] : [];
   });
@@ -102,8 +105,11 @@ async function search(path: Path, wanted: Wishes): Promise<void> {
   const by = (engine ??= make());
   for (const [number, seconds] of rounds.entries()) {
     round.value = number;
+    share.value = 0;
     try {
-      const answer = await by.run({ text: studyOf(path, wanted, seconds) });
+      const answer = await by.run({ text: studyOf(path, wanted, seconds) }, ({ fraction }) => {
+        if (own === current && fraction > 0 && fraction <= 1) share.value = fraction;
+      });
       if (own !== current) return;
       problems.value = problemsOf(answer);
       machines.value = answer.carried ? machinesOf(answer.carried) : [];
