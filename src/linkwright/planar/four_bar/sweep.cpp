@@ -133,7 +133,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
   const std::size_t numbers = task.rows * task.angles * task.lanes;
   if (data_size < numbers) {
     data.reset();
-    data = std::make_unique_for_overwrite<double[]>(numbers);  // the kernel writes every number
+    data.reset(new double[numbers]);  // the kernel writes every number
     data_size = numbers;
   }
   good.resize(task.angles * task.lanes);

@@ -67,8 +67,7 @@ struct LinkageSweep::Memory {
     if (data_size < rows * task.stride + line) {
       data.reset();
       data_size = rows * task.stride + line;
-      data =
-          std::make_unique_for_overwrite<double[]>(data_size);  // every number that is read is written before
+      data.reset(new double[data_size]);  // every number that is read is written before
     }
     const auto address = reinterpret_cast<std::uintptr_t>(data.get());
     task.data =
