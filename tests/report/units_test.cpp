@@ -43,6 +43,7 @@ TEST(Units, EveryUnitOfKeysIsShown) {
 // The units with which the viewer's own tests work; when this fails, the file must become `made`.
 TEST(Units, TheViewerIsTestedWithTheseUnits) {
   std::string made =
+      "// SPDX-License-Identifier: BSD-3-Clause\n\n"
       "// The units of a report for which none were chosen, for the tests here. Made from core/units;\n"
       "// tests/report/units_test.cpp fails when it is not up to date, and prints what it must be.\n"
       "import { useUnits } from \"../src/units\";\n\nexport const units = [\n";

@@ -68,7 +68,7 @@ TEST(CornerSamples, AreNamedByTheirStructureAndMove) {
 
 TEST(CornerSamples, UnknownName) {
   EXPECT_THAT(test::message([] { corner_sample("6US"); }),
-              ::testing::StartsWith("guide_sample: no sample '6US'; there are R, RR-US, S-2US"));
+              ::testing::StartsWith("corner_sample: no sample '6US'; there are R, RR-US, S-2US"));
 }
 
 }  // namespace
