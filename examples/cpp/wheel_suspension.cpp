@@ -6,8 +6,8 @@
 
 int main() {
   using namespace linkwright;
-  const suspension::CornerSample& sample = suspension::guide_samples().front();
-  const suspension::CornerPlan plan = suspension::prepare_guide(sample.guide);
+  const suspension::CornerSample& sample = suspension::corner_samples().front();
+  const suspension::CornerPlan plan = suspension::prepare_suspension(sample.suspension);
   const suspension::CornerPosition reference = suspension::reference_position(plan);
   if (reference.status != Status::done) return 1;
   std::printf("%s\n travel     toe  camber  roll centre\n", sample.summary.c_str());
@@ -19,7 +19,8 @@ int main() {
     std::printf("%4d mm %6.3f  %6.3f deg %7.1f mm\n", mm, p.angles.toe * 180 / pi, p.angles.camber * 180 / pi,
                 p.roll_centre_height * 1000);
     // The height that was asked for is the height of the wheel centre.
-    if (std::abs(there.place.carrier.centre.z - sample.guide.wheel.centre.z - mm * 1e-3) > 1e-12) return 1;
+    if (std::abs(there.place.carrier.centre.z - sample.suspension.wheel.centre.z - mm * 1e-3) > 1e-12)
+      return 1;
   }
   return 0;
 }

@@ -59,7 +59,8 @@ std::vector<Row> keys_and_values() {
        four_bar,
        {{"\"analysis\"", "\"analyse\""}},
        {},
-       "s.toml:3:10: error: kind: is 'analyse', must be one of: synthesis, enumeration, analysis, simulation, "
+       "s.toml:3:10: error: kind: is 'analyse', must be one of: synthesis, enumeration, analysis, "
+       "simulation, "
        "speed_fluctuation, balancing, sweep; did you mean 'analysis'?\n"},
       {"type fourbar",
        four_bar,
