@@ -98,7 +98,8 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
   task.angles = over_machines ? n : 1;
 
   const std::size_t width = over_machines ? task.lanes : 1;
-  constants.resize(four_bar_constants * std::max(task.lanes, line));  // read even when there is no angle
+  task.width = over_machines ? std::max(task.lanes, line) : 1;
+  constants.resize(four_bar_constants * task.width);  // read even when there is no angle
   for (std::size_t k = 0; k < width && !machines.empty(); ++k) {
     const auto& [l, m] = machines[std::min(k, machines.size() - 1)];
     require_lengths(l);
@@ -109,10 +110,10 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
                          rocker = base_parameters(m.rocker);
     std::size_t row = 0;
     for (const double v : {fx, fy, l.ground, l.crank, l.coupler, l.rocker, planar::sign(l.branch)})
-      constants[row++ * task.lanes + k] = v;
+      constants[row++ * task.width + k] = v;
     for (const BaseParameters* b : {&crank_base, &coupler, &rocker})
       for (const double v : {b->mass, b->moment.real(), b->moment.imag(), b->inertia})
-        constants[row++ * task.lanes + k] = v;
+        constants[row++ * task.width + k] = v;
   }
 
   const std::size_t steps = over_machines ? n : task.lanes;

@@ -132,7 +132,8 @@ struct FourBarSweepTask {
   FourBarWanted wanted;               ///< rows that are kept
   bool over_machines = false;         ///< registers hold machines, else angles
   double gravity = 0;                 ///< m/s2, along -y
-  const double* constants = nullptr;  ///< `four_bar_constants` rows over the machines, `lanes` numbers each
+  const double* constants = nullptr;  ///< `four_bar_constants` rows, `width` numbers each
+  std::size_t width = 1;              ///< length of a row of constants: `lanes` over machines, else 1
   std::size_t lanes = 0;   ///< length of a row, a multiple of 8: the last machine or angle is repeated
   std::size_t begin = 0;   ///< first lane that this call fills, a multiple of 8
   std::size_t end = 0;     ///< the lane after the last one, a multiple of 8

@@ -20,8 +20,8 @@ struct FourBarSweepMachine {
 template <class Batch>
 LINKWRIGHT_KERNEL FourBarSweepMachine<Batch> load_machine(const FourBarSweepTask& task, std::size_t lane) {
   const auto row = [&](std::size_t k) __attribute__((always_inline)) {
-    return task.over_machines ? Batch::load_unaligned(task.constants + k * task.lanes + lane)
-                              : Batch(task.constants[k * task.lanes]);
+    return task.over_machines ? Batch::load_unaligned(task.constants + k * task.width + lane)
+                              : Batch(task.constants[k * task.width]);
   };
   const auto base = [&](std::size_t k) __attribute__((always_inline)) {
     return LinkBase<Batch>{row(k), row(k + 1), row(k + 2), row(k + 3)};
