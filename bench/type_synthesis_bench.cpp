@@ -11,6 +11,7 @@
 #include "linkwright/planar/type_synthesis/atlas.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
+#include "linkwright/planar/type_synthesis/place.h"
 #include "linkwright/planar/type_synthesis/polish.h"
 
 // Curves of 96 points of machines given as programs of points, on each instruction set: points alone, with
@@ -97,7 +98,7 @@ void polish(benchmark::State& state, const char* name) {
   const SampledStroke target = sampled_stroke(superellipse(true));
   MachineFitter fitter(target, {});
   FittedMachine placed{.shape = some_shape(name)};
-  fitter.place(placed);
+  place_machine(target, placed);
   for (auto _ : state) {
     FittedMachine machine = placed;
     fitter.polish(machine, infinity);

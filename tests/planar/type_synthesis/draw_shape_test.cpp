@@ -31,7 +31,7 @@ TEST(DrawnShapes, KeepWhatTheyGrowFrom) {
   const MachineShape four_bar = test::some_shape(*program_named("four_bar"), 9);
   const std::vector<PairOfBars> pairs{{1, 0}, {2, 0}};
   MachineShape grown = four_bar;
-  grown.program = &pair_program(pairs, false);
+  grown.program = &program_of_pairs(pairs, false);
   grown.x.resize(static_cast<std::size_t>(grown.program->parameters));
   for (std::uint32_t k = 0; k < 100; ++k) {
     RandomStream random({.seed = 1, .individual = k});

@@ -37,7 +37,6 @@ using polishing::LimitRow;
 constexpr std::size_t samples = stroke_samples;
 constexpr std::size_t limit_angles = 48;  // grid of the pair angles during the polish
 constexpr std::size_t measured_angles = 720;
-constexpr std::size_t turn_samples = 128;  // of a curve that is placed
 constexpr std::size_t max_limit_rows = 24;
 constexpr double margin =
     0.3 * pi / 180;                 // the polish keeps this much more of the pair angle than it promises
@@ -349,14 +348,6 @@ struct MachineFitter::Memory {
   double box_of_pins(const PointProgram& p, std::complex<double> scale) const;
   double peak_acceleration(const FittedMachine& machine, double span) const;
   bool stays_near(const FittedMachine& machine, double largest_deviation);
-  double place_closed(FittedMachine& m, const std::vector<std::complex<double>>& curve,
-                      std::span<const double> arc);
-  double place_open(FittedMachine& m, const std::vector<std::complex<double>>& curve,
-                    std::span<const double> arc);
-  void set_place(FittedMachine& m, std::complex<double> scale, std::complex<double> place) const {
-    double* x = m.shape.x.data() + m.shape.x.size() - 4;
-    x[0] = place.real(), x[1] = place.imag(), x[2] = scale.real(), x[3] = scale.imag();
-  }
 
  private:
   double phase_ = 0;
@@ -382,154 +373,6 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
   if (!(m.descend(machine, 4, 40) <= 1.15 * best)) return false;
   m.descend(machine, 30, 80);
   return true;
-}
-
-namespace {
-
-/// Position of arc length `s` (in turns of the closed curve) as an index with fraction.
-double index_at(std::span<const double> arc, double s) {
-  const double whole = std::floor(s), at = (s - whole) * arc.back();
-  const auto next = std::upper_bound(arc.begin() + 1, arc.end() - 1, at);
-  const auto i = static_cast<std::size_t>(next - arc.begin()) - 1;
-  const double side = arc[i + 1] - arc[i];
-  const double n = static_cast<double>(arc.size() - 1);
-  return whole * n + static_cast<double>(i) + (side > 0 ? std::min((at - arc[i]) / side, 1.0) : 0.0);
-}
-
-std::complex<double> point_at(const std::vector<std::complex<double>>& curve, double index) {
-  const double n = static_cast<double>(curve.size());
-  double at = index - n * std::floor(index / n);
-  if (at >= n) at = 0;
-  const auto i = static_cast<std::size_t>(at);
-  return curve[i] + (at - static_cast<double>(i)) * (curve[(i + 1) % curve.size()] - curve[i]);
-}
-
-}  // namespace
-
-double MachineFitter::Memory::place_closed(FittedMachine& m, const std::vector<std::complex<double>>& curve,
-                                           std::span<const double> arc) {
-  std::array<double, samples> index;
-  std::array<std::complex<double>, samples> c, t;
-  std::complex<double> mean{};
-  for (std::size_t k = 0; k < samples; ++k) {
-    index[k] = index_at(arc, static_cast<double>(k) / samples);
-    c[k] = point_at(curve, index[k]);
-    mean += c[k] / static_cast<double>(samples);
-    t[k] = {target.x[k], target.y[k]};
-  }
-  double squares = 0, of_target = 0;
-  for (std::size_t k = 0; k < samples; ++k)
-    c[k] -= mean, squares += std::norm(c[k]), of_target += std::norm(t[k]);
-  double best = -1;
-  std::size_t start = 0;
-  std::complex<double> sum{};
-  for (const double sense : {1.0, -1.0})
-    for (std::size_t shift = 0; shift < samples; ++shift) {
-      double re = 0, im = 0;
-      for (std::size_t k = 0; k < samples; ++k) {
-        const std::complex<double>& v =
-            c[sense > 0 ? (k + shift) % samples : (shift + samples - k) % samples];
-        re += v.real() * t[k].real() + v.imag() * t[k].imag();
-        im += v.real() * t[k].imag() - v.imag() * t[k].real();
-      }
-      if (re * re + im * im > best) best = re * re + im * im, start = shift, m.sense = sense, sum = {re, im};
-    }
-  if (!(squares > 0)) return infinity;
-  const std::complex<double> scale = sum / squares;
-  set_place(m, scale, -scale * mean);
-  const double by_index = 2 * pi / static_cast<double>(curve.size());
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double at = static_cast<double>(start) + m.sense * static_cast<double>(k);
-    const double turns = std::floor(at / samples);
-    const auto i = static_cast<std::size_t>(at - turns * samples);
-    m.angle[k] = (index[i] + turns * static_cast<double>(curve.size())) * by_index;
-  }
-  return 1 - best / (squares * of_target);
-}
-
-double MachineFitter::Memory::place_open(FittedMachine& m, const std::vector<std::complex<double>>& curve,
-                                         std::span<const double> arc) {
-  constexpr std::size_t few = 24, table = 256, starts = 64;
-  std::array<std::complex<double>, table> even;
-  for (std::size_t i = 0; i < table; ++i)
-    even[i] = point_at(curve, index_at(arc, static_cast<double>(i) / table));
-  std::array<std::complex<double>, few> t;
-  double of_target = 0;
-  std::complex<double> target_mean{};
-  for (std::size_t k = 0; k < few; ++k) {
-    const std::size_t from = (k * (samples - 1) + (few - 1) / 2) / (few - 1);
-    t[k] = {target.x[from], target.y[from]};
-    target_mean += t[k] / static_cast<double>(few);
-  }
-  for (auto& v : t) v -= target_mean, of_target += std::norm(v);
-  const auto evaluate = [&](double start, double width, double sense, std::complex<double>& scale,
-                            std::complex<double>& place) {
-    std::complex<double> mean{};
-    double re = 0, im = 0, squares = 0;
-    for (std::size_t k = 0; k < few; ++k) {
-      double at = (start + sense * width * static_cast<double>(k) / (few - 1)) * table;
-      at -= table * std::floor(at / table);
-      const auto i = std::min(static_cast<std::size_t>(at), table - 1);
-      const std::complex<double> v =
-          even[i] + (at - static_cast<double>(i)) * (even[(i + 1) % table] - even[i]);
-      re += v.real() * t[k].real() + v.imag() * t[k].imag();
-      im += v.real() * t[k].imag() - v.imag() * t[k].real();
-      squares += std::norm(v), mean += v;
-    }
-    mean /= static_cast<double>(few);
-    squares -= static_cast<double>(few) * std::norm(mean);
-    if (!(squares > 0)) return infinity;
-    scale = std::complex<double>(re, im) / squares;
-    place = target_mean - scale * mean;
-    return 1 - (re * re + im * im) / (squares * of_target);
-  };
-  double best = infinity, start = 0, width = 0.5;
-  std::complex<double> scale, place;
-  const auto look = [&](double s, double w, double sense) {
-    std::complex<double> k, p;
-    if (const double found = evaluate(s, w, sense, k, p); found < best)
-      best = found, start = s, width = w, m.sense = sense, scale = k, place = p;
-  };
-  for (const double sense : {1.0, -1.0})
-    for (double w = 0.14; w < 0.99; w *= 1.14)
-      for (std::size_t i = 0; i < starts; ++i) look(static_cast<double>(i) / starts, w, sense);
-  for (double h = 0.008; h > 0.0015; h *= 0.5) {
-    const double s = start, w = width, sense = m.sense;
-    for (const double ds : {-h, 0.0, h})
-      for (const double dw : {-2 * h, 0.0, 2 * h})
-        if (w + dw < 0.995) look(s + ds, w + dw, sense);
-  }
-  if (best == infinity) return infinity;
-  set_place(m, scale, place);
-  const double by_index = 2 * pi / static_cast<double>(curve.size());
-  for (std::size_t k = 0; k < samples; ++k)
-    m.angle[k] = index_at(arc, start + m.sense * width * static_cast<double>(k) / (samples - 1)) * by_index;
-  return best;
-}
-
-double MachineFitter::place(FittedMachine& machine) {
-  Memory& m = *memory_;
-  const PointProgram& p = m.program_of(machine.shape);
-  m.set_place(machine, 1, 0);
-  alignas(64) std::array<double, turn_samples> angle, x, y, quality, worst;
-  for (std::size_t k = 0; k < turn_samples; ++k) angle[k] = 2 * pi * static_cast<double>(k) / turn_samples;
-  ++m.curves;
-  compute_curve({.program = &p,
-                 .x = machine.shape.x.data(),
-                 .signs = machine.shape.signs,
-                 .angle = angle.data(),
-                 .count = turn_samples,
-                 .px = x.data(),
-                 .py = y.data(),
-                 .quality = quality.data(),
-                 .worst = worst.data()});
-  if (!(*std::min_element(quality.begin(), quality.end()) > 0)) return infinity;
-  std::vector<std::complex<double>> curve(turn_samples);
-  std::vector<double> arc(turn_samples + 1, 0.0);
-  for (std::size_t k = 0; k < turn_samples; ++k) curve[k] = {x[k], y[k]};
-  for (std::size_t k = 0; k < turn_samples; ++k)
-    arc[k + 1] = arc[k] + std::abs(curve[(k + 1) % turn_samples] - curve[k]);
-  return m.target.closed ? m.place_closed(machine, curve, arc) : m.place_open(machine, curve, arc);
 }
 
 void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures& out) {

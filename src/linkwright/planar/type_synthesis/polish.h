@@ -63,11 +63,6 @@ class MachineFitter {
   /// of the limits. Given up (false) when the error after a stage is far above `best`, infinity = never.
   bool polish(FittedMachine& machine, double best);
 
-  /// Place, scale, sense and crank angles that bring the curve of a shape onto the stroke as well as a
-  /// similarity can; its squared distance over that of the stroke from its mean. Shapes that do not turn are
-  /// left alone: infinity.
-  double place(FittedMachine& machine);
-
   /// Measures on a grid of its own, and the crank angles to rounding.
   MachineMeasures measure(FittedMachine& machine);
 

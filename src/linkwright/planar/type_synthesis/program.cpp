@@ -9,12 +9,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/chains/pair_order.h"
 
 namespace linkwright::planar {
 namespace {
@@ -84,85 +83,6 @@ PointProgram geared_five_bar(int ratio) {
   return end_program(std::move(p), 2);
 }
 
-// The graph of a machine of pairs: links as vertices, pins as edges.
-using Edges = std::vector<std::pair<int, int>>;
-
-Edges edges_of(std::span<const PairOfBars> pairs) {
-  Edges out{{0, 1}};
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const int first = 2 * static_cast<int>(k) + 2, second = first + 1;
-    out.emplace_back(pairs[k][0], first);
-    out.emplace_back(pairs[k][1], second);
-    out.emplace_back(first, second);
-  }
-  return out;
-}
-
-/// Least list of edges over all numberings of the bars that keep ground, crank and traced bar: equal for
-/// isomorphs.
-Edges canonical(const Edges& edges, int links, int traced) {
-  std::vector<int> others;
-  for (int link = 2; link < links; ++link)
-    if (link != traced) others.push_back(link);
-  std::vector<int> number(static_cast<std::size_t>(links));
-  Edges least;
-  std::vector<int> order(others.size());
-  std::iota(order.begin(), order.end(), 3);
-  do {
-    number[0] = 0, number[1] = 1, number[static_cast<std::size_t>(traced)] = 2;
-    for (std::size_t i = 0; i < others.size(); ++i) number[static_cast<std::size_t>(others[i])] = order[i];
-    Edges renumbered;
-    for (const auto& [a, b] : edges) {
-      const auto [low, high] =
-          std::minmax(number[static_cast<std::size_t>(a)], number[static_cast<std::size_t>(b)]);
-      renumbered.emplace_back(low, high);
-    }
-    std::sort(renumbered.begin(), renumbered.end());
-    if (least.empty() || renumbered < least) least = renumbered;
-  } while (std::next_permutation(order.begin(), order.end()));
-  return least;
-}
-
-/// True if `traced` follows from the links `known` by pairs other than `left_out`; `used` becomes the pairs
-/// needed.
-bool follows(std::span<const PairOfBars> pairs, std::vector<int> known, int left_out, int traced,
-             std::vector<bool>* used = nullptr) {
-  const auto is_known = [&](int link) { return std::find(known.begin(), known.end(), link) != known.end(); };
-  for (int k = 0; k < static_cast<int>(pairs.size()); ++k)
-    if (k != left_out && is_known(pairs[static_cast<std::size_t>(k)][0]) &&
-        is_known(pairs[static_cast<std::size_t>(k)][1])) {
-      known.push_back(2 * k + 2);
-      known.push_back(2 * k + 3);
-    }
-  if (used) {
-    used->assign(pairs.size(), false);
-    std::vector<int> open{traced};
-    while (!open.empty()) {
-      const int link = open.back();
-      open.pop_back();
-      if (link < 2 || (*used)[static_cast<std::size_t>(link / 2 - 1)]) continue;
-      (*used)[static_cast<std::size_t>(link / 2 - 1)] = true;
-      for (const int input : pairs[static_cast<std::size_t>(link / 2 - 1)]) open.push_back(input);
-    }
-  }
-  return is_known(traced);
-}
-
-/// True if the traced bar needs every pair and does not move with a smaller chain behind one ground-hinged
-/// bar.
-bool is_worth_tracing(std::span<const PairOfBars> pairs, int traced) {
-  std::vector<bool> used;
-  follows(pairs, {0, 1}, -1, traced, &used);
-  if (std::find(used.begin(), used.end(), false) != used.end()) return false;
-  for (int k = 0; k < static_cast<int>(pairs.size()); ++k)
-    for (int side = 0; side < 2; ++side) {
-      const int hinged = 2 * k + 2 + side;
-      if (pairs[static_cast<std::size_t>(k)][static_cast<std::size_t>(side)] != 0) continue;
-      if (hinged == traced || follows(pairs, {0, hinged}, k, traced)) return false;
-    }
-  return true;
-}
-
 std::string digits(std::span<const PairOfBars> pairs) {
   std::string out;
   for (std::size_t k = 1; k < pairs.size(); ++k)
@@ -187,42 +107,25 @@ std::string six_bar_name(PairOfBars pair, bool trace_second) {
   return fmt::format("{}:{}{}{}", name_of(six_bar_family(pair)), pair[0], pair[1], bar);
 }
 
-/// Programs that are not of pairs alone, and those of pairs that represent their isomorphs.
+/// The types of each family.
 struct Catalogue {
-  std::deque<PointProgram> others;
+  std::deque<PointProgram> others;  ///< those that are not of pairs alone
   std::array<std::vector<const PointProgram*>, names(MachineFamily{}).size()> families;
-  std::set<std::pair<int, Edges>> graphs;
 
   void add(const PointProgram& p) { families[static_cast<std::size_t>(p.family)].push_back(&p); }
   void add_other(PointProgram p) { add(others.emplace_back(std::move(p))); }
-
-  void add_pairs(std::vector<PairOfBars>& pairs, std::size_t count) {
-    const int links = 2 * static_cast<int>(pairs.size()) + 2;
-    if (pairs.size() == count) {
-      for (const bool second : {false, true}) {
-        const int traced = links - 2 + (second ? 1 : 0);
-        if (!is_worth_tracing(pairs, traced)) continue;
-        if (graphs.emplace(links, canonical(edges_of(pairs), links, traced)).second)
-          add(pair_program(pairs, second));
-      }
-      return;
-    }
-    for (int a = 0; a < links; ++a)
-      for (int b = a + 1; b < links; ++b) {
-        pairs.push_back({a, b});
-        add_pairs(pairs, count);
-        pairs.pop_back();
-      }
+  void add_pairs(int count) {
+    for (const PairProgram& machine : traced_pair_machines(count, true))
+      add(program_of_pairs(machine.pairs, *machine.traced % 2 == 1));
   }
 
   Catalogue() {
-    std::vector<PairOfBars> pairs{{1, 0}};
-    add_pairs(pairs, 1);
+    add_pairs(1);
     add_other(slider_crank());
     add_other(inverted_slider());
     for (const int ratio : {1, -1, 2, -2, 3, -3}) add_other(geared_five_bar(ratio));
-    add_pairs(pairs, 2);
-    add_pairs(pairs, 3);
+    add_pairs(2);
+    add_pairs(3);
   }
 };
 
@@ -245,10 +148,6 @@ std::optional<std::pair<std::vector<PairOfBars>, bool>> pairs_of_digits(std::str
   }
   return std::pair(out, text.back() == 'b');
 }
-
-}  // namespace
-
-namespace {
 
 PointProgram make_pair_program(std::span<const PairOfBars> pairs, bool trace_second) {
   LINKWRIGHT_REQUIRE(!pairs.empty() && pairs.size() <= 4 && pairs[0] == (PairOfBars{1, 0}),
@@ -278,7 +177,7 @@ PointProgram make_pair_program(std::span<const PairOfBars> pairs, bool trace_sec
 
 }  // namespace
 
-const PointProgram& pair_program(std::span<const PairOfBars> pairs, bool trace_second) {
+const PointProgram& program_of_pairs(std::span<const PairOfBars> pairs, bool trace_second) {
   static std::mutex mutex;
   static std::map<std::pair<std::vector<PairOfBars>, bool>, std::unique_ptr<const PointProgram>> known;
   const std::lock_guard lock(mutex);
@@ -303,7 +202,7 @@ const PointProgram* program_named(std::string_view name) {
   if (colon == name.npos) return nullptr;
   const auto pairs = pairs_of_digits(name.substr(colon + 1));
   if (!pairs) return nullptr;
-  const PointProgram& found = pair_program(pairs->first, pairs->second);
+  const PointProgram& found = program_of_pairs(pairs->first, pairs->second);
   return found.name == name ? &found : nullptr;
 }
 

@@ -110,7 +110,7 @@ int links_of(MachineFamily family);
 
 /// The program of 1 to 4 pairs, of which the first joins crank and ground, {1, 0}; the same address for the
 /// same pairs. Parameters are in the order of these pairs.
-const PointProgram& pair_program(std::span<const PairOfBars> pairs, bool trace_second);
+const PointProgram& program_of_pairs(std::span<const PairOfBars> pairs, bool trace_second);
 
 /// The program with a name, also of pairs whose isomorph has another one; null if there is none.
 const PointProgram* program_named(std::string_view name);

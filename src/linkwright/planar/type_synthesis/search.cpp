@@ -17,6 +17,7 @@
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
+#include "linkwright/planar/type_synthesis/place.h"
 
 namespace linkwright::planar {
 namespace {
@@ -172,7 +173,7 @@ class TypeSearch {
     int other = static_cast<int>(random.below(static_cast<std::uint32_t>(old.links - 1)));
     if (other >= traced) ++other;
     pairs.push_back({traced, other});
-    const PointProgram& p = pair_program(pairs, false);
+    const PointProgram& p = program_of_pairs(pairs, false);
     FittedMachine out = from;
     out.shape.program = &p;
     out.shape.x.resize(static_cast<std::size_t>(p.parameters));
@@ -236,13 +237,13 @@ class TypeSearch {
 
   void work(Trial& t) const {
     MachineFitter fitter(target_, options_.limits);
-    const bool placed = t.kind != TrialKind::pool || fitter.place(t.machine) < infinity;
+    const bool placed = t.kind != TrialKind::pool || place_machine(target_, t.machine) < infinity;
     if (placed && fitter.polish(t.machine, t.best)) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
       t.inside = t.measures.defect == MachineDefect::none;
     }
-    t.curves = fitter.curves();
+    t.curves = fitter.curves() + (t.kind == TrialKind::pool ? 1 : 0);  // and that of its placing
   }
 
   void round(FamilyState& f) {
@@ -250,7 +251,6 @@ class TypeSearch {
     optimise::parallel_for(trials.size(), context_.threads(), [&](std::size_t i) {
       if (!context_.interrupted()) work(trials[i]);
     });
-    // A round that was cut short must not count: what it found depends on the clock.
     const double before = f.report.error;
     for (Trial& t : trials) {
       state_.curves += t.curves;
