@@ -17,7 +17,19 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
                evaluations: Optional[int] = None, most_links: int = 8, families: Optional[Sequence[str]] = None,
                least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
                max_solutions: int = 12, seed: int = 1) -> Study:
-    """The study that `draw` runs: "synthesis" of "planar.any" for "path_points". Arguments are those of `draw`."""
+    """The study that `draw` runs: "synthesis" of "planar.any" for "path_points".
+
+    points: the stroke in metres: an array (n, 2), or n complex numbers; at least 5.
+    closed: whether the last point is followed by the first; None: only where it repeats it.
+    seconds: time of the search, 10 when evaluations are not given. evaluations: number of curves instead, for the same result
+    on every machine with the same instruction set and any number of threads.
+    most_links: 4 to 10. families: "four_bar", "slider_crank", "inverted_slider", "geared_five_bar", "watt_1", "stephenson_1",
+    "stephenson_3", "eight_bar", "ten_bar"; None: all.
+    least_pair_angle: degrees, over the whole turn of the crank. shortest_link, longest_link: in sizes of the stroke, which are
+    its root mean square distance from its mean.
+
+    Raises ValueError for points of another shape.
+    """
     stroke = numpy.asarray(points)
     if numpy.iscomplexobj(stroke):
         stroke = numpy.stack([stroke.real, stroke.imag], axis=-1)
@@ -41,23 +53,12 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
                   "optimiser": optimiser})
 
 
-def draw(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Optional[float] = None,
-         evaluations: Optional[int] = None, most_links: int = 8, families: Optional[Sequence[str]] = None,
-         least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
-         max_solutions: int = 12, seed: int = 1) -> Result:
+def draw(points: ArrayLike, **options) -> Result:
     """Machines of many types that trace a stroke, best first in `solutions`; each has a study of its own (`Solution.study`).
 
-    points: the stroke in metres: an array (n, 2), or n complex numbers; at least 5.
-    closed: whether the last point is followed by the first; None: only where it repeats it.
-    seconds: time of the search, 10 when evaluations are not given. evaluations: number of curves instead, for the same result
-    on every machine with the same instruction set and any number of threads.
-    most_links: 4 to 10. families: "four_bar", "slider_crank", "inverted_slider", "geared_five_bar", "watt_1", "stephenson_1",
-    "stephenson_3", "eight_bar", "ten_bar"; None: all.
-    least_pair_angle: degrees, over the whole turn of the crank. shortest_link, longest_link: in sizes of the stroke, which are
-    its root mean square distance from its mean.
+    points and options are those of `draw_study`: closed, seconds or evaluations, most_links, families, least_pair_angle,
+    shortest_link, longest_link, max_solutions, seed.
 
     Raises ValueError for points of another shape and StudyError for a stroke or limits that the study does not take.
     """
-    return draw_study(points, closed=closed, seconds=seconds, evaluations=evaluations, most_links=most_links,
-                      families=families, least_pair_angle=least_pair_angle, shortest_link=shortest_link,
-                      longest_link=longest_link, max_solutions=max_solutions, seed=seed).run()
+    return draw_study(points, **options).run()

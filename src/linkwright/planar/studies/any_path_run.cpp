@@ -30,9 +30,11 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
-std::string family_words(MachineFamily family) {
-  for (const auto& word : names(MachineFamily{}))
-    if (word.value == family) return std::string(word.summary);
+/// What a value of an enumeration means.
+template <class E>
+std::string summary_of(E value) {
+  for (const auto& word : names(E{}))
+    if (word.value == value) return std::string(word.summary);
   return {};
 }
 
@@ -265,7 +267,7 @@ class AnyPathReport {
         "least {}.",
         count_of(best.machine.shape.program->links), length(m.error), degrees_of(m.min_pair_angle).fixed(1));
     fact("best machine",
-         say("{}, {}", best.machine.shape.program->name, family_words(best.machine.shape.program->family)));
+         say("{}, {}", best.machine.shape.program->name, summary_of(best.machine.shape.program->family)));
     fact("root mean square error", length(m.error));
     fact("largest deviation", length(m.largest_deviation));
     fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
@@ -295,12 +297,10 @@ class AnyPathReport {
     const auto nearest = std::min_element(
         answer_.outside.begin(), answer_.outside.end(),
         [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
-    std::string reason;
-    for (const auto& word : names(MachineDefect{}))
-      if (word.value == nearest->measures.defect) reason = word.summary;
     warn("limits",
          say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             nearest->machine.shape.program->name, length(nearest->measures.error), reason),
+             nearest->machine.shape.program->name, length(nearest->measures.error),
+             summary_of(nearest->measures.defect)),
          "search longer, allow more links, or relax the limits");
   }
 
