@@ -34,7 +34,6 @@ export const ended = signal(0);
 const measures = [
   { key: "path_error_rms_m", label: "rms error" },
   { key: "largest_deviation_m", label: "largest deviation" },
-  { key: "chamfer_distance_m", label: "chamfer distance" },
   { key: "chamfer_distance_share", label: "chamfer distance" },
   { key: "least_pair_angle_rad", label: "least pair angle" },
   { key: "size_m", label: "size" },
@@ -54,7 +53,7 @@ function numbersOf(objectives: JsonObject | null, classification: JsonObject | n
 
 const families: Record<string, string> = {
   four_bar: "Four-bar", slider_crank: "Slider-crank", inverted_slider: "Inverted slider-crank", geared_five_bar: "Geared five-bar",
-  watt_1: "Watt I six-bar", stephenson_1: "Stephenson I six-bar", stephenson_2: "Stephenson II six-bar", stephenson_3: "Stephenson III six-bar", eight_bar: "Eight-bar", ten_bar: "Ten-bar",
+  watt_1: "Watt I six-bar", stephenson_1: "Stephenson I six-bar", stephenson_3: "Stephenson III six-bar", eight_bar: "Eight-bar", ten_bar: "Ten-bar",
 };
 
 /** The name of a type, and what tells it from others of its family: "Eight-bar 1324b". */
