@@ -92,6 +92,12 @@ TEST(AnyPathStudies, SayWhatIsWrong) {
               HasSubstr("both seconds and evaluations"));
 }
 
+TEST(AnyPathStudies, AskForWhatTenBarsGrowFrom) {
+  const auto mechanism =
+      std::string("[mechanism]\ntype = \"planar.any\"\nmost_links = 10\nfamilies = [\"ten_bar\"]\n");
+  EXPECT_THAT(test::problems_of(any_path({{"1", mechanism}})), HasSubstr("ten_bar is grown from eight_bar"));
+}
+
 // A stroke that a slide draws by itself is searched all the same.
 TEST(AnyPathStudies, WarnOfAStraightStroke) {
   std::string messages;

@@ -99,6 +99,18 @@ TEST(TypeSearches, AnswerWithinTheLimitsAndInOrder) {
   }
 }
 
+// Limits that no machine keeps: the search goes on from the atlas until its curves are used up.
+TEST(TypeSearches, EndWhereNothingIsFound) {
+  const TypeSearchOptions options{.families = {MachineFamily::slider_crank},
+                                  .limits = {.min_pair_angle = 1.2, .min_length = 0.9, .max_length = 1},
+                                  .max_curves = 400'000};
+  const auto answer = search("heart", options);
+  EXPECT_TRUE(answer.machines.empty());
+  EXPECT_GE(answer.curves, options.max_curves);
+  ASSERT_EQ(answer.outside.size(), 1U);
+  EXPECT_NE(answer.outside[0].measures.defect, MachineDefect::none);
+}
+
 TEST(TypeSearches, EndWithTheContext) {
   RunContext context;
   context.cancel();

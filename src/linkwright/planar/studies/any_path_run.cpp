@@ -366,6 +366,11 @@ AnyPathStudy read_any_path(study::ObjectReader& document, const study::Common& c
     table->read(s.mechanism);
     if (s.mechanism.families && s.mechanism.families->empty())
       table->error("families", "the list of families is empty", "leave it out to search all");
+    if (const auto& families = s.mechanism.families;
+        families && s.mechanism.most_links >= 10 &&
+        std::count(families->begin(), families->end(), MachineFamily::ten_bar) > 0 &&
+        std::count(families->begin(), families->end(), MachineFamily::eight_bar) == 0)
+      table->error("families", "ten_bar is grown from eight_bar, which is not in the list", "add eight_bar");
     for (const MachineFamily family : s.mechanism.families.value_or(std::vector<MachineFamily>{}))
       if (links_of(family) > s.mechanism.most_links)
         table->error("families",

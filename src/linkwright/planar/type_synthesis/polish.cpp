@@ -115,6 +115,7 @@ struct MachineFitter::Memory {
   const PointProgram* prepared = nullptr;  // program whose lengths are in `terms`
   std::vector<LengthTerm> terms;
   double min_quality = 0;
+  double phase = 0;  // of the grid of pair angles; each polish begins with the same
 
   struct Curve {
     alignas(64) Samples angle, x, y, tx, ty;
@@ -245,10 +246,10 @@ struct MachineFitter::Memory {
   }
 
   void move_grid() {
-    phase_ += 0.382 * 2 * pi / limit_angles;
-    if (phase_ > 2 * pi / limit_angles) phase_ -= 2 * pi / limit_angles;
+    phase += 0.382 * 2 * pi / limit_angles;
+    if (phase > 2 * pi / limit_angles) phase -= 2 * pi / limit_angles;
     for (std::size_t k = 0; k < limit_angles; ++k)
-      limit_angle[k] = phase_ + 2 * pi * static_cast<double>(k) / limit_angles;
+      limit_angle[k] = phase + 2 * pi * static_cast<double>(k) / limit_angles;
   }
 
   /// Rows of the residuals along the normals of the curve, and the residuals as the last row.
@@ -348,9 +349,6 @@ struct MachineFitter::Memory {
   double box_of_pins(const PointProgram& p, std::complex<double> scale) const;
   double peak_acceleration(const FittedMachine& machine, double span) const;
   bool stays_near(const FittedMachine& machine, double largest_deviation);
-
- private:
-  double phase_ = 0;
 };
 
 MachineFitter::MachineFitter(const SampledStroke& target, const MachineLimits& limits)
@@ -369,6 +367,7 @@ std::int64_t MachineFitter::curves() const { return memory_->curves; }
 
 bool MachineFitter::polish(FittedMachine& machine, double best) {
   Memory& m = *memory_;
+  m.phase = 0;
   if (!(m.descend(machine, 1, 25) <= 1.6 * best)) return false;
   if (!(m.descend(machine, 4, 40) <= 1.15 * best)) return false;
   m.descend(machine, 30, 80);

@@ -52,7 +52,8 @@ struct MachineMeasures {
   MachineDefect defect = MachineDefect::none;
 };
 
-/// Fits machines to one stroke; one a thread.
+/// Fits machines to one stroke, one after the other: a result depends on the machine that it begins with
+/// alone. Make one a thread; nothing is allocated afterwards.
 class MachineFitter {
  public:
   MachineFitter(const SampledStroke& target, const MachineLimits& limits);

@@ -61,6 +61,7 @@ class TypeSearch {
  public:
   TypeSearch(const SampledStroke& target, const TypeSearchOptions& options, RunContext& context)
       : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
+    for (std::size_t k = 0; k < trials_a_round; ++k) fitters_.emplace_back(target, options.limits);
     for (const auto& family : names(MachineFamily{})) {
       const auto& wanted = options.families;
       const bool asked =
@@ -83,13 +84,11 @@ class TypeSearch {
       round(family);
       ++state_.rounds;
       save();
-      if (options_.max_curves > 0)
-        context_.report({.stage = name_of(family.report.family),
-                         .fraction = std::min(1.0, static_cast<double>(state_.curves) /
-                                                       static_cast<double>(options_.max_curves)),
-                         .best = best_error()});
-      else
-        context_.report({.stage = name_of(family.report.family), .fraction = 0, .best = best_error()});
+      const double share = options_.max_curves > 0
+                               ? static_cast<double>(state_.curves) / static_cast<double>(options_.max_curves)
+                               : 0;
+      context_.report(
+          {.stage = name_of(family.report.family), .fraction = std::min(1.0, share), .best = best_error()});
     }
     return answer(status);
   }
@@ -200,6 +199,16 @@ class TypeSearch {
         }
   }
 
+  /// The next shape of the pool. While a family has no machine within the limits, the pool begins again,
+  /// changed at random.
+  void take_from_pool(FamilyState& f, Trial& t, RandomStream& random) const {
+    const bool again = f.next_in_pool >= f.pool.size();
+    const AtlasMatch& match = f.pool[f.next_in_pool++ % f.pool.size()];
+    t.kind = TrialKind::pool, t.machine.shape = f.atlas->shape(match.entry);
+    if (match.mirrored) t.machine.shape = mirrored(t.machine.shape);
+    if (again) hop(t.machine, random);
+  }
+
   std::vector<Trial> trials_of(FamilyState& f) {
     std::vector<Trial> out;
     RandomStream choice = random(1);
@@ -210,7 +219,8 @@ class TypeSearch {
       RandomStream stream = random(static_cast<std::uint32_t>(2 + k));
       Trial t;
       t.best = f.report.error;
-      const bool from_pool = f.next_in_pool < f.pool.size() && (f.elite.empty() || stream.uniform() < 0.5);
+      const bool left = f.next_in_pool < f.pool.size();
+      const bool from_pool = f.elite.empty() ? !f.pool.empty() : left && stream.uniform() < 0.5;
       if (grow && k < 4) {
         auto machine = grown(smaller->machine, stream);
         if (!machine) continue;
@@ -218,9 +228,7 @@ class TypeSearch {
         // What was grown traces the curve of the smaller machine, which may be far from this family's best.
         t.best = infinity;
       } else if (from_pool) {
-        const AtlasMatch& match = f.pool[f.next_in_pool++];
-        t.kind = TrialKind::pool, t.machine.shape = f.atlas->shape(match.entry);
-        if (match.mirrored) t.machine.shape = mirrored(t.machine.shape);
+        take_from_pool(f, t, stream);
       } else if (!f.elite.empty()) {
         const double rank = -1.5 * std::log(1 - stream.uniform());
         t.kind = TrialKind::hop,
@@ -235,21 +243,21 @@ class TypeSearch {
     return out;
   }
 
-  void work(Trial& t) const {
-    MachineFitter fitter(target_, options_.limits);
+  void work(Trial& t, MachineFitter& fitter) const {
+    const std::int64_t before = fitter.curves();
     const bool placed = t.kind != TrialKind::pool || place_machine(target_, t.machine) < infinity;
     if (placed && fitter.polish(t.machine, t.best)) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
       t.inside = t.measures.defect == MachineDefect::none;
     }
-    t.curves = fitter.curves() + (t.kind == TrialKind::pool ? 1 : 0);  // and that of its placing
+    t.curves = fitter.curves() - before + (t.kind == TrialKind::pool ? 1 : 0);  // and that of its placing
   }
 
   void round(FamilyState& f) {
     std::vector<Trial> trials = trials_of(f);
     optimise::parallel_for(trials.size(), context_.threads(), [&](std::size_t i) {
-      if (!context_.interrupted()) work(trials[i]);
+      if (!context_.interrupted()) work(trials[i], fitters_[i]);
     });
     const double before = f.report.error;
     for (Trial& t : trials) {
@@ -272,10 +280,8 @@ class TypeSearch {
     }
     if (found.measures.error < f.report.error) {
       f.report.error = found.measures.error, f.report.best_at = state_.curves;
-      state_.progress.push_back({.curves = state_.curves,
-
-                                 .family = f.report.family,
-                                 .error = found.measures.error});
+      state_.progress.push_back(
+          {.curves = state_.curves, .family = f.report.family, .error = found.measures.error});
     }
     insert(f.archive, found, archive_size, true);
     insert(f.elite, found, elite_size, false);
@@ -355,6 +361,7 @@ class TypeSearch {
   TypeSearchOptions options_;
   RunContext& context_;
   SearchState state_;
+  std::vector<MachineFitter> fitters_;  ///< one a trial of a round
   RunContext::Clock::time_point last_save_;
 };
 
