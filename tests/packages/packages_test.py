@@ -56,6 +56,16 @@ class Root:
         return json.loads((self.folder / "srv/study/out/result.json").read_text(encoding="utf-8"))
 
 
+def attack_python(root, python):
+    """The tests of what must not bring Python down, by a Python of the root."""
+    environment = ["env", "LINKWRIGHT=/nowhere", "LINKWRIGHT_EXAMPLES=/nowhere", python, "-B"]
+    chosen = ["-k", "test_nesting", "-k", "test_files_of_examples", "-k", "test_results_have_all_numbers"]
+    for test, words in (("exit_test.py", []), ("interruption_test.py", []), ("studies_test.py", chosen)):
+        script = root.put(SOURCE / "tests/python" / test)
+        root.call(*environment, script, *words)
+    print(f"{python}: threads at the end, Ctrl-C, deep values and pickles")
+
+
 def same(result, expected, where):
     for part in ("answer", "tables", "checks"):
         assert result[part] == expected[part], f"{part} of {where} is not that of the build"
@@ -120,6 +130,9 @@ def main():
         script = f'import linkwright; linkwright.example("{STUDY}").run().save("out")'
         if any("python3-linkwright" in deb for deb in debs):
             same(root.result("/usr/bin/python3", "-c", f"'{script}'"), expected, "python3-linkwright.deb")
+            root.call("/usr/bin/python3", "-B", root.put(SOURCE / "tests/packages/attacks.py"), "/usr/bin/linkwright")
+            root.put(SOURCE / "tests/python/program.py")
+            attack_python(root, "/usr/bin/python3")
             # 3: the wheel, without the libraries of Debian's packages.
             root.call("apt-get", "-q", "-y", "remove", "linkwright", "python3-linkwright", "libpagmo8", "libfmt9", "libtbb12")
             root.call("apt-get", "-q", "-y", "install", "--no-install-recommends", "python3-venv")
@@ -127,6 +140,7 @@ def main():
             root.call("/usr/bin/python3", "-m", "venv", "--system-site-packages", "/opt/venv")
             root.call("/opt/venv/bin/pip", "--disable-pip-version-check", "install", "--quiet", "--no-index", root.put(wheel))
             same(root.result("/opt/venv/bin/python", "-c", f"'{script}'"), expected, wheel.name)
+            attack_python(root, "/opt/venv/bin/python")
         # The requirements of a library are listed; compilers are no part of it.
         listed = run("dpkg-deb", "-c", next(out.glob("linkwright-dev_*.deb")))
         for file in ("usr/include/linkwright/planar.h", "cmake/Linkwright/LinkwrightConfig.cmake",

@@ -9,13 +9,16 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/unfilled_array.h"
 #include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/sweep_samples.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
-constexpr std::size_t samples_between_looks = 1 << 14;
+constexpr std::size_t samples_in_registers = 1 << 14;  // number of samples between two looks at the context
+constexpr std::size_t samples_one_by_one = 1 << 8;
 
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (plan.parts.size() > max_sweep_parts || plan.groups.size() > max_sweep_parts) return false;
@@ -46,9 +49,8 @@ struct LinkageSweep::Memory {
   bool batched = false;
   SweepTask task;
   std::size_t rows = 0, samples = 0;
-  std::unique_ptr<double[]> data;
-  std::size_t data_size = 0;
-  std::vector<Status> status;
+  UnfilledArray<double> data;
+  UnfilledArray<Status> status;
   LinkageMotion motion;
   LinkageForces forces;
   std::vector<InputMotion> inputs;
@@ -64,15 +66,10 @@ struct LinkageSweep::Memory {
     // An odd number of cache lines from row to row: with a power of two all rows of a sample would compete
     // for the same few places of the cache.
     task.stride = task.count + (task.count / line % 2 == 0 ? line : 0);
-    if (data_size < rows * task.stride + line) {
-      data.reset();
-      data_size = rows * task.stride + line;
-      data.reset(new double[data_size]);  // every number that is read is written before
-    }
-    const auto address = reinterpret_cast<std::uintptr_t>(data.get());
-    task.data =
-        data.get() + (line * sizeof(double) - address % (line * sizeof(double))) / sizeof(double) % line;
-    status.resize(n);
+    double* const first = data.make_room(rows * task.stride + line);
+    const auto address = reinterpret_cast<std::uintptr_t>(first);
+    task.data = first + (line * sizeof(double) - address % (line * sizeof(double))) / sizeof(double) % line;
+    status.make_room(n);
   }
 
   void read(std::size_t i) {
@@ -81,17 +78,37 @@ struct LinkageSweep::Memory {
                    number(task.inputs + 3 * k + 2, i)};
   }
 
-  // A part of the samples at a time, so that a run can be stopped.
-  void registers(std::span<const double> time, const RunContext* context) {
-    std::fill(status.begin(), status.end(), Status::done);
-    for (std::size_t begin = 0; begin < task.count; begin += samples_between_looks) {
+  // The samples from `begin` to `end` of the inputs, and of the groups that cannot fail.
+  void take_block(std::span<const SweepInput> from, std::size_t begin, std::size_t end) {
+    bool finite = true;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      const std::span<const double> rows[] = {from[k].value, from[k].rate, from[k].acceleration};
+      for (std::size_t r = 0; r < 3; ++r)
+        finite &= copy_samples(rows[r], begin, {&number(task.inputs + 3 * k + r, begin), end - begin});
+    }
+    LINKWRIGHT_REQUIRE(finite, "inputs must be finite, {} samples", samples);
+    for (std::size_t k = 0; k < plan.groups.size(); ++k)
+      if (plan.groups[k].as<Driver>())
+        for (std::size_t r = 0; r < 2; ++r)
+          std::fill_n(&number(task.groups + 2 * k + r, begin), end - begin, 1.0);
+    std::fill(status.data() + begin, status.data() + std::min(end, samples), Status::done);
+  }
+
+  // A block of samples at a time, so that a run can be stopped and its memory is touched once.
+  void run(std::span<const SweepInput> from, std::span<const double> time, const RunContext* context) {
+    const std::size_t block = batched ? samples_in_registers : samples_one_by_one;
+    for (std::size_t begin = 0; begin < task.count; begin += block) {
       throw_if_interrupted(context);
-      SweepTask part = task;
-      part.data += begin;
-      part.count = std::min(task.count - begin, samples_between_looks);
-      if (widest_of<sweep_kernels>().run(part)) continue;
-      for (std::size_t i = begin; i < std::min(begin + part.count, samples); ++i)
-        if (number(task.good, i) == 0) scalar(i, of(time, i));
+      const std::size_t end = std::min(begin + block, task.count);
+      take_block(from, begin, end);
+      if (batched) {
+        SweepTask part = task;
+        part.data += begin;
+        part.count = end - begin;
+        if (widest_of<sweep_kernels>().run(part)) continue;
+      }
+      for (std::size_t i = begin; i < std::min(end, samples); ++i)
+        if (!batched || number(task.good, i) == 0) scalar(i, of(time, i));
     }
   }
 
@@ -106,10 +123,10 @@ struct LinkageSweep::Memory {
       solve_velocity(plan, inputs, motion);
       solve_acceleration(plan, inputs, motion);
     }
-    status[i] = motion.status;
+    status.data()[i] = motion.status;
     if (wanted.forces) {
       solve_forces(linkage, plan, motion, time, inputs.empty() ? 0.0 : inputs[0].value, forces);
-      status[i] = forces.status;
+      status.data()[i] = forces.status;
     }
     write(i);
   }
@@ -198,54 +215,30 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
   LINKWRIGHT_REQUIRE(time.empty() || time.size() == n, "{} samples, got {} times", n, time.size());
   m.make_room(n);
   if (n == 0) return;
-  bool finite = true;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     const std::span<const double> rows[] = {inputs[k].value, inputs[k].rate, inputs[k].acceleration};
-    for (std::size_t r = 0; r < 3; ++r) {
-      throw_if_interrupted(context);
+    for (std::size_t r = 0; r < 3; ++r)
       LINKWRIGHT_REQUIRE(rows[r].size() == n || (r > 0 && rows[r].size() <= 1),
                          "{} samples, input {} has {} numbers", n, k, rows[r].size());
-      double* to = &m.number(m.task.inputs + 3 * k + r, 0);
-      if (rows[r].size() == n)
-        std::copy(rows[r].begin(), rows[r].end(), to);
-      else
-        std::fill(to, to + n, of(rows[r], 0));
-      std::fill(to + n, to + m.task.count, to[n - 1]);
-      // 0 x is 0 unless x is not finite; eight sums beside each other, so that none waits for the last.
-      double sums[line] = {};
-      for (std::size_t i = 0; i < m.task.count; i += line)
-        for (std::size_t e = 0; e < line; ++e) sums[e] += 0 * to[i + e];
-      const bool good = std::all_of(std::begin(sums), std::end(sums), [](double v) { return v == 0; });
-      finite = finite && good;
-    }
   }
-  LINKWRIGHT_REQUIRE(finite, "inputs must be finite, {} samples", n);
   if (!m.plan.closed_form()) {
     InputReach reach;
     for (const SweepInput& in : inputs) {
       const auto [least, most] = std::minmax_element(in.value.begin(), in.value.end());
+      LINKWRIGHT_REQUIRE(
+          std::all_of(in.value.begin(), in.value.end(), [](double v) { return std::isfinite(v); }),
+          "inputs must be finite, {} samples", n);
       reach.low.push_back(*least);
       reach.high.push_back(*most);
     }
     m.assembly.emplace(m.plan, reach, AtChangePoint::smooth, false, m.modes);
   }
-  if (!m.batched) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i % 256 == 0) throw_if_interrupted(context);
-      m.scalar(i, of(time, i));
-    }
-    return;
-  }
-  for (std::size_t k = 0; k < m.plan.groups.size(); ++k)
-    if (m.plan.groups[k].as<Driver>())
-      for (std::size_t r = 0; r < 2; ++r)
-        std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
   m.task.modes = m.motion.modes.data();
-  m.registers(time, context);
+  m.run(inputs, time, context);
 }
 
 std::size_t LinkageSweep::samples() const { return memory_->samples; }
-std::span<const Status> LinkageSweep::status() const { return memory_->status; }
+std::span<const Status> LinkageSweep::status() const { return {memory_->status.data(), memory_->samples}; }
 
 std::span<const double> LinkageSweep::part(int part, PartRow row) const {
   const SweepTask& t = memory_->task;
