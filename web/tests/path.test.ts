@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { boxOf, byHand, lengthOf, mostPoints, PathError, prepared, smoothed, studyOf } from "../src/workbench/path";
 import { dxfPath } from "../src/workbench/path_dxf";
-import { svgFile, svgPath } from "../src/workbench/path_svg";
+import { svgPath } from "../src/workbench/path_svg";
 import { csvPath, readPath } from "../src/workbench/path_text";
 
 const ends = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
@@ -69,17 +69,12 @@ test("path data that are wrong are refused with the way out", () => {
   expect(refusal(() => svgPath("M0 0K4 4"))).toMatch(/no path command K/);
   expect(refusal(() => svgPath("M0 0L4"))).toMatch(/command L has 1 number; it takes 2/);
   expect(refusal(() => svgPath("M0 0A1 1 0 2 0 4 4"))).toMatch(/flag \(0 or 1\)/);
-  expect(refusal(() => svgPath("M0 0L4 4M5 5L6 6"))).toMatch(/2 separate parts/);
-  expect(refusal(() => svgPath("M0 0L4 4 4 0ZL6 6"))).toMatch(/second part after Z/);
+  expect(refusal(() => svgPath("M0 0L3 4M5 5L6 5"))).toMatch(/2 separate lines: part 1 \(5 mm long\), part 2 \(1 mm long\)/);
+  expect(refusal(() => svgPath("M0 0L4 4 4 0ZL6 6"))).toMatch(/2 separate lines/);
+  expect(refusal(() => svgPath("M3 3Z"))).toMatch(/at the same place/);
+  expect(refusal(() => svgPath("M0 0L1e999 4"))).toMatch(/1e999 after the command L is too large/);
   expect(refusal(() => svgPath("M0 0L4 4Z5"))).toMatch(/follow the command Z/);
   expect(refusal(() => svgPath("M0 0L4 #"))).toMatch(/“#” after the command L/);
-});
-
-test("an SVG file has one path", () => {
-  expect(svgFile('<svg><g id="a"><path id="p" d="M0 0L4 4"/></g></svg>').points).toHaveLength(2);
-  expect(refusal(() => svgFile("<svg><circle r='4'/></svg>"))).toMatch(/no <path>/);
-  expect(refusal(() => svgFile('<svg><path d="M0 0L1 1"/><path d="M0 0L1 1"/></svg>'))).toMatch(/2 paths/);
-  expect(refusal(() => svgFile('<svg><g transform="scale(2)"><path d="M0 0L1 1"/></g></svg>'))).toMatch(/transform/);
 });
 
 test("rows of coordinates with every separator and decimal commas", () => {

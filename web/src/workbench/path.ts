@@ -24,9 +24,12 @@ const withEnd = ({ points, closed }: Path) => (closed && points.length ? [...poi
 export const lengthOf = (path: Path): number => withEnd(path).reduce((sum, p, i, all) => sum + (i ? distance(p, all[i - 1]) : 0), 0);
 
 export function boxOf(points: readonly Place[]): { x: number; y: number; width: number; height: number } {
-  const [xs, ys] = [points.map((p) => p.x), points.map((p) => p.y)];
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (const { x, y } of points) {
+    [left, right] = [Math.min(left, x), Math.max(right, x)];
+    [bottom, top] = [Math.min(bottom, y), Math.max(top, y)];
+  }
+  return { x: left, y: bottom, width: right - left, height: top - bottom };
 }
 
 /** The path without its end, if that comes back to within `reach` of its beginning: up to where it is nearest. */

@@ -4,7 +4,8 @@
 import type { Place } from "../motion";
 import { PathError, prepared, type Path } from "./path";
 import { dxfPath } from "./path_dxf";
-import { svgFile, svgPath } from "./path_svg";
+import { svgPath } from "./path_svg";
+import { svgFile } from "./path_svg_file";
 import { numbersOf } from "./points";
 
 const units: Record<string, number> = { mm: 1, cm: 10, m: 1000, in: 25.4, inch: 25.4 };
