@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
 import { boxOf, byHand, lengthOf, mostPoints, PathError, prepared, smoothed, studyOf } from "../src/workbench/path";
-import { dxfPath } from "../src/workbench/path_dxf";
 import { svgPath } from "../src/workbench/path_svg";
 import { csvPath, readPath } from "../src/workbench/path_text";
 
@@ -90,46 +89,10 @@ test("rows of coordinates with every separator and decimal commas", () => {
   expect(refusal(() => csvPath("x (furlong)\n1 2\n3 4"))).toMatch(/unit “furlong”/);
 });
 
-const dxf = (entities: string, header = "") => `0\nSECTION\n2\nHEADER\n${header}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n${entities}0\nENDSEC\n0\nEOF\n`;
-const group = (...values: (string | number)[]) => values.map((v) => `${v}\n`).join("");
-
-test("polylines of DXF, light and old, with their arcs and units", () => {
-  const light = group(0, "LWPOLYLINE", 90, 3, 70, 1, 10, 0, 20, 0, 10, 4, 20, 0, 10, 4, 20, 3);
-  expect(dxfPath(dxf(light))).toEqual({ points: [{ x: 0, y: 0 }, { x: 4, y: 0 }, { x: 4, y: 3 }], closed: true });
-  expect(dxfPath(dxf(light, group(9, "$INSUNITS", 70, 1))).points[1].x).toBeCloseTo(101.6, 9);
-  const old = group(0, "POLYLINE", 66, 1, 70, 0, 0, "VERTEX", 10, 0, 20, 0, 0, "VERTEX", 10, 4, 20, 3, 0, "SEQEND");
-  expect(dxfPath(dxf(old))).toEqual({ points: [{ x: 0, y: 0 }, { x: 4, y: 3 }], closed: false });
-  // A bulge of 1 is a half circle to the right of the way, counterclockwise.
-  const half = dxfPath(dxf(group(0, "LWPOLYLINE", 70, 0, 10, -2, 20, 0, 42, 1, 10, 2, 20, 0))).points;
-  expect(half).toHaveLength(17);
-  expect(ends(half)[8]).toEqual([0, -2]);
-  const quarter = dxfPath(dxf(group(0, "LWPOLYLINE", 70, 0, 10, 2, 20, 0, 42, Math.tan(Math.PI / 8), 10, 0, 20, 2))).points;
-  for (const p of quarter) expect(Math.hypot(p.x, p.y)).toBeCloseTo(2, 9);
-});
-
-test("lines of DXF are joined to a chain whatever their order and direction", () => {
-  const line = (...n: number[]) => group(0, "LINE", 8, 0, 10, n[0], 20, n[1], 11, n[2], 21, n[3]);
-  const chain = dxfPath(dxf(line(4, 0, 0, 0) + line(4, 3, 0, 3) + line(4, 0, 4, 3)));
-  expect(chain.closed).toBe(false);
-  expect(chain.points).toHaveLength(4);
-  expect(lengthOf(chain)).toBe(11);
-  const ring = dxfPath(dxf(line(4, 0, 0, 0) + line(4, 3, 0, 3) + line(4, 0, 4, 3) + line(0, 3, 0, 0)));
-  expect(ring.closed).toBe(true);
-  expect(lengthOf(ring)).toBe(14);
-  expect(refusal(() => dxfPath(dxf(line(0, 0, 1, 0) + line(5, 5, 6, 6))))).toMatch(/2 separate lines/);
-});
-
-test("drawings of DXF that hold no path are refused", () => {
-  expect(refusal(() => dxfPath("AutoCAD Binary DXF\r\n"))).toMatch(/binary/);
-  expect(refusal(() => dxfPath(dxf(group(0, "SPLINE", 10, 0))))).toMatch(/no polyline and no line, only SPLINE/);
-  expect(refusal(() => dxfPath("0\nSECTION\nhello\nENTITIES\n"))).toMatch(/Line 3 .*“hello”/);
-  expect(refusal(() => dxfPath(dxf(group(0, "LWPOLYLINE", 10, "a", 20, 0, 10, 1, 20, 1))))).toMatch(/not a number/);
-});
-
 test("the form of a text is recognised", () => {
   expect(readPath("M0 0 L40 0 L40 30 Z").closed).toBe(true);
   expect(readPath('<?xml version="1.0"?><svg><path d="M0 0L40 0"/></svg>').closed).toBe(false);
-  expect(readPath(dxf(group(0, "LINE", 10, 0, 20, 0, 11, 9, 21, 0))).points.length).toBe(121);
+  expect(readPath("0\nLINE\n10\n0\n20\n0\n11\n9\n21\n0\n").points.length).toBe(121);
   expect(readPath("0;0\n4;0\n4;3\n0;0")).toMatchObject({ closed: true });
   expect(refusal(() => readPath("5 5\n5 5"))).toMatch(/same place/);
 });

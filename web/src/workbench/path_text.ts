@@ -39,7 +39,7 @@ export function csvPath(text: string): Path {
 export function readPath(text: string): Path {
   const read = /^\s*</.test(text) ? svgFile(text)
     : /^\s*[mM]\s*[-+.\d]/.test(text) ? svgPath(text)
-      : /^AutoCAD Binary DXF|^\s*(?:0\s*[\r\n]+\s*(?:SECTION|LWPOLYLINE|POLYLINE|LINE)\b|999\s*[\r\n])/.test(text) ? dxfPath(text)
+      : /^AutoCAD Binary DXF|^\s*(?:0\s*[\r\n]+\s*(?:SECTION|LWPOLYLINE|POLYLINE|LINE|ARC|CIRCLE|ELLIPSE|SPLINE|EOF)\b|999\s*[\r\n])/.test(text) ? dxfPath(text)
         : csvPath(text);
   return prepared(read);
 }
