@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { boxOf, byHand, lengthOf, mostPoints, PathError, prepared, smoothed, studyOf } from "../src/workbench/path";
 import { svgPath } from "../src/workbench/path_svg";
-import { csvPath, readPath } from "../src/workbench/path_text";
+import { readPath } from "../src/workbench/path_text";
 
 const ends = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
 const last = (d: string) => ends(svgPath(d).points).pop();
@@ -76,25 +76,15 @@ test("path data that are wrong are refused with the way out", () => {
   expect(refusal(() => svgPath("M0 0L4 #"))).toMatch(/“#” after the command L/);
 });
 
-test("rows of coordinates with every separator and decimal commas", () => {
-  const points = [{ x: 1.5, y: 2 }, { x: -3, y: 4.25 }];
-  for (const text of ["1.5,2\n-3,4.25", "1,5;2\n-3;4,25", "1,5\t2\n-3\t4,25", "1.5 2\r\n\u22123 4.25\r\n", "x; y\n1,5; 2\n# a remark\n\n-3; 4,25", "x_mm,y_mm\n1.5,2\n-3,4.25", "x (cm); y (cm)\n0,15; 0,2\n-0,3; 0,425"])
-    expect(ends(csvPath(text).points), text).toEqual(ends(points));
-  expect(csvPath("x_m,y_m\n0.001,0.002\n0,0").points[0]).toEqual({ x: 1, y: 2 });
-  expect(refusal(() => csvPath("1,5,2,5\n3,1,4,2"))).toMatch(/Line 1, “1,5,2,5”, has 4 numbers/);
-  expect(refusal(() => csvPath("1;2\n3;a"))).toMatch(/Line 2, “3;a”, is not a pair/);
-  expect(refusal(() => csvPath("1;2\n7"))).toMatch(/Line 2, “7”, has only one number/);
-  expect(refusal(() => csvPath("1;2"))).toMatch(/only one point/);
-  expect(refusal(() => csvPath(""))).toMatch(/no points/);
-  expect(refusal(() => csvPath("x (furlong)\n1 2\n3 4"))).toMatch(/unit “furlong”/);
-});
-
 test("the form of a text is recognised", () => {
   expect(readPath("M0 0 L40 0 L40 30 Z").closed).toBe(true);
   expect(readPath('<?xml version="1.0"?><svg><path d="M0 0L40 0"/></svg>').closed).toBe(false);
   expect(readPath("0\nLINE\n10\n0\n20\n0\n11\n9\n21\n0\n").points.length).toBe(121);
   expect(readPath("0;0\n4;0\n4;3\n0;0")).toMatchObject({ closed: true });
+  expect(readPath("\ufeff\ufeff1 1\n2 2").closed).toBe(false);
   expect(refusal(() => readPath("5 5\n5 5"))).toMatch(/same place/);
+  for (const text of ["", " \n\t\n", "\ufeff"]) expect(refusal(() => readPath(text))).toMatch(/is empty/);
+  expect(refusal(() => readPath("1;2\0\n3;4"))).toMatch(/zero bytes/);
 });
 
 test("a path that is read keeps its corners and has points between them", () => {
@@ -103,6 +93,13 @@ test("a path that is read keeps its corners and has points between them", () => 
   expect(square.points).toHaveLength(120);
   const many = prepared({ points: Array.from({ length: 5000 }, (_, k) => ({ x: 50 * Math.cos(k / 800), y: 50 * Math.sin(k / 800) })), closed: false });
   expect(many.points).toHaveLength(mostPoints);
+});
+
+test("paths that are too large or too small for a machine are refused", () => {
+  for (const text of ["-1e308;0\n1e308;0", "1e13;0\n0;0", "M0 0L2e12 4"]) expect(refusal(() => readPath(text)), text).toMatch(/more than 1e9 m from the origin/);
+  for (const text of ["0;0\n1e-320;0", "0;0\n1e-7;0"]) expect(refusal(() => readPath(text)), text).toMatch(/smaller than a nanometre/);
+  expect(readPath("-1e12;0\n1e12;0").points).toHaveLength(121);
+  expect(readPath("0;0\n1e-6;0").points).toHaveLength(121);
 });
 
 test("a stroke that comes back is closed, and has points at equal steps", () => {

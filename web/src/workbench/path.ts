@@ -17,6 +17,8 @@ export class PathError extends Error {
 }
 
 export const mostPoints = 200;
+const farthest = 1e12; // mm from the origin
+const smallest = 1e-6; // mm
 const evenPoints = 120; // a path with corners has some as well along its long sides
 
 const distance = (a: Place, b: Place) => Math.hypot(a.x - b.x, a.y - b.y);
@@ -69,13 +71,15 @@ export function byHand(stroke: Place[], reach: number): Path | null {
 
 /** A path that was read, with its corners kept where there are not too many, and with points between them. */
 export function prepared(read: Path): Path {
+  if (!read.points.every(({ x, y }) => Math.abs(x) <= farthest && Math.abs(y) <= farthest)) throw new PathError("A point of the path lies more than 1e9 m from the origin.", "Check the number and the unit.");
   const points = read.points.filter((p, i, all) => i === 0 || distance(p, all[i - 1]) > 0);
   const size = Math.max(boxOf(points).width, boxOf(points).height);
+  if (size > 0 && size < smallest) throw new PathError("The path is smaller than a nanometre.", "Check the unit.");
   if (!(size > 0)) throw new PathError("All points of the path are at the same place.", "Give at least two different points; three for a closed path.");
   const gap = distance(points[0], points[points.length - 1]);
   const closed = read.closed || (points.length > 3 && gap <= 1e-6 * size);
   if (closed && gap <= 1e-6 * size) points.pop();
-  const all = filled({ points, closed });
+  const all = points.length > mostPoints ? points : filled({ points, closed });
   return { points: all.length > mostPoints ? evenly(points, closed, mostPoints) : all, closed };
 }
 

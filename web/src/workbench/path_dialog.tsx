@@ -12,24 +12,35 @@ import { PathList } from "./path_list";
 import { watched } from "./path_pictures";
 import { problems, stopSearch } from "./path_search";
 import { canRedoPath, canUndoPath, clearPath, closePath, redoPath, sheet, showPath, takePath, undoPath, wishes } from "./path_sheet";
-import { readPath } from "./path_text";
+import { readPath, requireSize, textOf } from "./path_text";
 
 /** The reason why a text is not a path, and the way out. */
 const refused = signal<{ message: string; hint: string } | null>(null);
 const pasting = signal(false); // the field for a text is open
 
-function take(text: string): void {
+/** Takes what `read` gives, or says why there is no path, with the name of the file. */
+async function take(read: () => string | Promise<string>, file = ""): Promise<void> {
   try {
-    takePath(readPath(text));
+    takePath(readPath(await read()));
     refused.value = null;
     pasting.value = false;
   } catch (error) {
-    if (!(error instanceof PathError)) throw error;
-    refused.value = { message: error.message, hint: error.hint };
+    const { message, hint } = error instanceof PathError ? error : { message: `The path cannot be read: ${error instanceof Error ? error.message : String(error)}.`, hint: "Save the file once more, or paste its text." };
+    refused.value = { message: file ? `${file}: ${message}` : message, hint };
   }
 }
 
-const takeFile = async (file: File | undefined) => file && take(await file.text());
+const takeFile = (file: File) => take(async () => {
+  requireSize(file.size);
+  return textOf(new Uint8Array(await file.arrayBuffer()));
+}, file.name);
+
+/** Takes what was dropped or pasted: its first file, or its text. */
+function takeData(data: DataTransfer | null): void {
+  const file = data?.files[0];
+  const text = data?.getData("text") ?? "";
+  void (file ? takeFile(file) : take(() => text));
+}
 
 const kinds = ".svg,.csv,.txt,.dxf";
 
@@ -42,7 +53,8 @@ function Tools() {
       </button>
       <button type="button" id="path-paste" class="switch" aria-pressed={pasting.value} aria-expanded={pasting.value} onClick={() => (pasting.value = !pasting.value)}>Paste</button>
       <label class="button">Open a file<input type="file" accept={kinds} aria-label="Open a file with a path: SVG, CSV or DXF" onChange={(e) => {
-        void takeFile(e.currentTarget.files?.[0]);
+        const file = e.currentTarget.files?.[0];
+        if (file) void takeFile(file);
         e.currentTarget.value = "";
       }} /></label>
       <span class="together">
@@ -60,9 +72,9 @@ function Paste() {
   if (!pasting.value) return null;
   return (
     <div class="path-paste">
-      <label for="path-text">SVG path data, two coordinates in each line, or a DXF drawing. Numbers without a unit are in mm.</label>
+      <label for="path-text">SVG path data or an SVG file, two coordinates in each line, or a DXF drawing. Numbers without a unit are in mm.</label>
       <textarea ref={box} id="path-text" rows={4} spellcheck={false} placeholder={"M 0 0 C 20 60 80 60 100 0 Z\n\n0; 0\n12,5; 40"} />
-      <button type="button" id="path-use" class="main" onClick={() => take(box.current!.value)}>Put it on the board</button>
+      <button type="button" id="path-use" class="main" onClick={() => void take(() => box.current!.value)}>Put it on the board</button>
     </div>
   );
 }
@@ -148,12 +160,12 @@ export function PathDialog() {
     <dialog ref={dialog} class="path-dialog" aria-label="Draw a motion" onClose={close}
       onPaste={(e) => {
         if (e.target instanceof HTMLTextAreaElement) return;
-        take(e.clipboardData?.getData("text") ?? "");
+        takeData(e.clipboardData);
       }}
       onDrop={(e) => {
         e.preventDefault();
         e.stopPropagation();
-        void takeFile(e.dataTransfer?.files[0]);
+        takeData(e.dataTransfer);
       }}>
       {showPath.value && (
         <>

@@ -11,7 +11,7 @@ export interface Part extends Path {
 }
 
 const reach = 1e-4; // sizes of the drawing within which ends meet
-const mostPoints = 1_000_000; // of all curves of a drawing
+const mostPoints = 500_000; // of all curves of a drawing
 
 /** Points of each curve of a drawing: at most `most`, and fewer where there are very many curves. */
 export const stepsFor = (curves: number, most: number): number => Math.max(2, Math.min(most, Math.floor(mostPoints / Math.max(1, curves))));
@@ -20,21 +20,27 @@ const sizeOf = (points: Place[]): number => Math.max(boxOf(points).width, boxOf(
 
 /** The numbers of the places that the ends are at; ends within `tolerance` of a place are at it. */
 function placesOf(ends: Place[], tolerance: number): number[] {
-  const { x, y } = boxOf(ends);
-  const columns = Math.ceil(2 / reach);
+  const { x, y, width } = boxOf(ends);
+  const columns = Math.ceil(width / tolerance) + 3;
   const cells = new Map<number, number[]>(); // places by the square of the plane that they are in
   const places: Place[] = [];
   return ends.map((p) => {
     const [i, k] = [Math.floor((p.x - x) / tolerance) + 1, Math.floor((p.y - y) / tolerance) + 1];
     for (const column of [i - 1, i, i + 1])
       for (const row of [k - 1, k, k + 1])
-        for (const n of cells.get(column * columns + row) ?? []) if (Math.hypot(p.x - places[n].x, p.y - places[n].y) <= tolerance) return n;
-    const cell = i * columns + k;
+        for (const n of cells.get(row * columns + column) ?? []) if (Math.hypot(p.x - places[n].x, p.y - places[n].y) <= tolerance) return n;
+    const cell = k * columns + i;
     const here = cells.get(cell);
     if (here) here.push(places.length);
     else cells.set(cell, [places.length]);
     return places.push(p) - 1;
   });
+}
+
+/** The distance within which ends meet: small beside the drawing, and beside the lengths of its parts. */
+function toleranceOf(parts: Part[]): number {
+  const lengths = parts.map(lengthOf).sort((a, b) => a - b);
+  return Math.min(reach * sizeOf(parts.flatMap((p) => p.points)), lengths[lengths.length >> 1] / 10);
 }
 
 /** The points of parts that follow each other; each is given by the end at which it is entered: 2 k at its first point, 2 k + 1 at its last. */
@@ -48,9 +54,10 @@ function chained(parts: Part[], entered: number[]): Place[] {
 }
 
 /** Open parts as the chains that they make, whatever their order and direction. */
-function chainsOf(parts: Part[]): Part[] {
-  const ends = parts.flatMap(({ points }) => [points[0], points[points.length - 1]]);
-  const place = placesOf(ends, reach * sizeOf(parts.flatMap((p) => p.points)));
+function chainsOf(all: Part[]): Part[] {
+  const tolerance = toleranceOf(all);
+  const parts = all.filter((part) => lengthOf(part) > tolerance); // shorter ones are within a place
+  const place = placesOf(parts.flatMap(({ points }) => [points[0], points[points.length - 1]]), tolerance);
   const free: number[][] = []; // ends at each place
   const used = parts.map((_, k) => place[2 * k] === place[2 * k + 1]);
   place.forEach((at, end) => (free[at] ??= []).push(end));

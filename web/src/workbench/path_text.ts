@@ -1,45 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A path from text that is pasted or read from a file: SVG, DXF, or rows of coordinates.
-import type { Place } from "../motion";
+// A path from what is pasted or read from a file: SVG, DXF, or rows of coordinates.
 import { PathError, prepared, type Path } from "./path";
+import { csvPath } from "./path_csv";
 import { dxfPath } from "./path_dxf";
 import { svgPath } from "./path_svg";
 import { svgFile } from "./path_svg_file";
-import { numbersOf } from "./points";
 
-const units: Record<string, number> = { mm: 1, cm: 10, m: 1000, in: 25.4, inch: 25.4 };
+/** Bytes of a file, or characters of a text, at most. */
+export const mostBytes = 50_000_000;
 
-/** mm for a unit of the table: its header may name one, as in "x_mm; y_mm" or "x (cm), y (cm)". */
-function unitOf(header: string): number {
-  const [, name] = /_(mm|cm|m|in)\b/i.exec(header) ?? /[([]\s*([a-z]+)\s*[)\]]/i.exec(header) ?? [];
-  const factor = units[name?.toLowerCase() ?? "mm"];
-  if (!factor) throw new PathError(`The header of the table names the unit “${name}”.`, "Lengths are in mm, cm, m or in; without a unit they are in mm.");
-  return factor;
+/** The first bytes of files that are not text, what they are, and the way to a file that is read. */
+const signatures: [string, string, string][] = [
+  ["PK\x03\x04", "an Excel workbook or another packed file", "Save the table as CSV, or unpack the drawing."],
+  ["\xd0\xcf\x11\xe0", "an Excel workbook", "Save the table as CSV."],
+  ["\x1f\x8b", "a packed file, such as SVGZ", "Save the drawing as plain SVG, or unpack it."],
+  ["%PDF", "a PDF file", "Export the drawing as SVG or DXF."],
+  ["AC10", "a DWG drawing", "Save the drawing as an ASCII DXF."],
+  ["\x89PNG", "a picture of pixels", "Trace its line in a drawing program, and save it as SVG."],
+  ["\xff\xd8\xff", "a picture of pixels", "Trace its line in a drawing program, and save it as SVG."],
+];
+
+/** Refuses a file or a text that is too large to be read in a moment. */
+export function requireSize(size: number): void {
+  if (size > mostBytes) throw new PathError(`The file has ${Math.ceil(size / 1e6)} MB; at most ${mostBytes / 1e6} MB are read.`, "Save the path alone, with fewer points: a few hundred are enough.");
 }
 
-/** Rows of two coordinates, divided by tabs, semicolons, spaces or commas; decimals may have commas. */
-export function csvPath(text: string): Path {
-  const lines = text.split(/\r\n|\n|\r/).map((line, i) => ({ line: line.trim(), number: i + 1 })).filter(({ line }) => line !== "" && !line.startsWith("#"));
-  const header = lines.length && !/\d/.test(lines[0].line.replace(/[a-z]\w*/gi, "")) ? lines.shift()!.line : "";
-  const factor = unitOf(header);
-  const points = lines.map(({ line, number }): Place => {
-    const row = numbersOf(line);
-    const shown = line.length > 30 ? `${line.slice(0, 30)} …` : line;
-    if (row.length < 2) throw new PathError(`Line ${number}, “${shown}”, has only one number.`, "Each line holds the two coordinates of one point, for example 12.5; 40.");
-    if (row.length > 2) throw new PathError(`Line ${number}, “${shown}”, has ${row.length} numbers instead of two.`, "Keep the columns x and y. If your decimals have commas, divide the columns by semicolons.");
-    if (!row.every(Number.isFinite)) throw new PathError(`Line ${number}, “${shown}”, is not a pair of numbers.`, "Write one point in each line, for example 12.5; 40. SVG path data begin with M.");
-    return { x: factor * row[0], y: factor * row[1] };
-  });
-  if (points.length < 2) throw new PathError(points.length ? "There is only one point." : "There are no points.", "Paste at least two lines of two numbers, the path data of an SVG, or an ASCII DXF.");
-  return { points, closed: false };
+/** UTF-16 by its mark or by the zero bytes of its first letters. */
+function encodingOf(bytes: Uint8Array): string {
+  const [a, b, c, d] = bytes;
+  if ((a === 0xff && b === 0xfe) || (a && b === 0 && c && d === 0)) return "utf-16le";
+  return (a === 0xfe && b === 0xff) || (a === 0 && b && c === 0 && d) ? "utf-16be" : "utf-8";
+}
+
+/** The text of a file in UTF-8, UTF-16 or, where the bytes are none of these, Windows-1252. */
+export function textOf(bytes: Uint8Array): string {
+  const head = Array.from(bytes.subarray(0, 8), (byte) => String.fromCharCode(byte)).join("");
+  const [, kind, hint] = signatures.find(([mark]) => head.startsWith(mark)) ?? [];
+  if (kind) throw new PathError(`This is ${kind}, not a text.`, hint!);
+  try {
+    return new TextDecoder(encodingOf(bytes), { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("windows-1252").decode(bytes);
+  }
 }
 
 /** The path in a text, whichever of the forms it has. */
-export function readPath(text: string): Path {
+export function readPath(marked: string): Path {
+  requireSize(marked.length);
+  const text = marked.replace(/^\ufeff+/, "");
+  if (!/\S/.test(text)) throw new PathError("The text or file is empty.", "Give at least two lines of two numbers, the path data of an SVG, an SVG file, or an ASCII DXF.");
   const read = /^\s*</.test(text) ? svgFile(text)
     : /^\s*[mM]\s*[-+.\d]/.test(text) ? svgPath(text)
       : /^AutoCAD Binary DXF|^\s*(?:0\s*[\r\n]+\s*(?:SECTION|LWPOLYLINE|POLYLINE|LINE|ARC|CIRCLE|ELLIPSE|SPLINE|EOF)\b|999\s*[\r\n])/.test(text) ? dxfPath(text)
-        : csvPath(text);
+        : csvPath(withoutZeros(text));
   return prepared(read);
+}
+
+function withoutZeros(text: string): string {
+  if (text.includes("\0")) throw new PathError("This is not a text: it holds zero bytes.", "Save the path as SVG, CSV or ASCII DXF.");
+  return text;
 }

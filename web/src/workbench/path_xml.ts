@@ -58,9 +58,13 @@ function afterAside(text: string, at: number): number | null {
   return null;
 }
 
+// The parts of a tag; each is looked for at a given position.
+const head = /<(\/?)([^\s/<>"'=]+)/y;
+const attribute = /\s+([^\s/<>"'=]+)\s*=\s*(["'])/y;
+const tail = /\s*(\/?)>/y;
+
 /** The tag that begins here, and the position behind it; null where it is damaged. */
 function tagAt(text: string, at: number, line: number): { tag: Tag; end: number } | null {
-  const [head, attribute, tail] = [/<(\/?)([^\s/<>"'=]+)/y, /\s+([^\s/<>"'=]+)\s*=\s*(["'])/y, /\s*(\/?)>/y];
   head.lastIndex = at;
   const begin = head.exec(text);
   if (!begin) return null;
