@@ -181,7 +181,7 @@ function pathOf(entity: Entity, perTurn: number): Path | null {
     case "ARC": return seen(circularArc(entity, perTurn));
     case "CIRCLE": return seen({ points: arcPoints(placeOf(entity, 10), radiusOf(entity), 0, full, perTurn).slice(0, -1), closed: true });
     case "ELLIPSE": return ellipse(entity, perTurn);
-    case "SPLINE": return spline(entity, Math.max(2, perTurn >> 2));
+    case "SPLINE": return spline(entity, Math.max(1, perTurn >> 2));
     default: return null;
   }
 }

@@ -47,18 +47,16 @@ export function splineFault({ degree, knots, control, weights }: Spline): string
 
 /** The point at the parameter t between the knots `span` and `span + 1` (algorithm of de Boor, with weights as a third coordinate). */
 function splinePoint({ degree, knots, control, weights }: Spline, span: number, t: number): Place {
-  const row = Array.from({ length: degree + 1 }, (_, j) => {
-    const i = span - degree + j;
-    return [weights[i] * control[i].x, weights[i] * control[i].y, weights[i]];
-  });
+  const first = span - degree;
+  const w = weights.slice(first, span + 1);
+  const x = w.map((weight, j) => weight * control[first + j].x);
+  const y = w.map((weight, j) => weight * control[first + j].y);
   for (let r = 1; r <= degree; ++r)
     for (let j = degree; j >= r; --j) {
-      const i = span - degree + j;
-      const share = (t - knots[i]) / (knots[i + degree - r + 1] - knots[i]);
-      row[j] = row[j].map((v, k) => (1 - share) * row[j - 1][k] + share * v);
+      const share = (t - knots[first + j]) / (knots[first + j + degree - r + 1] - knots[first + j]);
+      for (const row of [x, y, w]) row[j] = (1 - share) * row[j - 1] + share * row[j];
     }
-  const [x, y, w] = row[degree];
-  return { x: x / w, y: y / w };
+  return { x: x[degree] / w[degree], y: y[degree] / w[degree] };
 }
 
 /** A spline with `steps` points between two knots; both ends are among the points. */

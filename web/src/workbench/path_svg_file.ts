@@ -152,6 +152,8 @@ const names = ["path", "line", "polyline", "polygon", "rect", "circle", "ellipse
 /** Elements whose contents are not drawn where they are written. */
 const stores = ["defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata"];
 
+const deepest = 100_000; // elements within each other
+
 /** An element with its children: their map to mm, and whether they are drawn. */
 interface Level {
   tag: Tag;
@@ -209,6 +211,7 @@ function shapesOf(text: string): { drawn: Shape[]; others: string[] } {
     if (shape) drawn.push(shape);
     else if (level.drawn && ["use", "text", "image"].includes(tag.name)) others.add(`<${tag.name}>`);
     if (tag.kind === "begin") open.push(level);
+    if (open.length > deepest) throw new PathError(`${nameOf(tag)} lies within more than ${deepest} elements.`, "Ungroup the drawing, and save the file again.");
   }
   const cut = open.find(({ tag }) => tag.name === "svg");
   if (cut) throw new PathError(`The file ends before </svg>, which closes ${nameOf(cut.tag)}.`, "Copy or save the file once more: its end is missing.");
