@@ -76,6 +76,9 @@ test("deep, endless and growing texts end with a path or a reason", () => {
   expect(refusal(() => readPath(`<!DOCTYPE svg [${entities}]><svg><path d="&a30;"/></svg>`))).toMatch(/entity &a30;/);
   const endless = ["<", "<g ", '<a b="', "<!-- ", "<![CDATA[", "<!DOCTYPE [", "<!DOCTYPE ['\"", "M", "M0 0L", "M0 0 ", "0\n", "0\nSECTION\n", "999\n", '"', '";', "x(", "x[ ", ";", "#", "-", "1e", "M1e9", "<path d='M0 0' transform='rotate(", "&#"];
   for (const start of endless) expect(refusal(() => readPath(start.repeat(20_000))), start).not.toBe("");
+  const [digits, blanks] = ["9".repeat(200_000), "\n".repeat(200_000)];
+  for (const text of [`${digits}x;1\n2;3`, `1;2\n${digits}x;3`, `0${blanks}x`, `M0 0L${digits}x`, `<svg width="${digits}!"/>`, `<rect x="${digits}${blanks}!" width="1"/>`, `<${"a".repeat(200_000)}></b>`, `0\nLINE\n10\n${digits}x\n`])
+    expect(refusal(() => readPath(text)).length, text.slice(0, 20)).toBeLessThan(200);
 }, slow);
 
 const samples = [

@@ -58,7 +58,7 @@ function cellsOf(line: Line, separator: string): Cell[] {
 /** A number with a decimal point or comma; NaN for what is none. */
 function numberIn(text: string): number {
   const plain = text.replace("\u2212", "-").replace(",", ".");
-  return /^[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  return /^[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
 }
 
 /** A line is a heading if none of its cells is a number, nor a word that stands for one. */
@@ -118,7 +118,7 @@ class Numbers {
     const value = numberIn(text);
     const mark = text.includes(",") ? "," : text.includes(".") ? "." : "";
     const sign = (m: string) => (m === "," ? "comma" : "point");
-    if (mark && this.decimal && mark !== this.decimal && !Number.isNaN(value)) throw new PathError(`${lineOf(line)} has “${text}” with a decimal ${sign(mark)}, but numbers before it have a decimal ${sign(this.decimal)}.`, "Write all decimals with points, or all with commas.");
+    if (mark && this.decimal && mark !== this.decimal && !Number.isNaN(value)) throw new PathError(`${lineOf(line)} has “${shown(text)}” with a decimal ${sign(mark)}, but numbers before it have a decimal ${sign(this.decimal)}.`, "Write all decimals with points, or all with commas.");
     this.decimal ||= mark;
     if (Number.isFinite(value)) return value;
     const found = text ? `“${shown(text)}”` : `column ${column + 1} is empty`;

@@ -16,7 +16,7 @@ export interface Command {
 /** The numbers in a text that follows `after`. Flags of arcs are single digits that may touch what follows. */
 export function numbersIn(text: string, after: string, isArc = false): number[] {
   const out: number[] = [];
-  const [gap, flag, number] = [/[\s,]*/y, /[01]/y, /[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?/iy];
+  const [gap, flag, number] = [/[\s,]*/y, /[01]/y, /[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?/iy];
   for (let at = 0; ; ) {
     gap.lastIndex = at;
     at += gap.exec(text)![0].length;

@@ -59,7 +59,7 @@ const pixel = 25.4 / 96; // mm
 function measured(tag: Tag, key: string): { value: number; unit: number | null } | null {
   const text = tag.value(key)?.trim();
   if (text === undefined || text === "" || text === "auto") return null;
-  const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([a-z]*)$/i.exec(text) ?? [];
+  const [, number, unit] = /^([-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)\s*([a-z]*)$/i.exec(text) ?? [];
   const factor = units.get(unit?.toLowerCase()) ?? null;
   if (number === undefined || (factor === null && unit !== "" && unit.toLowerCase() !== "px"))
     throw new PathError(`${key} = “${text.slice(0, 30)}” of ${nameOf(tag)} is not a length.`, "Lengths are numbers, alone or with px, mm, cm, in, pt, pc or Q; percentages have to be converted.");

@@ -52,7 +52,7 @@ export function readPath(marked: string): Path {
   if (!/\S/.test(text)) throw new PathError("The text or file is empty.", "Give at least two lines of two numbers, the path data of an SVG, an SVG file, or an ASCII DXF.");
   const read = /^\s*</.test(text) ? svgFile(text)
     : /^\s*[mM]\s*[-+.\d]/.test(text) ? svgPath(text)
-      : /^AutoCAD Binary DXF|^\s*(?:0\s*[\r\n]+\s*(?:SECTION|LWPOLYLINE|POLYLINE|LINE|ARC|CIRCLE|ELLIPSE|SPLINE|EOF)\b|999\s*[\r\n])/.test(text) ? dxfPath(text)
+      : /^AutoCAD Binary DXF|^\s*(?:0[ \t]*[\r\n]\s*(?:SECTION|LWPOLYLINE|POLYLINE|LINE|ARC|CIRCLE|ELLIPSE|SPLINE|EOF)\b|999\s*[\r\n])/.test(text) ? dxfPath(text)
         : csvPath(withoutZeros(text));
   return prepared(read);
 }

@@ -58,6 +58,7 @@ function afterAside(text: string, at: number): number | null {
   return null;
 }
 
+const longestName = 40; // characters
 // The parts of a tag; each is looked for at a given position.
 const head = /<(\/?)([^\s/<>"'=]+)/y;
 const attribute = /\s+([^\s/<>"'=]+)\s*=\s*(["'])/y;
@@ -86,7 +87,7 @@ function tagAt(text: string, at: number, line: number): { tag: Tag; end: number 
     const range = values.get(key);
     return range && decoded(text.slice(...range), line);
   };
-  return { tag: { kind: begin[1] ? "end" : last[1] ? "alone" : "begin", name: begin[2].replace(/^.*:/, ""), line, value }, end: tail.lastIndex };
+  return { tag: { kind: begin[1] ? "end" : last[1] ? "alone" : "begin", name: begin[2].replace(/^.*:/, "").slice(0, longestName), line, value }, end: tail.lastIndex };
 }
 
 export function* tagsOf(text: string): Generator<Tag> {
