@@ -37,10 +37,12 @@ using polishing::LimitRow;
 constexpr std::size_t samples = stroke_samples;
 constexpr std::size_t limit_angles = 48;  // grid of the pair angles during the polish
 constexpr std::size_t measured_angles = 720;
+constexpr std::size_t limit_minima = 16;  // minima of the pair angle over the turn that a polish heeds
 constexpr std::size_t max_limit_rows = 24;
 constexpr double margin =
-    0.3 * pi / 180;                 // the polish keeps this much more of the pair angle than it promises
-constexpr double open_rest = 0.02;  // an open stroke leaves this much of a turn (rad)
+    0.05 * pi / 180;  // the polish keeps this much more of the pair angle than it promises
+constexpr double nearly_kept = 4e-4, far_from_kept = 0.05;  // what a polish may miss of its limits
+constexpr double open_rest = 0.02;                          // an open stroke leaves this much of a turn (rad)
 
 using Samples = std::array<double, samples>;
 
@@ -188,6 +190,37 @@ struct MachineFitter::Memory {
     return largest;
   }
 
+  /// The minima of the quality on the grid that are below the limit, each at the vertex of the parabola
+  /// through three angles; number of them.
+  std::size_t minima_below(const PointProgram& p, const double* x, unsigned signs,
+                           std::array<double, limit_minima>& angle, std::array<double, limit_minima>& least,
+                           std::array<double, limit_minima>& where) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < limit_angles && count < limit_minima; ++k) {
+      const double before = quality[k == 0 ? limit_angles - 1 : k - 1],
+                   after = quality[k + 1 == limit_angles ? 0 : k + 1];
+      if (quality[k] > before || quality[k] >= after) continue;
+      const double offset = 0.5 * (before - after) / (before - 2 * quality[k] + after);
+      if (!(quality[k] - 0.5 * std::abs(before - after) * std::abs(offset) < min_quality)) continue;
+      angle[count] = limit_angle[k] + offset * (2 * pi / limit_angles);
+      ++count;
+    }
+    if (count == 0) return 0;
+    std::fill(angle.begin() + static_cast<std::ptrdiff_t>(count), angle.end(), angle[0]);
+    compute_curve({.program = &p,
+                   .x = x,
+                   .signs = signs,
+                   .angle = angle.data(),
+                   .count = limit_minima,
+                   .quality = least.data(),
+                   .worst = where.data()});
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      if (least[k] < min_quality)
+        angle[kept] = angle[k], least[kept] = least[k], where[kept] = where[k], ++kept;
+    return kept;
+  }
+
   /// Limits that are not kept, with their gradients where they are wanted; the sum of squares.
   double limit_squares(const PointProgram& p, const double* x, unsigned signs, double weight,
                        bool with_rows) {
@@ -209,16 +242,13 @@ struct MachineFitter::Memory {
                    .count = limit_angles,
                    .quality = quality.data(),
                    .worst = worst.data()});
-    for (std::size_t k = 0; k < limit_angles; ++k) {
-      const double before = quality[k == 0 ? limit_angles - 1 : k - 1],
-                   after = quality[k + 1 == limit_angles ? 0 : k + 1];
-      if (!(quality[k] < min_quality) || quality[k] > before || quality[k] >= after) continue;
-      if (LimitRow* row = add(weight * (min_quality - quality[k]))) {
-        quality_gradient(p, {x, n}, signs, limit_angle[k], static_cast<int>(worst[k]),
-                         {row->gradient.data(), n});
+    std::array<double, limit_minima> angle, least, where;
+    const std::size_t found = minima_below(p, x, signs, angle, least, where);
+    for (std::size_t k = 0; k < found; ++k)
+      if (LimitRow* row = add(weight * (min_quality - least[k]))) {
+        quality_gradient(p, {x, n}, signs, angle[k], static_cast<int>(where[k]), {row->gradient.data(), n});
         for (std::size_t i = 0; i < n; ++i) row->gradient[i] *= -weight;
       }
-    }
     const std::span<const double> all(x, n);
     const auto s = static_cast<std::size_t>(p.scale());
     const double scale = std::hypot(x[s], x[s + 1]);
@@ -243,6 +273,11 @@ struct MachineFitter::Memory {
       }
     }
     return sum;
+  }
+
+  /// Root of the squares of what is missing at the limits and their margin.
+  double missed_limits(const FittedMachine& m) {
+    return std::sqrt(limit_squares(program_of(m.shape), m.shape.x.data(), m.shape.signs, 1, false));
   }
 
   void move_grid() {
@@ -371,6 +406,12 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
   if (!(m.descend(machine, 1, 25) <= 1.6 * best)) return false;
   if (!(m.descend(machine, 4, 40) <= 1.15 * best)) return false;
   m.descend(machine, 30, 80);
+  // A machine that stays far from the stroke pulls harder at its limits than that.
+  for (const double weight : {150.0, 750.0, 3750.0}) {
+    const double missed = m.missed_limits(machine);
+    if (missed < nearly_kept || missed > far_from_kept) break;
+    m.descend(machine, weight, 40);
+  }
   return true;
 }
 

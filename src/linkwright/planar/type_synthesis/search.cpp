@@ -22,8 +22,10 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 400, archive_size = 40;
-constexpr int first_rounds = 3;  // of each family, before the better ones get more
+constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 1500, archive_size = 40;
+constexpr std::ptrdiff_t max_kin = 2;  // machines of the elite that are of one kin
+constexpr double pool_patience = 4;    // a start may lie this much further off than a hop, and is kept
+constexpr int first_rounds = 3;        // of each family, before the better ones get more
 
 constexpr std::string_view saved_as = "types";
 
@@ -34,6 +36,7 @@ struct Trial {
   TrialKind kind{};
   FittedMachine machine;
   double best = infinity;
+  std::int64_t origin = 0;
   bool accepted = false, inside = false;
   MachineMeasures measures;
   std::int64_t curves = 0;
@@ -55,6 +58,12 @@ bool dominates(const FoundMachine& a, const FoundMachine& b) {
 bool is_alike(const FoundMachine& a, const FoundMachine& b) {
   return std::abs(a.measures.error - b.measures.error) <= 2e-3 * b.measures.error + 1e-7 &&
          std::abs(a.measures.size - b.measures.size) <= 0.01 * b.measures.size;
+}
+
+/// One has come from the other by hops, or both are of one type on one branch.
+bool is_kin(const FoundMachine& a, const FoundMachine& b) {
+  const MachineShape &s = a.machine.shape, &t = b.machine.shape;
+  return a.origin == b.origin || (s.program == t.program && s.signs == t.signs);
 }
 
 class TypeSearch {
@@ -219,6 +228,7 @@ class TypeSearch {
       RandomStream stream = random(static_cast<std::uint32_t>(2 + k));
       Trial t;
       t.best = f.report.error;
+      t.origin = state_.rounds * static_cast<std::int64_t>(trials_a_round) + static_cast<std::int64_t>(k) + 1;
       const bool left = f.next_in_pool < f.pool.size();
       const bool from_pool = f.elite.empty() ? !f.pool.empty() : left && stream.uniform() < 0.5;
       if (grow && k < 4) {
@@ -229,10 +239,12 @@ class TypeSearch {
         t.best = infinity;
       } else if (from_pool) {
         take_from_pool(f, t, stream);
+        t.best *= pool_patience;
       } else if (!f.elite.empty()) {
         const double rank = -1.5 * std::log(1 - stream.uniform());
-        t.kind = TrialKind::hop,
-        t.machine = f.elite[std::min(static_cast<std::size_t>(rank), f.elite.size() - 1)].machine;
+        const FoundMachine& from = f.elite[std::min(static_cast<std::size_t>(rank), f.elite.size() - 1)];
+        t.kind = TrialKind::hop, t.machine = from.machine, t.origin = from.origin;
+        t.best = from.measures.error;
         hop(t.machine, stream);
       } else {
         continue;
@@ -273,7 +285,7 @@ class TypeSearch {
   }
 
   void take(FamilyState& f, Trial&& t) {
-    FoundMachine found{.machine = std::move(t.machine), .measures = t.measures};
+    FoundMachine found{.machine = std::move(t.machine), .measures = t.measures, .origin = t.origin};
     if (!t.inside) {
       if (!f.outside || found.measures.error < f.outside->measures.error) f.outside = std::move(found);
       return;
@@ -285,6 +297,7 @@ class TypeSearch {
     }
     insert(f.archive, found, archive_size, true);
     insert(f.elite, found, elite_size, false);
+    keep_kin_apart(f.elite);
   }
 
   /// Keeps a list sorted by error, without machines that are alike and, for archives, without dominated ones.
@@ -302,6 +315,16 @@ class TypeSearch {
         [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
     list.insert(place, found);
     if (list.size() > most) list.pop_back();
+  }
+
+  /// Keeps few of each kin, so that hops do not all end in one optimum.
+  static void keep_kin_apart(std::vector<FoundMachine>& elite) {
+    for (std::size_t i = 0; i < elite.size(); ++i) {
+      const auto here = elite.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto kin =
+          std::count_if(elite.begin(), here, [&](const FoundMachine& m) { return is_kin(m, *here); });
+      if (kin == max_kin) elite.erase(here), --i;
+    }
   }
 
   double chamfer_of(const FoundMachine& found) const {

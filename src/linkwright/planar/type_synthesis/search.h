@@ -28,6 +28,7 @@ struct FoundMachine {
   FittedMachine machine;
   MachineMeasures measures;
   double chamfer = infinity;  ///< chamfer distance of curve and stroke
+  std::int64_t origin = 0;    ///< number of the start from which it has come by hops
 };
 
 /// What the search did in one family.
