@@ -24,6 +24,8 @@ NO_TEST = {
     "planar/type_synthesis/detail/program_kernel.h": "part of curve, compiled for numbers and for registers, compared in curve_test.cpp",
     "planar/type_synthesis/detail/search_state.h": "part of search, saved and loaded in search_test.cpp",
     "suspension/corner/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
+    "suspension/corner/detail/points_kernel.h": "part of constraints, likewise",
+    "suspension/corner/detail/rockers_kernel.h": "part of constraints, likewise",
     "parallel/dexterity/detail/kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
     "parallel/dexterity/detail/synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
     "planar/linkage/state.h": "plain data; every test of motion fills and reads it",

@@ -10,6 +10,7 @@
 #include "linkwright/suspension/corner/structure.h"
 #include "support/allocations.h"
 #include "support/message.h"
+#include "suspension/pushrod_corner.h"
 #include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
@@ -285,6 +286,32 @@ TEST(CornerPosition, AllocatesNothing) {
   const CornerRates rates = solve_rates(plan, found, Driver::contact_z);
   EXPECT_EQ(test::allocations(), before);
   EXPECT_EQ(rates.status, Status::done);
+}
+
+// The rod is as long as the sum or the difference of the other two distances where it lies in line with the
+// arm.
+TEST(CornerPosition, EndsWhereARodComesIntoLineWithItsRocker) {
+  const Suspension suspension = pushrod_corner();
+  const CornerPlan plan = prepare_suspension(suspension);
+  const CornerPosition reference = reference_position(plan);
+  for (const double to : {-0.3, 0.3}) {
+    const CornerPosition end = solve_position(plan, Driver::wheel_centre_z, {to, 0}, reference);
+    EXPECT_EQ(end.status, Status::no_assembly);
+    EXPECT_THAT(end.reason,
+                ::testing::HasSubstr("the rod of rocker comes into line with its arm there (toggle"));
+    const RockerConstants& rocker = plan.rockers[0];
+    const Vec3 outer = place_of(plan, rocker.driver, end.place, 0) - rocker.at;
+    const double along = dot(outer - rocker.rod, rocker.axis), arm = norm(cross(rocker.rod, rocker.axis)),
+                 far = norm(cross(outer, rocker.axis)), across = far + (to < 0 ? -arm : arm);
+    EXPECT_NEAR(rocker.length, std::hypot(along, across), 1e-9);
+    // A long first step, and one that starts at the other side, find the same end.
+    const CornerPosition again =
+        solve_position(plan, Driver::wheel_centre_z, {to, 0}, reference, {.first = 0.2});
+    EXPECT_NEAR(again.input.value, end.input.value, 1e-9);
+    const TravelLimits limits = travel_limits(plan, Driver::wheel_centre_z, 0, reference, 0.3);
+    EXPECT_EQ(limits.status[to > 0], Status::no_assembly);
+    EXPECT_NEAR(limits.value[to > 0], end.input.value, 1e-9);
+  }
 }
 
 TEST(CornerPosition, Contract) {

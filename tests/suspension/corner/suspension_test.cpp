@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "linkwright/suspension/corner/samples.h"
+#include "suspension/pushrod_corner.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -117,6 +118,58 @@ TEST(Suspension, WheelAxisPointsOutboard) {
   EXPECT_GT(left.x, 0);  // toe-in
   EXPECT_LT(left.z, 0);  // top leans outboard
   EXPECT_EQ(right, (Vec3{left.x, -left.y, left.z}));
+}
+
+TEST(Suspension, Rockers) {
+  EXPECT_TRUE(check(pushrod_corner()).empty());
+  EXPECT_TRUE(check(mirrored(pushrod_corner())).empty());
+  const auto finding = [](auto&& change) {
+    Suspension suspension = pushrod_corner();
+    change(suspension);
+    return only(suspension);
+  };
+  EXPECT_EQ(finding([](Suspension& s) { s.rockers[0].axis[1] = s.rockers[0].axis[0]; }),
+            "rocker.rocker: the two points of its axis are the same");
+  EXPECT_EQ(finding([](Suspension& s) { s.rockers[0].rod = s.rockers[0].axis[1]; }),
+            "rocker.rocker: the joint of its rod lies on its axis: the rod cannot turn it");
+  EXPECT_EQ(
+      finding([](Suspension& s) { s.rockers[0].length = 0.2; }),
+      "rocker.rocker: its rod of 200 mm does not reach: its ends are between 268.345 and 402.503 mm apart "
+      "as the rocker turns");
+  EXPECT_EQ(
+      finding([](Suspension& s) {
+        s.rockers[0].rod = {0, 0.26, 0.4};
+      }),
+      "rocker.rocker: its rod lies in line with the rocker's arm as drawn (toggle): it turns the rocker to "
+      "either side");
+  EXPECT_EQ(finding([](Suspension& s) {
+              s.rockers[0].driven_by.part = {PartKind::rocker, 0};
+            }),
+            "rocker.rocker: there is no rocker 0 before it");
+  EXPECT_EQ(finding([](Suspension& s) {
+              s.rockers[0].driven_by.part = {PartKind::link, 7};
+            }),
+            "rocker.rocker: there is no link 7");
+  EXPECT_EQ(finding([](Suspension& s) { s.rockers[0].driven_by.part = {PartKind::body}; }),
+            "rocker.rocker: its rod is fixed to the body at both ends");
+  EXPECT_EQ(finding([](Suspension& s) { s.spring->rocker = 2; }), "spring: there is no rocker 2 before it");
+}
+
+TEST(Suspension, Elements) {
+  const auto finding = [](const CornerElement& element) {
+    Suspension suspension = pushrod_corner();
+    suspension.elements = {element};
+    return only(suspension);
+  };
+  EXPECT_EQ(finding({.name = "damper",
+                     .first = {{0, 0, 0.5}, {PartKind::body}},
+                     .second = {{0, 0.2, 0.5}, {PartKind::rocker, 0}}}),
+            "0 findings");
+  EXPECT_EQ(
+      finding({.name = "damper", .first = {{0, 0, 0.5}, {PartKind::body}}, .second = {{0, 0, 0.5}, {}}}),
+      "damper: both ends are the same point");
+  EXPECT_EQ(finding({.name = "torsion_bar", .turn = CornerPart{PartKind::link, 2}}),
+            "torsion_bar: it is twisted by no part that turns about an axis of the body");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/detail/parameters_kernel.h"
+#include "suspension/pushrod_corner.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -199,6 +200,54 @@ TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
 TEST(Derivatives, OfNumbersThatAreNotThereAreRefused) {
   EXPECT_THROW(prepare_derivatives(corner_sample("5US").suspension, {{DesignKind::length, 0}}),
                ContractError);
+}
+
+// Lengths between all kinds of parts and angles of all kinds, by either coordinate of the wheel.
+TEST(CornerMotions, AreDifferencesOfPositions) {
+  Suspension pushrod = pushrod_corner();
+  pushrod.elements = {{.name = "damper",
+                       .first = {{0.01, 0.2, 0.3}, {PartKind::link, 0}},
+                       .second = {{0, 0.215, 0.53}, {PartKind::rocker, 0}}},
+                      {.name = "carrier to rod",
+                       .first = {{0, 0.5, 0.2}, {}},
+                       .second = {{0.07, 0.4, 0.17}, {PartKind::link, 2}}},
+                      {.name = "wishbone", .turn = CornerPart{PartKind::link, 0}},
+                      {.name = "bar", .turn = CornerPart{PartKind::rocker, 1}}};
+  Suspension arm = corner_sample("RR-US").suspension;
+  arm.elements = {{.name = "arm", .turn = CornerPart{PartKind::link, 0}},
+                  {.name = "damper",
+                   .first = {{0, 0.3, 0.5}, {PartKind::body}},
+                   .second = {arm.links[0].carrier[0], {PartKind::link, 0}}}};
+  Suspension hinge{.wheel = {{0, 0.8, 0}, 0, 0, 0.6}};
+  hinge.links.push_back({.type = LinkType::R, .body = {{-0.1, 0.3, 0}, {0.1, 0.32, 0.01}}});
+  hinge.elements = {{.name = "hinge", .turn = CornerPart{PartKind::link, 0}}};
+  for (const Suspension& suspension : {pushrod, mirrored(pushrod), arm, hinge})
+    for (const Driver driver : {Driver::wheel_centre_z, Driver::contact_z}) {
+      const DerivativePlan plan = prepare_derivatives(suspension, {});
+      const CornerPosition reference = reference_position(plan.plan);
+      const auto at = [&](double z) {
+        return corner_motions(plan, solve_position(plan.plan, driver, {0.01 + z, 0}, reference), driver);
+      };
+      const double step = 1e-3;
+      const CornerMotions here = at(0), more = at(step), less = at(-step), more2 = at(2 * step),
+                          less2 = at(-2 * step);
+      ASSERT_EQ(here.elements.size(), suspension.elements.size());
+      const auto compare = [&](const std::string& name, auto&& of) {
+        SCOPED_TRACE(name);
+        const auto slope = [&](double TravelRates::*member) {
+          return (8 * (of(more).*member - of(less).*member) - (of(more2).*member - of(less2).*member)) /
+                 (12 * step);
+        };
+        EXPECT_NEAR(of(here).ratio, slope(&TravelRates::value), 1e-8 * (1 + std::abs(of(here).ratio)));
+        EXPECT_NEAR(of(here).by_travel, slope(&TravelRates::ratio),
+                    2e-7 * (1 + std::abs(of(here).by_travel)));
+      };
+      for (std::size_t i = 0; i < here.elements.size(); ++i)
+        compare(suspension.elements[i].name, [i](const CornerMotions& m) { return m.elements[i]; });
+      for (std::size_t i = 0; i < here.rockers.size(); ++i)
+        compare(suspension.rockers[i].name, [i](const CornerMotions& m) { return m.rockers[i]; });
+      if (here.spring) compare("spring", [](const CornerMotions& m) { return *m.spring; });
+    }
 }
 
 }  // namespace

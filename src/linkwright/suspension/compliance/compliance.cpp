@@ -340,6 +340,8 @@ Compliance solve_compliance(const Suspension& suspension, const CornerPlace& pla
   const bool by_spring = support == Support::spring || support == Support::spring_held;
   LINKWRIGHT_REQUIRE(suspension.spring || !by_spring, "the support is '{}', and the suspension has no spring",
                      name_of(support));
+  LINKWRIGHT_REQUIRE(!suspension.spring || acts_directly(*suspension.spring) || !(by_spring || preload),
+                     "the spring acts through a rocker, which the elastic joints do not hold");
   LINKWRIGHT_REQUIRE(suspension.spring || !preload, "the preload needs a spring that carries it");
 
   Compliance out{.support = support, .side = suspension.side, .centre = place.carrier.centre};

@@ -49,7 +49,7 @@ class Builder {
                               placed(poses_[coupler.second], coupler.point),
                               elasticity.couplers.empty() ? rigid : elasticity.couplers[i]});
     }
-    if (suspension.spring)
+    if (suspension.spring && acts_directly(*suspension.spring))
       of_.spring = {ground, suspension.spring->link < 0 ? 0 : body_[suspension.spring->link],
                     suspension.spring->body, spring_end(suspension, place, rack), elasticity.spring};
   }

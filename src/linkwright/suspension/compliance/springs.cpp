@@ -4,36 +4,30 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/compliance/compliance.h"
 
 namespace linkwright::suspension {
 
-WheelRate wheel_rate(const Suspension& suspension, const CornerPlan& plan, const CornerPosition& position,
-                     const SpringLaw& law) {
-  LINKWRIGHT_REQUIRE(plan.spring, "the suspension has no spring");
-  LINKWRIGHT_REQUIRE(law.stiffness >= 0 && std::isfinite(law.stiffness), "stiffness {} N/m", law.stiffness);
-  const double rack = position.input.rack;
+WheelRate wheel_rate(const TravelRates& length, const SpringForce& force) {
   WheelRate out;
-  out.spring_force = law.preload - law.stiffness * driver_value(plan, position.place, rack, Driver::spring);
-  const CornerRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
-  out.status = rates.status;
-  if (out.status != Status::done) return out;
-  out.motion_ratio = -driver_rate(plan, position.place, rack, Driver::spring, rates.bump, 0);
-  // A suspension with rigid joints, a spring of some N/m and 1 N of force in it: what its wheel yields beside
-  // k i^2 is the change of the motion ratio. The spring is stiff enough to outweigh that change.
-  constexpr double stiffness = 100, force = 1;
-  const PointLoad load{position.place.carrier.centre, {0, 0, force * out.motion_ratio}};
-  const Compliance found =
-      solve_compliance(suspension, position.place, rack, {.spring = stiffness}, Support::spring, load);
-  out.status = found.status;
-  if (out.status != Status::done) return out;
-  out.motion_ratio_by_travel =
-      (1 / found.at_centre[2][2] - stiffness * out.motion_ratio * out.motion_ratio) / force;
+  if (!std::isfinite(length.ratio) || !std::isfinite(length.by_travel)) {
+    out.status = Status::singular;
+    return out;
+  }
+  out.motion_ratio = -length.ratio;
+  out.motion_ratio_by_travel = -length.by_travel;
+  out.spring_force = force.force;
   out.wheel_force = out.spring_force * out.motion_ratio;
-  out.by_stiffness = law.stiffness * out.motion_ratio * out.motion_ratio;
+  out.by_stiffness = force.stiffness * out.motion_ratio * out.motion_ratio;
   out.by_motion_ratio = out.spring_force * out.motion_ratio_by_travel;
   out.rate = out.by_stiffness + out.by_motion_ratio;
   return out;
+}
+
+WheelRate wheel_rate(const DerivativePlan& plan, const CornerPosition& position, const SpringLaw& law) {
+  LINKWRIGHT_REQUIRE(plan.plan.spring, "the suspension has no spring");
+  const CornerMotions motions = corner_motions(plan, position);
+  const double compression = -driver_value(plan.plan, position.place, position.input.rack, Driver::spring);
+  return wheel_rate(*motions.spring, force_of(law, compression));
 }
 
 }  // namespace linkwright::suspension

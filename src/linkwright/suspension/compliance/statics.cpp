@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -21,6 +22,15 @@ struct Wrench {
 void add(Wrench& to, const Vec3& force, const Vec3& arm) {
   to.force += force;
   to.moment += cross(arm, force);
+}
+
+/// The wrench on the carrier that does the same work as a force at a point.
+Wrench kernel_wrench(const kernel::Placed<double>& placed, const PartPoint& point, const Vec3& force) {
+  std::array<double, max_unknowns> by{};
+  double by_rack = 0;
+  kernel::Row<double> row{by, by_rack};
+  kernel::add_part_point(placed, point, force, row);
+  return {{by[0], by[1], by[2]}, {by[3], by[4], by[5]}};
 }
 
 Vec3 middle(const std::vector<Vec3>& points) {
@@ -98,13 +108,25 @@ CornerForces solve_forces(const Suspension& suspension, const CornerPlan& plan,
     ++row;
   }
   out.support = factor(row);
-  if (by_spring && suspension.spring->link >= 0) {
-    const int at = suspension.spring->link;
-    const Wrench all = wrench(row);
-    on_carrier[at].force += all.force;
-    on_carrier[at].moment += all.moment;
-    const Vec3 end = spring_end(suspension, position.place, rack);
-    add(on_link[at], factor(row) * unit(end - suspension.spring->body), end - carrier.centre);
+  if (by_spring) {
+    const SpringConstants& spring = *plan.spring;
+    const Vec3 push = factor(row) * unit(place_of(plan, spring.second, position.place, rack) -
+                                         place_of(plan, spring.first, position.place, rack));
+    // The row holds both ends; the link of the moving end takes what the other end does not.
+    Wrench all = wrench(row);
+    const auto pass_on = [&](const kernel::PassedForce<double>& end, const Wrench& share) {
+      if (end.part.kind != PartKind::link) return;
+      on_carrier[end.part.index].force += share.force;
+      on_carrier[end.part.index].moment += share.moment;
+      add(on_link[end.part.index], end.force, end.at - carrier.centre);
+    };
+    if (spring.first.part.kind != PartKind::body) {
+      const Wrench first = kernel_wrench(placed_plan, spring.first, -push);
+      pass_on(kernel::passed_force(placed_plan, spring.first, -push), first);
+      all.force += -first.force;
+      all.moment += -first.moment;
+    }
+    pass_on(kernel::passed_force(placed_plan, spring.second, push), all);
   }
 
   for (int i = 0; i < links; ++i) {

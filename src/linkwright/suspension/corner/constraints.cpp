@@ -31,6 +31,8 @@ CornerPlan prepare_suspension(const Suspension& suspension) {
     const std::string& name = suspension.couplers[i].name;
     plan.labels.push_back(name.empty() ? "coupler " + std::to_string(i + 1) : name);
   }
+  for (std::size_t i = 0; i < suspension.rockers.size(); ++i)
+    plan.rocker_labels.push_back(rocker_label(suspension, static_cast<int>(i)));
   return plan;
 }
 
@@ -49,6 +51,30 @@ double driver_rate(const CornerPlan& plan, const CornerPlace& place, double rack
                    const Twist& twist, double rack_rate) {
   require_spring(plan, driver);
   return kernel::driver_rate(plan, place, rack, driver, twist, rack_rate);
+}
+
+Vec3 place_of(const CornerPlan& plan, const PartPoint& point, const CornerPlace& place, double rack) {
+  return kernel::part_point(kernel::Placed<double>{plan, place, rack}, point);
+}
+
+std::vector<RockerState> rocker_states(const CornerPlan& plan, const CornerPlace& place, double rack,
+                                       const Twist& motion, double rack_rate) {
+  const kernel::Placed<double> placed{plan, place, rack};
+  std::vector<RockerState> out;
+  for (const RockerConstants& rocker : plan.rockers) {
+    std::array<double, max_unknowns> by{};
+    double by_rack = 0;
+    kernel::Row<double> row{by, by_rack};
+    const kernel::RockerPose<double> pose = kernel::rocker_pose(placed, rocker);
+    if (!(pose.clearance > 0)) {
+      out.push_back({.reaches = false});
+      continue;
+    }
+    kernel::add_rocker_angle(placed, rocker, pose, 1.0, row);
+    out.push_back({true, std::atan2(pose.sine, pose.cosine), kernel::rate_of(row, motion, rack_rate),
+                   std::sqrt(pose.clearance / pose.reach)});
+  }
+  return out;
 }
 
 Misfit worst_misfit(const CornerPlan& plan, const CornerPlace& place, double rack) {

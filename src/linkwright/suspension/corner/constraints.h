@@ -96,15 +96,49 @@ struct BasicCouplerConstants {
 /// Constants of a coupler, in numbers.
 using CouplerConstants = BasicCouplerConstants<double>;
 
+/// Constants of a point fixed to a part.
+template <class T>
+struct BasicPartPoint {
+  CornerPart part;  ///< part that it is fixed to
+  /// Body: its place, m. Else an offset, m: carrier from the wheel centre, RR arm from its first body point,
+  /// rocker from the first point of its axis.
+  Vector3<T> at;
+  BasicRodPoint<T> on_rod;    ///< point on a US or SS link
+  BasicAffinePoint<T> point;  ///< point on an RS or SR link
+};
+/// Constants of a point fixed to a part, in numbers.
+using PartPoint = BasicPartPoint<double>;
+
+/// Constants of a rocker.
+template <class T>
+struct BasicRockerConstants {
+  Vector3<T> at,             ///< first point of its axis, m
+      axis,                  ///< unit vector that its angle counts about
+      rod;                   ///< joint of the rod at the reference, from `at`, m
+  BasicPartPoint<T> driver;  ///< other end of the rod
+  T length{0};               ///< of the rod, m
+  bool positive = true;      ///< assembly: sign of the rod's moment about the axis at the reference
+};
+/// Constants of a rocker, in numbers.
+using RockerConstants = BasicRockerConstants<double>;
+
+/// Constants of a length or an angle that is followed.
+template <class T>
+struct BasicElementConstants {
+  BasicPartPoint<T> first,         ///< first end of a length
+      second;                      ///< second end of a length
+  std::optional<CornerPart> turn;  ///< part whose angle is followed instead
+  Vector3<T> mark;                 ///< unit vector across the hinge of an R or RS link at the reference
+};
+/// Constants of an element, in numbers.
+using ElementConstants = BasicElementConstants<double>;
+
 /// Constants of the spring in the equations.
 template <class T>
 struct BasicSpringConstants {
-  Vector3<T> body;            ///< its end at the body, m
-  Vector3<T> offset;          ///< carrier: from the wheel centre; RR arm: from its first body point
-  int link = -1;              ///< index of the link that it is fixed to; -1 = the carrier
-  T length{0};                ///< m, at the reference
-  BasicRodPoint<T> on_rod;    ///< its moving end on a US or SS link
-  BasicAffinePoint<T> point;  ///< its moving end on an RS or SR link
+  BasicPartPoint<T> first,  ///< its end at the body
+      second;               ///< its moving end
+  T length{0};              ///< m, at the reference drawing
 };
 /// Constants of the spring, in numbers.
 using SpringConstants = BasicSpringConstants<double>;
@@ -120,8 +154,11 @@ struct BasicCornerPlan {
   std::vector<BasicLinkConstants<T>> links;        ///< one a link
   std::vector<BasicCouplerConstants<T>> couplers;  ///< one a coupler
   std::optional<BasicSpringConstants<T>> spring;   ///< nothing without a spring
+  std::vector<BasicRockerConstants<T>> rockers;    ///< one a rocker
+  std::vector<BasicElementConstants<T>> elements;  ///< one an element
   CornerConstruction construction;                 ///< ball joints of the carrier and planes of the arms
   std::vector<std::string> labels;                 ///< names of the links and couplers
+  std::vector<std::string> rocker_labels;          ///< names of the rockers
   int unknowns = 6;                                ///< 7 with an RR arm
 };
 /// A suspension made ready for solving, in numbers.
@@ -186,6 +223,34 @@ double driver_value(const CornerPlan& plan, const CornerPlace& place, double rac
 /// @throws ContractError if the driver is `spring` and there is none
 double driver_rate(const CornerPlan& plan, const CornerPlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);
+
+/// The place of a point of a part in a pose.
+///
+/// @param plan the plan of the suspension
+/// @param point constants of the point: an end of its spring, of an element, of a rocker's rod
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @returns the place (m); NaN on a rocker whose rod does not reach
+Vec3 place_of(const CornerPlan& plan, const PartPoint& point, const CornerPlace& place, double rack);
+
+/// A rocker in a pose.
+struct RockerState {
+  bool reaches = true;  ///< false if its rod does not reach it: the other members then mean nothing
+  double angle = 0;     ///< rad from the drawing, see BasicRocker
+  double rate = 0;      ///< rad/s for the motion that was given
+  double lever = 0;     ///< sine of the angle between rod and arm, seen along the axis; 0 at a toggle
+};
+
+/// The rockers in a pose.
+///
+/// @param plan the plan of the suspension
+/// @param place the pose
+/// @param rack rack displacement (m, to the left)
+/// @param motion rates of the suspension
+/// @param rack_rate rate of the rack (m/s)
+/// @returns one state a rocker
+std::vector<RockerState> rocker_states(const CornerPlan& plan, const CornerPlace& place, double rack,
+                                       const Twist& motion = {}, double rack_rate = 0);
 
 /// The largest error of a US link's length, or of a distance that another link keeps, in a pose: too long (+)
 /// or too short (-), and the link that has it. Hinges and struts are measured as they miss each other.

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/suspension/corner/structure.h"
 
@@ -26,6 +28,8 @@ constexpr double max_turn = 0.3;        ///< rad
 // can be assemblies for which the determinant has the same sign, but before it the direction grows beyond
 // bounds.
 constexpr double sharpest_bend = 0.5;
+/// Sine of the angle between a rocker's rod and arm below which a path ends at a toggle.
+constexpr double in_line = 1e-3;
 constexpr double no_squareness = 1e-12;  ///< relative limit of squareness: some thousand roundings
 
 /// Newton's method for plans with N unknowns.
@@ -113,6 +117,44 @@ bool near(const CornerPlace& a, const CornerPlace& b) {
          std::abs(a.arm - b.arm) < max_turn;
 }
 
+/// The rockers along a step: their angles change as little as everything else does, and their rates, which
+/// grow beyond bounds at a toggle, belong to the direction of the motion. Without rockers nothing is looked
+/// at.
+struct RockerStep {
+  std::vector<RockerState> states;
+
+  /// Rates per share of the path, for the motion `tangent` with the rack's `way`.
+  template <class Vector>
+  static RockerStep of(const CornerPlan& plan, const CornerPlace& place, double rack, const Vector& tangent,
+                       double way) {
+    if (plan.rockers.empty()) return {};
+    Twist motion{{tangent(0), tangent(1), tangent(2)}, {tangent(3), tangent(4), tangent(5)}};
+    if (plan.unknowns == 7) motion.arm = tangent(tangent.size() - 1);
+    return {rocker_states(plan, place, rack, motion, way)};
+  }
+  bool reaches() const {
+    return std::all_of(states.begin(), states.end(), [](const RockerState& s) { return s.reaches; });
+  }
+  bool near(const RockerStep& other) const {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (!(std::abs(states[i].angle - other.states[i].angle) < max_turn)) return false;
+    return true;
+  }
+  double squared_rates() const {
+    double sum = 0;
+    for (const RockerState& s : states) sum += s.rate * s.rate;
+    return sum;
+  }
+  double squared_change(const RockerStep& other) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double change = states[i].rate - other.states[i].rate;
+      sum += change * change;
+    }
+    return sum;
+  }
+};
+
 std::string_view in_words(Driver driver) {
   for (const auto& entry : names(Driver{}))
     if (entry.value == driver) return entry.summary.substr(0, entry.summary.find(','));
@@ -129,8 +171,12 @@ std::string limit_reason(const CornerPlan& plan, const CornerPosition& at, const
         "(smallest "
         "singular value {:.1g})",
         in_words(at.driver), at.input.value * 1e3, at.input.rack * 1e3, weakest);
-  const std::string end =
-      fmt::format("the motion turns back there (smallest singular value {:.1g})", weakest);
+  std::string end = fmt::format("the motion turns back there (smallest singular value {:.1g})", weakest);
+  const std::vector<RockerState> rockers = rocker_states(plan, at.place, at.input.rack);
+  for (std::size_t i = 0; i < rockers.size(); ++i)
+    if (rockers[i].lever < in_line)
+      end = fmt::format("the rod of {} comes into line with its arm there (toggle, at {:.3f} deg)",
+                        plan.rocker_labels[i], math::degrees(rockers[i].angle));
   if (way == 0)
     return fmt::format("the {} cannot pass {:.3f} mm at rack {:.3f} mm, {:.3f} mm short of {:.3f} mm: {}",
                        in_words(at.driver), at.input.value * 1e3, at.input.rack * 1e3,
@@ -166,12 +212,21 @@ CornerPosition follow(const CornerPlan& plan, Driver driver, const CornerInput& 
     return out;
   };
   if (!(solver.squareness() > no_squareness)) return stop(Status::singular, 0);
+  const auto stop_at_rocker = [&] {
+    const auto states = rocker_states(plan, out.place, start.rack);
+    const auto lost = std::find_if(states.begin(), states.end(), [](const auto& s) { return !s.reaches; });
+    out.status = Status::no_assembly;
+    out.reason = fmt::format("the rod of {} does not reach", plan.rocker_labels[lost - states.begin()]);
+    return out;
+  };
   const bool orientation = solver.orientation();
   const double rise = input.value - start.value, way = input.rack - start.rack;
   const double length = std::max(std::abs(rise), std::abs(way));
   double share = length > stepping.first ? stepping.first / length : 1, at = 0;
   typename Solver<N>::Vector tangent = solver.tangent(rise, way);
+  RockerStep rockers = RockerStep::of(plan, out.place, start.rack, tangent, way);
   out.residual = solver.residual();
+  if (!rockers.reaches()) return stop_at_rocker();
   while (at < 1 && length > 0) {
     const double next = at + share > 1 - 1e-9 ? 1 : at + share;
     const CornerInput there =
@@ -183,7 +238,17 @@ CornerPosition follow(const CornerPlan& plan, Driver driver, const CornerInput& 
     if (arrived) {
       const typename Solver<N>::Vector onward = solver.tangent(rise, way);
       arrived = (onward - tangent).norm() <= sharpest_bend * std::max(onward.norm(), tangent.norm());
-      if (arrived) tangent = onward;
+      const RockerStep turned = RockerStep::of(plan, trial, there.rack, onward, way);
+      if (arrived && !turned.states.empty())
+        arrived = turned.reaches() && turned.near(rockers) &&
+                  (onward - tangent).squaredNorm() + turned.squared_change(rockers) <=
+                      sharpest_bend * sharpest_bend *
+                          std::max(onward.squaredNorm() + turned.squared_rates(),
+                                   tangent.squaredNorm() + rockers.squared_rates());
+      if (arrived) {
+        tangent = onward;
+        rockers = turned;
+      }
     }
     if (arrived) {
       out.place = trial;

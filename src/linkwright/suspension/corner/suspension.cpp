@@ -14,6 +14,8 @@ namespace {
 
 /// Points nearer than this (m) do not make a length.
 constexpr double no_length = 1e-6;
+/// Sine of the angle between a rocker's rod and arm below which they lie in line.
+constexpr double toggle = 1e-6;
 
 struct CornerFindings {
   Diagnostics list;
@@ -85,6 +87,45 @@ void check_link(const Suspension& suspension, int index, CornerFindings& found) 
   }
 }
 
+/// A rocker whose axis, arm and rod are as they must be; the rod's far end by `check_point`.
+template <class CheckPoint>
+void check_rocker(const Suspension& suspension, std::size_t index, const CheckPoint& check_point,
+                  CornerFindings& found) {
+  const Rocker& rocker = suspension.rockers[index];
+  const std::string key = "rocker." + rocker_label(suspension, static_cast<int>(index));
+  for (const Vec3& at : {rocker.axis[0], rocker.axis[1], rocker.rod, rocker.driven_by.at})
+    if (!finite(at)) return found.add(key, "a coordinate is not a finite number");
+  if (norm(rocker.axis[1] - rocker.axis[0]) < no_length)
+    return found.add(key, "the two points of its axis are the same", "set them apart along the axis");
+  if (off_line(rocker.rod, rocker.axis[0], rocker.axis[1]) < no_length)
+    return found.add(key, "the joint of its rod lies on its axis: the rod cannot turn it");
+  if (rocker.driven_by.part.kind == PartKind::body)
+    return found.add(key, "its rod is fixed to the body at both ends", "fix it to a link or the carrier");
+  check_point(key, "the end of its rod", rocker.driven_by, index);
+  const Vec3 axis = unit(rocker.axis[1] - rocker.axis[0]), arm = rocker.rod - rocker.axis[0],
+             d = rocker.driven_by.at - rocker.axis[0];
+  const double drawn = norm(rocker.driven_by.at - rocker.rod), length = rocker.length.value_or(drawn);
+  if (!(length >= no_length) || !std::isfinite(length))
+    return found.add(key, fmt::format("its rod has a length of {:.6g} mm", 1e3 * length),
+                     "set the ends of the rod apart");
+  // Nearest and furthest place of the joint on its circle, seen from the far end.
+  const double along = dot(arm, axis) - dot(d, axis), arm_radius = norm(cross(arm, axis)),
+               radius = norm(cross(d, axis)), least = std::hypot(along, radius - arm_radius),
+               most = std::hypot(along, radius + arm_radius);
+  if (rocker.length && !(length > least && length < most))
+    return found.add(
+        key,
+        fmt::format("its rod of {:.6g} mm does not reach: its ends are between {:.6g} and {:.6g} mm "
+                    "apart as the rocker turns",
+                    1e3 * length, 1e3 * least, 1e3 * most),
+        fmt::format("as drawn it is {:.6g} mm long", 1e3 * drawn));
+  if (std::abs(dot(cross(axis, arm), d)) < toggle * arm_radius * radius)
+    found.add(
+        key,
+        "its rod lies in line with the rocker's arm as drawn (toggle): it turns the rocker to either side",
+        "move the axis or the joint of the rod off that line");
+}
+
 }  // namespace
 
 Vec3 wheel_axis(Side side, double toe, double camber) { return kernel::wheel_axis(side, toe, camber); }
@@ -108,6 +149,11 @@ Suspension mirrored(const Suspension& suspension) {
     out.spring->body = math::mirrored(out.spring->body);
     out.spring->moving = math::mirrored(out.spring->moving);
   }
+  for (Rocker& rocker : out.rockers)
+    for (Vec3* at : {&rocker.axis[0], &rocker.axis[1], &rocker.rod, &rocker.driven_by.at})
+      *at = math::mirrored(*at);
+  for (CornerElement& element : out.elements)
+    for (Vec3* at : {&element.first.at, &element.second.at}) *at = math::mirrored(*at);
   return out;
 }
 
@@ -131,6 +177,11 @@ int carrier_points(LinkType type) {
 std::string link_label(const Suspension& suspension, int link) {
   const CornerLink& asked = suspension.links.at(link);
   return asked.name.empty() ? fmt::format("link {} ({})", link + 1, name_of(asked.type)) : asked.name;
+}
+
+std::string rocker_label(const Suspension& suspension, int rocker) {
+  const std::string& name = suspension.rockers.at(rocker).name;
+  return name.empty() ? fmt::format("rocker {}", rocker + 1) : name;
 }
 
 Diagnostics check(const Suspension& suspension) {
@@ -202,21 +253,56 @@ Diagnostics check(const Suspension& suspension) {
     else if (coupler.begin && is(coupler.first, {LinkType::US, LinkType::SS}))
       check_hold(key, "its beginning", coupler.first, *coupler.begin);
   }
+  // A point on a part: the carrier, a link that can hold it, or one of the first `rockers` rockers.
+  const auto check_point = [&](const std::string& key, const char* what, const FixedPoint& point,
+                               std::size_t rockers) {
+    const auto [kind, index] = point.part;
+    if (kind == PartKind::link) {
+      if (!is(index, {LinkType::US, LinkType::SS, LinkType::RS, LinkType::SR, LinkType::RR}))
+        found.add(key,
+                  index < 0 || index >= links
+                      ? fmt::format("there is no link {}", index)
+                      : fmt::format("{} cannot hold it", link_label(suspension, index)),
+                  "fix it to the carrier, or to a US, RS, SR or RR link");
+      else if (is(index, {LinkType::US, LinkType::SS}))
+        check_hold(key, what, index, point.at);
+    }
+    if (kind == PartKind::rocker && (index < 0 || index >= static_cast<int>(rockers)))
+      found.add(key, fmt::format("there is no rocker {} before it", index),
+                "a rocker is driven by the carrier, a link or a rocker that stands before it");
+  };
+  for (std::size_t i = 0; i < suspension.rockers.size(); ++i) check_rocker(suspension, i, check_point, found);
+  for (const CornerElement& element : suspension.elements) {
+    const std::string& key = element.name;
+    if (element.turn) {
+      const auto [kind, index] = *element.turn;
+      const bool rocker = kind == PartKind::rocker && index >= 0 &&
+                          index < static_cast<int>(suspension.rockers.size()),
+                 link = kind == PartKind::link && is(index, {LinkType::R, LinkType::RS, LinkType::RR});
+      if (!rocker && !link)
+        found.add(key, "it is twisted by no part that turns about an axis of the body",
+                  "take a rocker, or a link of type RS, RR or R");
+      continue;
+    }
+    if (!finite(element.first.at) || !finite(element.second.at))
+      found.add(key, "a coordinate is not a finite number");
+    else if (norm(element.second.at - element.first.at) < no_length)
+      found.add(key, "both ends are the same point");
+    else
+      for (const FixedPoint* point : {&element.first, &element.second})
+        check_point(key, "its end", *point, suspension.rockers.size());
+  }
   if (suspension.spring) {
     const CornerSpring& spring = *suspension.spring;
-    if (!finite(spring.body) || !finite(spring.moving))
+    if (!finite(spring.body) || !finite(spring.moving)) {
       found.add("spring", "a coordinate is not a finite number");
-    else if (norm(spring.moving - spring.body) < no_length)
+    } else if (norm(spring.moving - spring.body) < no_length) {
       found.add("spring", "both ends are the same point");
-    else if (spring.link != -1) {
-      if (!is(spring.link, {LinkType::US, LinkType::SS, LinkType::RS, LinkType::SR, LinkType::RR}))
-        found.add("spring",
-                  spring.link < -1 || spring.link >= links
-                      ? fmt::format("there is no link {}", spring.link)
-                      : fmt::format("{} cannot hold it", link_label(suspension, spring.link)),
-                  "fix it to the carrier, or to a US, RS, SR or RR link");
-      else if (is(spring.link, {LinkType::US, LinkType::SS}))
-        check_hold("spring", "its moving end", spring.link, spring.moving);
+    } else {
+      const CornerPart part =
+          spring.link < -1 ? CornerPart{PartKind::link, spring.link} : moving_part(spring);
+      check_point("spring", "its moving end", {spring.moving, part}, suspension.rockers.size());
+      check_point("spring", "its first end", {spring.body, spring.body_part}, suspension.rockers.size());
     }
   }
   return found.list;

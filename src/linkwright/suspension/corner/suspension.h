@@ -81,16 +81,88 @@ struct BasicCoupler {
 /// A rod between two links, in numbers.
 using Coupler = BasicCoupler<double>;
 
-/// Spring (or damper) between the body and the carrier or a link.
+/// The kind of a part of a suspension.
+enum class PartKind { body, carrier, link, rocker };
+
+/// A part of a suspension, to which points are fixed.
+struct CornerPart {
+  PartKind kind = PartKind::carrier;  ///< kind of the part
+  int index = 0;                      ///< index of the link or of the rocker
+
+  /// Compares two parts. @returns true if they are the same
+  friend bool operator==(const CornerPart&, const CornerPart&) = default;
+};
+
+/// A point and the part that it is fixed to.
+template <class T>
+struct BasicFixedPoint {
+  Vector3<T> at;    ///< at the reference, m
+  CornerPart part;  ///< on a link: US, SS (on its line), RS, SR or RR
+};
+/// A point and its part, in numbers.
+using FixedPoint = BasicFixedPoint<double>;
+
+/// A rocker (bell crank): it turns about an axis of the body and is driven by a pushrod, a pullrod or a
+/// droplink from another part. Its angle is zero at the reference drawing and right-handed about the
+/// direction from the first to the second point of the axis; on the right side of the vehicle it is
+/// left-handed, so that a mirrored suspension has the same angles. Of the two assemblies of the rod it has
+/// the one that is nearer to the drawing.
+template <class T>
+struct BasicRocker {
+  std::string name;                ///< name in messages and tables
+  std::array<Vector3<T>, 2> axis;  ///< two points of its axis, m
+  Vector3<T> rod;                  ///< joint of the rod on the rocker, m
+  BasicFixedPoint<T> driven_by;    ///< other end of the rod: on the carrier, a link or an earlier rocker
+  std::optional<T> length{};       ///< length of the rod instead of the distance of its points, m
+};
+/// A rocker, in numbers.
+using Rocker = BasicRocker<double>;
+
+/// Something whose length or angle is followed beside the spring: a damper, a torsion bar, the arm of an
+/// anti-roll bar.
+template <class T>
+struct BasicCornerElement {
+  std::string name;          ///< name in messages and tables
+  BasicFixedPoint<T> first,  ///< first end of a length
+      second;                ///< second end of a length
+  std::optional<CornerPart>
+      turn;  ///< an angle instead: of a rocker, or of an R, RS or RR link about its hinge
+};
+/// An element, in numbers.
+using CornerElement = BasicCornerElement<double>;
+
+/// Spring (or damper) between the body and the carrier, a link or a rocker.
 template <class T>
 struct BasicCornerSpring {
   Vector3<T> body;    ///< its end at the body, m
   Vector3<T> moving;  ///< its other end, m
   /// US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line.
   int link = -1;
+  int rocker = -1;                          ///< rocker that it is fixed to instead; -1 = none
+  CornerPart body_part = {PartKind::body};  ///< part that its first end is fixed to
 };
 /// A spring, in numbers.
 using CornerSpring = BasicCornerSpring<double>;
+
+/// The part that the moving end of a spring is fixed to.
+///
+/// @param spring the spring
+/// @returns the carrier, a link or a rocker
+template <class T>
+CornerPart moving_part(const BasicCornerSpring<T>& spring) {
+  return spring.rocker >= 0 ? CornerPart{PartKind::rocker, spring.rocker}
+         : spring.link >= 0 ? CornerPart{PartKind::link, spring.link}
+                            : CornerPart{PartKind::carrier};
+}
+
+/// Test for springs that act without a rocker.
+///
+/// @param spring the spring
+/// @returns true if it acts between the body and the carrier or a link
+template <class T>
+bool acts_directly(const BasicCornerSpring<T>& spring) {
+  return spring.rocker < 0 && spring.body_part.kind == PartKind::body;
+}
 
 /// The side of the vehicle.
 enum class Side {
@@ -120,7 +192,9 @@ struct BasicSuspension {
   std::vector<BasicCornerLink<T>> links;  ///< links between body and carrier
   std::vector<BasicCoupler<T>> couplers;  ///< rods between links
   Vec3 rack_direction{0, 1, 0};  ///< unit; a rack displacement is positive to the left, for both wheels
-  std::optional<BasicCornerSpring<T>> spring;  ///< nothing without a spring
+  std::optional<BasicCornerSpring<T>> spring;   ///< nothing without a spring
+  std::vector<BasicRocker<T>> rockers;          ///< a rocker is driven by what stands before it
+  std::vector<BasicCornerElement<T>> elements;  ///< dampers, torsion bars, arms of anti-roll bars
 };
 /// A wheel suspension, in numbers.
 using Suspension = BasicSuspension<double>;
@@ -207,9 +281,17 @@ Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& alo
 /// @returns the text
 std::string link_label(const Suspension& suspension, int link);
 
+/// The name of a rocker in messages: its name, or "rocker 1".
+///
+/// @param suspension the suspension
+/// @param rocker index of the rocker
+/// @returns the text
+std::string rocker_label(const Suspension& suspension, int rocker);
+
 /// Checks the description by itself: numbers of points, numbers that are not finite, links and axes of no
-/// length, lengths of links that have none, couplers and springs on links that cannot hold them. Keys of the
-/// diagnostics are "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Its mobility is examined by
+/// length, lengths of links that have none, couplers and springs on links that cannot hold them, rockers
+/// whose rods do not reach or do not turn them. Keys of the diagnostics are "link.<name>", "coupler.<name>",
+/// "rocker.<name>", the name of an element, "wheel", "spring", "rack". Its mobility is examined by
 /// `check_structure`.
 ///
 /// @param suspension the suspension

@@ -14,7 +14,7 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::array axes{"x", "y", "z"};
+constexpr std::array axis_letters{"x", "y", "z"};
 
 Mat3 turn_rate_y(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -135,7 +135,7 @@ void CornerErrors::add_link(const LinkTask& task, bool alone) {
     add_unknown(
         fmt::format("{}{}_{}_{}_m", alone ? "" : fmt::format("link_{}_", l + 1),
                     point < bodies ? "body" : "carrier", 1 + (point < bodies ? point : point - bodies),
-                    axes[static_cast<std::size_t>(at % 3)]),
+                    axis_letters[static_cast<std::size_t>(at % 3)]),
         part.coordinates.lower(at) + component(origin, at % 3),
         part.coordinates.upper(at) + component(origin, at % 3));
   }
@@ -167,8 +167,8 @@ void CornerErrors::add_coupler(const CouplerTask& task, std::span<const LinkTask
     const double low = component(task.point.lower, a), high = component(task.point.upper, a);
     LINKWRIGHT_REQUIRE(low <= high, "coupler '{}': box from {} to {} m", task.name, low, high);
     if (low < high)
-      part.columns[at(a) + 1] =
-          static_cast<int>(add_unknown(fmt::format("coupler_{}_point_{}_m", k + 1, axes[at(a)]), low, high));
+      part.columns[at(a) + 1] = static_cast<int>(
+          add_unknown(fmt::format("coupler_{}_point_{}_m", k + 1, axis_letters[at(a)]), low, high));
   }
   part.point = 0.5 * (task.point.lower + task.point.upper) - targets_.wheel.centre;
   rows_ += poses_.size();

@@ -111,6 +111,7 @@ Vec3 coupler_begin(const Suspension& suspension, const Coupler& coupler, const C
 Vec3 spring_end(const Suspension& suspension, const CornerPlace& at, double rack) {
   LINKWRIGHT_REQUIRE(suspension.spring, "the suspension has no spring");
   const CornerSpring& spring = *suspension.spring;
+  LINKWRIGHT_REQUIRE(acts_directly(spring), "the spring acts through a rocker");
   if (spring.link < 0) return place(at.carrier, spring.moving, suspension.wheel.centre);
   const CornerLink& link = suspension.links.at(spring.link);
   if (link.type != LinkType::US && link.type != LinkType::SS)

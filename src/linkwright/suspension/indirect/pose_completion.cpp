@@ -13,7 +13,7 @@
 namespace linkwright::suspension {
 namespace {
 
-double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+double& mutable_component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 bool is_angle(PoseParameter p) { return p >= PoseParameter::toe; }
 
@@ -153,7 +153,7 @@ RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, 
   }
   const int axis = static_cast<int>(parameter);
   CarrierTarget moved = pose;
-  component(moved.centre, axis) = 0;
+  mutable_component(moved.centre, axis) = 0;
   // From the rod's end on the body to that on the carrier, less the unknown.
   const Vec3 d =
       place({moved.centre, target_rotation(targets, moved)}, rod.carrier[0], targets.wheel.centre) -

@@ -232,7 +232,9 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     if (j.end && !j.stiffness && j.axial.has_value() != j.radial.has_value())
       wrong(j.axial ? "radial" : "axial", "is missing", "a bushing has both");
   }
-  if (!form.support) form.support = description.spring ? Support::spring : Support::contact_held;
+  if (!form.support)
+    form.support =
+        description.spring && acts_directly(*suspension.spring) ? Support::spring : Support::contact_held;
   const bool by_spring = *form.support == Support::spring;
   if (by_spring && !description.spring) {
     table->error("support", "the stiffness of the spring is not known",
@@ -246,6 +248,13 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
   if (form.preload && !description.spring) {
     table->error("preload", "needs the spring that carries it",
                  "write stiffness_N_per_mm in [mechanism.spring]");
+    good = false;
+  }
+  if (suspension.spring && !acts_directly(*suspension.spring) &&
+      (by_spring || *form.support == Support::spring_held || form.preload)) {
+    table->error(by_spring || !form.preload ? "support" : "preload",
+                 "the spring acts through a rocker, which the elastic joints do not hold",
+                 "take support = \"contact_held\" or \"wheel_centre_held\", without preload");
     good = false;
   }
   if (!good) return;

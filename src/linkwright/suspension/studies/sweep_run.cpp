@@ -140,8 +140,9 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
 }
 
 /// Adds columns for the effect of the spring at the wheel.
-void add_wheel_rates(study::Result& result, const SweepStudy& s, const CornerPlan& plan, const Grid& grid,
+void add_wheel_rates(study::Result& result, const SweepStudy& s, const Grid& grid,
                      const RunContext& context) {
+  const DerivativePlan plan = prepare_derivatives(s.description.suspension, {});
   constexpr std::size_t between_looks = 256;
   std::vector<double> force, rate, by_ratio;
   bool stopped = false;
@@ -153,7 +154,7 @@ void add_wheel_rates(study::Result& result, const SweepStudy& s, const CornerPla
     }
     WheelRate w{.status = Status::no_assembly};
     if (!stopped && grid.solved.positions[i].status == Status::done)
-      w = wheel_rate(s.description.suspension, plan, grid.solved.positions[i], *s.description.spring);
+      w = wheel_rate(plan, grid.solved.positions[i], *s.description.spring);
     const bool there = w.status == Status::done;
     force.push_back(there ? w.wheel_force : WheelParameters::missing);
     rate.push_back(there ? w.rate : WheelParameters::missing);
@@ -421,7 +422,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   const SweepStudy s = with_travels_of(asked, solved);
   Grid grid{s, std::move(solved), positions / s.travels.size()};
   result.tables.push_back(sweep_table(grid, "sweep"));
-  if (s.description.spring) add_wheel_rates(result, s, plan, grid, context);
+  if (s.description.spring) add_wheel_rates(result, s, grid, context);
   std::vector<TravelLimits> limits;
   const CornerPosition reference = reference_position(plan, s.travel);
   TravelLimits centred;

@@ -45,7 +45,19 @@ BasicSuspension<T> constant(const Suspension& suspension) {
   }
   if (suspension.spring)
     out.spring = {constant(suspension.spring->body), constant(suspension.spring->moving),
-                  suspension.spring->link};
+                  suspension.spring->link, suspension.spring->rocker, suspension.spring->body_part};
+  const auto fixed = [](const FixedPoint& point) {
+    return BasicFixedPoint<T>{constant(point.at), point.part};
+  };
+  for (const Rocker& rocker : suspension.rockers) {
+    out.rockers.push_back({.axis = {constant(rocker.axis[0]), constant(rocker.axis[1])},
+                           .rod = constant(rocker.rod),
+                           .driven_by = fixed(rocker.driven_by)});
+    if (rocker.length) out.rockers.back().length = T(*rocker.length);
+  }
+  for (const CornerElement& element : suspension.elements)
+    out.elements.push_back(
+        {.first = fixed(element.first), .second = fixed(element.second), .turn = element.turn});
   return out;
 }
 
@@ -98,6 +110,53 @@ Twist twist(const Column<N>& x) {
   return out;
 }
 
+/// The place with its derivatives.
+template <int N>
+BasicCornerPlace<T> moved(const CornerPosition& position, const Columns<N>& shifts) {
+  BasicCornerPlace<T> out = constant(position.place);
+  const Mat3& rotation = position.place.carrier.rotation;
+  for (int k = 0; k < W; ++k) {
+    const Twist by = twist<N>(direction<N>(shifts, k));
+    out.carrier.centre.x.by[k] = by.velocity.x;
+    out.carrier.centre.y.by[k] = by.velocity.y;
+    out.carrier.centre.z.by[k] = by.velocity.z;
+    const auto& [x, y, z] = rotation.row;
+    const auto set = [&](Vector3<T>& row, const Vec3& change) {
+      row.x.by[k] = change.x;
+      row.y.by[k] = change.y;
+      row.z.by[k] = change.z;
+    };
+    // turning x (each column of the rotation), by rows
+    set(out.carrier.rotation.row[0], by.turning.y * z - by.turning.z * y);
+    set(out.carrier.rotation.row[1], by.turning.z * x - by.turning.x * z);
+    set(out.carrier.rotation.row[2], by.turning.x * y - by.turning.y * x);
+    out.arm.by[k] = by.arm;
+  }
+  return out;
+}
+
+/// A motion and its change along the directions of the place: J x = b gives J x' = b' - J' x.
+template <int N>
+BasicTwist<T> rate_with_change(const BasicCornerEquations<T>& equations, const Column<N>& x, bool steering,
+                               const math::SmallLu<N>& lu) {
+  Columns<N> right;
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < W; ++k) {
+      double sum = steering ? -equations.by_rack[i].by[k] : 0;
+      for (int j = 0; j < N; ++j) sum -= equations.jacobian[i][j].by[k] * x[j];
+      right[i][k] = sum;
+    }
+  const Columns<N> change = lu.solve(right);
+  std::array<T, N> dual;
+  for (int i = 0; i < N; ++i) {
+    dual[i].value = x[i];
+    for (int k = 0; k < W; ++k) dual[i].by[k] = change[i][k];
+  }
+  BasicTwist<T> made{{dual[0], dual[1], dual[2]}, {dual[3], dual[4], dual[5]}};
+  if constexpr (N == 7) made.arm = dual[6];
+  return made;
+}
+
 /// The equations at a position: what all derivatives there have in common.
 template <int N>
 class Linearised {
@@ -139,52 +198,16 @@ class Linearised {
 
   /// The place with its derivatives.
   BasicCornerPlace<T> moved(const Columns<N>& shifts) const {
-    BasicCornerPlace<T> out = constant(position_.place);
-    const Mat3& rotation = position_.place.carrier.rotation;
-    for (int k = 0; k < W; ++k) {
-      const Twist by = twist<N>(direction<N>(shifts, k));
-      out.carrier.centre.x.by[k] = by.velocity.x;
-      out.carrier.centre.y.by[k] = by.velocity.y;
-      out.carrier.centre.z.by[k] = by.velocity.z;
-      const auto& [x, y, z] = rotation.row;
-      const auto set = [&](Vector3<T>& row, const Vec3& change) {
-        row.x.by[k] = change.x;
-        row.y.by[k] = change.y;
-        row.z.by[k] = change.z;
-      };
-      // turning x (each column of the rotation), by rows
-      set(out.carrier.rotation.row[0], by.turning.y * z - by.turning.z * y);
-      set(out.carrier.rotation.row[1], by.turning.z * x - by.turning.x * z);
-      set(out.carrier.rotation.row[2], by.turning.x * y - by.turning.y * x);
-      out.arm.by[k] = by.arm;
-    }
-    return out;
+    return suspension::moved<N>(position_, shifts);
   }
 
-  /// Adds what the motions show: J x = b gives J x' = b' - J' x.
+  /// Adds what the motions show.
   void add_rates(const BasicCornerPlan<T>& plan, const BasicCornerPlace<T>& place, const T& rack,
                  BasicWheelParameters<T>& out) const {
     BasicCornerEquations<T> equations;
     kernel::evaluate(plan, place, rack, Driver::wheel_centre_z, T(0), equations);
-    const auto motion = [&](const Column<N>& x, bool steering) {
-      Columns<N> right;
-      for (int i = 0; i < N; ++i)
-        for (int k = 0; k < W; ++k) {
-          double sum = steering ? -equations.by_rack[i].by[k] : 0;
-          for (int j = 0; j < N; ++j) sum -= equations.jacobian[i][j].by[k] * x[j];
-          right[i][k] = sum;
-        }
-      const Columns<N> change = by_height_.solve(right);
-      std::array<T, N> dual;
-      for (int i = 0; i < N; ++i) {
-        dual[i].value = x[i];
-        for (int k = 0; k < W; ++k) dual[i].by[k] = change[i][k];
-      }
-      BasicTwist<T> made{{dual[0], dual[1], dual[2]}, {dual[3], dual[4], dual[5]}};
-      if constexpr (N == 7) made.arm = dual[6];
-      return made;
-    };
-    kernel::add_rates(plan, place, rack, motion(bump_, false), motion(steer_, true), out);
+    kernel::add_rates(plan, place, rack, rate_with_change<N>(equations, bump_, false, by_height_),
+                      rate_with_change<N>(equations, steer_, true, by_height_), out);
   }
 
  private:
@@ -270,6 +293,53 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const CornerPosition& pos
   return out;
 }
 
+template <int N>
+CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position, Driver travel) {
+  CornerMotions out;
+  const double rack = position.input.rack;
+  CornerEquations equations;
+  evaluate(plan.plan, position.place, rack, travel, 0, equations);
+  math::SmallLu<N> lu;
+  lu.factor(equations.jacobian);
+  Column<N> unit_travel{};
+  unit_travel[N - 1] = 1;
+  const Column<N> motion = lu.solve(unit_travel);
+  if (!slow_enough(motion)) {
+    out.status = Status::singular;
+    out.rockers.resize(plan.plan.rockers.size());
+    out.elements.resize(plan.plan.elements.size());
+    if (plan.plan.spring) out.spring.emplace();
+    return out;
+  }
+  Columns<N> shifts{};
+  for (int i = 0; i < N; ++i) shifts[i][0] = motion[i];
+  const auto place = moved<N>(position, shifts);
+  const kernel::Placed<T> placed{plan.inputs, place, T(rack)};
+  BasicCornerEquations<T> changes;
+  kernel::evaluate(plan.inputs, place, T(rack), travel, T(0), changes);
+  const BasicTwist<T> motion_and_change = rate_with_change<N>(changes, motion, false, lu);
+  const auto rates = [&](auto&& value_of) {
+    std::array<T, max_unknowns> by{};
+    T by_rack(0);
+    kernel::Row<T> row{by, by_rack};
+    const T value = value_of(row);
+    const T rate = kernel::rate_of(row, motion_and_change, 0);
+    return TravelRates{value.value, rate.value, rate.by[0]};
+  };
+  for (const auto& rocker : plan.inputs.rockers)
+    out.rockers.push_back(rates([&](kernel::Row<T>& row) {
+      const auto pose = kernel::rocker_pose(placed, rocker);
+      kernel::add_rocker_angle(placed, rocker, pose, T(1), row);
+      return atan2(pose.sine, pose.cosine);
+    }));
+  for (const auto& element : plan.inputs.elements)
+    out.elements.push_back(
+        rates([&](kernel::Row<T>& row) { return kernel::element_value(placed, element, row); }));
+  if (plan.inputs.spring)
+    out.spring = rates([&](kernel::Row<T>& row) { return kernel::spring_length(placed, row); });
+  return out;
+}
+
 }  // namespace
 
 DerivativePlan prepare_derivatives(const Suspension& suspension, std::vector<DesignNumber> numbers) {
@@ -293,6 +363,10 @@ WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const CornerPosit
 
 InputDerivatives input_derivatives(const DerivativePlan& plan, const CornerPosition& position) {
   return plan.plan.unknowns == 7 ? by_inputs<7>(plan, position) : by_inputs<6>(plan, position);
+}
+
+CornerMotions corner_motions(const DerivativePlan& plan, const CornerPosition& position, Driver travel) {
+  return plan.plan.unknowns == 7 ? motions<7>(plan, position, travel) : motions<6>(plan, position, travel);
 }
 
 }  // namespace linkwright::suspension

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "linkwright/math/dual.h"
@@ -48,5 +49,30 @@ struct InputDerivatives {
   WheelParameters by_rack;    ///< per metre of rack, the height of the wheel centre held
 };
 InputDerivatives input_derivatives(const DerivativePlan& plan, const CornerPosition& position);
+
+/// A length (m) or an angle (rad) along the travel of the wheel, the rack held.
+struct TravelRates {
+  double value = WheelParameters::missing;      ///< length or angle
+  double ratio = WheelParameters::missing;      ///< by travel: i = dl/dz, longer positive; m/m or rad/m
+  double by_travel = WheelParameters::missing;  ///< di/dz, 1/m or rad/m2
+};
+
+/// What the parts beside the carrier do along the travel.
+struct CornerMotions {
+  Status status = Status::done;       ///< singular: at a limit of travel; no number is known
+  std::vector<TravelRates> rockers,   ///< angle of each rocker
+      elements;                       ///< length or angle of each element
+  std::optional<TravelRates> spring;  ///< length of the spring
+};
+
+/// The motions of rockers, spring and elements at a position: l, dl/dz and d2l/dz2 by implicit
+/// differentiation in dual numbers, J x = b and J x' = -J' x for the motion x along the travel.
+///
+/// @param plan the plan, made without or with design numbers
+/// @param position a position of `plan.plan`
+/// @param travel coordinate z that the rates refer to; not the spring
+/// @returns the motions; singular where the wheel has no motion along its travel
+CornerMotions corner_motions(const DerivativePlan& plan, const CornerPosition& position,
+                             Driver travel = Driver::wheel_centre_z);
 
 }  // namespace linkwright::suspension
