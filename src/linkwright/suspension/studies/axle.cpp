@@ -120,6 +120,8 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
   return out.take();
 }
 
+}  // namespace
+
 void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::string_view what) {
   for (const AxleRow& r : rows)
     if (r.position.status != Status::done) {
@@ -131,8 +133,6 @@ void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::stri
     }
 }
 
-}  // namespace
-
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspension& suspension) {
   auto table = document.table("axle");
   if (std::abs(suspension.wheel.centre.y) < 1e-9)
@@ -142,6 +142,10 @@ void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspensi
     if (auto roll = table->table("roll"))
       if (auto values = values_of(*roll, *axle.roll, "deg"))
         axle.roll = listed<AngleValues>(*std::move(values));
+  if (axle.opposite)
+    if (auto opposite = table->table("opposite"))
+      if (auto values = values_of(*opposite, *axle.opposite, "mm"))
+        axle.opposite = listed<LengthValues>(*std::move(values));
   if (axle.rack) {
     if (!is_steered(suspension))
       table->error("rack", "no link is moved by the rack",
@@ -160,7 +164,9 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
     return study::require_memory(*table, key, bytes * static_cast<double>(rows),
                                  fmt::format("{} positions of the axle", rows), "take fewer values");
   };
-  return (!axle.roll || fits("roll", axle.roll->values)) && (!axle.rack || fits("rack", axle.rack->values));
+  return (!axle.roll || fits("roll", axle.roll->values)) &&
+         (!axle.opposite || fits("opposite", axle.opposite->values)) &&
+         (!axle.rack || fits("rack", axle.rack->values));
 }
 
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,

@@ -38,12 +38,15 @@ void fields(Visitor&& visit, VehicleForm& v) {
 /// `[axle]`: the symmetric axle of the suspension.
 struct AxleForm {
   std::optional<AngleValues> roll;
+  std::optional<LengthValues> opposite;
   std::optional<LengthValues> rack;
   std::optional<double> rack_per_turn;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AxleForm& a) {
   visit(field::entry("roll", "angles by which the body leans to the left over a plane road"), a.roll);
+  visit(field::entry("opposite", "travels of the left wheel, the right one travelling oppositely"),
+        a.opposite);
   visit(field::entry("rack", "displacements of the rack, the wheels at their reference height"), a.rack);
   visit(field::length("rack_per_turn",
                       "C factor: rack travel by a turn of the steering wheel, for the steering ratio")
@@ -60,6 +63,8 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 /// diagram. Facts give those of the row `stated`, whose position their names end with.
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels, std::size_t stated, const Sentence& position);
+/// Reports the first row of an axle that has no position.
+void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::string_view what);
 /// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
 /// stop.
 void add_axle(study::Result& result, const Suspension& suspension, const AxleForm& axle,

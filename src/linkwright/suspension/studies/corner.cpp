@@ -15,6 +15,7 @@
 #include "linkwright/suspension/corner/plausibility.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/studies/spring_parts.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -42,7 +43,9 @@ class CornerReader {
     tables = mechanism_.tables("coupler");
     for (std::size_t i = 0; i < form_.couplers.size() && i < tables.size(); ++i)
       coupler(form_.couplers[i], tables[i]);
-    if (form_.spring) spring();
+    const NamedPoint by_name = [this](study::ObjectReader& table, std::string_view key,
+                                      const std::string& name) { return named(table, key, name); };
+    read_spring_parts(mechanism_, common_, form_, by_name, out_);
     rack();
     if (mechanism_.document().has_errors()) return std::nullopt;
     return std::move(out_);
@@ -59,7 +62,8 @@ class CornerReader {
           study::suggestion(form_.sample, known));
       return std::nullopt;
     }
-    for (const char* key : {"hard_points", "wheel", "link", "coupler", "spring", "rack"})
+    for (const char* key : {"hard_points", "wheel", "link", "coupler", "rocker", "spring", "damper",
+                            "torsion_bar", "anti_roll_bar", "bump_stop", "rebound_stop", "rack"})
       if (mechanism_.has(key)) mechanism_.error(key, "a sample brings its own", "remove it, or the sample");
     out_.suspension = corner_sample(form_.sample).suspension;
     if (form_.side != out_.suspension.side) out_.suspension = mirrored(out_.suspension);
@@ -278,35 +282,6 @@ class CornerReader {
                              .point = point.box});
   }
 
-  void spring() {
-    auto table = mechanism_.table("spring");
-    const CornerSpringForm& s = *form_.spring;
-    CornerSpring out;
-    if (!s.points.empty()) {
-      if (s.body || s.moving)
-        return table->error("points", "its ends are given twice", "keep points, or body and moving");
-      if (s.points.size() != 2)
-        return table->error("points", fmt::format("{} names, needs 2: body, moving", s.points.size()));
-      const auto body = named(*table, "points", s.points[0]), moving = named(*table, "points", s.points[1]);
-      if (!body || !moving) return;
-      out.body = *body;
-      out.moving = *moving;
-    } else {
-      if (!s.body || !s.moving)
-        return table->error(s.body ? "moving" : "body", "this end is missing",
-                            "write body_m and moving_m, or points = [\"spring_top\", \"spring_bottom\"]");
-      const auto body = one_given(*table, "body", *s.body), moving = one_given(*table, "moving", *s.moving);
-      if (!body || !moving) return;
-      out.body = *body;
-      out.moving = *moving;
-    }
-    out.link = s.attached_to == "carrier" ? -1 : link_named(*table, "attached_to", s.attached_to);
-    out_.suspension.spring = out;
-    if (s.stiffness) out_.spring = SpringLaw{*s.stiffness, s.preload};
-    if (!s.stiffness && table->has(field::force("preload")))
-      table->error("preload", "needs the stiffness as well", "write stiffness_N_per_mm");
-  }
-
   void rack() {
     const auto& d = form_.rack.direction;
     const Vec3 along{d[0], d[1], d[2]};
@@ -331,10 +306,11 @@ class CornerReader {
 void report(study::ObjectReader& mechanism, const Diagnostics& problems) {
   for (const Diagnostic& d : problems) {
     const auto dot = d.key.find('.');
-    const std::string list = d.key.substr(0, dot);
+    const bool bar = d.key == fmt::format("rocker.{}", bar_arm);
+    const std::string list = bar ? "anti_roll_bar" : d.key.substr(0, dot);
     const bool warning = d.severity == Diagnostic::Severity::warning;
     bool told = false;
-    if (dot != std::string::npos && mechanism.has(list))
+    if (dot != std::string::npos && !bar && mechanism.has(list))
       for (study::ObjectReader& entry : mechanism.tables(list)) {
         const Value* own = entry.value().find("name");
         if (told || !own || !own->is_string() || own->as_string() != d.key.substr(dot + 1)) continue;
@@ -420,19 +396,7 @@ Value write_suspension(const CornerDescription& d) {
     else
       out.couplers.back().fraction = c.fraction;
   }
-  if (g.spring)
-    out.spring = CornerSpringForm{.body = PointsForm{{given(g.spring->body)}},
-                                  .moving = PointsForm{{given(g.spring->moving)}},
-                                  .points = {},
-                                  .attached_to = g.spring->link < 0
-                                                     ? "carrier"
-                                                     : g.links[static_cast<std::size_t>(g.spring->link)].name,
-                                  .stiffness = {},
-                                  .preload = 0};
-  if (g.spring && d.spring) {
-    out.spring->stiffness = d.spring->stiffness;
-    out.spring->preload = d.spring->preload;
-  }
+  write_spring_parts(d, out);
   out.rack.direction = {g.rack_direction.x, g.rack_direction.y, g.rack_direction.z};
   Value value = study::write_fields(out);
   // Keys that name nothing.
@@ -442,8 +406,7 @@ Value write_suspension(const CornerDescription& d) {
   drop(value, "sample");
   drop(value["wheel"], "point");
   for (Value& link : value["link"].as_array()) drop(link, "points");
-  if (g.spring) drop(value["spring"], "points");
-  if (g.spring && !d.spring) drop(value["spring"], "preload_N");
+  drop_empty_spring_keys(value);
   return value;
 }
 

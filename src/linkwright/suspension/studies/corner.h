@@ -137,22 +137,136 @@ void fields(Visitor&& visit, CornerCouplerForm& c) {
   visit(field::length("point", "its point on that link").required(), c.point);
 }
 
+struct RockerForm {
+  std::string name;
+  std::optional<PointsForm> axis, rod;
+  std::vector<std::string> points;
+  std::string driven_by;
+  std::optional<double> rod_length;
+};
+template <class Visitor>
+void fields(Visitor&& visit, RockerForm& r) {
+  visit(field::entry("name", "of the rocker, for messages and tables"), r.name);
+  visit(
+      field::length("axis", "two points of its axis; its angle is right-handed from the first to the second"),
+      r.axis);
+  visit(field::length("rod", "push- or pullrod: its end on the part that drives it, its end on the rocker"),
+        r.rod);
+  visit(field::entry("points", "names of four hard points instead: axis, rod"), r.points);
+  visit(field::entry("driven_by", "\"carrier\", or the name of a link or of a rocker before it").required(),
+        r.driven_by);
+  visit(field::length("rod_length", "of the rod, instead of the distance of its ends").between(1e-6, 1e3),
+        r.rod_length);
+}
+
+/// A characteristic: points given here or in a file.
+struct CharacteristicForm {
+  std::optional<std::string> file;
+  std::vector<double> compression, force;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CharacteristicForm& c) {
+  visit(field::entry("file", "CSV with the columns compression_mm and force_N"), c.file);
+  visit(field::length("compression", "ascending, of the spring from its free length, of the stop itself"),
+        c.compression);
+  visit(field::force("force", "at these compressions"), c.force);
+}
+
 struct CornerSpringForm {
   std::optional<PointsForm> body, moving;
   std::vector<std::string> points;
-  std::string attached_to = "carrier";
+  std::string attached_to = "carrier", body_attached_to = "body";
   std::optional<double> stiffness;
   double preload = 0;
+  std::optional<double> free_length;
+  std::optional<CharacteristicForm> curve;
 };
 template <class Visitor>
 void fields(Visitor&& visit, CornerSpringForm& s) {
   visit(field::length("body", "its end at the body"), s.body);
   visit(field::length("moving", "its other end"), s.moving);
   visit(field::entry("points", "names of two hard points instead of both"), s.points);
-  visit(field::entry("attached_to", "\"carrier\" or the name of a link"), s.attached_to);
+  visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker"), s.attached_to);
+  visit(field::entry("body_attached_to", "part that holds its first end, if that is not the body"),
+        s.body_attached_to);
   visit(field::stiffness("stiffness", "of the spring, for wheel rates and compliance").not_negative(),
         s.stiffness);
   visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
+  visit(field::length("free_length", "its length without force, instead of the preload").between(1e-3, 1e3),
+        s.free_length);
+  visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
+}
+
+struct DamperForm {
+  std::optional<PointsForm> body, moving;
+  std::vector<std::string> points;
+  std::string attached_to = "carrier", body_attached_to = "body";
+  std::optional<double> damping;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DamperForm& d) {
+  visit(field::length("body", "its end at the body; without ends it has those of the spring"), d.body);
+  visit(field::length("moving", "its other end"), d.moving);
+  visit(field::entry("points", "names of two hard points instead of both"), d.points);
+  visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker"), d.attached_to);
+  visit(field::entry("body_attached_to", "part that holds its first end, if that is not the body"),
+        d.body_attached_to);
+  visit(field::damping("damping", "force by speed").not_negative(), d.damping);
+}
+
+struct TorsionBarForm {
+  std::string attached_to;
+  double stiffness = 0, preload = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, TorsionBarForm& t) {
+  visit(field::entry("attached_to", "rocker, or link hinged to the body, about whose axis it is twisted")
+            .required(),
+        t.attached_to);
+  visit(field::stiffness_angular("stiffness", "moment by twist").not_negative().required(), t.stiffness);
+  visit(field::torque("preload", "moment at the reference, > 0: it pushes the wheel down"), t.preload);
+}
+
+struct AntiRollBarForm {
+  std::optional<PointsForm> axis, droplink;
+  std::vector<std::string> points;
+  std::string attached_to;
+  double stiffness = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AntiRollBarForm& a) {
+  visit(field::length("axis", "two points of its axis; angles are right-handed from the first to the second"),
+        a.axis);
+  visit(field::length("droplink", "its end on the part that moves it, its end on the bar's arm"), a.droplink);
+  visit(field::entry("points", "names of four hard points instead: axis, droplink"), a.points);
+  visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker: what the droplink is on")
+            .required(),
+        a.attached_to);
+  visit(field::stiffness_angular("stiffness", "moment by twist between the ends of both arms").not_negative(),
+        a.stiffness);
+}
+
+enum class StopPlace { spring, damper };
+constexpr std::array<EnumName<StopPlace>, 2> names(StopPlace) {
+  return {{{StopPlace::spring, "spring"}, {StopPlace::damper, "damper"}}};
+}
+struct StopForm {
+  std::optional<StopPlace> on;
+  double clearance = 0;
+  std::optional<double> stiffness;
+  std::optional<CharacteristicForm> curve;
+  std::optional<double> solid_at;
+};
+template <class Visitor>
+void fields(Visitor&& visit, StopForm& s) {
+  visit(field::entry("on", "what it is on; default: the damper where there is one"), s.on);
+  visit(field::length("clearance", "change of that length from the reference until it engages")
+            .not_negative()
+            .required(),
+        s.clearance);
+  visit(field::stiffness("stiffness", "of the stop").not_negative(), s.stiffness);
+  visit(field::entry("curve", "its force over its own compression, instead of the stiffness"), s.curve);
+  visit(field::length("solid_at", "its own compression at which it bottoms").positive(), s.solid_at);
 }
 
 /// Named points beside the mechanism, in their own frame.
@@ -192,7 +306,12 @@ struct CornerForm {
   std::optional<WheelForm> wheel;
   std::vector<CornerLinkForm> links;
   std::vector<CornerCouplerForm> couplers;
+  std::vector<RockerForm> rockers;
   std::optional<CornerSpringForm> spring;
+  std::optional<DamperForm> damper;
+  std::optional<TorsionBarForm> torsion_bar;
+  std::optional<AntiRollBarForm> anti_roll_bar;
+  std::optional<StopForm> bump_stop, rebound_stop;
   RackForm rack;
 };
 template <class Visitor>
@@ -203,19 +322,55 @@ void fields(Visitor&& visit, CornerForm& g) {
   visit(field::entry("wheel", "the wheel at the reference"), g.wheel);
   visit(field::entry("link", "links and joints between body and carrier"), g.links);
   visit(field::entry("coupler", "rods between two links"), g.couplers);
-  visit(field::entry("spring", "between the body and the carrier or a link"), g.spring);
+  visit(field::entry("rocker", "rockers (bell cranks) that push- or pullrods drive"), g.rockers);
+  visit(field::entry("spring", "between the body and the carrier, a link or a rocker"), g.spring);
+  visit(field::entry("damper", "where it is not in line with the spring, and its damping"), g.damper);
+  visit(field::entry("torsion_bar", "spring that a rocker or a hinged link twists"), g.torsion_bar);
+  visit(field::entry("anti_roll_bar", "U bar with droplinks, this wheel's arm"), g.anti_roll_bar);
+  visit(field::entry("bump_stop", "engages as the spring or damper is compressed"), g.bump_stop);
+  visit(field::entry("rebound_stop", "engages as the spring or damper is extended"), g.rebound_stop);
   visit(field::entry("rack", "of the steering"), g.rack);
 }
 
 /// The freedom that a study may leave to its points.
 enum class OpenPoints { none, boxes };
 
+/// The damper: the element that it is, none where it is in line with the spring.
+struct DamperDescription {
+  std::optional<std::size_t> element;
+  std::optional<double> damping;  ///< N s/m
+};
+/// A torsion bar: its element, and moment by twist with the moment at the reference that pushes the wheel
+/// down.
+struct TorsionBarDescription {
+  std::size_t element = 0;
+  SpringLaw law;  ///< N m/rad, N m
+};
+/// An anti-roll bar: its arm is a rocker.
+struct AntiRollBarDescription {
+  std::size_t rocker = 0;
+  double stiffness = 0;  ///< N m/rad between the ends of its arms
+};
+struct StopDescription {
+  StopPlace on = StopPlace::spring;
+  StopLaw law;
+};
+
+/// Parts that spring and damp the wheel beside the spring itself.
+struct SpringParts {
+  std::optional<DamperDescription> damper;
+  std::optional<TorsionBarDescription> torsion_bar;
+  std::optional<AntiRollBarDescription> anti_roll_bar;
+  std::optional<StopDescription> bump_stop, rebound_stop;
+};
+
 /// `[mechanism]` of any study of a wheel suspension, resolved.
 struct CornerDescription {
   Suspension suspension;        ///< open coordinates at their start
   std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
   std::vector<CouplerTask> couplers;   ///< likewise
-  std::optional<SpringLaw> spring;     ///< law of the spring, if its stiffness is known
+  std::optional<SpringLaw> spring;     ///< law of the spring, if it is known
+  SpringParts springs;                 ///< damper, bars and stops
   std::optional<double> rim_diameter;  ///< m, where toe is measured as a length
 };
 

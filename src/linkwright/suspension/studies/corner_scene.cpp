@@ -23,7 +23,11 @@ constexpr double tyre_width_by_diameter = 0.3;  ///< for the drawing only
 class Drawing {
  public:
   Drawing(Scene& scene, const Suspension& suspension, const CornerGrid& grid)
-      : scene_(scene), suspension_(suspension), grid_(grid) {}
+      : scene_(scene), suspension_(suspension), grid_(grid) {
+    const bool indirect = suspension.spring && !acts_directly(*suspension.spring);
+    if (indirect || !suspension.rockers.empty() || !suspension.elements.empty())
+      plan_ = prepare_suspension(suspension);
+  }
 
   /// One wheel with its links. `other` is the mirrored wheel at opposite rack displacements.
   void wheel(bool other) {
@@ -37,7 +41,9 @@ class Drawing {
     handle("mechanism.wheel.centre_m", centre_);
     for (std::size_t i = 0; i < suspension_.links.size(); ++i) add(suspension_.links[i], i);
     for (const Coupler& c : suspension_.couplers) add(c);
+    for (std::size_t i = 0; i < suspension_.rockers.size(); ++i) add_rocker(i);
     if (suspension_.spring) add_spring(*suspension_.spring);
+    for (std::size_t i = 0; i < suspension_.elements.size(); ++i) add_element(i);
     const Vec3 axis = wheel_axis(suspension_.side, suspension_.wheel.toe, suspension_.wheel.camber);
     const int outboard = point("", [=, this](const CornerPosition& p) {
       return p.place.carrier.centre + 0.1 * (p.place.carrier.rotation * axis);
@@ -193,7 +199,61 @@ class Drawing {
     return now[0] + dot(d, from[0]) * to[0] + dot(d, from[1]) * to[1] + dot(d, from[2]) * to[2];
   }
 
+  /// A point of a part, as the plan of the suspension has it.
+  int part_point(std::string name, const PartPoint& at) {
+    return point(std::move(name),
+                 [=, this](const CornerPosition& p) { return place_of(plan_, at, p.place, p.input.rack); });
+  }
+  /// A point on a rocker is joined to its axis.
+  int joined(std::string name, const PartPoint& at) {
+    const int made = part_point(std::move(name), at);
+    if (at.part.kind == PartKind::rocker) {
+      const auto [first, second] = axes_.at(static_cast<std::size_t>(at.part.index));
+      scene_.bodies.push_back({named(suspension_.rockers[static_cast<std::size_t>(at.part.index)].name),
+                               {first, second, made},
+                               Scene::BodyStyle::plate});
+    }
+    return made;
+  }
+
+  void add_rocker(std::size_t index) {
+    const Rocker& rocker = suspension_.rockers[index];
+    const RockerConstants& constants = plan_.rockers[index];
+    if (index == 0) axes_.clear();
+    std::array<int, 2> axis{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string name = named(rocker.name + numbered(", axis", k, 2));
+      const Vec3 at = rocker.axis[k];
+      axis[k] = point(name, [=](const CornerPosition&) { return at; });
+      scene_.joints.push_back({name, axis[k], Scene::JointStyle::ground_pivot});
+    }
+    axes_.push_back(axis);
+    const int outer = joined(named(rocker.name + ", end of the rod"), constants.driver),
+              inner = joined(named(rocker.name + ", rod"),
+                             {{PartKind::rocker, static_cast<int>(index)}, constants.rod, {}, {}});
+    for (const int at : {outer, inner})
+      scene_.joints.push_back(
+          {scene_.points[static_cast<std::size_t>(at)].name, at, Scene::JointStyle::pivot});
+    scene_.bodies.push_back({named(rocker.name + ", rod"), {outer, inner}, Scene::BodyStyle::bar});
+  }
+
+  void add_element(std::size_t index) {
+    const CornerElement& element = suspension_.elements[index];
+    if (element.turn) return;
+    const int first = joined(named(element.name + " 1"), plan_.elements[index].first),
+              second = joined(named(element.name + " 2"), plan_.elements[index].second);
+    scene_.bodies.push_back({named(element.name), {first, second}, Scene::BodyStyle::damper});
+  }
+
   void add_spring(const CornerSpring& spring) {
+    if (!acts_directly(spring)) {
+      const int first = joined(named("spring, body"), plan_.spring->first),
+                second = joined(named("spring, moving end"), plan_.spring->second);
+      scene_.bodies.push_back({named("spring"), {first, second}, Scene::BodyStyle::spring});
+      handle("mechanism.spring.body_m", first);
+      handle("mechanism.spring.moving_m", second);
+      return;
+    }
     const Vec3 centre = suspension_.wheel.centre;
     const int top = point(named("spring, body"), [&](const CornerPosition&) { return spring.body; });
     const int bottom = point(named("spring, moving end"), [&](const CornerPosition& p) {
@@ -224,7 +284,9 @@ class Drawing {
 
   Scene& scene_;
   const Suspension& suspension_;
+  CornerPlan plan_;  ///< where there are rockers or elements
   const CornerGrid& grid_;
+  std::vector<std::array<int, 2>> axes_;  ///< points of the axes of the rockers
   bool other_ = false;
   std::string label_;
   int centre_ = 0;

@@ -11,6 +11,7 @@
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/studies/sensitivity.h"
+#include "linkwright/suspension/studies/springs.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 // The analysis of a wheel suspension over wheel travel and rack: what its file holds, how it is read, run and
@@ -63,6 +64,7 @@ struct SweepStudy {
   bool assemblies = false;                    ///< the other assembly modes are looked for
   bool drawn = true;                          ///< true if a scene is wanted: a grid may have many positions
   std::optional<CornerDescription> baseline;  ///< another suspension, whose curves are laid behind
+  RideForm ride;
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;

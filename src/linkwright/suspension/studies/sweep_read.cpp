@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/study/beside.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
@@ -56,9 +57,10 @@ std::optional<CornerDescription> read_baseline(study::ObjectReader& document, co
 
 /// True if the tables of the study, and the data they are made from, have room in memory.
 bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
-  constexpr double of_rates = 3, of_anti_features = 3;
+  constexpr double of_anti_features = 3;
   const double columns = 3 + static_cast<double>(columns_of(s).size()) +
-                         (s.description.spring ? of_rates : 0) + (s.vehicle ? of_anti_features : 0),
+                         (has_springs(s.description) ? spring_columns : 0) +
+                         (s.vehicle ? of_anti_features : 0),
                positions = static_cast<double>(s.travels.size() * s.racks.size()),
                position = sizeof(CornerPosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
   auto sweep = document.table("sweep");
@@ -131,11 +133,13 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                travels->size(), racks->size(), travels->size() * racks->size(), max_rows));
   }
   s.baseline = read_baseline(document, common);
+  const bool ride = document(field::entry("ride"), s.ride);
   document(field::entry("vehicle"), s.vehicle);
   document(field::entry("axle"), s.axle);
   document(field::entry("compliance"), s.compliance);
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
+  if (description && ride) check_ride(document, s.ride, *description);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
   if (description && s.axle) complete_axle(document, *s.axle, description->suspension);
@@ -150,6 +154,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
       CornerSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
                   s.lock, s.assemblies});
   if (s.baseline) canonical["baseline"]["mechanism"] = write_suspension(*s.baseline);
+  if (ride) canonical["ride"] = study::write_fields(s.ride);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
@@ -202,6 +207,8 @@ study::Kind sweep_kind() {
     baseline.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
     document.property(field::entry("baseline", "another wheel suspension to compare with"),
                       std::move(baseline).finish());
+    document.property(field::entry("ride", "what the corner carries: natural frequency, damping ratio"),
+                      study::schema_fields<RideForm>());
     document.property(field::entry("vehicle", "what the axle is part of: anti-dive, Ackermann"),
                       study::schema_fields<VehicleForm>());
     document.property(field::entry("axle", "both wheels: roll and steering"),

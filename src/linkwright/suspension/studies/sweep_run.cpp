@@ -139,33 +139,6 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
   return table;
 }
 
-/// Adds columns for the effect of the spring at the wheel.
-void add_wheel_rates(study::Result& result, const SweepStudy& s, const Grid& grid,
-                     const RunContext& context) {
-  const DerivativePlan plan = prepare_derivatives(s.description.suspension, {});
-  constexpr std::size_t between_looks = 256;
-  std::vector<double> force, rate, by_ratio;
-  bool stopped = false;
-  for (std::size_t i = 0; i < grid.rows(); ++i) {
-    if (i > 0 && i % between_looks == 0 && !stopped) {
-      const Status why = context.interruption();
-      stopped = why != Status::done;
-      if (stopped) result.status = why;
-    }
-    WheelRate w{.status = Status::no_assembly};
-    if (!stopped && grid.solved.positions[i].status == Status::done)
-      w = wheel_rate(plan, grid.solved.positions[i], *s.description.spring);
-    const bool there = w.status == Status::done;
-    force.push_back(there ? w.wheel_force : WheelParameters::missing);
-    rate.push_back(there ? w.rate : WheelParameters::missing);
-    by_ratio.push_back(there ? w.motion_ratio_by_travel : WheelParameters::missing);
-  }
-  Table& table = result.tables.front();
-  table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
-  table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
-  table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
-}
-
 /// At the position next to the reference.
 void add_assemblies(study::Result& result, const SweepStudy& s, const CornerPlan& plan) {
   const CornerInput input{s.travels[next_to_zero(s.travels)], s.racks[next_to_zero(s.racks)]};
@@ -221,7 +194,11 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("trail", "Trail over travel", {"trail_m"});
   over_travel("scrub-radius", "Scrub radius over travel", {"scrub_radius_m"});
   over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
-  over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
+  over_travel("wheel-rate", "Wheel rate over travel",
+              {"wheel_rate_N_per_m", "total_wheel_rate_N_per_m", "ride_rate_N_per_m"});
+  over_travel("wheel-force", "Force of springs and stops at the wheel over travel", {"total_wheel_force_N"});
+  over_travel("anti-roll-bar", "Rate of the anti-roll bar at each wheel over travel",
+              {"anti_roll_bar_wheel_rate_N_per_m"});
   over_travel("carrier_pitch", "Carrier pitch over travel", {"carrier_pitch_rad"});
 }
 
@@ -422,7 +399,10 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   const SweepStudy s = with_travels_of(asked, solved);
   Grid grid{s, std::move(solved), positions / s.travels.size()};
   result.tables.push_back(sweep_table(grid, "sweep"));
-  if (s.description.spring) add_wheel_rates(result, s, grid, context);
+  if (has_springs(s.description)) {
+    const std::size_t middle = next_to_zero(s.racks) * s.travels.size() + next_to_zero(s.travels);
+    add_springs(result, s.description, s.ride, grid.solved.positions, middle, context);
+  }
   std::vector<TravelLimits> limits;
   const CornerPosition reference = reference_position(plan, s.travel);
   TravelLimits centred;
@@ -447,6 +427,8 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                           ? Sentence()
                           : say(" (travel {})", length(grid.travel(middle))));
   }
+  if (s.axle && s.axle->opposite)
+    add_opposite_travel(result, s.description, s.ride, *s.axle->opposite->values, context);
   if (s.axle) add_axle(result, s.description.suspension, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
   if (s.sensitivity) add_sensitivity(result, s.description.suspension, *s.sensitivity, inputs);

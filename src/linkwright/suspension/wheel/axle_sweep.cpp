@@ -151,6 +151,8 @@ std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::sp
     switch (motion) {
       case AxleMotion::parallel:
         return solve_axle(plan, {held.driver, value, value, held.rack}, last);
+      case AxleMotion::opposite:
+        return solve_axle(plan, {held.driver, value, -value, held.rack}, last);
       case AxleMotion::roll:
         return solve_roll(plan, value, (held.left + held.right) / 2, held.rack, last);
       case AxleMotion::rack:

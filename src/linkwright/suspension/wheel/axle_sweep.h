@@ -145,11 +145,13 @@ std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, cons
 /// The input of a sweep.
 enum class AxleMotion {
   parallel,  ///< both wheels rise equally; values are travels (m, by the driver)
+  opposite,  ///< the left wheel rises, the right one falls; values are travels of the left (m, by the driver)
   roll,      ///< the body leans over a plane road; values are rolls (rad)
   rack       ///< the rack moves, travel held; values are rack displacements (m)
 };
-constexpr std::array<EnumName<AxleMotion>, 3> names(AxleMotion) {
+constexpr std::array<EnumName<AxleMotion>, 4> names(AxleMotion) {
   return {{{AxleMotion::parallel, "parallel", "both wheels rise equally"},
+           {AxleMotion::opposite, "opposite", "the left wheel rises, the right one falls equally"},
            {AxleMotion::roll, "roll", "the body leans over a plane road"},
            {AxleMotion::rack, "rack", "the rack moves, travel held"}}};
 }
@@ -162,8 +164,8 @@ struct AxleRow {
 };
 
 /// Positions along a motion, each followed from the last one that was found, the first from the reference.
-/// The remaining inputs are held: with `parallel` the rack, with `roll` the rack and the mean of the travels
-/// as heave, with `rack` the travels by their driver.
+/// The remaining inputs are held: with `parallel` and `opposite` the rack, with `roll` the rack and the mean
+/// of the travels as heave, with `rack` the travels by their driver.
 ///
 /// @param plan the plan of the axle
 /// @param motion input that moves

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/suspension/studies/springs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "suspension/pushrod_study.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using test::column;
+using test::problems_of;
+using test::pushrod_study;
+using test::replaced;
+using test::run_text;
+using ::testing::HasSubstr;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// The figures of the corner itself are in WheelRate.PushrodAndRocker.
+TEST(Springs, ColumnsOfAPushrodCorner) {
+  for (const Side side : {Side::left, Side::right}) {
+    const study::Result result = run_text(test::pushrod_text(side));
+    ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+    const auto at = [&](std::string_view key, std::size_t row) { return column(result, key).at(row); };
+    EXPECT_NEAR(at("rocker_angle_rad", 0) * degrees, 16.02459413, 5.1e-9);
+    EXPECT_NEAR(at("rocker_by_travel_rad_per_m", 3) * degrees * 1e-3, -0.51380856, 5.1e-9);
+    EXPECT_NEAR(at("anti_roll_bar_angle_rad", 4) * degrees, -5.29470877, 5.1e-9);
+    EXPECT_NEAR(at("spring_length_by_travel", 1), -0.78527214, 5.1e-9);
+    EXPECT_NEAR(at("travel_by_spring_length", 1), 1 / -0.78527214, 1e-8);
+    EXPECT_NEAR(at("spring_force_N", 3), 1321.5350, 5.1e-5);
+    EXPECT_NEAR(at("wheel_force_N", 4), 1437.820795, 5.1e-7);
+    EXPECT_NEAR(at("wheel_rate_N_per_m", 0), 21296.8, 0.15);
+    EXPECT_NEAR(at("motion_ratio", 2), 0.79637970, 5.1e-9);
+    EXPECT_NEAR(at("toe_rad", 4) * degrees, -0.049677, 5.1e-7);
+    EXPECT_NEAR(at("camber_rad", 4) * degrees, 0.463096, 5.1e-7);
+    EXPECT_NEAR(at("anti_roll_bar_wheel_rate_N_per_m", 2), 17690.08, 0.0051);
+    EXPECT_NEAR(at("wheel_damping_N_s_per_m", 2), 3000 * std::pow(0.79637970, 2), 1e-4);
+    // The stop engages after 20 mm of compression.
+    const double pressed = 0.19602295784 - 0.17174143566 - 0.02;
+    EXPECT_EQ(at("bump_stop_force_N", 3), 0);
+    EXPECT_NEAR(at("bump_stop_force_N", 4), 1e5 * pressed, 1e-5);
+    EXPECT_NEAR(at("total_wheel_force_N", 4), 1437.820795 + 1e5 * pressed * 0.82168077, 1e-5);
+    const double rate = at("total_wheel_rate_N_per_m", 2), ride = rate * 120e3 / (rate + 120e3);
+    EXPECT_NEAR(at("ride_rate_N_per_m", 2), ride, 1e-9);
+    EXPECT_NEAR(at("natural_frequency_Hz", 2), std::sqrt(ride / 70) / (2 * std::numbers::pi), 1e-12);
+    EXPECT_NEAR(at("damping_ratio", 2), at("wheel_damping_N_s_per_m", 2) / (2 * std::sqrt(rate * 70)), 1e-12);
+    EXPECT_NEAR(at("wheel_rate_force_share", 2),
+                1 - 35e3 * std::pow(0.79637970, 2) / at("wheel_rate_N_per_m", 2), 1e-8);
+  }
+}
+
+TEST(Springs, RowsDoNotDependOnTheirSpacing) {
+  const study::Result coarse = run_text(pushrod_study),
+                      fine = run_text(replaced(pushrod_study, "values_mm = [-30, -15, 0, 15, 30]",
+                                               "from_mm = -30\nto_mm = 30\nstep_mm = 0.5"));
+  for (const Column& c : coarse.tables.at(0).columns) {
+    if (c.key == "closure_residual_m") continue;
+    EXPECT_NEAR(c.values.at(4), column(fine, c.key).back(), 1e-9 * (1 + std::abs(c.values[4]))) << c.key;
+  }
+  EXPECT_EQ(test::fact(coarse, "bump stop engages at travel"),
+            test::fact(fine, "bump stop engages at travel"));
+}
+
+TEST(Springs, TorsionBarWoundUpByEitherSense) {
+  const auto text = [](const std::string& axis) {
+    return replaced(
+        replaced(pushrod_study, "[mechanism.bump_stop]",
+                 "[mechanism.torsion_bar]\nattached_to = \"rocker\"\nstiffness_N_m_per_rad = 500\n"
+                 "preload_N_m = 40\n[mechanism.bump_stop]"),
+        "axis_mm   = [[40, 200, 430], [-40, 200, 430]]", axis);
+  };
+  const study::Result one = run_text(text("axis_mm = [[40, 200, 430], [-40, 200, 430]]")),
+                      other = run_text(text("axis_mm = [[-40, 200, 430], [40, 200, 430]]"));
+  ASSERT_EQ(one.status, Status::done);
+  const double angle = column(one, "rocker_angle_rad").at(4),
+               ratio = column(one, "rocker_by_travel_rad_per_m").at(4);
+  EXPECT_NEAR(column(one, "torsion_bar_moment_N_m").at(4), 40 - 500 * angle, 1e-9);
+  EXPECT_NEAR(column(one, "torsion_bar_wheel_force_N").at(4), -(40 - 500 * angle) * ratio, 1e-9);
+  for (const char* key : {"torsion_bar_moment_N_m", "torsion_bar_wheel_force_N",
+                          "torsion_bar_wheel_rate_N_per_m", "total_wheel_rate_N_per_m"})
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_NEAR(column(one, key).at(i), column(other, key).at(i), 1e-8) << key;
+  EXPECT_NEAR(column(one, "rocker_angle_rad").at(0), -column(other, "rocker_angle_rad").at(0), 1e-12);
+}
+
+TEST(Springs, ContactHeightAsTheCoordinate) {
+  const study::Result centre = run_text(pushrod_study),
+                      contact = run_text(pushrod_study + "coordinate = \"contact_z\"\n");
+  const auto at = [&](const study::Result& result, const char* key) { return column(result, key).at(4); };
+  const double rise = at(centre, "spring_length_by_travel") / at(contact, "spring_length_by_travel");
+  EXPECT_NEAR(rise, at(centre, "rocker_by_travel_rad_per_m") / at(contact, "rocker_by_travel_rad_per_m"),
+              1e-12);
+  EXPECT_GT(std::abs(rise - 1), 1e-6);
+  EXPECT_NEAR(at(contact, "wheel_force_N") * rise, at(centre, "wheel_force_N"), 1e-8);
+}
+
+TEST(Springs, AntiRollBarBetweenWheelsThatTravelOppositely) {
+  const study::Result result = run_text(pushrod_study + "[axle.opposite]\nvalues_mm = [-10, 0, 10]\n"),
+                      right = run_text(test::pushrod_text(Side::right) +
+                                       "[axle.opposite]\nvalues_mm = [-10, 0, 10]\n");
+  const Table& table = *result.table("opposite");
+  const auto at = [&](std::string_view key, std::size_t row) { return table.find(key)->values.at(row); };
+  EXPECT_NEAR(at("left_rocker_angle_rad", 2) * degrees, -5.162367, 5.1e-7);
+  EXPECT_NEAR(at("right_rocker_angle_rad", 2) * degrees, 5.220767, 5.1e-7);
+  EXPECT_NEAR(at("twist_rad", 2) * degrees, -3.111654, 5.1e-7);
+  EXPECT_NEAR(std::abs(at("twist_by_travel_rad_per_m", 1)) * 1e-3, 0.00542987, 5.1e-9);
+  EXPECT_NEAR(at("anti_roll_bar_wheel_rate_N_per_m", 1) * 1e-3, 17.69008, 5.1e-6);
+  EXPECT_NEAR(at("anti_roll_bar_geometric_rate_N_per_m", 1), 0, 1e-9);
+  // The rates are half the slope of both forces, whose sum is that of the energy.
+  const study::Result fine = run_text(pushrod_study + "[axle.opposite]\nvalues_mm = [9.9, 10, 10.1]\n");
+  const auto force = [&](std::size_t row) {
+    const Table& of = *fine.table("opposite");
+    return of.find("left_anti_roll_bar_force_N")->values.at(row) -
+           of.find("right_anti_roll_bar_force_N")->values.at(row);
+  };
+  EXPECT_NEAR(at("anti_roll_bar_wheel_rate_N_per_m", 2) + at("anti_roll_bar_geometric_rate_N_per_m", 2),
+              (force(2) - force(0)) / 0.0002 / 2, 0.01);
+  for (const Column& c : table.columns)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(c.values[i], right.table("opposite")->find(c.key)->values.at(i),
+                  1e-9 * (1 + std::abs(c.values[i])))
+          << c.key;
+}
+
+TEST(Springs, TogglesEndTheTravelAndAreReported) {
+  const study::Result result =
+      run_text(replaced(pushrod_study, "values_mm = [-30, -15, 0, 15, 30]", "values_mm = [-100, 0]"));
+  EXPECT_EQ(result.status, Status::no_assembly);
+  EXPECT_TRUE(std::isnan(column(result, "rocker_angle_rad").at(0)));
+  EXPECT_NEAR(result.table("limits")->find("lowest_travel_m")->values.at(0), -0.083386, 1e-6);
+  EXPECT_THAT(to_string(result.diagnostics.at(0)),
+              HasSubstr("the rod of rocker comes into line with its arm there (toggle"));
+}
+
+TEST(Springs, RideNeedsASpring) {
+  EXPECT_THAT(
+      problems_of(replaced(replaced(pushrod_study, "stiffness_N_per_mm = 35\npreload_N          = 900", ""),
+                           "tyre_stiffness_N_per_mm = 120", "")),
+      HasSubstr(
+          "ride.sprung_mass_kg: there is no spring whose stiffness is known; write stiffness_N_per_mm in "
+          "[mechanism.spring]"));
+  EXPECT_THAT(
+      problems_of(pushrod_study + "coordinate = \"spring\"\n"),
+      HasSubstr("ride.coordinate: ratios and rates refer to a height of the wheel; take wheel_centre_z or "
+                "contact_z"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension
