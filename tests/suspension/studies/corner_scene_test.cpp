@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "suspension/studies.h"
+#include "suspension/pushrod_study.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -41,6 +43,30 @@ TEST(CornerScene, DrawsWheelsOfBothSidesOverTheGrid) {
     const double length = norm(at(body.points[1], 0) - at(body.points[0], 0));
     for (std::size_t i = 1; i < 15; ++i)
       EXPECT_NEAR(norm(at(body.points[1], i) - at(body.points[0], i)), length, 1e-12);
+  }
+}
+
+TEST(CornerScene, DrawsRockersWithTheirRodsAndWhatTheyCarry) {
+  const study::Result result = test::run_text(test::pushrod_study);
+  const study::Scene& scene = result.scenes.at(0);
+  const auto length = [&](std::string_view name, std::size_t sample) {
+    for (const auto& body : scene.bodies)
+      if (body.name == name) {
+        const auto at = [&](int p) {
+          const auto& q = scene.points.at(static_cast<std::size_t>(p));
+          const auto of = [&](const std::vector<double>& v) { return v.size() == 1 ? v[0] : v[sample]; };
+          return Vec3{of(q.x), of(q.y), of(q.z)};
+        };
+        return norm(at(body.points[1]) - at(body.points[0]));
+      }
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(length("left rocker, rod", i), std::hypot(0.003, 0.24, 0.18), 1e-12);
+    EXPECT_NEAR(length("right rocker, rod", i), std::hypot(0.003, 0.24, 0.18), 1e-12);
+    EXPECT_NEAR(length("left anti-roll bar, rod", i), 0.22, 1e-12);
+    EXPECT_NEAR(length("left spring", i), test::column(result, "spring_length_m")[i], 1e-12);
   }
 }
 

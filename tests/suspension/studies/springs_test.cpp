@@ -8,8 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "linkwright/suspension/wheel/axle_sweep.h"
+#include "suspension/pushrod_corner.h"
 #include "suspension/pushrod_study.h"
 
 namespace linkwright::suspension {
@@ -128,6 +131,42 @@ TEST(Springs, AntiRollBarBetweenWheelsThatTravelOppositely) {
       EXPECT_NEAR(c.values[i], right.table("opposite")->find(c.key)->values.at(i),
                   1e-9 * (1 + std::abs(c.values[i])))
           << c.key;
+}
+
+// By the energy of springs and bar as the body rolls over a plane road.
+TEST(Springs, RollRatesAreSecondDifferencesOfTheEnergy) {
+  const study::Result result = run_text(pushrod_study);
+  const Suspension suspension = pushrod_corner();
+  const AxlePlan axle = prepare_axle(suspension);
+  const AxlePosition reference = reference_position(axle);
+  struct Energy {
+    double springs = 0, bar = 0;
+  };
+  const auto energy = [&](double roll) {
+    const AxlePosition at = solve_roll(axle, roll, 0, 0, reference);
+    EXPECT_EQ(at.status, Status::done);
+    Energy out;
+    double twist = 0;
+    for (const auto& [plan, position, sign] :
+         {std::tuple{&axle.left, &at.left, 1.0}, std::tuple{&axle.right, &at.right, -1.0}}) {
+      const double force =
+          900 - 35e3 * driver_value(*plan, position->place, position->input.rack, Driver::spring);
+      out.springs += force * force / (2 * 35e3);
+      twist += sign * rocker_states(*plan, position->place, position->input.rack)[1].angle;
+    }
+    out.bar = 1200 * twist * twist / 2;
+    return out;
+  };
+  constexpr double step = 2e-3;
+  const Energy none = energy(0), more = energy(step), less = energy(-step), more2 = energy(2 * step),
+               less2 = energy(-2 * step);
+  const auto second = [&](double Energy::*of) {
+    return (16 * (more.*of + less.*of) - (more2.*of + less2.*of) - 30 * (none.*of)) / (12 * step * step);
+  };
+  EXPECT_NEAR(test::value_of_fact(result, "roll rate of the springs"), second(&Energy::springs),
+              1e-6 * second(&Energy::springs));
+  EXPECT_NEAR(test::value_of_fact(result, "roll rate of the anti-roll bar"), second(&Energy::bar),
+              1e-6 * second(&Energy::bar));
 }
 
 TEST(Springs, TogglesEndTheTravelAndAreReported) {

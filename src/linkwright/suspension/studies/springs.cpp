@@ -244,6 +244,25 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
   }
 }
 
+/// Roll rate of a symmetric axle, t^2 (k_w + k_bar) / 2 with the track t and the rates at the contact points:
+/// the second derivative of the energy by roll on a plane road, the mean height of the contacts held.
+void add_roll_rates(study::Result& result, const CornerDescription& d, const CornerPosition& position) {
+  const RideForm by_contact{.coordinate = Driver::contact_z};
+  const SpringModel model(d, by_contact);
+  const SpringRow here = model.at(position);
+  if (here.motions.status != Status::done) return;
+  const double half_track = std::abs(wheel_parameters(model.plan(), position).contact.y);
+  const auto roll_rate = [&](double rate) {
+    return measured("N_m_per_deg", 2 * half_track * half_track * rate).fixed(3);
+  };
+  const study::AddFact fact{result.facts};
+  const bool sprung = d.spring || d.springs.torsion_bar;
+  if (sprung) fact("roll rate of the springs", roll_rate(here.rate()));
+  if (const auto& bar = d.springs.anti_roll_bar)
+    fact("roll rate of the anti-roll bar",
+         roll_rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
+}
+
 /// The place between two positions at which a stop engages or ends: bisection, so that it does not depend on
 /// the rows.
 double travel_between(const SpringModel& model, CornerPosition before, const CornerPosition& after,
@@ -337,6 +356,8 @@ void add_springs(study::Result& result, const CornerDescription& d, const RideFo
   if (const auto& bar = d.springs.anti_roll_bar)
     fact("rate of the anti-roll bar at each wheel, opposite travel",
          rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
+  if (ride.sprung_mass || ride.tyre_stiffness || d.springs.anti_roll_bar)
+    add_roll_rates(result, d, positions[*stated]);
   const double rack = positions[*stated].input.rack;
   if (d.springs.bump_stop) add_stop_facts(result, model, *d.springs.bump_stop, false, positions, rack);
   if (d.springs.rebound_stop) add_stop_facts(result, model, *d.springs.rebound_stop, true, positions, rack);
