@@ -16,6 +16,7 @@ __all__ = ["draw", "draw_study"]
 def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Optional[float] = None,
                evaluations: Optional[int] = None, most_links: int = 8, families: Optional[Sequence[str]] = None,
                least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
+               ground_box: Optional[ArrayLike] = None, ground_pivots: Optional[ArrayLike] = None,
                max_solutions: int = 12, seed: int = 1) -> Study:
     """The study that `draw` runs: "synthesis" of "planar.any" for "path_points".
 
@@ -27,6 +28,8 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
     "stephenson_3", "eight_bar", "ten_bar"; None: all.
     least_pair_angle: degrees, over the whole turn of the crank. shortest_link, longest_link: in sizes of the stroke, which are
     its root mean square distance from its mean.
+    ground_box: [[least x, greatest x], [least y, greatest y]] in metres, around all pivots on the ground. ground_pivots: an array
+    (n, 2) in metres, at each row of which the machine has a pivot on the ground.
 
     Raises ValueError for points of another shape.
     """
@@ -47,17 +50,21 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
         optimiser["seconds"] = float(seconds)
     if evaluations is not None:
         optimiser["evaluations"] = int(evaluations)
+    limits = {"least_pair_angle_deg": least_pair_angle, "shortest_link": shortest_link, "longest_link": longest_link}
+    if ground_box is not None:
+        (left, right), (bottom, top) = numpy.asarray(ground_box, dtype=float).tolist()
+        limits["ground_box_m"] = {"x": [left, right], "y": [bottom, top]}
+    if ground_pivots is not None:
+        limits["ground_pivots_m"] = numpy.asarray(ground_pivots, dtype=float).tolist()
     return Study({"schema": 1, "kind": "synthesis", "title": "Drawn motion", "mechanism": mechanism, "target": target,
-                  "limits": {"least_pair_angle_deg": least_pair_angle, "shortest_link": shortest_link,
-                             "longest_link": longest_link},
-                  "optimiser": optimiser})
+                  "limits": limits, "optimiser": optimiser})
 
 
 def draw(points: ArrayLike, **options) -> Result:
     """Machines of many types that trace a stroke, best first in `solutions`; each has a study of its own (`Solution.study`).
 
     points and options are those of `draw_study`: closed, seconds or evaluations, most_links, families, least_pair_angle,
-    shortest_link, longest_link, max_solutions, seed.
+    shortest_link, longest_link, ground_box, ground_pivots, max_solutions, seed.
 
     Raises ValueError for points of another shape and StudyError for a stroke or limits that the study does not take.
     """

@@ -92,6 +92,36 @@ TEST(AnyPathStudies, SayWhatIsWrong) {
               HasSubstr("both seconds and evaluations"));
 }
 
+TEST(AnyPathStudies, SayWhatIsWrongWithLimits) {
+  const auto problems = [](const char* limits) {
+    return test::problems_of(any_path({{"3", std::string("[limits]\n") + limits + "\n"}}));
+  };
+  EXPECT_THAT(problems("shortest_link = 0.1\nshortest_length_mm = 3"), HasSubstr("keep one of them"));
+  EXPECT_THAT(problems("longest_link = 4\nlongest_length_mm = 90"), HasSubstr("keep one of them"));
+  EXPECT_THAT(problems("shortest_length_mm = 30\nlongest_length_mm = 20"),
+              HasSubstr("not below the longest"));
+  EXPECT_THAT(problems("ground_box_mm = { x = [10, 0], y = [0, 10] }"), HasSubstr("the box has no inside"));
+  EXPECT_THAT(problems("ground_pivots_mm = []"), HasSubstr("1 to 4 can be given"));
+  EXPECT_THAT(problems("ground_box_mm = { x = [0, 9], y = [0, 9] }\nground_pivots_mm = [[5, 10]]"),
+              HasSubstr("outside the box"));
+}
+
+TEST(AnyPathStudies, TakeLimitsAsLengths) {
+  const study::Result result =
+      test::run_text(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\"]\n"},
+                               {"3",
+                                "[limits]\nshortest_length_mm = 9\nlongest_length_mm = 90\n"
+                                "ground_box_mm = { x = [-20, 80], y = [60, 100] }\n"},
+                               {"4", "[optimiser]\nevaluations = 40000\n"}}));
+  ASSERT_FALSE(result.solutions.empty());
+  const Table* machines = result.table("machines");
+  EXPECT_GE(machines->find("shortest_link_m")->values[0], 0.009 * 0.998);
+  EXPECT_LE(machines->find("longest_link_m")->values[0], 0.09 * 1.002);
+  const Value* limit = result.solutions[0].classification.find("limited_by");
+  ASSERT_TRUE(limit);
+  EXPECT_THAT(limit->as_string(), HasSubstr("ground_box"));
+}
+
 TEST(AnyPathStudies, AskForWhatTenBarsGrowFrom) {
   const auto mechanism =
       std::string("[mechanism]\ntype = \"planar.any\"\nmost_links = 10\nfamilies = [\"ten_bar\"]\n");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -40,8 +41,21 @@ void fields(Visitor&& visit, AnyTarget& t) {
   fields(visit, static_cast<PathPointsForm&>(t));
 }
 
+struct GroundBoxForm {
+  std::array<double, 2> x{}, y{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, GroundBoxForm& b) {
+  visit(field::length("x", "least and greatest x").required().with_inherited_unit(), b.x);
+  visit(field::length("y", "least and greatest y").required().with_inherited_unit(), b.y);
+}
+
 struct AnyLimits {
-  double pair_angle = 20 * pi / 180, shortest = 0.05, longest = 10;
+  double pair_angle = 20 * pi / 180;
+  std::optional<double> shortest, longest, shortest_length, longest_length;
+  std::optional<GroundBoxForm> ground_box;
+  std::optional<std::vector<std::array<double, 2>>> ground_pivots;
+  std::optional<double> pivot_tolerance;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyLimits& l) {
@@ -51,10 +65,28 @@ void fields(Visitor&& visit, AnyLimits& l) {
             .between(1 * pi / 180, 70 * pi / 180),
         l.pair_angle);
   visit(field::entry("shortest_link",
-                     "shortest length, in sizes of the stroke (its root mean square distance from its mean)")
+                     "shortest length, in sizes of the stroke (its root mean square distance from its mean); "
+                     "default: 0.05 unless a length is given")
             .between(1e-3, 1),
         l.shortest);
-  visit(field::entry("longest_link", "longest length, in sizes of the stroke").between(1, 1000), l.longest);
+  visit(field::entry("longest_link",
+                     "longest length, in sizes of the stroke; default: 10 unless a length is given")
+            .between(1, 1000),
+        l.longest);
+  visit(field::length("shortest_length", "shortest length, instead of a share of the stroke").positive(),
+        l.shortest_length);
+  visit(field::length("longest_length", "longest length, instead of a share of the stroke").positive(),
+        l.longest_length);
+  visit(field::length("ground_box", "all pivots on the ground are inside"), l.ground_box);
+  visit(field::length("ground_pivots",
+                      "places [x, y], at each of which the machine has a pivot on the ground; it may have "
+                      "more"),
+        l.ground_pivots);
+  visit(field::length("ground_pivot_tolerance",
+                      "largest distance of a pivot from its place; default: a thousandth of the stroke's "
+                      "size")
+            .positive(),
+        l.pivot_tolerance);
 }
 
 struct AnyOptimiser {
@@ -88,6 +120,9 @@ struct AnyPathStudy {
 
 /// "synthesis" of "planar.any" for "path_points".
 study::Kind any_path_kind();
+
+/// The limits of a search, in sizes of the stroke from its mean.
+MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target);
 
 study::Result run_any_path_study(const AnyPathStudy& study, const study::Common& common, RunContext& context);
 

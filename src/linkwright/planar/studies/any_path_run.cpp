@@ -30,6 +30,8 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
+constexpr std::size_t max_given_pivots = 4;  // machines of ten links have no more than five
+
 /// What a value of an enumeration means.
 template <class E>
 std::string summary_of(E value) {
@@ -41,8 +43,8 @@ std::string summary_of(E value) {
 class AnyPathReport {
  public:
   AnyPathReport(const AnyPathStudy& s, const study::Common& common, const SampledStroke& target,
-                TypeSearchAnswer answer)
-      : s_(s), common_(common), target_(target), answer_(std::move(answer)) {}
+                const MachineLimits& limits, TypeSearchAnswer answer)
+      : s_(s), common_(common), target_(target), limits_(limits), answer_(std::move(answer)) {}
 
   study::Result make() {
     result_.status = answer_.status;
@@ -87,17 +89,28 @@ class AnyPathReport {
     out.classification["traced_point"] = of.traced;
     out.classification["crank_range_rad"] = m.span;
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
-    if (const std::string limit = limited_by(m); !limit.empty()) out.classification["limited_by"] = limit;
+    if (const std::string limit = limited_by(found); !limit.empty()) out.classification["limited_by"] = limit;
     drawing(found, of, out, number);
     result_.solutions.push_back(std::move(out));
   }
 
   /// The limits that the machine has come to.
-  std::string limited_by(const MachineMeasures& m) const {
+  std::string limited_by(const FoundMachine& found) const {
+    const MachineMeasures& m = found.measures;
     std::vector<std::string> out;
-    if (m.min_pair_angle < s_.limits.pair_angle + 0.01) out.emplace_back("least_pair_angle");
-    if (m.max_length > s_.limits.longest * 0.995) out.emplace_back("longest_link");
-    if (m.min_length < s_.limits.shortest * 1.01) out.emplace_back("shortest_link");
+    if (m.min_pair_angle < limits_.min_pair_angle + 0.01) out.emplace_back("least_pair_angle");
+    if (m.max_length > limits_.max_length * 0.995) out.emplace_back("longest_link");
+    if (m.min_length < limits_.min_length * 1.01) out.emplace_back("shortest_link");
+    if (const auto& box = limits_.ground_box) {
+      const MachineShape& shape = found.machine.shape;
+      double inside = infinity;
+      for (const GroundPivot& pivot : ground_pivots(*shape.program)) {
+        const std::complex<double> at = place_of(pivot, *shape.program, shape.x);
+        inside = std::min({inside, at.real() - box->left, box->right - at.real(), at.imag() - box->bottom,
+                           box->top - at.imag()});
+      }
+      if (inside < 0.01) out.emplace_back("ground_box");
+    }
     return fmt::format("{}", fmt::join(out, ", "));
   }
 
@@ -307,6 +320,7 @@ class AnyPathReport {
   const AnyPathStudy& s_;
   const study::Common& common_;
   const SampledStroke& target_;
+  const MachineLimits& limits_;
   const TypeSearchAnswer answer_;
   study::Result result_;
 };
@@ -360,6 +374,31 @@ void read_stroke_of(study::ObjectReader& document, const study::Common& common, 
   check_stroke(*target, key, s);
 }
 
+void read_limits(study::ObjectReader& table, AnyLimits& l) {
+  table.read(l);
+  if (l.shortest && l.shortest_length)
+    table.error("shortest_link", "the shortest length is given in sizes of the stroke and as a length",
+                "keep one of them");
+  if (l.longest && l.longest_length)
+    table.error("longest_link", "the longest length is given in sizes of the stroke and as a length",
+                "keep one of them");
+  if (l.shortest_length && l.longest_length && *l.shortest_length >= *l.longest_length)
+    table.error("shortest_length", "the shortest length is not below the longest", "exchange the two");
+  if (l.ground_box && !(l.ground_box->x[0] < l.ground_box->x[1] && l.ground_box->y[0] < l.ground_box->y[1]))
+    table.error("ground_box", "the box has no inside", "write the least number of x and of y first");
+  if (!l.ground_pivots) return;
+  if (l.ground_pivots->empty() || l.ground_pivots->size() > max_given_pivots)
+    table.error(
+        "ground_pivots",
+        fmt::format("{} ground pivots, 1 to {} can be given", l.ground_pivots->size(), max_given_pivots),
+        "leave it out to leave the pivots free");
+  for (const auto& [x, y] : *l.ground_pivots)
+    if (const auto& box = l.ground_box;
+        box && !(x >= box->x[0] && x <= box->x[1] && y >= box->y[0] && y <= box->y[1]))
+      table.error("ground_pivots", "a given ground pivot is outside the box of the ground pivots",
+                  "move it inside, or widen ground_box");
+}
+
 AnyPathStudy read_any_path(study::ObjectReader& document, const study::Common& common) {
   AnyPathStudy s;
   if (auto table = document.table(field::entry("mechanism").required())) {
@@ -379,7 +418,7 @@ AnyPathStudy read_any_path(study::ObjectReader& document, const study::Common& c
                      fmt::format("write most_links = {}, or leave the family out", links_of(family)));
   }
   read_stroke_of(document, common, s);
-  if (auto table = document.table("limits")) table->read(s.limits);
+  if (auto table = document.table("limits")) read_limits(*table, s.limits);
   if (auto table = document.table("optimiser")) {
     table->read(s.optimiser);
     if (s.optimiser.seconds && s.optimiser.evaluations)
@@ -405,6 +444,8 @@ study::Kind any_path_kind() {
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     AnyPathStudy s = read_any_path(document, common);
+    if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
+    if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
     if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
     study::Prepared prepared;
     prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
@@ -417,13 +458,31 @@ study::Kind any_path_kind() {
   return kind;
 }
 
+MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target) {
+  MachineLimits out;
+  const double by = 1 / target.size;
+  out.min_pair_angle = form.pair_angle;
+  if (form.shortest) out.min_length = *form.shortest;
+  if (form.longest) out.max_length = *form.longest;
+  if (form.shortest_length) out.min_length = by * *form.shortest_length;
+  if (form.longest_length) out.max_length = by * *form.longest_length;
+  const auto moved = [&](double x, double y) { return (std::complex<double>(x, y) - target.centre) * by; };
+  if (const auto& box = form.ground_box) {
+    const auto low = moved(box->x[0], box->y[0]), high = moved(box->x[1], box->y[1]);
+    out.ground_box = PlaneBox{low.real(), high.real(), low.imag(), high.imag()};
+  }
+  if (form.ground_pivots)
+    for (const auto& pivot : *form.ground_pivots) out.ground_pivots.push_back(moved(pivot[0], pivot[1]));
+  if (form.pivot_tolerance) out.pivot_tolerance = by * *form.pivot_tolerance;
+  return out;
+}
+
 study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& common, RunContext& context) {
   const SampledStroke target = sampled_stroke(s.stroke);
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;
-  options.limits = {
-      .min_pair_angle = s.limits.pair_angle, .min_length = s.limits.shortest, .max_length = s.limits.longest};
+  options.limits = limits_of(s.limits, target);
   options.seed = static_cast<std::uint64_t>(s.optimiser.seed);
   options.max_solutions = static_cast<std::size_t>(s.optimiser.max_solutions);
   options.max_curves = s.optimiser.evaluations.value_or(0);
@@ -443,7 +502,7 @@ study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& com
   if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
   TypeSearchAnswer answer = search_types(target, options, part);
   answer.status = context.interruption();
-  return AnyPathReport(s, common, target, std::move(answer)).make();
+  return AnyPathReport(s, common, target, options.limits, std::move(answer)).make();
 }
 
 }  // namespace linkwright::planar

@@ -10,85 +10,21 @@
 #include <utility>
 
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/dimension_limits.h"
 
 namespace linkwright::planar {
-/// What the memory of a fitter holds.
-namespace polishing {
-
-/// A length of a machine as a product: scale x |c| x l, each where it has a parameter.
-struct LengthTerm {
-  int plate = -1;   ///< first of the two parameters of a complex factor
-  int factor = -1;  ///< parameter of a real factor
-};
-
-/// A row of the limits: value and gradient.
-struct LimitRow {
-  double value = 0;
-  std::array<double, max_machine_parameters> gradient;
-};
-
-}  // namespace polishing
-
 namespace {
-
-using polishing::LengthTerm;
-using polishing::LimitRow;
 
 constexpr std::size_t samples = stroke_samples;
 constexpr std::size_t limit_angles = 48;  // grid of the pair angles during the polish
 constexpr std::size_t measured_angles = 720;
 constexpr std::size_t limit_minima = 16;  // minima of the pair angle over the turn that a polish heeds
-constexpr std::size_t max_limit_rows = 24;
 constexpr double margin =
     0.05 * pi / 180;  // the polish keeps this much more of the pair angle than it promises
 constexpr double nearly_kept = 4e-4, far_from_kept = 0.05;  // what a polish may miss of its limits
 constexpr double open_rest = 0.02;                          // an open stroke leaves this much of a turn (rad)
 
 using Samples = std::array<double, samples>;
-
-std::vector<LengthTerm> length_terms(const PointProgram& p) {
-  std::vector<LengthTerm> out{{}};  // the crank
-  for (const PointStep& step : p.steps) {
-    switch (step.operation) {
-      case PointOperation::crank_pin:
-        break;
-      case PointOperation::ground_on_axis:
-      case PointOperation::slide:
-      case PointOperation::sleeve:
-        out.push_back({-1, step.parameter});
-        break;
-      case PointOperation::ground:
-      case PointOperation::crank_plate:
-        out.push_back({step.parameter, -1});
-        break;
-      case PointOperation::geared_crank:
-        out.push_back({step.parameter, -1});
-        out.push_back({step.parameter + 2, -1});
-        break;
-      case PointOperation::pair:
-        out.push_back({-1, step.parameter});
-        out.push_back({-1, step.parameter + 1});
-        break;
-      case PointOperation::plate: {
-        const PointStep& pin = p.steps[static_cast<std::size_t>(step.second)];
-        int factor = -1;
-        if (pin.operation == PointOperation::slide) factor = pin.parameter;
-        if (pin.operation == PointOperation::pair) factor = pin.parameter + (step.first == pin.first ? 0 : 1);
-        out.push_back({step.parameter, factor});
-        break;
-      }
-    }
-  }
-  return out;
-}
-
-double length_of(const LengthTerm& term, std::span<const double> x, double scale) {
-  const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
-  double out = scale;
-  if (term.plate >= 0) out *= std::hypot(at(term.plate), at(term.plate + 1));
-  if (term.factor >= 0) out *= std::abs(at(term.factor));
-  return out;
-}
 
 /// Brings a sequence into ascending order with the least sum of squared changes (pool adjacent violators).
 void restore_order(Samples& v) {
@@ -111,11 +47,13 @@ void restore_order(Samples& v) {
 }  // namespace
 
 struct MachineFitter::Memory {
+  Memory(const SampledStroke& stroke, const MachineLimits& kept)
+      : target(stroke), limits(kept), dimensions(kept) {}
+
   SampledStroke target;
   MachineLimits limits;
   std::int64_t curves = 0;
-  const PointProgram* prepared = nullptr;  // program whose lengths are in `terms`
-  std::vector<LengthTerm> terms;
+  DimensionLimits dimensions;
   double min_quality = 0;
   double phase = 0;  // of the grid of pair angles; each polish begins with the same
 
@@ -127,14 +65,13 @@ struct MachineFitter::Memory {
   alignas(64) std::array<double, samples*(max_machine_parameters + 1)> rows;
   alignas(64) Samples nx, ny;
   alignas(64) std::array<double, limit_angles> limit_angle, quality, worst;
-  std::array<LimitRow, max_limit_rows> limit_rows;
-  std::size_t limit_count = 0;
+  LimitRows limit_rows, pivot_rows;
   alignas(64) std::array<double, measured_angles> turn_angle, turn_quality,
       turn_worst, turn_x, turn_y, turn_tx, turn_ty;
   std::vector<double> turn_points = std::vector<double>(2 * max_steps * measured_angles);
 
   const PointProgram& program_of(const MachineShape& shape) {
-    if (prepared != shape.program) terms = length_terms(*shape.program), prepared = shape.program;
+    dimensions.set_program(*shape.program);
     return *shape.program;
   }
 
@@ -225,15 +162,7 @@ struct MachineFitter::Memory {
   double limit_squares(const PointProgram& p, const double* x, unsigned signs, double weight,
                        bool with_rows) {
     const auto n = static_cast<std::size_t>(p.parameters);
-    double sum = 0;
-    if (with_rows) limit_count = 0;
-    const auto add = [&](double value) -> LimitRow* {
-      sum += value * value;
-      if (!with_rows || limit_count == max_limit_rows) return nullptr;
-      LimitRow& row = limit_rows[limit_count++];
-      row.value = value;
-      return &row;
-    };
+    limit_rows.clear(with_rows), pivot_rows.clear(with_rows);
     ++curves;
     compute_curve({.program = &p,
                    .x = x,
@@ -245,34 +174,13 @@ struct MachineFitter::Memory {
     std::array<double, limit_minima> angle, least, where;
     const std::size_t found = minima_below(p, x, signs, angle, least, where);
     for (std::size_t k = 0; k < found; ++k)
-      if (LimitRow* row = add(weight * (min_quality - least[k]))) {
+      if (LimitRow* row = limit_rows.add(weight * (min_quality - least[k]))) {
         quality_gradient(p, {x, n}, signs, angle[k], static_cast<int>(where[k]), {row->gradient.data(), n});
         for (std::size_t i = 0; i < n; ++i) row->gradient[i] *= -weight;
       }
-    const std::span<const double> all(x, n);
-    const auto s = static_cast<std::size_t>(p.scale());
-    const double scale = std::hypot(x[s], x[s + 1]);
-    for (const LengthTerm& term : terms) {
-      const double length = length_of(term, all, scale);
-      const double side = length > limits.max_length ? 1 : length < limits.min_length ? -1 : 0;
-      if (side == 0) continue;
-      const double beyond = side > 0 ? std::log(length / limits.max_length)
-                                     : std::log(limits.min_length / std::max(length, 1e-12));
-      if (LimitRow* row = add(weight * beyond)) {
-        std::fill_n(row->gradient.begin(), n, 0.0);
-        const auto by_complex = [&](std::size_t i) {
-          const double square = std::max(x[i] * x[i] + x[i + 1] * x[i + 1], 1e-24);
-          row->gradient[i] += side * weight * x[i] / square;
-          row->gradient[i + 1] += side * weight * x[i + 1] / square;
-        };
-        by_complex(s);
-        if (term.plate >= 0) by_complex(static_cast<std::size_t>(term.plate));
-        if (term.factor >= 0)
-          row->gradient[static_cast<std::size_t>(term.factor)] +=
-              side * weight / x[static_cast<std::size_t>(term.factor)];
-      }
-    }
-    return sum;
+    dimensions.add_lengths({x, n}, weight, limit_rows);
+    dimensions.add_pivots({x, n}, weight, pivot_rows);
+    return limit_rows.squares + pivot_rows.squares;
   }
 
   /// Root of the squares of what is missing at the limits and their margin.
@@ -321,8 +229,12 @@ struct MachineFitter::Memory {
     for (int i = 0; i < p.parameters; ++i)
       for (int j = 0; j <= i; ++j) a(i, j) = *from++;
     for (int i = 0; i < p.parameters; ++i) b(i) = *from++;
-    for (std::size_t r = 0; r < limit_count; ++r) {
-      const LimitRow& row = limit_rows[r];
+    add_limits(p, limit_rows, a, b), add_limits(p, pivot_rows, a, b);
+  }
+
+  static void add_limits(const PointProgram& p, const LimitRows& limits, Matrix& a, Vector& b) {
+    for (std::size_t r = 0; r < limits.count; ++r) {
+      const LimitRow& row = limits.rows[r];
       for (int i = 0; i < p.parameters; ++i) {
         const double g = row.gradient[static_cast<std::size_t>(i)];
         for (int j = 0; j <= i; ++j) a(i, j) += g * row.gradient[static_cast<std::size_t>(j)];
@@ -387,9 +299,7 @@ struct MachineFitter::Memory {
 };
 
 MachineFitter::MachineFitter(const SampledStroke& target, const MachineLimits& limits)
-    : memory_(std::make_unique<Memory>()) {
-  memory_->target = target;
-  memory_->limits = limits;
+    : memory_(std::make_unique<Memory>(target, limits)) {
   const double sine = std::sin(std::min(limits.min_pair_angle + margin, pi / 2));
   memory_->min_quality = sine * sine;
   for (std::size_t k = 0; k < measured_angles; ++k)
@@ -412,6 +322,7 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
     if (missed < nearly_kept || missed > far_from_kept) break;
     m.descend(machine, weight, 40);
   }
+  m.dimensions.meet_pivots(machine.shape.x);
   return true;
 }
 
@@ -478,13 +389,8 @@ void MachineFitter::Memory::measure_turn(const FittedMachine& machine, MachineMe
                  .points = turn_points.data()});
   const double quality = least_quality(machine);
   out.min_pair_angle = quality > 0 ? std::asin(std::sqrt(quality)) : 0;
+  dimensions.measure_lengths(machine.shape.x, out);
   const auto s = static_cast<std::size_t>(p.scale());
-  const double scale = std::hypot(x[s], x[s + 1]);
-  out.min_length = infinity;
-  for (const LengthTerm& term : terms) {
-    const double length = length_of(term, machine.shape.x, scale);
-    out.min_length = std::min(out.min_length, length), out.max_length = std::max(out.max_length, length);
-  }
   out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
   out.peak_acceleration = peak_acceleration(machine, out.span);
 }
@@ -561,6 +467,8 @@ MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   require(out.min_pair_angle >= m.limits.min_pair_angle, MachineDefect::pair_angle);
   require(out.min_length >= m.limits.min_length * (1 - 1e-3), MachineDefect::short_link);
   require(out.max_length <= m.limits.max_length * (1 + 1e-3), MachineDefect::long_link);
+  require(m.dimensions.pivots_in_box(machine.shape.x), MachineDefect::ground_box);
+  require(m.dimensions.pivots_as_given(machine.shape.x), MachineDefect::ground_pivots);
   require(m.stays_near(machine, out.largest_deviation), MachineDefect::excursion);
   return out;
 }

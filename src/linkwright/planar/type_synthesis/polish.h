@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -15,21 +17,40 @@
 
 namespace linkwright::planar {
 
-/// What a machine must keep; lengths in sizes of the stroke.
+/// A box with sides along the axes.
+struct PlaneBox {
+  double left = 0, right = 0, bottom = 0, top = 0;
+};
+
+/// What a machine must keep; lengths in sizes of the stroke, places from its mean.
 struct MachineLimits {
   double min_pair_angle = 20 * pi / 180;  ///< rad, over the whole turn
   double min_length = 0.05, max_length = 10;
+  std::optional<PlaneBox> ground_box = {};               ///< all pivots on the ground are inside
+  std::vector<std::complex<double>> ground_pivots = {};  ///< each is a pivot of the machine on the ground
+  double pivot_tolerance = 1e-3;                         ///< of the given pivots
 };
 
 /// What keeps a machine from being an answer.
-enum class MachineDefect { none, pair_angle, short_link, long_link, order, excursion };
-constexpr std::array<EnumName<MachineDefect>, 6> names(MachineDefect) {
+enum class MachineDefect {
+  none,
+  pair_angle,
+  short_link,
+  long_link,
+  order,
+  excursion,
+  ground_box,
+  ground_pivots
+};
+constexpr std::array<EnumName<MachineDefect>, 8> names(MachineDefect) {
   return {{{MachineDefect::none, "none", "none"},
            {MachineDefect::pair_angle, "pair_angle", "the least pair angle is below its limit"},
            {MachineDefect::short_link, "short_link", "a length is below its limit"},
            {MachineDefect::long_link, "long_link", "a length is above its limit"},
            {MachineDefect::order, "order", "the points are met in another order, or in more than one turn"},
-           {MachineDefect::excursion, "excursion", "between two points the curve leaves the stroke"}}};
+           {MachineDefect::excursion, "excursion", "between two points the curve leaves the stroke"},
+           {MachineDefect::ground_box, "ground_box", "a pivot on the ground is outside the box"},
+           {MachineDefect::ground_pivots, "ground_pivots", "no pivot is at one of the given ground pivots"}}};
 }
 
 /// A machine that is compared with a stroke: parameters in sizes of the stroke from its mean.

@@ -206,6 +206,30 @@ const PointProgram* program_named(std::string_view name) {
   return found.name == name ? &found : nullptr;
 }
 
+std::vector<GroundPivot> ground_pivots(const PointProgram& program) {
+  std::vector<GroundPivot> out{{}};
+  for (const PointStep& step : program.steps) {
+    const PointOperation operation = step.operation;
+    if (operation == PointOperation::ground_on_axis || operation == PointOperation::sleeve)
+      out.push_back({step.parameter, true});
+    if (operation == PointOperation::ground || operation == PointOperation::geared_crank)
+      out.push_back({step.parameter, false});
+  }
+  return out;
+}
+
+std::complex<double> own_place_of(const GroundPivot& pivot, std::span<const double> x) {
+  if (pivot.parameter < 0) return 0;
+  const auto i = static_cast<std::size_t>(pivot.parameter);
+  return {x[i], pivot.on_axis ? 0 : x[i + 1]};
+}
+
+std::complex<double> place_of(const GroundPivot& pivot, const PointProgram& program,
+                              std::span<const double> x) {
+  const auto p = static_cast<std::size_t>(program.place()), s = static_cast<std::size_t>(program.scale());
+  return std::complex<double>(x[p], x[p + 1]) + std::complex<double>(x[s], x[s + 1]) * own_place_of(pivot, x);
+}
+
 MachineShape mirrored(const MachineShape& machine) {
   const PointProgram& program = *machine.program;
   MachineShape out = machine;

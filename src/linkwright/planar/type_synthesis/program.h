@@ -115,6 +115,20 @@ const PointProgram& program_of_pairs(std::span<const PairOfBars> pairs, bool tra
 /// The program with a name, also of pairs whose isomorph has another one; null if there is none.
 const PointProgram* program_named(std::string_view name);
 
+/// A pivot on the ground: that of the crank, a pin, that of a sleeve or of a geared crank.
+struct GroundPivot {
+  int parameter = -1;    ///< of its place in the machine's own plane; -1: the origin, where the crank turns
+  bool on_axis = false;  ///< one parameter, on the real axis; else a complex one
+};
+
+/// The pivots of a type on the ground, that of the crank first. A slide has none.
+std::vector<GroundPivot> ground_pivots(const PointProgram& program);
+
+/// Place of a pivot in the machine's own plane and in the plane that it is placed in.
+std::complex<double> own_place_of(const GroundPivot& pivot, std::span<const double> x);
+std::complex<double> place_of(const GroundPivot& pivot, const PointProgram& program,
+                              std::span<const double> x);
+
 /// The mirror image about the real axis: it traces the mirrored curve with the crank turning in the other
 /// sense.
 MachineShape mirrored(const MachineShape& machine);

@@ -257,7 +257,10 @@ class TypeSearch {
 
   void work(Trial& t, MachineFitter& fitter) const {
     const std::int64_t before = fitter.curves();
-    const bool placed = t.kind != TrialKind::pool || place_machine(target_, t.machine) < infinity;
+    const bool possible =
+        ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
+    const bool placed =
+        possible && (t.kind != TrialKind::pool || place_machine(target_, t.machine) < infinity);
     if (placed && fitter.polish(t.machine, t.best)) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
