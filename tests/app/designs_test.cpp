@@ -173,6 +173,19 @@ void any_path(const Designed& d) {
   }
 }
 
+/// The curve as above, and the turning of the body.
+void any_poses(const Designed& d) {
+  any_path(d);
+  const std::string point = d.solution().classification.find("traced_point")->as_string();
+  std::vector<double> found = column(table_of(d.found, d.numbered("curve")), "body_angle_rad"),
+                      again =
+                          column(table_of(d.again, "sweep"), point.substr(0, point.find('.')) + "_angle_rad");
+  const double from = found[0], from_again = again[0];
+  for (double& v : found) v = std::cos(v - from);
+  for (double& v : again) v = std::cos(v - from_again);
+  expect_same(found, again, exact, "cosine of the rotation of the body");
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -267,6 +280,7 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.four_bar/path_points", four_bar_path},
     {"synthesis/planar.slider_crank/path_points", slider_crank_path},
     {"synthesis/planar.any/path_points", any_path},
+    {"synthesis/planar.any/poses", any_poses},
     {"synthesis/planar.four_bar/poses", poses},
     {"synthesis/planar.four_bar/function", function},
     {"synthesis/planar.slider_crank/function", function},

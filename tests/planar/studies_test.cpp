@@ -21,7 +21,7 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
       names,
       ::testing::ElementsAre(
           "synthesis/planar.four_bar/path_points", "synthesis/planar.slider_crank/path_points",
-          "synthesis/planar.any/path_points", "synthesis/planar.four_bar/poses",
+          "synthesis/planar.any/path_points", "synthesis/planar.any/poses", "synthesis/planar.four_bar/poses",
           "synthesis/planar.four_bar/function", "synthesis/planar.slider_crank/function",
           "synthesis/planar.four_bar/swing", "synthesis/planar.slider_crank/stroke",
           "synthesis/planar.six_bar/function", "synthesis/planar.six_bar/dwell", "enumeration/planar.chain",

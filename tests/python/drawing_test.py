@@ -31,6 +31,13 @@ class Draw(unittest.TestCase):
         b = linkwright.draw_study(superellipse[:, 0] + 1j * superellipse[:, 1], closed=True)
         self.assertEqual(a.to_toml(), b.to_toml())
 
+    def test_poses_are_points_with_angles(self):
+        points = [[0, 0], [0.03, 0.005], [0.062, 0.024], [0.088, 0.052], [0.104, 0.088], [0.11, 0.126]]
+        result = linkwright.draw(points, body_angles=[0, 0, 8, 25, 52, 90], evaluations=60_000, most_links=6)
+        self.assertLess(result.solutions[0].objectives["pose_error_rms_m"], 0.005)
+        with self.assertRaisesRegex(ValueError, "body_angles"):
+            linkwright.draw_study(points, body_angles=[0, 1])
+
     def test_says_what_is_wrong(self):
         with self.assertRaisesRegex(ValueError, r"array \(n, 2\).*\(3,\)"):
             linkwright.draw([1.0, 2.0, 3.0])

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies.h"
 
-#include "linkwright/planar/studies/any_path.h"
+#include "linkwright/planar/studies/any_machine.h"
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/chain.h"
 #include "linkwright/planar/studies/dwell.h"
@@ -21,6 +21,7 @@ std::vector<study::Kind> studies() {
   std::vector<study::Kind> kinds = {four_bar_path_kind(),
                                     slider_path_kind(),
                                     any_path_kind(),
+                                    any_poses_kind(),
                                     pose_kind(),
                                     rocker_function_kind(),
                                     slider_function_kind(),

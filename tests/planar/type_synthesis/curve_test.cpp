@@ -105,6 +105,69 @@ TEST(MachineCurves, HaveTheDerivativesOfTheirDifferences) {
   }
 }
 
+/// Angle of the traced bar and its derivatives.
+struct BarRows {
+  std::array<double, 8> x{}, y{}, tx{}, ty{}, bx{}, by{}, rate{};
+  std::vector<double> rows;
+};
+
+BarRows bar_rows_of(const MachineShape& shape, const std::array<double, 8>& at = angles) {
+  static constexpr std::array<double, 8> none{}, one{1, 1, 1, 1, 1, 1, 1, 1};
+  BarRows out;
+  out.rows.resize(8 * shape.x.size());
+  compute_curve({.program = shape.program,
+                 .x = shape.x.data(),
+                 .signs = shape.signs,
+                 .angle = at.data(),
+                 .count = 8,
+                 .px = out.x.data(),
+                 .py = out.y.data(),
+                 .tx = out.tx.data(),
+                 .ty = out.ty.data(),
+                 .bx = out.bx.data(),
+                 .by = out.by.data(),
+                 .rate = out.rate.data(),
+                 .nx = none.data(),
+                 .ny = none.data(),
+                 .na = one.data(),
+                 .rows = out.rows.data(),
+                 .stride = 8});
+  return out;
+}
+
+TEST(MachineCurves, HaveTheDerivativesOfTheAngleOfTheTracedBar) {
+  for (const PointProgram* p : test::all_programs()) {
+    MachineShape shape = test::some_shape(*p, 5);
+    const std::size_t scale = shape.x.size() - 2;
+    shape.x[scale] = 0.8, shape.x[scale + 1] = 0.5;
+    const BarRows at = bar_rows_of(shape);
+    const auto turned = [&](const BarRows& moved, std::size_t k) {
+      return std::arg(std::complex<double>(moved.bx[k], moved.by[k]) /
+                      std::complex<double>(at.bx[k], at.by[k]));
+    };
+    for (std::size_t k = 0; k < 8; ++k) {
+      for (std::size_t i = 0; i < shape.x.size(); ++i) {
+        const double along = difference(
+            [&](double by) {
+              MachineShape other = shape;
+              other.x[i] += by;
+              return turned(bar_rows_of(other), k);
+            },
+            1e-3 * std::max(0.1, std::abs(shape.x[i])));
+        EXPECT_NEAR(at.rows[8 * i + k], along, 3e-8 * (1 + std::abs(along))) << p->name << " parameter " << i;
+      }
+      const double rate = difference(
+          [&](double by) {
+            std::array<double, 8> moved = angles;
+            moved[k] += by;
+            return turned(bar_rows_of(shape, moved), k);
+          },
+          1e-3);
+      EXPECT_NEAR(at.rate[k], rate, 1e-8 * (1 + std::abs(rate))) << p->name;
+    }
+  }
+}
+
 TEST(MachineCurves, AreTheSameWithAllRegisters) {
   for (const PointProgram* p : test::all_programs()) {
     const MachineShape shape = test::some_shape(*p, 7);

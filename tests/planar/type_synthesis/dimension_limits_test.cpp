@@ -80,7 +80,7 @@ TEST(DimensionLimits, MovePivotsOntoTheGivenOnes) {
 TEST(TypeSearches, KeepPivotsWhereTheyAreAllowed) {
   const auto target = sampled_stroke(test::stroke_of(test::stroke_case("leg")));
   const TypeSearchOptions boxed{
-      .max_links = 6, .limits = {.ground_box = PlaneBox{-3, 3, 1.5, 4}}, .max_curves = 100'000};
+      .max_links = 6, .limits = {.ground_box = PlaneBox{-3, 3, 1.5, 4}}, .max_curves = 60'000};
   RunContext context;
   const auto answer = search_types(target, boxed, context);
   ASSERT_GE(answer.machines.size(), 2u);

@@ -138,6 +138,10 @@ struct PoseStudy {
   std::vector<MixedPoseLinkage> exact_linkages;  ///< linkages that meet them exactly, where they are mixed
 };
 
+/// The poses of a file beside the study, which its key "file" names; nothing where that has been reported.
+std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Common& common,
+                                    const std::string& file);
+
 /// "synthesis" of "planar.four_bar" for "poses".
 study::Kind pose_kind();
 

@@ -29,37 +29,6 @@ constexpr std::size_t max_poses = 200;
 // Places and angles that agree to this share of the size of the motion, and of a radian, are one.
 constexpr double same_pose = 1e-9;
 
-// The poses of a file beside the study; nothing where that has been reported.
-std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Common& common,
-                                    const std::string& file) {
-  const std::optional<std::string> text = study::read_beside(target, "file", common.folder, file);
-  if (!text) return {};
-  Diagnostics problems;
-  const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
-  for (const Diagnostic& problem : problems) target.unreadable("file", study::in_file(problem));
-  if (!table) return {};
-  const auto x = quantity(*table, "x", Dimension::length), y = quantity(*table, "y", Dimension::length),
-             angle = quantity(*table, "angle", Dimension::angle);
-  if (!x || !y || !angle) {
-    std::vector<std::string> found;
-    for (const Column& c : table->columns) found.push_back(c.key);
-    target.error("file",
-                 fmt::format("'{}' has the columns {}, but needs x, y and angle, each with its unit", file,
-                             fmt::join(found, ", ")),
-                 "name them x_mm, y_mm, angle_deg");
-    return {};
-  }
-  std::vector<PoseForm> out;
-  for (std::size_t k = 0; k < x->size(); ++k) {
-    out.push_back({(*x)[k], (*y)[k], (*angle)[k]});
-    if (std::isfinite((*x)[k]) && std::isfinite((*y)[k]) && std::isfinite((*angle)[k])) continue;
-    target.error("file", fmt::format("'{}': pose {} is incomplete", file, k + 1),
-                 "give it x, y and an angle");
-    return {};
-  }
-  return out;
-}
-
 // True if two poses are equal; a point is the same as what is at its place.
 bool same(const PoseProblem& p, std::size_t a, std::size_t b, double size) {
   const BodyPose &one = p.poses[a], &other = p.poses[b];
@@ -304,6 +273,36 @@ void check_counts(study::ObjectReader& target, PoseStudy& s) {
 }
 
 }  // namespace
+
+std::vector<PoseForm> poses_of_file(study::ObjectReader& target, const study::Common& common,
+                                    const std::string& file) {
+  const std::optional<std::string> text = study::read_beside(target, "file", common.folder, file);
+  if (!text) return {};
+  Diagnostics problems;
+  const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
+  for (const Diagnostic& problem : problems) target.unreadable("file", study::in_file(problem));
+  if (!table) return {};
+  const auto x = quantity(*table, "x", Dimension::length), y = quantity(*table, "y", Dimension::length),
+             angle = quantity(*table, "angle", Dimension::angle);
+  if (!x || !y || !angle) {
+    std::vector<std::string> found;
+    for (const Column& c : table->columns) found.push_back(c.key);
+    target.error("file",
+                 fmt::format("'{}' has the columns {}, but needs x, y and angle, each with its unit", file,
+                             fmt::join(found, ", ")),
+                 "name them x_mm, y_mm, angle_deg");
+    return {};
+  }
+  std::vector<PoseForm> out;
+  for (std::size_t k = 0; k < x->size(); ++k) {
+    out.push_back({(*x)[k], (*y)[k], (*angle)[k]});
+    if (std::isfinite((*x)[k]) && std::isfinite((*y)[k]) && std::isfinite((*angle)[k])) continue;
+    target.error("file", fmt::format("'{}': pose {} is incomplete", file, k + 1),
+                 "give it x, y and an angle");
+    return {};
+  }
+  return out;
+}
 
 PoseStudy read_pose_study(study::ObjectReader& document, const study::Common& common) {
   PoseStudy s;

@@ -27,12 +27,14 @@ struct CurveTask {
   std::size_t count = 0;                ///< a multiple of 8
   double *px = nullptr, *py = nullptr;  ///< traced point
   double *tx = nullptr, *ty = nullptr;  ///< its derivative by the crank angle
+  double *bx = nullptr, *by = nullptr;  ///< from the first pin of the traced bar to its second
+  double* rate = nullptr;               ///< angular speed of the traced bar at unit speed of the crank
   double* quality =
       nullptr;  ///< least squared sine of all pair angles; negative where a pair does not assemble
   double* worst = nullptr;  ///< index of the step that has it
-  /// Rows of the derivative of nx px + ny py by the parameters at constant crank angle, `stride` numbers
-  /// apart.
-  const double *nx = nullptr, *ny = nullptr;
+  /// Rows of the derivative of nx px + ny py, and of na times the angle of the traced bar where there is na,
+  /// by the parameters at constant crank angle, `stride` numbers apart.
+  const double *nx = nullptr, *ny = nullptr, *na = nullptr;
   double* rows = nullptr;
   std::size_t stride = 0;
   double* points =

@@ -27,6 +27,17 @@ LINKWRIGHT_KERNEL void curve_at(const CurveTask& task, std::size_t k,
     (sx * c.dx - sy * c.dy).store_unaligned(task.tx + k);
     (sx * c.dy + sy * c.dx).store_unaligned(task.ty + k);
   }
+  if (task.bx) {
+    const PointStep& traced = program.steps[last];
+    const auto &from = s.steps[static_cast<std::size_t>(traced.first)],
+               &to = s.steps[static_cast<std::size_t>(traced.second)];
+    const Batch dx = to.x - from.x, dy = to.y - from.y;
+    (sx * dx - sy * dy).store_unaligned(task.bx + k);
+    (sx * dy + sy * dx).store_unaligned(task.by + k);
+    if constexpr (with_tangent)
+      ((dx * (to.dy - from.dy) - dy * (to.dx - from.dx)) / (dx * dx + dy * dy))
+          .store_unaligned(task.rate + k);
+  }
   if (task.quality) {
     Batch least, where;
     program_kernel::worst_pair(program, s, least, where);
@@ -50,6 +61,14 @@ LINKWRIGHT_KERNEL void rows_at(const CurveTask& task, std::size_t k, program_ker
   program_kernel::clear_reverse(program, s);
   auto& c = s.steps[last];
   c.bx = sx * nx + sy * ny, c.by = sx * ny - sy * nx;
+  if (task.na) {
+    auto &from = s.steps[static_cast<std::size_t>(program.steps[last].first)],
+         &to = s.steps[static_cast<std::size_t>(program.steps[last].second)];
+    const Batch dx = to.x - from.x, dy = to.y - from.y,
+                by = Batch::load_unaligned(task.na + k) / (dx * dx + dy * dy);
+    to.bx = -(by * dy), to.by = by * dx;
+    from.bx = by * dy, from.by = -(by * dx);
+  }
   const auto row = [&](int parameter) __attribute__((always_inline)) {
     return task.rows + static_cast<std::size_t>(parameter) * task.stride + k;
   };
@@ -59,8 +78,13 @@ LINKWRIGHT_KERNEL void rows_at(const CurveTask& task, std::size_t k, program_ker
         value.store_unaligned(row(parameter));
       });
   nx.store_unaligned(row(program.place())), ny.store_unaligned(row(program.place() + 1));
-  (c.x * nx + c.y * ny).store_unaligned(row(program.scale()));
-  (c.x * ny - c.y * nx).store_unaligned(row(program.scale() + 1));
+  Batch re = c.x * nx + c.y * ny, im = c.x * ny - c.y * nx;
+  if (task.na) {
+    const Batch by = Batch::load_unaligned(task.na + k) / (sx * sx + sy * sy);
+    re = re - by * sy, im = im + by * sx;
+  }
+  re.store_unaligned(row(program.scale()));
+  im.store_unaligned(row(program.scale() + 1));
 }
 
 void curve(const CurveTask& task) {

@@ -142,14 +142,13 @@ double place_open(const SampledStroke& target, FittedMachine& m,
   return best;
 }
 
-}  // namespace
-
-double place_machine(const SampledStroke& target, FittedMachine& machine) {
-  const PointProgram& p = *machine.shape.program;
+/// Points of the shape in its own plane over a turn, equal crank angles apart; none for shapes that do not
+/// turn.
+std::vector<std::complex<double>> own_curve(FittedMachine& machine) {
   set_place(machine, 1, 0);
   alignas(64) std::array<double, turn_samples> angle, x, y, quality, worst;
   for (std::size_t k = 0; k < turn_samples; ++k) angle[k] = 2 * pi * static_cast<double>(k) / turn_samples;
-  compute_curve({.program = &p,
+  compute_curve({.program = machine.shape.program,
                  .x = machine.shape.x.data(),
                  .signs = machine.shape.signs,
                  .angle = angle.data(),
@@ -158,13 +157,77 @@ double place_machine(const SampledStroke& target, FittedMachine& machine) {
                  .py = y.data(),
                  .quality = quality.data(),
                  .worst = worst.data()});
-  if (!(*std::min_element(quality.begin(), quality.end()) > 0)) return infinity;
-  std::vector<std::complex<double>> curve(turn_samples);
+  std::vector<std::complex<double>> curve;
+  if (!(*std::min_element(quality.begin(), quality.end()) > 0)) return curve;
+  for (std::size_t k = 0; k < turn_samples; ++k) curve.emplace_back(x[k], y[k]);
+  return curve;
+}
+
+/// The start and sense of the crank for which a similarity brings the curve nearest to timed samples.
+double place_timed(const MotionTarget& target, FittedMachine& m,
+                   const std::vector<std::complex<double>>& curve) {
+  constexpr std::size_t starts = 96;
+  const std::size_t n = target.count;
+  std::complex<double> target_mean{};
+  double of_target = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    target_mean += target.weight[k] * std::complex<double>(target.x[k], target.y[k]) / target.total_weight;
+  for (std::size_t k = 0; k < n; ++k)
+    of_target += target.weight[k] * std::norm(std::complex<double>(target.x[k], target.y[k]) - target_mean);
+  double best = infinity, start = 0;
+  std::complex<double> scale, place;
+  const double by_angle = static_cast<double>(curve.size()) / (2 * pi);
+  for (const double sense : {1.0, -1.0})
+    for (std::size_t i = 0; i < starts; ++i) {
+      const double from = 2 * pi * static_cast<double>(i) / starts;
+      std::complex<double> mean{}, sum{};
+      double squares = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::complex<double> v = point_at(curve, (from + sense * target.turn[k]) * by_angle);
+        const std::complex<double> t = std::complex<double>(target.x[k], target.y[k]) - target_mean;
+        sum += target.weight[k] * std::conj(v) * t;
+        squares += target.weight[k] * std::norm(v), mean += target.weight[k] * v / target.total_weight;
+      }
+      squares -= target.total_weight * std::norm(mean);
+      if (!(squares > 0)) continue;
+      const double left = 1 - std::norm(sum) / (squares * of_target);
+      if (left < best)
+        best = left, start = from, m.sense = sense, scale = sum / squares, place = target_mean - scale * mean;
+    }
+  if (best == infinity) return infinity;
+  set_place(m, scale, place);
+  for (std::size_t k = 0; k < n; ++k) m.angle[k] = start + m.sense * target.turn[k];
+  return best;
+}
+
+}  // namespace
+
+double place_machine(const SampledStroke& target, FittedMachine& machine) {
+  const std::vector<std::complex<double>> curve = own_curve(machine);
+  if (curve.empty()) return infinity;
   std::vector<double> arc(turn_samples + 1, 0.0);
-  for (std::size_t k = 0; k < turn_samples; ++k) curve[k] = {x[k], y[k]};
   for (std::size_t k = 0; k < turn_samples; ++k)
     arc[k + 1] = arc[k] + std::abs(curve[(k + 1) % turn_samples] - curve[k]);
   return target.closed ? place_closed(target, machine, curve, arc) : place_open(target, machine, curve, arc);
+}
+
+double place_on(const MotionTarget& target, FittedMachine& machine) {
+  double left = infinity;
+  if (target.timed) {
+    if (const auto curve = own_curve(machine); !curve.empty()) left = place_timed(target, machine, curve);
+  } else {
+    left = place_machine(target.stroke, machine);
+    if (target.dense) return left;
+    const std::array<double, stroke_samples> along = machine.angle;
+    for (std::size_t k = 0; k < target.count; ++k) {
+      const auto i = std::min(static_cast<std::size_t>(target.at[k]), stroke_samples - 1);
+      const double next = i + 1 < stroke_samples ? along[i + 1] : along[0] + machine.sense * 2 * pi;
+      machine.angle[k] = along[i] + (target.at[k] - static_cast<double>(i)) * (next - along[i]);
+    }
+  }
+  std::fill(machine.angle.begin() + static_cast<std::ptrdiff_t>(target.count), machine.angle.end(),
+            machine.angle[target.count - 1]);
+  return left;
 }
 
 }  // namespace linkwright::planar

@@ -11,13 +11,13 @@
 
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/dimension_limits.h"
+#include "linkwright/planar/type_synthesis/detail/turn_measurer.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t samples = stroke_samples;
 constexpr std::size_t limit_angles = 48;  // grid of the pair angles during the polish
-constexpr std::size_t measured_angles = 720;
 constexpr std::size_t limit_minima = 16;  // minima of the pair angle over the turn that a polish heeds
 constexpr double margin =
     0.05 * pi / 180;  // the polish keeps this much more of the pair angle than it promises
@@ -27,7 +27,7 @@ constexpr double open_rest = 0.02;                          // an open stroke le
 using Samples = std::array<double, samples>;
 
 /// Brings a sequence into ascending order with the least sum of squared changes (pool adjacent violators).
-void restore_order(Samples& v) {
+void restore_order(std::span<double> v) {
   std::array<double, samples> mean;
   std::array<std::size_t, samples> count;
   std::size_t pools = 0;
@@ -47,80 +47,125 @@ void restore_order(Samples& v) {
 }  // namespace
 
 struct MachineFitter::Memory {
-  Memory(const SampledStroke& stroke, const MachineLimits& kept)
-      : target(stroke), limits(kept), dimensions(kept) {}
+  Memory(const MotionTarget& wanted, const MachineLimits& kept)
+      : target(wanted),
+        limits(kept),
+        dimensions(kept),
+        turn(target),
+        rows(column_length() * (max_machine_parameters + 3)) {}
 
-  SampledStroke target;
+  MotionTarget target;
   MachineLimits limits;
   std::int64_t curves = 0;
   DimensionLimits dimensions;
+  TurnMeasurer turn;
   double min_quality = 0;
   double phase = 0;  // of the grid of pair angles; each polish begins with the same
 
   struct Curve {
     alignas(64) Samples angle, x, y, tx, ty;
+    alignas(64) Samples bx, by, rate;  ///< of the traced bar
+    alignas(64) Samples ex, ey, ea;    ///< errors of place and of angle (rad)
+    double body_angle = 0;
     double squares = 0;
   };
   Curve now, next;
-  alignas(64) std::array<double, samples*(max_machine_parameters + 1)> rows;
-  alignas(64) Samples nx, ny;
+  std::vector<double> rows;  ///< of the residuals' derivatives, then the residuals
+  /// Directions of the residuals of each sample: along the place, and the angle as a length.
+  struct Direction {
+    alignas(64) Samples x, y, a;
+  };
+  std::array<Direction, 3> directions;
   alignas(64) std::array<double, limit_angles> limit_angle, quality, worst;
   LimitRows limit_rows, pivot_rows;
-  alignas(64) std::array<double, measured_angles> turn_angle, turn_quality,
-      turn_worst, turn_x, turn_y, turn_tx, turn_ty;
-  std::vector<double> turn_points = std::vector<double>(2 * max_steps * measured_angles);
+
+  /// Residuals of a sample: normal to the curve where the time is free, else both coordinates; and the angle.
+  std::size_t residuals() const { return (target.timed ? 2u : 1u) + (target.oriented ? 1u : 0u); }
+  std::size_t column_length() const { return residuals() * target.count; }
+  /// Unknowns beside the parameters: the start of the crank and the angle of the body on its bar.
+  int extra_unknowns() const { return (target.timed ? 1 : 0) + (target.oriented ? 1 : 0); }
+  std::size_t count() const { return target.count; }
 
   const PointProgram& program_of(const MachineShape& shape) {
     dimensions.set_program(*shape.program);
     return *shape.program;
   }
 
-  void compute(const PointProgram& p, const double* x, unsigned signs, Curve& c,
-               double* derivatives = nullptr) {
-    ++curves;
-    compute_curve({.program = &p,
+  CurveTask task_of(const PointProgram& p, const double* x, unsigned signs, Curve& c) const {
+    CurveTask task{.program = &p,
                    .x = x,
                    .signs = signs,
                    .angle = c.angle.data(),
-                   .count = samples,
+                   .count = count(),
                    .px = c.x.data(),
                    .py = c.y.data(),
                    .tx = c.tx.data(),
-                   .ty = c.ty.data(),
-                   .nx = nx.data(),
-                   .ny = ny.data(),
-                   .rows = derivatives,
-                   .stride = samples});
-    if (derivatives) return;
+                   .ty = c.ty.data()};
+    if (target.oriented) task.bx = c.bx.data(), task.by = c.by.data(), task.rate = c.rate.data();
+    return task;
+  }
+
+  void compute(const PointProgram& p, const double* x, unsigned signs, Curve& c) {
+    ++curves;
+    compute_curve(task_of(p, x, signs, c));
     double sum = 0;
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
-      sum += ex * ex + ey * ey;
+    for (std::size_t k = 0; k < count(); ++k) {
+      double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
+      if (target.tolerance > 0) {
+        const double distance = std::hypot(ex, ey);
+        const double beyond = distance > target.tolerance ? 1 - target.tolerance / distance : 0;
+        ex *= beyond, ey *= beyond;
+      }
+      c.ex[k] = ex, c.ey[k] = ey;
+      double square = ex * ex + ey * ey;
+      if (target.oriented) {
+        c.ea[k] = angle_error(c, k);
+        const double across = target.angle_length * c.ea[k];
+        square += across * across;
+      }
+      sum += target.weight[k] * square;
     }
     c.squares = sum;
+  }
+
+  double angle_error(const Curve& c, std::size_t k) const {
+    return std::arg(std::complex<double>(c.bx[k], c.by[k]) * std::polar(1.0, c.body_angle - target.angle[k]));
+  }
+
+  /// Speed of the body by angle, as that of a point.
+  double turning(const Curve& c, std::size_t k) const {
+    return target.oriented ? target.angle_length * c.rate[k] : 0;
+  }
+  double speed_squared(const Curve& c, std::size_t k) const {
+    const double speed = c.tx[k] * c.tx[k] + c.ty[k] * c.ty[k], w = turning(c, k);
+    return target.oriented ? speed + w * w : speed;
+  }
+  double mean_speed_squared(const Curve& c) const {
+    double mean = 0;
+    for (std::size_t k = 0; k < count(); ++k) mean += speed_squared(c, k);
+    return mean / static_cast<double>(count());
   }
 
   /// One Gauss-Newton step of each crank angle towards the closest point, in the order of the stroke. Returns
   /// the largest change.
   double advance(Curve& c, double sense) const {
-    double mean = 0;
-    for (std::size_t k = 0; k < samples; ++k) mean += c.tx[k] * c.tx[k] + c.ty[k] * c.ty[k];
-    mean /= samples;
-    Samples forward;
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
-      const double speed = c.tx[k] * c.tx[k] + c.ty[k] * c.ty[k];
-      const double change = -(c.tx[k] * ex + c.ty[k] * ey) / (speed + 4e-4 * mean);
+    const double mean = mean_speed_squared(c);
+    Samples all;
+    const std::span<double> forward(all.data(), count());
+    for (std::size_t k = 0; k < count(); ++k) {
+      double along = c.tx[k] * c.ex[k] + c.ty[k] * c.ey[k];
+      if (target.oriented) along += turning(c, k) * target.angle_length * c.ea[k];
+      const double change = -along / (speed_squared(c, k) + 4e-4 * mean);
       forward[k] = sense * (c.angle[k] + std::clamp(change, -0.12, 0.12));
     }
     restore_order(forward);
-    const double most = target.closed ? 2 * pi : 2 * pi - open_rest;
+    const double most = target.stroke.closed ? 2 * pi : 2 * pi - open_rest;
     if (const double turned = forward.back() - forward.front(); turned > most) {
       const double centre = 0.5 * (forward.back() + forward.front());
       for (double& f : forward) f = centre + (f - centre) * (most / turned);
     }
     double largest = 0;
-    for (std::size_t k = 0; k < samples; ++k) {
+    for (std::size_t k = 0; k < count(); ++k) {
       largest = std::max(largest, std::abs(sense * forward[k] - c.angle[k]));
       c.angle[k] = sense * forward[k];
     }
@@ -195,40 +240,109 @@ struct MachineFitter::Memory {
       limit_angle[k] = phase + 2 * pi * static_cast<double>(k) / limit_angles;
   }
 
-  /// Rows of the residuals along the normals of the curve, and the residuals as the last row.
-  void residual_rows(const PointProgram& p, const double* x, unsigned signs) {
-    double mean = 0;
-    for (std::size_t k = 0; k < samples; ++k) mean += now.tx[k] * now.tx[k] + now.ty[k] * now.ty[k];
-    mean /= samples;
-    double* residual = rows.data() + static_cast<std::size_t>(p.parameters) * samples;
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double ex = now.x[k] - target.x[k], ey = now.y[k] - target.y[k];
+  /// The normals of the curve.
+  void find_normals() {
+    const double mean = mean_speed_squared(now);
+    Direction& d = directions[0];
+    for (std::size_t k = 0; k < count(); ++k) {
+      const double ex = now.ex[k], ey = now.ey[k];
       const double speed = now.tx[k] * now.tx[k] + now.ty[k] * now.ty[k];
       double ax = -now.ty[k], ay = now.tx[k], length = std::sqrt(speed);
       // Where the curve nearly stands it has no normal: the residual itself is what is left.
       if (speed < 1e-6 * mean) ax = ex, ay = ey, length = std::hypot(ex, ey);
       const double by = length > 0 ? 1 / length : 0;
-      nx[k] = ax * by, ny[k] = ay * by;
-      residual[k] = nx[k] * ex + ny[k] * ey;
+      d.x[k] = ax * by, d.y[k] = ay * by;
     }
-    compute(p, x, signs, now, rows.data());
   }
 
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_machine_parameters,
-                               max_machine_parameters>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_machine_parameters, 1>;
+  /// Two normals of the motion of a body, whose angle counts as a third length.
+  void find_body_normals() {
+    const double mean = mean_speed_squared(now), w = target.angle_length;
+    for (std::size_t k = 0; k < count(); ++k) {
+      using Vector3 = std::array<double, 3>;
+      const double root = std::sqrt(target.weight[k]);
+      Vector3 first{now.ex[k], now.ey[k], w * now.ea[k]}, second{};
+      if (const double speed = speed_squared(now, k); speed >= 1e-6 * mean && speed > 0) {
+        const double by = 1 / std::sqrt(speed);
+        const Vector3 t{by * now.tx[k], by * now.ty[k], by * turning(now, k)};
+        first = {-t[1], t[0], 0};
+        if (std::hypot(t[0], t[1]) < 1e-3) first = {1 - t[0] * t[0], -t[0] * t[1], -t[0] * t[2]};
+        second = {t[1] * first[2] - t[2] * first[1], t[2] * first[0] - t[0] * first[2],
+                  t[0] * first[1] - t[1] * first[0]};
+      }
+      const auto set = [&](Direction& d, const Vector3& v) {
+        const double length = std::hypot(v[0], v[1], v[2]), by = length > 0 ? root / length : 0;
+        d.x[k] = by * v[0], d.y[k] = by * v[1], d.a[k] = by * v[2] * w;
+      };
+      set(directions[0], first), set(directions[1], second);
+    }
+  }
+
+  /// Both coordinates, and the angle; none inside the tolerance.
+  void find_axes() {
+    for (std::size_t k = 0; k < count(); ++k) {
+      const double root = std::sqrt(target.weight[k]);
+      const double of_place = target.tolerance > 0 && now.ex[k] == 0 && now.ey[k] == 0 ? 0 : root;
+      directions[0].x[k] = directions[1].y[k] = of_place;
+      directions[0].y[k] = directions[1].x[k] = directions[0].a[k] = directions[1].a[k] = 0;
+      directions[2].x[k] = directions[2].y[k] = 0, directions[2].a[k] = root * target.angle_length;
+    }
+  }
+
+  /// Rows of the residuals by all unknowns, and the residuals as the last row.
+  void residual_rows(const PointProgram& p, const double* x, unsigned signs) {
+    if (target.timed)
+      find_axes();
+    else if (target.oriented)
+      find_body_normals();
+    else
+      find_normals();
+    ++curves;
+    const std::size_t stride = column_length();
+    for (std::size_t r = 0; r < residuals(); ++r) {
+      const Direction& d = directions[r];
+      double* out = rows.data() + r * count();
+      CurveTask task = task_of(p, x, signs, now);
+      task.nx = d.x.data(), task.ny = d.y.data(), task.na = target.oriented ? d.a.data() : nullptr;
+      task.rows = out, task.stride = stride;
+      compute_curve(task);
+      double* column = out + static_cast<std::size_t>(p.parameters) * stride;
+      if (target.timed) {
+        for (std::size_t k = 0; k < count(); ++k) {
+          column[k] = d.x[k] * now.tx[k] + d.y[k] * now.ty[k];
+          if (target.oriented) column[k] += d.a[k] * now.rate[k];
+        }
+        column += stride;
+      }
+      if (target.oriented) {
+        std::copy_n(d.a.begin(), count(), column);
+        column += stride;
+      }
+      for (std::size_t k = 0; k < count(); ++k) {
+        column[k] = d.x[k] * now.ex[k] + d.y[k] * now.ey[k];
+        if (target.oriented) column[k] += d.a[k] * now.ea[k];
+      }
+    }
+  }
+
+  static constexpr int max_unknowns = max_machine_parameters + 2;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_unknowns, max_unknowns>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_unknowns, 1>;
 
   /// Normal equations of residuals and limits.
   void normal_equations(const PointProgram& p, Matrix& a, Vector& b) {
-    const auto n = static_cast<std::size_t>(p.parameters);
-    std::array<double, (max_machine_parameters + 1) * (max_machine_parameters + 2) / 2> sums;
-    compute_products(
-        {.rows = rows.data(), .stride = samples, .count = samples, .columns = n + 1, .out = sums.data()});
-    a.resize(p.parameters, p.parameters), b.resize(p.parameters);
+    const int n = p.parameters + extra_unknowns();
+    std::array<double, (max_unknowns + 1) * (max_unknowns + 2) / 2> sums;
+    compute_products({.rows = rows.data(),
+                      .stride = column_length(),
+                      .count = column_length(),
+                      .columns = static_cast<std::size_t>(n) + 1,
+                      .out = sums.data()});
+    a.resize(n, n), b.resize(n);
     const double* from = sums.data();
-    for (int i = 0; i < p.parameters; ++i)
+    for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j) a(i, j) = *from++;
-    for (int i = 0; i < p.parameters; ++i) b(i) = *from++;
+    for (int i = 0; i < n; ++i) b(i) = *from++;
     add_limits(p, limit_rows, a, b), add_limits(p, pivot_rows, a, b);
   }
 
@@ -250,7 +364,8 @@ struct MachineFitter::Memory {
     std::array<double, max_machine_parameters> trial;
     double damping = 1e-3;
     int small_steps = 0;
-    now.angle = m.angle;
+    const int n = p.parameters + extra_unknowns();
+    now.angle = m.angle, now.body_angle = m.body_angle;
     compute(p, x.data(), m.shape.signs, now);
     Matrix a, factor;
     Vector b, step;
@@ -262,15 +377,18 @@ struct MachineFitter::Memory {
       bool better = false;
       for (int attempt = 0; attempt < 6 && !better; ++attempt) {
         factor = a;
-        for (int k = 0; k < p.parameters; ++k) factor(k, k) += damping * a(k, k) + 1e-12;
+        for (int k = 0; k < n; ++k) factor(k, k) += damping * a(k, k) + 1e-12;
         step = b;
         const Eigen::LLT<Eigen::Ref<Matrix>, Eigen::Lower> cholesky(factor);
         if (cholesky.info() == Eigen::Success) {
           cholesky.solveInPlace(step);
           for (int k = 0; k < p.parameters; ++k)
             trial[static_cast<std::size_t>(k)] = x[static_cast<std::size_t>(k)] - step(k);
-          next.angle = now.angle;
-          for (int turn = 0; turn < 2; ++turn) {
+          next.angle = now.angle, next.body_angle = now.body_angle;
+          if (target.oriented) next.body_angle -= step(n - 1);
+          if (target.timed)
+            for (double& angle : next.angle) angle -= step(p.parameters);
+          for (int pass = 0; pass < 2 && !target.timed; ++pass) {
             compute(p, trial.data(), m.shape.signs, next);
             advance(next, m.sense);
           }
@@ -285,36 +403,51 @@ struct MachineFitter::Memory {
       std::copy_n(trial.begin(), x.size(), x.begin());
       std::swap(now, next);
     }
-    m.angle = now.angle;
-    m.error = std::sqrt(now.squares / samples);
+    save(m);
     return m.error;
   }
 
+  void save(FittedMachine& m) const {
+    m.angle = now.angle, m.body_angle = now.body_angle;
+    std::fill(m.angle.begin() + static_cast<std::ptrdiff_t>(count()), m.angle.end(), now.angle[count() - 1]);
+    m.error = std::sqrt(now.squares / target.total_weight);
+  }
+
   void meet_points(FittedMachine& machine, MachineMeasures& out);
-  void measure_turn(const FittedMachine& machine, MachineMeasures& out);
-  double least_quality(const FittedMachine& machine) const;
-  double box_of_pins(const PointProgram& p, std::complex<double> scale) const;
-  double peak_acceleration(const FittedMachine& machine, double span) const;
-  bool stays_near(const FittedMachine& machine, double largest_deviation);
 };
 
-MachineFitter::MachineFitter(const SampledStroke& target, const MachineLimits& limits)
+MachineFitter::MachineFitter(const MotionTarget& target, const MachineLimits& limits)
     : memory_(std::make_unique<Memory>(target, limits)) {
   const double sine = std::sin(std::min(limits.min_pair_angle + margin, pi / 2));
   memory_->min_quality = sine * sine;
-  for (std::size_t k = 0; k < measured_angles; ++k)
-    memory_->turn_angle[k] = 2 * pi * static_cast<double>(k) / measured_angles;
 }
 MachineFitter::~MachineFitter() = default;
 MachineFitter::MachineFitter(MachineFitter&&) noexcept = default;
 
-std::int64_t MachineFitter::curves() const { return memory_->curves; }
+std::int64_t MachineFitter::curves() const { return memory_->curves + memory_->turn.curves(); }
+
+double MachineFitter::turn_body(FittedMachine& machine) {
+  Memory& m = *memory_;
+  const PointProgram& p = m.program_of(machine.shape);
+  m.now.angle = machine.angle, m.now.body_angle = 0;
+  m.compute(p, machine.shape.x.data(), machine.shape.signs, m.now);
+  if (m.target.oriented) {
+    std::complex<double> sum{};
+    for (std::size_t k = 0; k < m.count(); ++k) sum += m.target.weight[k] * std::polar(1.0, -m.now.ea[k]);
+    m.now.body_angle = std::arg(sum);
+    m.compute(p, machine.shape.x.data(), machine.shape.signs, m.now);
+  }
+  m.save(machine);
+  return machine.error;
+}
 
 bool MachineFitter::polish(FittedMachine& machine, double best) {
   Memory& m = *memory_;
   m.phase = 0;
-  if (!(m.descend(machine, 1, 25) <= 1.6 * best)) return false;
-  if (!(m.descend(machine, 4, 40) <= 1.15 * best)) return false;
+  // Within the tolerance no machine is better than another by its error.
+  const double spare = 0.3 * m.target.tolerance;
+  if (!(m.descend(machine, 1, 25) <= 1.6 * best + spare)) return false;
+  if (!(m.descend(machine, 4, 40) <= 1.15 * best + spare)) return false;
   m.descend(machine, 30, 80);
   // A machine that stays far from the stroke pulls harder at its limits than that.
   for (const double weight : {150.0, 750.0, 3750.0}) {
@@ -329,138 +462,41 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
 void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures& out) {
   const PointProgram& p = program_of(machine.shape);
   const double* x = machine.shape.x.data();
-  now.angle = machine.angle;
+  now.angle = machine.angle, now.body_angle = machine.body_angle;
   compute(p, x, machine.shape.signs, now);
-  for (int i = 0; i < 60; ++i) {
-    next.angle = now.angle;
-    next.tx = now.tx, next.ty = now.ty, next.x = now.x, next.y = now.y;
+  for (int i = 0; i < 60 && !target.timed; ++i) {
+    next = now;
     const double change = advance(next, machine.sense);
     compute(p, x, machine.shape.signs, next);
     if (!(next.squares <= now.squares)) break;
     std::swap(now, next);
     if (change < 1e-9) break;
   }
-  machine.angle = now.angle;
-  machine.error = out.error = std::sqrt(now.squares / samples);
-  for (std::size_t k = 0; k < samples; ++k)
-    out.largest_deviation =
-        std::max(out.largest_deviation, std::hypot(now.x[k] - target.x[k], now.y[k] - target.y[k]));
-  out.span = std::abs(machine.angle.back() - machine.angle.front());
-  if (!target.closed) return;
+  save(machine);
+  out.error = machine.error;
+  double squares = 0, turned = 0;
+  for (std::size_t k = 0; k < count(); ++k) {
+    const double ex = now.x[k] - target.x[k], ey = now.y[k] - target.y[k];
+    out.largest_deviation = std::max(out.largest_deviation, std::hypot(ex, ey));
+    squares += target.weight[k] * (ex * ex + ey * ey);
+    if (!target.oriented) continue;
+    out.largest_rotation = std::max(out.largest_rotation, std::abs(now.ea[k]));
+    turned += target.weight[k] * now.ea[k] * now.ea[k];
+  }
+  out.distance = std::sqrt(squares / target.total_weight);
+  out.rotation = std::sqrt(turned / target.total_weight);
+  out.span = std::abs(machine.angle[count() - 1] - machine.angle[0]);
+  if (!target.stroke.closed) return;
   if (out.span > 2 * pi + 1e-9) out.defect = MachineDefect::order;
   out.span = 2 * pi;
-}
-
-double MachineFitter::Memory::least_quality(const FittedMachine& machine) const {
-  const auto least = std::min_element(turn_quality.begin(), turn_quality.end());
-  double quality = *least, centre = turn_angle[static_cast<std::size_t>(least - turn_quality.begin())],
-         half = 2 * pi / measured_angles;
-  for (int zoom = 0; zoom < 4; ++zoom, half /= 3.5) {
-    std::array<double, 8> angle, q, where;
-    for (std::size_t k = 0; k < 8; ++k) angle[k] = centre + half * (static_cast<double>(k) - 3.5) / 3.5;
-    compute_curve({.program = machine.shape.program,
-                   .x = machine.shape.x.data(),
-                   .signs = machine.shape.signs,
-                   .angle = angle.data(),
-                   .count = 8,
-                   .quality = q.data(),
-                   .worst = where.data()});
-    const auto i = static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin());
-    if (q[i] < quality) quality = q[i], centre = angle[i];
-  }
-  return quality;
-}
-
-void MachineFitter::Memory::measure_turn(const FittedMachine& machine, MachineMeasures& out) {
-  const PointProgram& p = *machine.shape.program;
-  const double* x = machine.shape.x.data();
-  ++curves;
-  compute_curve({.program = &p,
-                 .x = x,
-                 .signs = machine.shape.signs,
-                 .angle = turn_angle.data(),
-                 .count = measured_angles,
-                 .px = turn_x.data(),
-                 .py = turn_y.data(),
-                 .tx = turn_tx.data(),
-                 .ty = turn_ty.data(),
-                 .quality = turn_quality.data(),
-                 .worst = turn_worst.data(),
-                 .points = turn_points.data()});
-  const double quality = least_quality(machine);
-  out.min_pair_angle = quality > 0 ? std::asin(std::sqrt(quality)) : 0;
-  dimensions.measure_lengths(machine.shape.x, out);
-  const auto s = static_cast<std::size_t>(p.scale());
-  out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
-  out.peak_acceleration = peak_acceleration(machine, out.span);
-}
-
-/// Larger side of the box of all pins over the turn; the ground pin of the crank is the origin of the
-/// machine's plane.
-double MachineFitter::Memory::box_of_pins(const PointProgram& p, std::complex<double> scale) const {
-  double left = 0, right = 0, bottom = 0, top = 0;
-  for (std::size_t i = 0; i < p.steps.size(); ++i) {
-    if (p.steps[i].operation == PointOperation::sleeve) continue;
-    const double *px = turn_points.data() + 2 * i * measured_angles, *py = px + measured_angles;
-    for (std::size_t k = 0; k < measured_angles; ++k) {
-      const std::complex<double> at = scale * std::complex<double>(px[k], py[k]);
-      left = std::min(left, at.real()), right = std::max(right, at.real());
-      bottom = std::min(bottom, at.imag()), top = std::max(top, at.imag());
-    }
-  }
-  return std::max(right - left, top - bottom);
-}
-
-/// Of the traced point at unit crank speed; an open stroke asks for nothing outside its own part of the turn.
-double MachineFitter::Memory::peak_acceleration(const FittedMachine& machine, double span) const {
-  const double from = machine.sense > 0 ? machine.angle.front() : machine.angle.back();
-  double peak = 0;
-  for (std::size_t k = 0; k < measured_angles; ++k) {
-    const double ahead = turn_angle[k] - from;
-    if (!target.closed && ahead - 2 * pi * std::floor(ahead / (2 * pi)) > span) continue;
-    const std::size_t a = (k + measured_angles - 1) % measured_angles, b = (k + 1) % measured_angles;
-    peak = std::max(peak, std::hypot(turn_tx[b] - turn_tx[a], turn_ty[b] - turn_ty[a]));
-  }
-  return peak * measured_angles / (4 * pi);
-}
-
-/// True if the curve stays near the stroke between the points, too.
-bool MachineFitter::Memory::stays_near(const FittedMachine& machine, double largest_deviation) {
-  constexpr std::size_t between = 3 * samples;
-  alignas(64) std::array<double, between> angle, bx, by;
-  const std::size_t sides = target.closed ? samples : samples - 1;
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double from = machine.angle[k];
-    const double to = k + 1 < samples ? machine.angle[k + 1]
-                      : target.closed ? machine.angle[0] + machine.sense * 2 * pi
-                                      : from;
-    for (std::size_t i = 0; i < 3; ++i)
-      angle[3 * k + i] = from + (to - from) * 0.25 * static_cast<double>(i + 1);
-  }
-  ++curves;
-  compute_curve({.program = machine.shape.program,
-                 .x = machine.shape.x.data(),
-                 .signs = machine.shape.signs,
-                 .angle = angle.data(),
-                 .count = between,
-                 .px = bx.data(),
-                 .py = by.data()});
-  const double allowed = 3 * largest_deviation + 0.02;
-  for (std::size_t k = 0; k < 3 * sides; ++k) {
-    const std::size_t i = k / 3, j = (i + 1) % samples;
-    const double dx = target.x[j] - target.x[i], dy = target.y[j] - target.y[i];
-    const double vx = bx[k] - target.x[i], vy = by[k] - target.y[i], square = dx * dx + dy * dy;
-    const double part = square > 0 ? std::clamp((vx * dx + vy * dy) / square, 0.0, 1.0) : 0.0;
-    if (!(std::hypot(vx - part * dx, vy - part * dy) <= allowed)) return false;
-  }
-  return true;
 }
 
 MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   Memory& m = *memory_;
   MachineMeasures out;
   m.meet_points(machine, out);
-  m.measure_turn(machine, out);
+  m.turn.measure(machine, out);
+  m.dimensions.measure_lengths(machine.shape.x, out);
   const auto require = [&](bool kept, MachineDefect defect) {
     if (!kept && out.defect == MachineDefect::none) out.defect = defect;
   };
@@ -469,7 +505,7 @@ MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   require(out.max_length <= m.limits.max_length * (1 + 1e-3), MachineDefect::long_link);
   require(m.dimensions.pivots_in_box(machine.shape.x), MachineDefect::ground_box);
   require(m.dimensions.pivots_as_given(machine.shape.x), MachineDefect::ground_pivots);
-  require(m.stays_near(machine, out.largest_deviation), MachineDefect::excursion);
+  require(!m.target.dense || m.turn.stays_near(machine, out.largest_deviation), MachineDefect::excursion);
   return out;
 }
 

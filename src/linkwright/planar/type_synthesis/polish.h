@@ -12,8 +12,8 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/type_synthesis/motion_target.h"
 #include "linkwright/planar/type_synthesis/program.h"
-#include "linkwright/planar/type_synthesis/stroke.h"
 
 namespace linkwright::planar {
 
@@ -57,15 +57,18 @@ constexpr std::array<EnumName<MachineDefect>, 8> names(MachineDefect) {
 struct FittedMachine {
   MachineShape shape;
   double sense = 1;                                        ///< of the crank along the stroke, +1 or -1
-  alignas(64) std::array<double, stroke_samples> angle{};  ///< crank angle of each point of the stroke (rad)
-  double error = infinity;                                 ///< root mean square distance, in sizes
+  alignas(64) std::array<double, stroke_samples> angle{};  ///< crank angle of each sample of the target (rad)
+  double body_angle = 0;    ///< of the body from the line of the pins of the traced bar (rad)
+  double error = infinity;  ///< root mean square distance, in sizes
 };
 
 /// What is told of a machine; lengths in sizes of the stroke.
 struct MachineMeasures {
-  double error = infinity;  ///< root mean square distance of the points of the stroke
+  double error = infinity;  ///< root mean square of what is fitted: distances beyond the tolerance, rotations
+  double distance = 0;      ///< root mean square distance of the points of the stroke
   double largest_deviation = 0;
-  double min_pair_angle = 0;  ///< rad, over the whole turn; 0 where the machine does not turn
+  double rotation = 0, largest_rotation = 0;  ///< errors of the angle of the body (rad)
+  double min_pair_angle = 0;                  ///< rad, over the whole turn; 0 where the machine does not turn
   double min_length = 0, max_length = 0;
   double size = 0;               ///< larger side of the box of all pins over the turn
   double span = 0;               ///< crank angle between the first and the last point (rad)
@@ -73,13 +76,16 @@ struct MachineMeasures {
   MachineDefect defect = MachineDefect::none;
 };
 
-/// Fits machines to one stroke, one after the other: a result depends on the machine that it begins with
+/// Fits machines to one target, one after the other: a result depends on the machine that it begins with
 /// alone. Make one a thread; nothing is allocated afterwards.
 class MachineFitter {
  public:
-  MachineFitter(const SampledStroke& target, const MachineLimits& limits);
+  MachineFitter(const MotionTarget& target, const MachineLimits& limits);
   ~MachineFitter();
   MachineFitter(MachineFitter&&) noexcept;
+
+  /// Turns the body on its bar so that it is at its angles as nearly as can be. Returns the error.
+  double turn_body(FittedMachine& machine);
 
   /// Levenberg-Marquardt on shape and place, the crank angles following, in three stages with growing weight
   /// of the limits. Given up (false) when the error after a stage is far above `best`, infinity = never.

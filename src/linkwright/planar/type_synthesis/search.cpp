@@ -50,7 +50,10 @@ bool dominates(const FoundMachine& a, const FoundMachine& b) {
   const auto& m = a.measures;
   const auto& n = b.measures;
   const int la = a.machine.shape.program->links, lb = b.machine.shape.program->links;
-  return la <= lb && m.error <= n.error && m.min_pair_angle >= n.min_pair_angle && m.size <= n.size &&
+  // Few poses are met by many machines to rounding, which is no difference.
+  constexpr double negligible = 1e-6;
+  return la <= lb && std::max(m.error, negligible) <= std::max(n.error, negligible) &&
+         m.min_pair_angle >= n.min_pair_angle && m.size <= n.size &&
          m.peak_acceleration <= n.peak_acceleration;
 }
 
@@ -68,7 +71,7 @@ bool is_kin(const FoundMachine& a, const FoundMachine& b) {
 
 class TypeSearch {
  public:
-  TypeSearch(const SampledStroke& target, const TypeSearchOptions& options, RunContext& context)
+  TypeSearch(const MotionTarget& target, const TypeSearchOptions& options, RunContext& context)
       : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
     for (std::size_t k = 0; k < trials_a_round; ++k) fitters_.emplace_back(target, options.limits);
     for (const auto& family : names(MachineFamily{})) {
@@ -155,11 +158,36 @@ class TypeSearch {
     if (f.report.family != MachineFamily::ten_bar) {
       f.atlas = family_atlas(f.report.family, context_);
       if (!f.atlas) return false;
-      f.pool = match_atlas(*f.atlas, target_, pool_size, context_);
+      f.pool = pool_of(*f.atlas);
       if (context_.interrupted()) return false;
       f.report.atlas_entries = static_cast<std::int64_t>(f.atlas->entries.size());
     }
     return f.prepared = true;
+  }
+
+  /// The shapes of an atlas that come nearest. The atlas knows paths alone: where more is asked, more shapes
+  /// are placed and compared.
+  std::vector<AtlasMatch> pool_of(const FamilyAtlas& atlas) {
+    const bool path_alone = !target_.timed && !target_.oriented;
+    std::vector<AtlasMatch> found =
+        match_atlas(atlas, target_.stroke, path_alone ? pool_size : 2 * pool_size, context_);
+    if (path_alone) return found;
+    optimise::parallel_for(fitters_.size(), context_.threads(), [&](std::size_t part) {
+      for (std::size_t i = part; i < found.size() && !context_.interrupted(); i += fitters_.size()) {
+        FittedMachine machine{.shape = shape_of(atlas, found[i])};
+        found[i].score = place_on(target_, machine) < infinity ? fitters_[part].turn_body(machine) : infinity;
+      }
+    });
+    std::sort(found.begin(), found.end(), [](const AtlasMatch& a, const AtlasMatch& b) {
+      return std::pair(a.score, a.entry) < std::pair(b.score, b.entry);
+    });
+    if (found.size() > pool_size) found.resize(pool_size);
+    return found;
+  }
+
+  static MachineShape shape_of(const FamilyAtlas& atlas, const AtlasMatch& match) {
+    MachineShape shape = atlas.shape(match.entry);
+    return match.mirrored ? mirrored(shape) : shape;
   }
 
   /// The best machine of pairs with two links less, null if there is none.
@@ -213,8 +241,7 @@ class TypeSearch {
   void take_from_pool(FamilyState& f, Trial& t, RandomStream& random) const {
     const bool again = f.next_in_pool >= f.pool.size();
     const AtlasMatch& match = f.pool[f.next_in_pool++ % f.pool.size()];
-    t.kind = TrialKind::pool, t.machine.shape = f.atlas->shape(match.entry);
-    if (match.mirrored) t.machine.shape = mirrored(t.machine.shape);
+    t.kind = TrialKind::pool, t.machine.shape = shape_of(*f.atlas, match);
     if (again) hop(t.machine, random);
   }
 
@@ -259,8 +286,9 @@ class TypeSearch {
     const std::int64_t before = fitter.curves();
     const bool possible =
         ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
-    const bool placed =
-        possible && (t.kind != TrialKind::pool || place_machine(target_, t.machine) < infinity);
+    const bool placed = possible && (t.kind != TrialKind::pool || place_on(target_, t.machine) < infinity);
+    // The body sits on another bar than before.
+    if (placed && target_.oriented && t.kind != TrialKind::hop) fitter.turn_body(t.machine);
     if (placed && fitter.polish(t.machine, t.best)) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
@@ -283,7 +311,10 @@ class TypeSearch {
                                    : f.report.polished) += 1;
       if (t.accepted) take(f, std::move(t));
     }
-    f.last_gain = std::isfinite(before) ? 1 - f.report.error / before : f.elite.empty() ? 0 : 1;
+    f.last_gain = before == 0             ? 0
+                  : std::isfinite(before) ? 1 - f.report.error / before
+                  : f.elite.empty()       ? 0
+                                          : 1;
     ++f.rounds;
   }
 
@@ -334,9 +365,10 @@ class TypeSearch {
     constexpr std::size_t count = 2000;
     std::vector<double> angle(count), x(count), y(count);
     const FittedMachine& m = found.machine;
-    const double from = m.angle.front(), to = target_.closed ? from + m.sense * 2 * pi : m.angle.back();
+    const double from = m.angle.front(),
+                 to = target_.stroke.closed ? from + m.sense * 2 * pi : m.angle.back();
     for (std::size_t k = 0; k < count; ++k)
-      angle[k] = from + (to - from) * static_cast<double>(k) / (target_.closed ? count : count - 1);
+      angle[k] = from + (to - from) * static_cast<double>(k) / (target_.stroke.closed ? count : count - 1);
     compute_curve({.program = m.shape.program,
                    .x = m.shape.x.data(),
                    .signs = m.shape.signs,
@@ -346,7 +378,7 @@ class TypeSearch {
                    .py = y.data()});
     std::vector<std::complex<double>> curve;
     for (std::size_t k = 0; k < count; ++k) curve.emplace_back(x[k], y[k]);
-    return chamfer_distance(curve, target_.closed, target_.polyline, target_.closed);
+    return chamfer_distance(curve, target_.stroke.closed, target_.stroke.polyline, target_.stroke.closed);
   }
 
   TypeSearchAnswer answer(Status status) {
@@ -379,11 +411,12 @@ class TypeSearch {
       return a.measures.error < b.measures.error;
     });
     if (out.machines.size() > options_.max_solutions) out.machines.resize(options_.max_solutions);
-    for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(found);
+    if (target_.dense)
+      for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(found);
     return out;
   }
 
-  SampledStroke target_;
+  MotionTarget target_;
   TypeSearchOptions options_;
   RunContext& context_;
   SearchState state_;
@@ -393,7 +426,7 @@ class TypeSearch {
 
 }  // namespace
 
-TypeSearchAnswer search_types(const SampledStroke& target, const TypeSearchOptions& options,
+TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,
                               RunContext& context) {
   return TypeSearch(target, options, context).run();
 }

@@ -27,7 +27,7 @@ struct TypeSearchOptions {
 struct FoundMachine {
   FittedMachine machine;
   MachineMeasures measures;
-  double chamfer = infinity;  ///< chamfer distance of curve and stroke
+  double chamfer = infinity;  ///< chamfer distance of curve and stroke; of a dense target alone
   std::int64_t origin = 0;    ///< number of the start from which it has come by hops
 };
 
@@ -56,10 +56,10 @@ struct TypeSearchAnswer {
   std::int64_t curves = 0;
 };
 
-/// Finds machines of many types that trace a stroke. The sequence of its trials depends on the seed alone;
-/// the context or the number of curves says where it ends. `found` is called after each improvement with what
-/// is known so far.
-TypeSearchAnswer search_types(const SampledStroke& target, const TypeSearchOptions& options,
+/// Finds machines of many types that trace a stroke, or whose body takes poses. The sequence of its trials
+/// depends on the seed alone; the context or the number of curves says where it ends. `found` is called after
+/// each improvement with what is known so far.
+TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,
                               RunContext& context);
 
 }  // namespace linkwright::planar

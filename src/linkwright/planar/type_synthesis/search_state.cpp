@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view what = "the saved search over types";
 constexpr std::int64_t most_counted = std::int64_t{1} << 56;
-constexpr std::size_t machine_numbers = 2 + 10 + stroke_samples;  // and the parameters
+constexpr std::size_t machine_numbers = 2 + 14 + stroke_samples;  // and the parameters
 
 Value saved_machine(const FoundMachine& found) {
   const FittedMachine& m = found.machine;
@@ -32,6 +32,10 @@ Value saved_machine(const FoundMachine& found) {
                               s.span,
                               s.peak_acceleration,
                               static_cast<double>(s.defect),
+                              s.distance,
+                              s.rotation,
+                              s.largest_rotation,
+                              m.body_angle,
                               static_cast<double>(found.origin)};
   numbers.insert(numbers.end(), m.angle.begin(), m.angle.end());
   numbers.insert(numbers.end(), m.shape.x.begin(), m.shape.x.end());
@@ -56,10 +60,14 @@ FoundMachine load_machine(const Value& value) {
       .program = program, .signs = static_cast<unsigned>(n[0]), .x = {n.begin() + machine_numbers, n.end()}};
   out.machine.sense = n[1];
   out.machine.error = n[2];
-  out.origin = static_cast<std::int64_t>(n[11]);
-  std::copy_n(n.begin() + 12, stroke_samples, out.machine.angle.begin());
+  out.machine.body_angle = n[14];
+  out.origin = static_cast<std::int64_t>(n[15]);
+  std::copy_n(n.begin() + 16, stroke_samples, out.machine.angle.begin());
   out.measures = {.error = n[2],
+                  .distance = n[11],
                   .largest_deviation = n[3],
+                  .rotation = n[12],
+                  .largest_rotation = n[13],
                   .min_pair_angle = n[4],
                   .min_length = n[5],
                   .max_length = n[6],

@@ -75,21 +75,29 @@ class Nearest {
 
 }  // namespace
 
-std::vector<std::complex<double>> equal_steps(std::span<const std::complex<double>> points, bool closed,
-                                              std::size_t count) {
+std::vector<PolylinePlace> equal_step_places(std::span<const std::complex<double>> points, bool closed,
+                                             std::size_t count) {
   LINKWRIGHT_REQUIRE(points.size() >= 2 && count >= 2, "{} points and {} steps, must be at least 2",
                      points.size(), count);
   const std::size_t n = points.size(), sides = closed ? n : n - 1;
   std::vector<double> arc(sides + 1, 0.0);
   for (std::size_t i = 0; i < sides; ++i) arc[i + 1] = arc[i] + std::abs(points[(i + 1) % n] - points[i]);
   const double step = arc.back() / static_cast<double>(closed ? count : count - 1);
-  std::vector<std::complex<double>> out(count);
+  std::vector<PolylinePlace> out(count);
   for (std::size_t k = 0, i = 0; k < count; ++k) {
     const double at = std::min(step * static_cast<double>(k), arc.back());
     while (i + 1 < sides && arc[i + 1] < at) ++i;
-    const double side = arc[i + 1] - arc[i], part = side > 0 ? std::min((at - arc[i]) / side, 1.0) : 0.0;
-    out[k] = points[i] + part * (points[(i + 1) % n] - points[i]);
+    const double side = arc[i + 1] - arc[i];
+    out[k] = {i, side > 0 ? std::min((at - arc[i]) / side, 1.0) : 0.0};
   }
+  return out;
+}
+
+std::vector<std::complex<double>> equal_steps(std::span<const std::complex<double>> points, bool closed,
+                                              std::size_t count) {
+  std::vector<std::complex<double>> out;
+  for (const auto& [i, part] : equal_step_places(points, closed, count))
+    out.push_back(points[i] + part * (points[(i + 1) % points.size()] - points[i]));
   return out;
 }
 

@@ -29,6 +29,16 @@ struct SampledStroke {
   std::vector<std::complex<double>> polyline;               ///< the stroke itself, in sizes, from the mean
 };
 
+/// A place on a polyline: a side, and the part of it that is passed, 0 to 1.
+struct PolylinePlace {
+  std::size_t side = 0;
+  double part = 0;
+};
+
+/// Places of `equal_steps`.
+std::vector<PolylinePlace> equal_step_places(std::span<const std::complex<double>> points, bool closed,
+                                             std::size_t count);
+
 /// Points at `count` equal steps of arc length, with the end of an open polyline, without that of a closed
 /// one. At least two different points; `count` >= 2.
 std::vector<std::complex<double>> equal_steps(std::span<const std::complex<double>> points, bool closed,

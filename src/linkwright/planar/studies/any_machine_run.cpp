@@ -12,16 +12,15 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/studies/any_path.h"
+#include "linkwright/planar/studies/any_machine.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
-#include "linkwright/planar/studies/templates.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
-#include "linkwright/study/bind.h"
-#include "linkwright/study/bind_write.h"
+#include "linkwright/planar/type_synthesis/stroke_shape.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -29,8 +28,6 @@ namespace linkwright::planar {
 namespace {
 
 using Verdict = study::Fact::Verdict;
-
-constexpr std::size_t max_given_pivots = 4;  // machines of ten links have no more than five
 
 /// What a value of an enumeration means.
 template <class E>
@@ -40,11 +37,16 @@ std::string summary_of(E value) {
   return {};
 }
 
-class AnyPathReport {
+class AnyReport {
  public:
-  AnyPathReport(const AnyPathStudy& s, const study::Common& common, const SampledStroke& target,
-                const MachineLimits& limits, TypeSearchAnswer answer)
-      : s_(s), common_(common), target_(target), limits_(limits), answer_(std::move(answer)) {}
+  AnyReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
+            TypeSearchAnswer answer)
+      : s_(s),
+        common_(common),
+        motion_(*s.motion),
+        target_(motion_.stroke),
+        limits_(limits),
+        answer_(std::move(answer)) {}
 
   study::Result make() {
     result_.status = answer_.status;
@@ -60,14 +62,20 @@ class AnyPathReport {
 
  private:
   double size() const { return target_.size; }
+  bool poses() const { return motion_.oriented; }
+  /// What machines are compared by, where it is in tables of the search.
+  const char* error_key() const { return poses() ? "pose_error_rms_m" : "path_error_rms_m"; }
   Measured length(double sizes, int digits = 3) const { return millimetres(sizes * size(), digits); }
 
   void solution(const FoundMachine& found, std::size_t number) {
     const PointProgram& program = *found.machine.shape.program;
     const MachineMeasures& m = found.measures;
     study::Solution out;
-    out.label = say("{}, rms error {}, pair angle {}", program.name, length(m.error),
-                    degrees_of(m.min_pair_angle).fixed(1));
+    const Measured pair_angle = degrees_of(m.min_pair_angle).fixed(1);
+    out.label = poses()
+                    ? say("{}, rms errors {} and {}, pair angle {}", program.name, length(m.distance),
+                          degrees_of(m.rotation, 3), pair_angle)
+                    : say("{}, rms error {}, pair angle {}", program.name, length(m.distance), pair_angle);
     const FoundLinkage of = found_linkage(found.machine, target_);
     for (const LinkageBody& body : of.linkage.bodies)
       for (std::size_t k = 1; &body != &of.linkage.bodies[0] && k < body.points.size(); ++k)
@@ -75,9 +83,15 @@ class AnyPathReport {
             {fmt::format("{}_{}{}_m", body.name, body.points[0].name, body.points[k].name),
              fmt::format("{}, from {} to {}", body.name, body.points[0].name, body.points[k].name),
              std::abs(body.points[k].at - body.points[0].at), -infinity, infinity});
-    out.objectives["path_error_rms_m"] = m.error * size();
-    out.objectives["path_error_share"] = m.error;
-    out.objectives["chamfer_distance_share"] = found.chamfer;
+    out.objectives["path_error_rms_m"] = m.distance * size();
+    out.objectives["path_error_share"] = m.distance;
+    if (poses()) {
+      out.objectives["pose_error_rms_m"] = m.error * size();
+      out.objectives["rotation_error_rms_rad"] = m.rotation;
+      out.objectives["largest_rotation_error_rad"] = m.largest_rotation;
+    } else {
+      out.objectives["chamfer_distance_share"] = found.chamfer;
+    }
     out.objectives["largest_deviation_m"] = m.largest_deviation * size();
     out.objectives["least_pair_angle_rad"] = m.min_pair_angle;
     out.objectives["size_m"] = m.size * size();
@@ -87,6 +101,7 @@ class AnyPathReport {
     out.classification["program"] = program.name;
     out.classification["links"] = program.links;
     out.classification["traced_point"] = of.traced;
+    if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
     out.classification["crank_range_rad"] = m.span;
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
     if (const std::string limit = limited_by(found); !limit.empty()) out.classification["limited_by"] = limit;
@@ -133,9 +148,14 @@ class AnyPathReport {
                       "crank_angle_rad", "crank angle");
     scene.name = fmt::format("solution-{}", number);
     scene.title = say("{}: {}", count_of(static_cast<double>(number)), out.label);
-    study::Scene::Target stroke{"stroke", {}, {}, {}, {}, {}, target_.closed};
-    for (const auto& p : drawn_points()) stroke.x.push_back(p.real()), stroke.y.push_back(p.imag());
-    scene.targets.push_back(std::move(stroke));
+    if (poses()) {
+      pose_scene(found, of, scene);
+      pose_table(found, of, number);
+    } else {
+      study::Scene::Target stroke{"stroke", {}, {}, {}, {}, {}, target_.closed};
+      for (const auto& p : drawn_points()) stroke.x.push_back(p.real()), stroke.y.push_back(p.imag());
+      scene.targets.push_back(std::move(stroke));
+    }
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     out.study = motion_study(of.linkage, true, crank, of.traced);
@@ -145,34 +165,113 @@ class AnyPathReport {
   /// The stroke as it is drawn: thinned out where it has many points.
   std::vector<std::complex<double>> drawn_points() const {
     constexpr std::size_t most = 500;
-    if (s_.stroke.points.size() <= most) return s_.stroke.points;
-    return equal_steps(s_.stroke.points, s_.stroke.closed, most);
+    if (s_.drawn.points.size() <= most) return s_.drawn.points;
+    return equal_steps(s_.drawn.points, s_.drawn.closed, most);
+  }
+
+  /// The traced point and the angle of the body at crank angles of the program, in the global frame.
+  struct Motion {
+    std::vector<double> x, y, angle;
+  };
+  Motion motion_at(const FoundMachine& found, std::vector<double> crank) const {
+    const std::size_t count = crank.size();
+    crank.resize((count + 7) / 8 * 8, crank.back());
+    Motion out;
+    std::vector<double> bx(crank.size()), by(crank.size());
+    out.x.resize(crank.size()), out.y.resize(crank.size());
+    const MachineShape& shape = found.machine.shape;
+    CurveTask task{.program = shape.program,
+                   .x = shape.x.data(),
+                   .signs = shape.signs,
+                   .angle = crank.data(),
+                   .count = crank.size(),
+                   .px = out.x.data(),
+                   .py = out.y.data()};
+    if (poses()) task.bx = bx.data(), task.by = by.data();
+    compute_curve(task);
+    out.x.resize(count), out.y.resize(count);
+    for (double& v : out.x) v = target_.centre.real() + size() * v;
+    for (double& v : out.y) v = target_.centre.imag() + size() * v;
+    for (std::size_t k = 0; k < count && poses(); ++k) {
+      const double angle = std::atan2(by[k], bx[k]) + found.machine.body_angle;
+      out.angle.push_back(k == 0 ? math::wrap_angle(angle)
+                                 : out.angle[k - 1] + math::wrap_angle(angle - out.angle[k - 1]));
+    }
+    return out;
   }
 
   /// The traced curve as the search has it.
   void curve_table(const FoundMachine& found, const FoundLinkage& of, const std::vector<double>& crank,
                    std::size_t number) {
-    const std::size_t count = crank.size();
-    std::vector<double> angle = crank, x, y;
+    std::vector<double> angle = crank;
     for (double& a : angle) a -= of.crank_angle;
-    angle.resize((count + 7) / 8 * 8, angle.back());
-    x.resize(angle.size()), y.resize(angle.size());
-    const MachineShape& shape = found.machine.shape;
-    compute_curve({.program = shape.program,
-                   .x = shape.x.data(),
-                   .signs = shape.signs,
-                   .angle = angle.data(),
-                   .count = angle.size(),
-                   .px = x.data(),
-                   .py = y.data()});
-    x.resize(count), y.resize(count);
-    for (double& v : x) v = target_.centre.real() + size() * v;
-    for (double& v : y) v = target_.centre.imag() + size() * v;
+    Motion motion = motion_at(found, std::move(angle));
     Table table{.name = number == 1 ? "curve" : fmt::format("curve-{}", number)};
     table.add("crank_angle_rad", "crank angle (rad)", crank);
-    table.add("point_x_m", "x of the traced point (m)", std::move(x));
-    table.add("point_y_m", "y of the traced point (m)", std::move(y));
+    table.add("point_x_m", "x of the traced point (m)", std::move(motion.x));
+    table.add("point_y_m", "y of the traced point (m)", std::move(motion.y));
+    if (poses()) table.add("body_angle_rad", "angle of the body (rad)", std::move(motion.angle));
     result_.tables.push_back(std::move(table));
+  }
+
+  /// Crank angle of the program at each pose: that of the first sample of the pose.
+  std::vector<double> crank_at_poses(const FoundMachine& found) const {
+    std::vector<double> out;
+    const std::size_t n = s_.angles.size();
+    for (std::size_t k = 0; k < motion_.count; ++k)
+      if (k * n / motion_.count == out.size()) out.push_back(found.machine.angle[k]);
+    return out;
+  }
+
+  /// The poses and how the body meets them.
+  void pose_table(const FoundMachine& found, const FoundLinkage& of, std::size_t number) {
+    std::vector<double> crank = crank_at_poses(found), x, y, apart, turned;
+    const Motion motion = motion_at(found, crank);
+    for (std::size_t k = 0; k < crank.size(); ++k) {
+      const std::complex<double> at = s_.drawn.points[k];
+      x.push_back(at.real()), y.push_back(at.imag());
+      apart.push_back(std::hypot(motion.x[k] - at.real(), motion.y[k] - at.imag()));
+      turned.push_back(math::wrap_angle(motion.angle[k] - s_.angles[k]));
+      crank[k] += of.crank_angle;
+    }
+    Table table{.name = number == 1 ? "poses" : fmt::format("poses-{}", number)};
+    table.add("crank_angle_rad", "crank angle (rad)", std::move(crank));
+    table.add("pose_x_m", "x of the pose (m)", std::move(x));
+    table.add("pose_y_m", "y of the pose (m)", std::move(y));
+    table.add("pose_angle_rad", "rotation of the pose (rad)", s_.angles);
+    table.add("place_error_m", "distance of the body from the pose (m)", std::move(apart));
+    table.add("rotation_error_rad", "rotation of the body from the pose (rad)", std::move(turned));
+    result_.tables.push_back(std::move(table));
+  }
+
+  /// The traced bar at every pose, pale behind, and the origin of the body as what is to be reached.
+  void pose_scene(const FoundMachine& found, const FoundLinkage& of, study::Scene& scene) const {
+    const std::size_t dot = of.traced.find('.');
+    const auto body = std::find_if(of.linkage.bodies.begin(), of.linkage.bodies.end(),
+                                   [&](const LinkageBody& b) { return b.name == of.traced.substr(0, dot); });
+    if (body == of.linkage.bodies.end()) return;
+    const auto origin = std::find_if(body->points.begin(), body->points.end(), [&](const LinkagePoint& p) {
+      return p.name == of.traced.substr(dot + 1);
+    });
+    if (origin == body->points.end()) return;
+    scene.runs = {"linkage", "poses"};
+    const std::vector<double> crank = crank_at_poses(found);
+    const Motion motion = motion_at(found, crank);
+    study::Scene::Target target{"poses", {}, {}, motion.x, motion.y, {}, target_.closed};
+    for (std::size_t k = 0; k < crank.size(); ++k) {
+      const std::complex<double> at = s_.drawn.points[k];
+      target.x.push_back(at.real()), target.y.push_back(at.imag());
+      target.achieved_input.push_back(crank[k] + of.crank_angle);
+      const std::complex<double> turn = std::polar(1.0, s_.angles[k] - found.machine.body_angle);
+      study::Scene::Body ghost{fmt::format("pose {}", k + 1), {}, study::Scene::BodyStyle::plate, 1};
+      for (const LinkagePoint& point : body->points) {
+        const std::complex<double> p = at + turn * (point.at - origin->at);
+        ghost.points.push_back(static_cast<int>(scene.points.size()));
+        scene.points.push_back({fmt::format("{} at pose {}", point.name, k + 1), {p.real()}, {p.imag()}});
+      }
+      scene.bodies.push_back(std::move(ghost));
+    }
+    scene.targets.push_back(std::move(target));
   }
 
   void machine_table() {
@@ -188,9 +287,24 @@ class AnyPathReport {
     for (const FoundMachine& found : answer_.machines)
       table.names.push_back(found.machine.shape.program->name);
     column("links", "links", [](F f, M) { return static_cast<double>(f.machine.shape.program->links); });
-    column("path_error_rms_m", "root mean square error (m)", [&](F, M m) { return m.error * size(); });
-    column("chamfer_distance_share", "chamfer distance, of the size of the stroke",
-           [](F f, M) { return f.chamfer; });
+    column("path_error_rms_m", "root mean square error (m)", [&](F, M m) { return m.distance * size(); });
+    if (motion_.tolerance > 0) {
+      column("beyond_tolerance_rms_m", "root mean square of the distances beyond the tolerance (m)",
+             [&](F, M m) { return m.error * size(); });
+      column("within_tolerance", "all points within the tolerance: 1, else 0",
+             [&](F, M m) { return within_tolerance(m) ? 1.0 : 0.0; });
+    }
+    if (poses()) {
+      column("pose_error_rms_m", "root mean square of distances and of rotations as lengths (m)",
+             [&](F, M m) { return m.error * size(); });
+      column("rotation_error_rms_rad", "root mean square error of the rotation (rad)",
+             [](F, M m) { return m.rotation; });
+      column("largest_rotation_error_rad", "largest error of the rotation (rad)",
+             [](F, M m) { return m.largest_rotation; });
+    } else {
+      column("chamfer_distance_share", "chamfer distance, of the size of the stroke",
+             [](F f, M) { return f.chamfer; });
+    }
     column("largest_deviation_m", "largest deviation (m)",
            [&](F, M m) { return m.largest_deviation * size(); });
     column("least_pair_angle_rad", "least pair angle (rad)", [](F, M m) { return m.min_pair_angle; });
@@ -217,7 +331,7 @@ class AnyPathReport {
       grown.push_back(static_cast<double>(f.grown)), curves.push_back(static_cast<double>(f.curves));
       atlas.push_back(static_cast<double>(f.atlas_entries));
     }
-    table.add("path_error_rms_m", "root mean square error of the best machine within the limits (m)",
+    table.add(error_key(), "root mean square error of the best machine within the limits (m)",
               std::move(error));
     table.add("outside_limits_error_rms_m",
               "that of the best machine outside the limits, where none is within (m)", std::move(outside));
@@ -239,14 +353,13 @@ class AnyPathReport {
       best.push_back(p.error * size());
     }
     table.add("curves", "curves that were computed", std::move(curves));
-    table.add("path_error_rms_m", "root mean square error of a new best machine of its family (m)",
-              std::move(best));
+    table.add(error_key(), "root mean square error of a new best machine of its family (m)", std::move(best));
     result_.tables.push_back(std::move(table));
     result_.plots.push_back({.name = "progress",
                              .title = "New best machines during the search",
                              .table = "progress",
                              .x = "curves",
-                             .y = {"path_error_rms_m"},
+                             .y = {error_key()},
                              .style = study::Plot::Style::points,
                              .logarithmic_y = true});
   }
@@ -275,18 +388,33 @@ class AnyPathReport {
     }
     const FoundMachine& best = answer_.machines[0];
     const MachineMeasures& m = best.measures;
-    result_.headline = say(
-        "A machine of {} links follows the stroke with a root mean square error of {} and pair angles of at "
-        "least {}.",
-        count_of(best.machine.shape.program->links), length(m.error), degrees_of(m.min_pair_angle).fixed(1));
+    const Measured pair_angle = degrees_of(m.min_pair_angle).fixed(1);
+    const Sentence links = count_of(best.machine.shape.program->links);
+    if (poses())
+      result_.headline =
+          say("A machine of {} links leads the body through the poses with root mean square errors of {} and "
+              "{} and "
+              "pair angles of at least {}.",
+              links, length(m.distance), degrees_of(m.rotation, 3), pair_angle);
+    else
+      result_.headline =
+          say("A machine of {} links follows the stroke with a root mean square error of {} and pair angles "
+              "of at "
+              "least {}.",
+              links, length(m.distance), pair_angle);
     fact("best machine",
          say("{}, {}", best.machine.shape.program->name, summary_of(best.machine.shape.program->family)));
-    fact("root mean square error", length(m.error));
+    fact("root mean square error", length(m.distance));
+    if (poses()) fact("root mean square error of the rotation", degrees_of(m.rotation, 3));
+    if (poses()) fact("largest error of the rotation", degrees_of(m.largest_rotation, 3));
     fact("largest deviation", length(m.largest_deviation));
-    fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
-    fact("least pair angle over the whole turn", degrees_of(m.min_pair_angle).fixed(1));
+    if (motion_.tolerance > 0) tolerance_fact(fact);
+    if (!poses()) fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
+    fact("least pair angle over the whole turn", pair_angle);
     fact("box of the pins over the whole turn, larger side", length(m.size));
-    if (!target_.closed) fact("crank rotation along the stroke", degrees_of(m.span).fixed(0));
+    if (!target_.closed)
+      fact(poses() ? "crank rotation through the poses" : "crank rotation along the stroke",
+           degrees_of(m.span).fixed(0));
     const auto simplest = std::min_element(
         answer_.machines.begin(), answer_.machines.end(), [](const FoundMachine& a, const FoundMachine& b) {
           return a.machine.shape.program->links < b.machine.shape.program->links;
@@ -294,13 +422,35 @@ class AnyPathReport {
     if (simplest->machine.shape.program->links < best.machine.shape.program->links)
       fact("best machine with the fewest links",
            say("{} links ({}), root mean square error {}", count_of(simplest->machine.shape.program->links),
-               simplest->machine.shape.program->name, length(simplest->measures.error)));
+               simplest->machine.shape.program->name, length(simplest->measures.distance)));
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
-    if (m.peak_acceleration > 100)
+    if (!poses()) stroke_facts(fact);
+    if (m.peak_acceleration > 100 && !poses())
       warn("target",
            say("the best machine passes a corner with {} times the acceleration of a point on a circle",
                plain_number(m.peak_acceleration, 3)),
            "round the corners of the stroke where speed matters");
+  }
+
+  /// The polish ends at the edge of the band, to rounding.
+  bool within_tolerance(const MachineMeasures& m) const {
+    return m.largest_deviation <= motion_.tolerance * (1 + 1e-9);
+  }
+
+  void tolerance_fact(const study::AddFact& fact) const {
+    const auto inside =
+        std::count_if(answer_.machines.begin(), answer_.machines.end(),
+                      [&](const FoundMachine& found) { return within_tolerance(found.measures); });
+    fact("machines within the tolerance", say("{} of {}", count_of(static_cast<double>(inside)),
+                                              count_of(static_cast<double>(answer_.machines.size()))));
+  }
+
+  void stroke_facts(const study::AddFact& fact) const {
+    const StrokeShape shape = stroke_shape_of(target_);
+    if (shape.retraced > 0.03)
+      fact("part of the stroke that is traced back and forth", percent(shape.retraced, 2));
+    if (shape.crossings > 0)
+      fact("crossings of the stroke with itself", count_of(static_cast<double>(shape.crossings)));
   }
 
   void none_found(const study::AddWarning& warn) {
@@ -312,177 +462,28 @@ class AnyPathReport {
         [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
     warn("limits",
          say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             nearest->machine.shape.program->name, length(nearest->measures.error),
+             nearest->machine.shape.program->name, length(nearest->measures.distance),
              summary_of(nearest->measures.defect)),
          "search longer, allow more links, or relax the limits");
   }
 
-  const AnyPathStudy& s_;
+  const AnyStudy& s_;
   const study::Common& common_;
+  const MotionTarget& motion_;
   const SampledStroke& target_;
   const MachineLimits& limits_;
   const TypeSearchAnswer answer_;
   study::Result result_;
 };
 
-/// Remarks on strokes that a simpler device draws, or that are not what they seem.
-void check_stroke(study::ObjectReader& target, const char* key, const AnyPathStudy& s) {
-  const std::vector<std::complex<double>>& points = s.stroke.points;
-  double extent = 0, far = 0, length = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    extent = std::max(extent, std::abs(points[i] - points[0]));
-    far = std::max(far, std::abs(points[i]));
-    if (i > 0) length += std::abs(points[i] - points[i - 1]);
-  }
-  if (!(extent > 1e-9 * far)) {
-    target.error(key, "the stroke has no extent: its points agree to rounding of their coordinates",
-                 "draw it larger, or nearer to the origin");
-    return;
-  }
-  const double step = length / static_cast<double>(points.size() - 1),
-               gap = std::abs(points.back() - points.front());
-  if (s.stroke.closed && gap > 4 * step && gap > 0.02 * length)
-    target.warning(key, fmt::format("the stroke is closed by a side of {:.0f} steps", gap / step),
-                   "write closed = false if it is to stay open");
-  double across = 0;
-  const std::complex<double> chord = points.back() - points.front();
-  for (const auto& p : points)
-    across = std::max(across, std::abs((std::conj(chord) * (p - points.front())).imag()));
-  if (!s.stroke.closed && std::abs(chord) > 0 && across / std::abs(chord) < 1e-3 * std::abs(chord) &&
-      length < 1.001 * std::abs(chord))
-    target.warning(key, "the stroke is a straight line, which a slide draws by itself",
-                   "a slider-crank or an exact straight-line linkage is simpler");
-}
-
-void read_stroke_of(study::ObjectReader& document, const study::Common& common, AnyPathStudy& s) {
-  auto target = document.table(field::entry("target").required());
-  if (!target) return;
-  target->read(s.target);
-  std::vector<double> x, y;
-  read_stroke(*target, common, s.target, x, y);
-  if (x.size() < 5) return;
-  const char* key = s.target.points_file ? "points_file" : "points";
-  if (repeats_first_point(x, y)) {
-    if (!target->has("closed")) s.target.closed = true;
-    if (s.target.closed) x.pop_back(), y.pop_back();
-  }
-  s.stroke.closed = s.target.closed;
-  for (std::size_t k = 0; k < x.size(); ++k) s.stroke.points.emplace_back(x[k], y[k]);
-  s.target.points_file.reset();
-  s.target.points.emplace();
-  for (std::size_t k = 0; k < x.size(); ++k) s.target.points->push_back({x[k], y[k]});
-  check_stroke(*target, key, s);
-}
-
-void read_limits(study::ObjectReader& table, AnyLimits& l) {
-  table.read(l);
-  if (l.shortest && l.shortest_length)
-    table.error("shortest_link", "the shortest length is given in sizes of the stroke and as a length",
-                "keep one of them");
-  if (l.longest && l.longest_length)
-    table.error("longest_link", "the longest length is given in sizes of the stroke and as a length",
-                "keep one of them");
-  if (l.shortest_length && l.longest_length && *l.shortest_length >= *l.longest_length)
-    table.error("shortest_length", "the shortest length is not below the longest", "exchange the two");
-  if (l.ground_box && !(l.ground_box->x[0] < l.ground_box->x[1] && l.ground_box->y[0] < l.ground_box->y[1]))
-    table.error("ground_box", "the box has no inside", "write the least number of x and of y first");
-  if (!l.ground_pivots) return;
-  if (l.ground_pivots->empty() || l.ground_pivots->size() > max_given_pivots)
-    table.error(
-        "ground_pivots",
-        fmt::format("{} ground pivots, 1 to {} can be given", l.ground_pivots->size(), max_given_pivots),
-        "leave it out to leave the pivots free");
-  for (const auto& [x, y] : *l.ground_pivots)
-    if (const auto& box = l.ground_box;
-        box && !(x >= box->x[0] && x <= box->x[1] && y >= box->y[0] && y <= box->y[1]))
-      table.error("ground_pivots", "a given ground pivot is outside the box of the ground pivots",
-                  "move it inside, or widen ground_box");
-}
-
-AnyPathStudy read_any_path(study::ObjectReader& document, const study::Common& common) {
-  AnyPathStudy s;
-  if (auto table = document.table(field::entry("mechanism").required())) {
-    table->read(s.mechanism);
-    if (s.mechanism.families && s.mechanism.families->empty())
-      table->error("families", "the list of families is empty", "leave it out to search all");
-    if (const auto& families = s.mechanism.families;
-        families && s.mechanism.most_links >= 10 &&
-        std::count(families->begin(), families->end(), MachineFamily::ten_bar) > 0 &&
-        std::count(families->begin(), families->end(), MachineFamily::eight_bar) == 0)
-      table->error("families", "ten_bar is grown from eight_bar, which is not in the list", "add eight_bar");
-    for (const MachineFamily family : s.mechanism.families.value_or(std::vector<MachineFamily>{}))
-      if (links_of(family) > s.mechanism.most_links)
-        table->error("families",
-                     fmt::format("{} has {} links, most_links allows {}", name_of(family), links_of(family),
-                                 s.mechanism.most_links),
-                     fmt::format("write most_links = {}, or leave the family out", links_of(family)));
-  }
-  read_stroke_of(document, common, s);
-  if (auto table = document.table("limits")) read_limits(*table, s.limits);
-  if (auto table = document.table("optimiser")) {
-    table->read(s.optimiser);
-    if (s.optimiser.seconds && s.optimiser.evaluations)
-      table->error("evaluations", "the search has both seconds and evaluations", "keep one of them");
-  }
-  return s;
-}
-
 }  // namespace
 
-study::Kind any_path_kind() {
-  study::Kind kind;
-  kind.kind = "synthesis";
-  kind.mechanism = "planar.any";
-  kind.target = "path_points";
-  kind.summary = "machines of many types that trace a stroke, side by side";
-  kind.example = templates::synthesis_any_path_points();
-  kind.schema = [](study::SchemaWriter& document) {
-    document.property(field::entry("mechanism", "types of machines"), study::schema_fields<AnyMechanism>());
-    document.property(field::entry("target", "the stroke"), study::schema_fields<AnyTarget>());
-    document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<AnyLimits>());
-    document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
-  };
-  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
-    AnyPathStudy s = read_any_path(document, common);
-    if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
-    if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
-    if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
-    study::Prepared prepared;
-    prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
-    prepared.canonical["target"] = study::write_fields(s.target);
-    prepared.canonical["limits"] = study::write_fields(s.limits);
-    prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
-    prepared.run = [s, common](RunContext& context) { return run_any_path_study(s, common, context); };
-    return prepared;
-  };
-  return kind;
-}
-
-MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target) {
-  MachineLimits out;
-  const double by = 1 / target.size;
-  out.min_pair_angle = form.pair_angle;
-  if (form.shortest) out.min_length = *form.shortest;
-  if (form.longest) out.max_length = *form.longest;
-  if (form.shortest_length) out.min_length = by * *form.shortest_length;
-  if (form.longest_length) out.max_length = by * *form.longest_length;
-  const auto moved = [&](double x, double y) { return (std::complex<double>(x, y) - target.centre) * by; };
-  if (const auto& box = form.ground_box) {
-    const auto low = moved(box->x[0], box->y[0]), high = moved(box->x[1], box->y[1]);
-    out.ground_box = PlaneBox{low.real(), high.real(), low.imag(), high.imag()};
-  }
-  if (form.ground_pivots)
-    for (const auto& pivot : *form.ground_pivots) out.ground_pivots.push_back(moved(pivot[0], pivot[1]));
-  if (form.pivot_tolerance) out.pivot_tolerance = by * *form.pivot_tolerance;
-  return out;
-}
-
-study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& common, RunContext& context) {
-  const SampledStroke target = sampled_stroke(s.stroke);
+study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
+  const MotionTarget& target = *s.motion;
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;
-  options.limits = limits_of(s.limits, target);
+  options.limits = limits_of(s.limits, target.stroke);
   options.seed = static_cast<std::uint64_t>(s.optimiser.seed);
   options.max_solutions = static_cast<std::size_t>(s.optimiser.max_solutions);
   options.max_curves = s.optimiser.evaluations.value_or(0);
@@ -502,7 +503,7 @@ study::Result run_any_path_study(const AnyPathStudy& s, const study::Common& com
   if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
   TypeSearchAnswer answer = search_types(target, options, part);
   answer.status = context.interruption();
-  return AnyPathReport(s, common, target, options.limits, std::move(answer)).make();
+  return AnyReport(s, common, options.limits, std::move(answer)).make();
 }
 
 }  // namespace linkwright::planar

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -11,8 +12,8 @@
 #include "linkwright/planar/type_synthesis/search.h"
 #include "linkwright/study/kind.h"
 
-// The synthesis of machines of any type that trace a stroke: what its file holds, how it is read, run and
-// reported.
+// The synthesis of machines of any type that trace a stroke or lead a body through poses: what its files
+// hold, how they are read, run and reported.
 namespace linkwright::planar {
 
 struct AnyMechanism {
@@ -32,13 +33,51 @@ void fields(Visitor&& visit, AnyMechanism& m) {
 
 struct AnyTarget : PathPointsForm {
   bool closed = false;
+  std::optional<double> tolerance;
+  PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyTarget& t) {
   visit(field::entry("closed",
                      "the last point is followed by the first; default: whether the last repeats the first"),
         t.closed);
+  visit(field::length("tolerance", "distances of the curve from the points up to this one count as none")
+            .positive(),
+        t.tolerance);
+  visit(field::entry("timing",
+                     "crank rotations from the first point to the others, in either sense; angles tell the "
+                     "same by their differences"),
+        t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));
+}
+
+struct AnyPoseForm {
+  double x = 0, y = 0, angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyPoseForm& p) {
+  visit(field::length("x", "origin of the body, x").required(), p.x);
+  visit(field::length("y", "origin of the body, y").required(), p.y);
+  visit(field::angle("angle", "rotation of the body").required(), p.angle);
+}
+
+struct AnyPosesTarget {
+  bool closed = false;
+  std::vector<AnyPoseForm> poses;
+  std::optional<std::string> file;
+  std::optional<double> orientation_length;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyPosesTarget& t) {
+  visit(field::entry("closed", "the last pose is followed by the first"), t.closed);
+  visit(field::entry("pose", "places of the body in their order"), t.poses);
+  visit(field::entry("file", "CSV file with columns x_mm, y_mm, angle_deg (any units) instead of poses"),
+        t.file);
+  visit(field::length("orientation_length",
+                      "what a rotation error of a radian counts as; default: the root mean square distance "
+                      "of the path from its mean")
+            .positive(),
+        t.orientation_length);
 }
 
 struct GroundBoxForm {
@@ -110,20 +149,22 @@ void fields(Visitor&& visit, AnyOptimiser& o) {
         o.max_solutions);
 }
 
-struct AnyPathStudy {
+struct AnyStudy {
   AnyMechanism mechanism;
-  AnyTarget target;
   AnyLimits limits;
   AnyOptimiser optimiser;
-  Stroke stroke;
+  Stroke drawn;                        ///< the stroke, or the places of the poses
+  std::vector<double> angles;          ///< of the body at the poses (rad); none: a stroke
+  std::optional<MotionTarget> motion;  ///< what machines are fitted to; missing where problems were reported
 };
 
-/// "synthesis" of "planar.any" for "path_points".
+/// "synthesis" of "planar.any" for "path_points" and for "poses".
 study::Kind any_path_kind();
+study::Kind any_poses_kind();
 
 /// The limits of a search, in sizes of the stroke from its mean.
 MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target);
 
-study::Result run_any_path_study(const AnyPathStudy& study, const study::Common& common, RunContext& context);
+study::Result run_any_study(const AnyStudy& study, const study::Common& common, RunContext& context);
 
 }  // namespace linkwright::planar

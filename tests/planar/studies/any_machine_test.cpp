@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/studies/any_path.h"
+#include "linkwright/planar/studies/any_machine.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "planar/studies.h"
 
@@ -137,6 +140,55 @@ TEST(AnyPathStudies, WarnOfAStraightStroke) {
   EXPECT_THAT(messages, HasSubstr("straight line"));
 }
 
+TEST(AnyPathStudies, WarnOfACircle) {
+  std::string messages;
+  const auto changed = std::string(
+      "[target]\ntype = \"path_points\"\npoints_mm = [[5, 0], [4, 3], [3, 4], [0, 5], [-3, 4], [-4, 3], [-5, "
+      "0], "
+      "[-4, -3], [-3, -4], [0, -5], [3, -4], [4, -3], [5, 0]]\n");
+  EXPECT_TRUE(test::prepare(any_path({{"2", changed}}), messages)) << messages;
+  EXPECT_THAT(messages, ::testing::Not(HasSubstr("circle")));  // a polygon of twelve sides
+  std::string round = "[target]\ntype = \"path_points\"\nclosed = true\npoints_mm = [";
+  for (int k = 0; k < 90; ++k)
+    round += fmt::format("[{:.6f}, {:.6f}],", 20 * std::cos(pi * k / 45), 20 * std::sin(pi * k / 45));
+  EXPECT_TRUE(test::prepare(any_path({{"2", round + "]\n"}}), messages)) << messages;
+  EXPECT_THAT(messages, HasSubstr("the stroke is a circle with a radius of 19.99 mm"));
+}
+
+// The way back takes two thirds of the turn.
+TEST(AnyPathStudies, MeetPointsAtGivenCrankAngles) {
+  const std::string points =
+      "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30], [40, 50], [0, 40], [-10, "
+      "20]]\nclosed = true\n";
+  const study::Result result = test::run_text(
+      any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 5\n"},
+                {"2", points + "timing = { mode = \"given\", angles_deg = [0, 40, 80, 120, 200, 280] }\n"}}));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_LT(result.solutions[0].objectives.find("path_error_share")->as_number(), 0.2);
+  EXPECT_THAT(
+      test::problems_of(any_path(
+          {{"2", points + "timing = { mode = \"given\", angles_deg = [0, 40, 30, 120, 200, 280] }\n"}})),
+      HasSubstr("does not turn on from point 2 to point 3"));
+  EXPECT_THAT(
+      test::problems_of(any_path(
+          {{"2", points + "timing = { mode = \"given\", angles_deg = [0, 40, 80, 120, 200, 380] }\n"}})),
+      HasSubstr("the crank turns"));
+}
+
+TEST(AnyPathStudies, TellWhoStaysWithinTheTolerance) {
+  const study::Result result = test::run_text(
+      any_path({{"2",
+                 "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30], [40, 50], [0, "
+                 "40], [-10, 20]]\nclosed = true\ntolerance_mm = 3\n"}}));
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto& inside = machines->find("within_tolerance")->values;
+  const auto& largest = machines->find("largest_deviation_m")->values;
+  ASSERT_FALSE(inside.empty());
+  EXPECT_EQ(inside[0], 1);
+  for (std::size_t i = 0; i < inside.size(); ++i) EXPECT_EQ(inside[i] == 1, largest[i] <= 0.003 * (1 + 1e-9));
+}
+
 // A crank and a rod of nearly one length turn with no such pair angle.
 TEST(AnyPathStudies, NameTheLimitThatTheNearestMachineBreaks) {
   const study::Result result =
@@ -145,6 +197,73 @@ TEST(AnyPathStudies, NameTheLimitThatTheNearestMachineBreaks) {
                                {"4", "[optimiser]\nevaluations = 20000\n"}}));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_THAT(to_string(result.headline), HasSubstr("No machine within the limits"));
+}
+
+/// Poses of a body that is lifted and tipped.
+std::string any_poses(const std::map<std::string, std::string>& changed = {}) {
+  return test::text_of(
+      {{"0", "schema = 1\nkind = \"synthesis\"\n"},
+       {"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 6\n"},
+       {"2",
+        "[target]\ntype = \"poses\"\npose = [{ x_mm = 0, y_mm = 0, angle_deg = 0 }, { x_mm = "
+        "30, y_mm = 5, angle_deg = 0 }, { x_mm = 62, y_mm = 24, angle_deg = 8 }, { x_mm = 88, "
+        "y_mm = 52, angle_deg = 25 }, { x_mm = 104, y_mm = 88, angle_deg = 52 }, { x_mm = 110, "
+        "y_mm = 126, angle_deg = 90 }]\n"},
+       {"3", ""},
+       {"4", "[optimiser]\nevaluations = 80000\n"}},
+      changed);
+}
+
+TEST(AnyPosesStudies, ListMachinesThatLeadTheBody) {
+  const study::Result result = test::run_text(any_poses(
+      {{"1",
+        "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\", \"slider_crank\", \"watt_1\"]\n"}}));
+  ASSERT_GE(result.solutions.size(), 2U);
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto& error = machines->find("pose_error_rms_m")->values;
+  EXPECT_TRUE(std::is_sorted(error.begin(), error.end()));
+  EXPECT_LT(error[0], 0.003);
+  // The table of the poses adds up to what the list says.
+  const Table* poses = result.table("poses");
+  ASSERT_TRUE(poses);
+  double places = 0, rotations = 0;
+  for (const double e : poses->find("place_error_m")->values) places += e * e / 6;
+  for (const double e : poses->find("rotation_error_rad")->values) rotations += e * e / 6;
+  EXPECT_NEAR(std::sqrt(places), machines->find("path_error_rms_m")->values[0], 1e-9);
+  EXPECT_NEAR(std::sqrt(rotations), machines->find("rotation_error_rms_rad")->values[0], 1e-9);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("leads the body through the poses"));
+}
+
+// A rotation counts as much as its length: a longer one brings the rotations nearer.
+TEST(AnyPosesStudies, WeighRotationsByTheirLength) {
+  const auto rotation_with = [](const char* length) {
+    const study::Result result =
+        test::run_text(any_poses({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\"]\n"},
+                                  {"21", std::string("orientation_length_mm = ") + length + "\n"},
+                                  {"4", "[optimiser]\nevaluations = 40000\n"}}));
+    return result.table("machines")->find("rotation_error_rms_rad")->values[0];
+  };
+  EXPECT_LT(rotation_with("600"), rotation_with("6"));
+}
+
+TEST(AnyPosesStudies, SayWhatIsWrong) {
+  const auto problems = [](const char* target) {
+    return test::problems_of(any_poses({{"2", std::string("[target]\ntype = \"poses\"\n") + target + "\n"}}));
+  };
+  EXPECT_THAT(problems(""), HasSubstr("the target has no poses"));
+  EXPECT_THAT(
+      problems("pose = [{ x_mm = 0, y_mm = 0, angle_deg = 0 }, { x_mm = 1, y_mm = 0, angle_deg = 5 }]"),
+      HasSubstr("2 poses, 3 to 96 can be given"));
+  EXPECT_THAT(
+      problems("pose = [{ x_mm = 1, y_mm = 0, angle_deg = 0 }, { x_mm = 1, y_mm = 0, angle_deg = 5 }, "
+               "{ x_mm = 1, y_mm = 0, angle_deg = 9 }]"),
+      HasSubstr("the body only turns"));
+  EXPECT_THAT(
+      problems("pose = [{ x_mm = 1, y_mm = 0, angle_deg = 0 }, { x_mm = 1, y_mm = 0, angle_deg = 0 }, "
+               "{ x_mm = 2, y_mm = 0, angle_deg = 9 }]"),
+      HasSubstr("poses 1 and 2 are the same"));
+  EXPECT_THAT(problems("file = \"none.csv\""), HasSubstr("none.csv"));
 }
 
 }  // namespace

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/studies/any_machine.h"
+#include "linkwright/planar/studies/poses.h"
+#include "linkwright/planar/studies/templates.h"
+#include "linkwright/planar/type_synthesis/stroke_shape.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t max_given_pivots = 4;  // machines of ten links have no more than five
+
+/// Remarks on strokes that a simpler device draws, or that are not what they seem. False where one is none.
+bool check_stroke(study::ObjectReader& target, const study::Common& common, const char* key,
+                  const Stroke& stroke) {
+  const std::vector<std::complex<double>>& points = stroke.points;
+  double extent = 0, far = 0, length = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    extent = std::max(extent, std::abs(points[i] - points[0]));
+    far = std::max(far, std::abs(points[i]));
+    if (i > 0) length += std::abs(points[i] - points[i - 1]);
+  }
+  if (!(extent > 1e-9 * far)) {
+    target.error(key, "the stroke has no extent: its points agree to rounding of their coordinates",
+                 "draw it larger, or nearer to the origin");
+    return false;
+  }
+  const double step = length / static_cast<double>(points.size() - 1),
+               gap = std::abs(points.back() - points.front());
+  if (stroke.closed && gap > 4 * step && gap > 0.02 * length)
+    target.warning(key, fmt::format("the stroke is closed by a side of {:.0f} steps", gap / step),
+                   "write closed = false if it is to stay open");
+  const SampledStroke sampled = sampled_stroke(stroke);
+  const StrokeShape shape = stroke_shape_of(sampled);
+  if (shape.straight)
+    target.warning(key, "the stroke is a straight line, which a slide draws by itself",
+                   "a slider-crank or an exact straight-line linkage is simpler");
+  if (shape.circle)
+    target.warning(key,
+                   fmt::format("the stroke is {} with a radius of {}, which one link draws by itself",
+                               stroke.closed ? "a circle" : "an arc of a circle",
+                               common.units.text(shape.circle_radius * sampled.size, Dimension::length, 4)),
+                   "a crank, or a rocker, is simpler");
+  return true;
+}
+
+/// The crank rotations of a stroke by its timing, of which `given` points were told: a closed one may have
+/// been given its first point again. None where the timing is free.
+std::vector<double> read_rotations(study::ObjectReader& target, const study::Common& common,
+                                   const PathTiming& timing, std::size_t given, const Stroke& stroke) {
+  std::vector<double> turned = timed_angles(target, common.units, timing, given);
+  if (turned.empty()) return turned;
+  const double sense = turned.back() < turned.front() ? -1 : 1;
+  for (std::size_t k = 1; k < turned.size(); ++k)
+    if (!(sense * (turned[k] - turned[k - 1]) > 0)) {
+      target.error("timing", fmt::format("the crank does not turn on from point {} to point {}", k, k + 1),
+                   "let the angles rise, or fall, from point to point");
+      return {};
+    }
+  const double most = stroke.closed && given == stroke.points.size() ? 2 * pi - 1e-9 : 2 * pi + 1e-9;
+  if (const double whole = std::abs(turned.back() - turned.front()); whole > most) {
+    target.error("timing",
+                 fmt::format("the crank turns {} along the points, more than the stroke leaves",
+                             common.units.text(whole, Dimension::angle, 5)),
+                 "a stroke takes one turn of the crank, with its way back to the first point");
+    return {};
+  }
+  turned.resize(stroke.points.size());
+  return turned;
+}
+
+/// Reads the target of a stroke; `form` then says what it is in the end.
+void read_stroke_target(study::ObjectReader& target, const study::Common& common, AnyTarget& form,
+                        AnyStudy& s) {
+  target.read(form);
+  std::vector<double> x, y;
+  read_stroke(target, common, form, x, y);
+  if (x.size() < 5) return;
+  const std::size_t given = x.size();
+  const char* key = form.points_file ? "points_file" : "points";
+  if (repeats_first_point(x, y)) {
+    if (!target.has("closed")) form.closed = true;
+    if (form.closed) x.pop_back(), y.pop_back();
+  }
+  s.drawn.closed = form.closed;
+  for (std::size_t k = 0; k < x.size(); ++k) s.drawn.points.emplace_back(x[k], y[k]);
+  form.points_file.reset();
+  form.points.emplace();
+  for (std::size_t k = 0; k < x.size(); ++k) form.points->push_back({x[k], y[k]});
+  if (!check_stroke(target, common, key, s.drawn)) return;
+  const std::vector<double> rotations = read_rotations(target, common, form.timing, given, s.drawn);
+  s.motion = rotations.empty() ? MotionTarget(sampled_stroke(s.drawn)) : timed_stroke(s.drawn, rotations);
+  if (form.tolerance) s.motion->tolerance = *form.tolerance / s.motion->stroke.size;
+}
+
+/// Reads the target of poses.
+void read_poses_target(study::ObjectReader& target, const study::Common& common, AnyPosesTarget& form,
+                       AnyStudy& s) {
+  target.read(form);
+  const bool has_poses = target.has("pose"), has_file = target.has("file");
+  if (has_poses == has_file) {
+    target.error(has_file ? "file" : "pose",
+                 has_file ? "the target has both poses and a file" : "the target has no poses",
+                 has_file
+                     ? "keep one of them"
+                     : "write [[target.pose]] with x_mm, y_mm, angle_deg for each, or file = \"poses.csv\"");
+    return;
+  }
+  if (form.file)
+    for (const PoseForm& pose : poses_of_file(target, common, *form.file))
+      form.poses.push_back({pose.x, pose.y, pose.angle.value_or(0)});
+  form.file.reset();
+  const char* key = has_file ? "file" : "pose";
+  if (form.poses.size() < 3 || form.poses.size() > stroke_samples) {
+    target.error(key, fmt::format("{} poses, 3 to {} can be given", form.poses.size(), stroke_samples),
+                 "two poses are met by any machine whose body is hinged at the pole of the rotation");
+    return;
+  }
+  s.drawn.closed = form.closed;
+  double far = 0;
+  for (const AnyPoseForm& pose : form.poses) {
+    s.drawn.points.emplace_back(pose.x, pose.y);
+    s.angles.push_back(pose.angle);
+    far = std::max(far, std::abs(s.drawn.points.back()));
+  }
+  const auto& points = s.drawn.points;
+  double extent = 0;
+  for (const auto& point : points) extent = std::max(extent, std::abs(point - points[0]));
+  if (!(extent > 1e-9 * far)) {
+    target.error(key, "the body only turns: all its poses are at one place", "a hinge does it");
+    return;
+  }
+  for (std::size_t k = 1; k < points.size(); ++k)
+    if (std::abs(points[k] - points[k - 1]) <= 1e-9 * extent &&
+        std::abs(math::wrap_angle(s.angles[k] - s.angles[k - 1])) <= 1e-9)
+      target.error(key, fmt::format("poses {} and {} are the same", k, k + 1), "keep one of them");
+  s.motion = pose_target(s.drawn, s.angles, form.orientation_length);
+}
+
+void read_limits(study::ObjectReader& table, AnyLimits& l) {
+  table.read(l);
+  if (l.shortest && l.shortest_length)
+    table.error("shortest_link", "the shortest length is given in sizes of the stroke and as a length",
+                "keep one of them");
+  if (l.longest && l.longest_length)
+    table.error("longest_link", "the longest length is given in sizes of the stroke and as a length",
+                "keep one of them");
+  if (l.shortest_length && l.longest_length && *l.shortest_length >= *l.longest_length)
+    table.error("shortest_length", "the shortest length is not below the longest", "exchange the two");
+  if (l.ground_box && !(l.ground_box->x[0] < l.ground_box->x[1] && l.ground_box->y[0] < l.ground_box->y[1]))
+    table.error("ground_box", "the box has no inside", "write the least number of x and of y first");
+  if (!l.ground_pivots) return;
+  if (l.ground_pivots->empty() || l.ground_pivots->size() > max_given_pivots)
+    table.error(
+        "ground_pivots",
+        fmt::format("{} ground pivots, 1 to {} can be given", l.ground_pivots->size(), max_given_pivots),
+        "leave it out to leave the pivots free");
+  for (const auto& [x, y] : *l.ground_pivots)
+    if (const auto& box = l.ground_box;
+        box && !(x >= box->x[0] && x <= box->x[1] && y >= box->y[0] && y <= box->y[1]))
+      table.error("ground_pivots", "a given ground pivot is outside the box of the ground pivots",
+                  "move it inside, or widen ground_box");
+}
+
+/// All tables but the target.
+AnyStudy read_search(study::ObjectReader& document) {
+  AnyStudy s;
+  if (auto table = document.table(field::entry("mechanism").required())) {
+    table->read(s.mechanism);
+    if (s.mechanism.families && s.mechanism.families->empty())
+      table->error("families", "the list of families is empty", "leave it out to search all");
+    if (const auto& families = s.mechanism.families;
+        families && s.mechanism.most_links >= 10 &&
+        std::count(families->begin(), families->end(), MachineFamily::ten_bar) > 0 &&
+        std::count(families->begin(), families->end(), MachineFamily::eight_bar) == 0)
+      table->error("families", "ten_bar is grown from eight_bar, which is not in the list", "add eight_bar");
+    for (const MachineFamily family : s.mechanism.families.value_or(std::vector<MachineFamily>{}))
+      if (links_of(family) > s.mechanism.most_links)
+        table->error("families",
+                     fmt::format("{} has {} links, most_links allows {}", name_of(family), links_of(family),
+                                 s.mechanism.most_links),
+                     fmt::format("write most_links = {}, or leave the family out", links_of(family)));
+  }
+  if (auto table = document.table("limits")) read_limits(*table, s.limits);
+  if (auto table = document.table("optimiser")) {
+    table->read(s.optimiser);
+    if (s.optimiser.seconds && s.optimiser.evaluations)
+      table->error("evaluations", "the search has both seconds and evaluations", "keep one of them");
+  }
+  return s;
+}
+
+/// A kind of study of "planar.any", whose target has a form of its own.
+template <class Target>
+study::Kind any_kind(const char* target, const char* target_summary,
+                     void (*read_target)(study::ObjectReader&, const study::Common&, Target&, AnyStudy&)) {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "planar.any";
+  kind.target = target;
+  kind.schema = [target_summary](study::SchemaWriter& document) {
+    document.property(field::entry("mechanism", "types of machines"), study::schema_fields<AnyMechanism>());
+    document.property(field::entry("target", target_summary), study::schema_fields<Target>());
+    document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<AnyLimits>());
+    document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
+  };
+  kind.prepare = [read_target](study::ObjectReader& document, const study::Common& common) {
+    AnyStudy s = read_search(document);
+    Target form;
+    if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
+    if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
+    if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
+    if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
+    study::Prepared prepared;
+    prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
+    prepared.canonical["target"] = study::write_fields(form);
+    prepared.canonical["limits"] = study::write_fields(s.limits);
+    prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
+    prepared.run = [s, common](RunContext& context) { return run_any_study(s, common, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace
+
+study::Kind any_path_kind() {
+  study::Kind kind = any_kind<AnyTarget>("path_points", "the stroke", read_stroke_target);
+  kind.summary = "machines of many types that trace a stroke, side by side";
+  kind.example = templates::synthesis_any_path_points();
+  return kind;
+}
+
+study::Kind any_poses_kind() {
+  study::Kind kind = any_kind<AnyPosesTarget>("poses", "the poses of a body", read_poses_target);
+  kind.summary = "machines of many types that lead a body through poses, side by side";
+  kind.example = templates::synthesis_any_poses();
+  return kind;
+}
+
+MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target) {
+  MachineLimits out;
+  const double by = 1 / target.size;
+  out.min_pair_angle = form.pair_angle;
+  if (form.shortest) out.min_length = *form.shortest;
+  if (form.longest) out.max_length = *form.longest;
+  if (form.shortest_length) out.min_length = by * *form.shortest_length;
+  if (form.longest_length) out.max_length = by * *form.longest_length;
+  const auto moved = [&](double x, double y) { return (std::complex<double>(x, y) - target.centre) * by; };
+  if (const auto& box = form.ground_box) {
+    const auto low = moved(box->x[0], box->y[0]), high = moved(box->x[1], box->y[1]);
+    out.ground_box = PlaneBox{low.real(), high.real(), low.imag(), high.imag()};
+  }
+  if (form.ground_pivots)
+    for (const auto& pivot : *form.ground_pivots) out.ground_pivots.push_back(moved(pivot[0], pivot[1]));
+  if (form.pivot_tolerance) out.pivot_tolerance = by * *form.pivot_tolerance;
+  return out;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/motion_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
+
+namespace linkwright::planar {
+
+namespace {
+
+constexpr std::size_t points_a_side = 12;  // of the smooth path between two places
+
+/// A smooth curve through points: cubics with the slopes of parabolas through three neighbours.
+std::vector<std::complex<double>> smooth_path(const std::vector<std::complex<double>>& points, bool closed) {
+  const std::size_t n = points.size(), sides = closed ? n : n - 1;
+  const auto chord = [&](std::size_t i) { return points[(i + 1) % n] - points[i]; };
+  const auto slope = [&](std::size_t i) -> std::complex<double> {
+    const bool first = !closed && i == 0, last = !closed && i + 1 == n;
+    const std::complex<double> before = first ? chord(0) : chord((i + n - 1) % n),
+                               after = last ? chord(i - 1) : chord(i);
+    const double b = std::abs(before), a = std::abs(after);
+    if (!(a > 0) || !(b > 0)) return 0;
+    return (before / b * a + after / a * b) / (a + b);
+  };
+  std::vector<std::complex<double>> out;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const std::complex<double> p = points[i], q = points[(i + 1) % n];
+    const double length = std::abs(q - p);
+    const std::complex<double> u = length * slope(i), v = length * slope((i + 1) % n);
+    for (std::size_t k = 0; k < points_a_side; ++k) {
+      const double t = static_cast<double>(k) / points_a_side, r = 1 - t;
+      out.push_back(r * r * (1 + 2 * t) * p + t * t * (3 - 2 * t) * q + t * r * (r * u - t * v));
+    }
+  }
+  if (!closed) out.push_back(points.back());
+  return out;
+}
+
+}  // namespace
+
+MotionTarget::MotionTarget(const SampledStroke& traced) : stroke(traced), x(traced.x), y(traced.y) {
+  weight.fill(1);
+  for (std::size_t k = 0; k < stroke_samples; ++k) at[k] = static_cast<double>(k);
+}
+
+MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotations) {
+  LINKWRIGHT_REQUIRE(rotations.size() == stroke.points.size(), "{} rotations for {} points", rotations.size(),
+                     stroke.points.size());
+  MotionTarget out(sampled_stroke(stroke));
+  out.timed = true;
+  // The sense of the crank is free: rotations are counted forward.
+  std::vector<double> turned(rotations.begin(), rotations.end());
+  for (double& t : turned) t = std::abs(t - rotations[0]);
+  if (stroke.closed) turned.push_back(2 * pi);
+  const auto places = equal_step_places(stroke.points, stroke.closed, stroke_samples);
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    const auto [side, part] = places[k];
+    out.turn[k] = turned[side] + part * (turned[std::min(side + 1, turned.size() - 1)] - turned[side]);
+  }
+  return out;
+}
+
+MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
+                         std::optional<double> angle_length) {
+  const std::size_t n = places.points.size();
+  LINKWRIGHT_REQUIRE(n >= 2 && n <= stroke_samples && angles.size() == n,
+                     "{} places and {} angles, must be as many, from 2 to {}", n, angles.size(),
+                     stroke_samples);
+  const Stroke path{.points = smooth_path(places.points, places.closed), .closed = places.closed};
+  MotionTarget out(sampled_stroke(path));
+  out.oriented = true, out.dense = false;
+  out.angle_length = angle_length ? *angle_length / out.stroke.size : 1;
+  std::vector<double> arc{0};
+  for (std::size_t i = 1; i < path.points.size(); ++i)
+    arc.push_back(arc.back() + std::abs(path.points[i] - path.points[i - 1]));
+  const double whole = arc.back() + (places.closed ? std::abs(path.points.front() - path.points.back()) : 0);
+  const double by_arc = static_cast<double>(places.closed ? stroke_samples : stroke_samples - 1) / whole;
+  // Samples come in eights: some poses are sampled several times, with as much less weight.
+  out.count = (n + 7) / 8 * 8;
+  std::vector<std::size_t> pose_of(out.count), times(n, 0);
+  for (std::size_t k = 0; k < out.count; ++k) ++times[pose_of[k] = k * n / out.count];
+  out.weight.fill(0);
+  for (std::size_t k = 0; k < out.count; ++k) {
+    const std::size_t i = pose_of[k];
+    const std::complex<double> at = (places.points[i] - out.stroke.centre) / out.stroke.size;
+    out.x[k] = at.real(), out.y[k] = at.imag(), out.angle[k] = angles[i];
+    out.weight[k] = 1 / static_cast<double>(times[i]);
+    out.at[k] = arc[points_a_side * i] * by_arc;
+  }
+  out.total_weight = static_cast<double>(n);
+  return out;
+}
+
+}  // namespace linkwright::planar

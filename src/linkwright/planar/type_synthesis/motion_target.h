@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "linkwright/planar/type_synthesis/stroke.h"
+
+namespace linkwright::planar {
+
+/// What machines are fitted to: the points of a stroke, or poses of a body, at any time or at given crank
+/// angles. Lengths are in sizes of the stroke, places from its mean.
+struct MotionTarget {
+  MotionTarget(const SampledStroke& traced);  // a stroke is the plainest target
+
+  SampledStroke stroke;                ///< the traced path, by which machines are looked up and placed
+  std::size_t count = stroke_samples;  ///< samples that are compared, a multiple of 8
+  alignas(64) std::array<double, stroke_samples> x{}, y{};
+  std::array<double, stroke_samples> weight{};  ///< of each sample in the sum of squares
+  std::array<double, stroke_samples> at{};      ///< where it is along the stroke, in samples of the stroke
+  std::array<double, stroke_samples> turn{};    ///< crank rotation from the first sample (rad), where `timed`
+  std::array<double, stroke_samples> angle{};   ///< of the body (rad), where `oriented`
+  double total_weight = stroke_samples;
+  bool timed = false;       ///< the crank rotation from the first sample to each is given
+  bool oriented = false;    ///< the angle of the body of the traced point is given, up to a constant
+  bool dense = true;        ///< the samples follow the stroke, between them a curve stays near it
+  double angle_length = 0;  ///< an error of a radian counts as this length
+  double tolerance = 0;     ///< distances up to this count as none
+};
+
+/// A stroke whose points, one after the other, are met at crank rotations from the first (rad), which change
+/// in one sense; between two points they change with the arc length. A closed stroke takes one turn.
+MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotations);
+
+/// Poses of a body, one after the other: places of its origin (m) and rotations (rad), whose common offset is
+/// free. Between the places the path is a smooth curve, by which machines are looked up. An error of a radian
+/// counts as `angle_length` (m); none: the size of the path. At most `stroke_samples` poses.
+MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
+                         std::optional<double> angle_length);
+
+}  // namespace linkwright::planar

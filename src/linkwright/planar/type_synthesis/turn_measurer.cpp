@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/detail/turn_measurer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/type_synthesis/curve.h"
+
+namespace linkwright::planar {
+
+TurnMeasurer::TurnMeasurer(const MotionTarget& target) : target_(target) {
+  for (std::size_t k = 0; k < measured_angles; ++k)
+    angle_[k] = 2 * pi * static_cast<double>(k) / measured_angles;
+}
+
+double TurnMeasurer::least_quality(const FittedMachine& machine) const {
+  const auto least = std::min_element(quality_.begin(), quality_.end());
+  double quality = *least, centre = angle_[static_cast<std::size_t>(least - quality_.begin())],
+         half = 2 * pi / measured_angles;
+  for (int zoom = 0; zoom < 4; ++zoom, half /= 3.5) {
+    std::array<double, 8> angle, q, where;
+    for (std::size_t k = 0; k < 8; ++k) angle[k] = centre + half * (static_cast<double>(k) - 3.5) / 3.5;
+    compute_curve({.program = machine.shape.program,
+                   .x = machine.shape.x.data(),
+                   .signs = machine.shape.signs,
+                   .angle = angle.data(),
+                   .count = 8,
+                   .quality = q.data(),
+                   .worst = where.data()});
+    const auto i = static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin());
+    if (q[i] < quality) quality = q[i], centre = angle[i];
+  }
+  return quality;
+}
+
+void TurnMeasurer::measure(const FittedMachine& machine, MachineMeasures& out) {
+  const PointProgram& p = *machine.shape.program;
+  const double* x = machine.shape.x.data();
+  ++curves_;
+  compute_curve({.program = &p,
+                 .x = x,
+                 .signs = machine.shape.signs,
+                 .angle = angle_.data(),
+                 .count = measured_angles,
+                 .px = x_.data(),
+                 .py = y_.data(),
+                 .tx = tx_.data(),
+                 .ty = ty_.data(),
+                 .quality = quality_.data(),
+                 .worst = worst_.data(),
+                 .points = points_.data()});
+  const double quality = least_quality(machine);
+  out.min_pair_angle = quality > 0 ? std::asin(std::sqrt(quality)) : 0;
+  const auto s = static_cast<std::size_t>(p.scale());
+  out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
+  out.peak_acceleration = peak_acceleration(machine, out.span);
+}
+
+/// Larger side of the box of all pins over the turn; the ground pin of the crank is the origin of the
+/// machine's plane.
+double TurnMeasurer::box_of_pins(const PointProgram& p, std::complex<double> scale) const {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  for (std::size_t i = 0; i < p.steps.size(); ++i) {
+    if (p.steps[i].operation == PointOperation::sleeve) continue;
+    const double *px = points_.data() + 2 * i * measured_angles, *py = px + measured_angles;
+    for (std::size_t k = 0; k < measured_angles; ++k) {
+      const std::complex<double> at = scale * std::complex<double>(px[k], py[k]);
+      left = std::min(left, at.real()), right = std::max(right, at.real());
+      bottom = std::min(bottom, at.imag()), top = std::max(top, at.imag());
+    }
+  }
+  return std::max(right - left, top - bottom);
+}
+
+/// Of the traced point at unit crank speed; an open stroke asks for nothing outside its own part of the turn.
+double TurnMeasurer::peak_acceleration(const FittedMachine& machine, double span) const {
+  const double from = machine.sense > 0 ? machine.angle.front() : machine.angle.back();
+  double peak = 0;
+  for (std::size_t k = 0; k < measured_angles; ++k) {
+    const double ahead = angle_[k] - from;
+    if (!target_.stroke.closed && ahead - 2 * pi * std::floor(ahead / (2 * pi)) > span) continue;
+    const std::size_t a = (k + measured_angles - 1) % measured_angles, b = (k + 1) % measured_angles;
+    peak = std::max(peak, std::hypot(tx_[b] - tx_[a], ty_[b] - ty_[a]));
+  }
+  return peak * measured_angles / (4 * pi);
+}
+
+/// True if the curve stays near the stroke between the points, too.
+bool TurnMeasurer::stays_near(const FittedMachine& machine, double largest_deviation) {
+  constexpr std::size_t between = 3 * stroke_samples;
+  alignas(64) std::array<double, between> angle, bx, by;
+  const std::size_t sides = target_.stroke.closed ? stroke_samples : stroke_samples - 1;
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    const double from = machine.angle[k];
+    const double to = k + 1 < stroke_samples  ? machine.angle[k + 1]
+                      : target_.stroke.closed ? machine.angle[0] + machine.sense * 2 * pi
+                                              : from;
+    for (std::size_t i = 0; i < 3; ++i)
+      angle[3 * k + i] = from + (to - from) * 0.25 * static_cast<double>(i + 1);
+  }
+  ++curves_;
+  compute_curve({.program = machine.shape.program,
+                 .x = machine.shape.x.data(),
+                 .signs = machine.shape.signs,
+                 .angle = angle.data(),
+                 .count = between,
+                 .px = bx.data(),
+                 .py = by.data()});
+  const double allowed = 3 * largest_deviation + 0.02;
+  for (std::size_t k = 0; k < 3 * sides; ++k) {
+    const std::size_t i = k / 3, j = (i + 1) % stroke_samples;
+    const double dx = target_.x[j] - target_.x[i], dy = target_.y[j] - target_.y[i];
+    const double vx = bx[k] - target_.x[i], vy = by[k] - target_.y[i], square = dx * dx + dy * dy;
+    const double part = square > 0 ? std::clamp((vx * dx + vy * dy) / square, 0.0, 1.0) : 0.0;
+    if (!(std::hypot(vx - part * dx, vy - part * dy) <= allowed)) return false;
+  }
+  return true;
+}
+
+}  // namespace linkwright::planar
