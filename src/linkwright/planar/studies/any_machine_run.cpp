@@ -393,8 +393,7 @@ class AnyReport {
     if (poses())
       result_.headline =
           say("A machine of {} links leads the body through the poses with root mean square errors of {} and "
-              "{} and "
-              "pair angles of at least {}.",
+              "{} and pair angles of at least {}.",
               links, length(m.distance), degrees_of(m.rotation, 3), pair_angle);
     else
       result_.headline =
