@@ -39,10 +39,7 @@ Linkage linkage_of(const FourBar& b, const FourBarMasses& masses, double gravity
 TEST(LinkageReactions, AgreeByTwoRoutesForEverySample) {
   for (const LinkageSample& s : linkage_samples()) {
     SCOPED_TRACE(s.name);
-    const bool geared = std::any_of(s.linkage.joints.begin(), s.linkage.joints.end(),
-                                    [](const LinkageJoint& j) { return j.type == JointType::gear; });
-    const LinkagePlan along = planned(s.linkage),
-                      at_once = geared ? along : planned(s.linkage, PlanRoute::all_at_once);
+    const LinkagePlan along = planned(s.linkage), at_once = planned(s.linkage, PlanRoute::all_at_once);
     LinkageMotion m(along), n(at_once);
     LinkageForces f, g;
     double last = 0;
@@ -59,7 +56,6 @@ TEST(LinkageReactions, AgreeByTwoRoutesForEverySample) {
       EXPECT_LE(unbalance(s.linkage, along, m, f), 1e-10 * largest * size);
       const double fastest = std::abs(in[0].rate) * size;
       EXPECT_NEAR(f.drive_power + f.weight_power + f.load_power, f.kinetic_power, 1e-10 * largest * fastest);
-      if (geared) continue;
       n.parts = m.parts;
       solve_motion(at_once, in, n);
       ASSERT_EQ(n.status, Status::done);

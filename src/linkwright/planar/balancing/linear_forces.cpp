@@ -190,10 +190,10 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
                        "joint '{}' has friction, with which forces are not linear in the masses", j.name);
 
   for (const Group& g : plan.groups)
-    if (const Gear* gear = g.as<Gear>())
-      LINKWRIGHT_REQUIRE(!gear->mesh || gear->mesh->tangent == 0,
+    for (const PlanGear& gear : g.gears)
+      LINKWRIGHT_REQUIRE(!gear.mesh || gear.mesh->tangent == 0,
                          "gear '{}' has a pressure angle, with which forces are not linear in the masses",
-                         linkage.joints[static_cast<std::size_t>(gear->joint)].name);
+                         linkage.joints[static_cast<std::size_t>(gear.joint)].name);
 
   // `rest` is the linkage without the open masses, `bare` the linkage without any mass or load.
   Linkage rest = linkage, bare = linkage;

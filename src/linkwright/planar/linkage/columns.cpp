@@ -209,8 +209,9 @@ void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, con
                  [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
     }
     const auto meshes = [j](const Group& g) {
-      const Gear* gear = g.as<Gear>();
-      return gear && gear->joint == static_cast<int>(j) && gear->mesh;
+      return std::any_of(g.gears.begin(), g.gears.end(), [j](const PlanGear& gear) {
+        return gear.joint == static_cast<int>(j) && gear.mesh;
+      });
     };
     if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) add_rows(column_rows::tooth_forces);
     if (joint.type == JointType::prismatic || joint.type == JointType::fixed || joint.type == JointType::gear)

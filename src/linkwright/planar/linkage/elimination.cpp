@@ -27,7 +27,8 @@ Vec<double> point_of(const PlanJoint& j, const LinkageMotion& motion) {
 }  // namespace
 
 bool LinkageElimination::takes(const LinkagePlan& plan) {
-  return std::none_of(plan.groups.begin(), plan.groups.end(), [](const Group& g) { return g.as<Gear>(); });
+  return std::none_of(plan.groups.begin(), plan.groups.end(),
+                      [](const Group& g) { return !g.gears.empty(); });
 }
 
 LinkageElimination::LinkageElimination(const LinkagePlan& plan, const std::vector<bool>& free)

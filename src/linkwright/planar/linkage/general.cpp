@@ -15,6 +15,14 @@ namespace linkwright::planar {
 
 namespace {
 using Index = Eigen::Index;
+
+// Calls `add(part, share)` for each part in the equation of a gear: the shares of the angles sum to the
+// phase.
+template <class Add>
+void for_angles(const PlanGear& gear, const Add& add) {
+  add(gear.part, 1.0);
+  for (const AngleShare& s : gear.angle.shares) add(s.part, -s.share);
+}
 }  // namespace
 
 struct GeneralGroupMemory {
@@ -47,6 +55,18 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
       }
     }
   }
+  for (const PlanGear& gear : g.gears) {
+    for_angles(gear, [&](int part, double share) {
+      if (m.column[at(part)] >= 0) m.jacobian(row, m.column[at(part)] + 2) += share;
+    });
+    ++row;
+  }
+}
+void factorise(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion, GeneralGroupMemory& m) {
+  assemble(plan, g, motion, m);
+  if (m.jacobian == m.factored) return;
+  m.factors.compute(m.jacobian);
+  m.factored = m.jacobian;
 }
 
 // Solves with the transpose of the factorised Jacobian, from `residual` into `solution`. P J = L U, so that
@@ -120,15 +140,11 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
       const std::array<double, 3> f = joint_residuals(j, r, input, motion.parts, plan.size);
       for (int i = 0; i < r.count; ++i) m.residual[row++] = f[at(i)];
     }
+    for (const PlanGear& gear : g.gears)
+      m.residual[row++] = angle_residual(gear.angle, gear.part, inputs, motion.parts) * plan.size;
     largest = m.residual.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) break;
-    if (!(small_step && largest > rounding && largest < 0.1 * last)) {
-      assemble(plan, g, motion, m);
-      if (m.jacobian != m.factored) {
-        m.factors.compute(m.jacobian);
-        m.factored = m.jacobian;
-      }
-    }
+    if (!(small_step && largest > rounding && largest < 0.1 * last)) factorise(plan, g, motion, m);
     if (largest <= rounding && (largest == 0 || largest > 0.25 * last || iteration > 0)) break;
     last = largest;
     m.solution = m.factors.solve(m.residual);
@@ -181,6 +197,13 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
     }
   }
+  for (const PlanGear& gear : g.gears) {
+    double known = 0;
+    for_angles(gear, [&](int part, double share) {
+      if (m.column[at(part)] < 0) known += share * motion.parts[at(part)].speed;
+    });
+    m.residual[row++] = -known * plan.size;
+  }
   m.solution = m.factors.solve(m.residual);
   for (int p : g.parts) {
     const int c = m.column[at(p)];
@@ -221,6 +244,13 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
     }
   }
+  for (const PlanGear& gear : g.gears) {
+    double known = 0;
+    for_angles(gear, [&](int part, double share) {
+      if (m.column[at(part)] < 0) known += share * motion.parts[at(part)].angular_acceleration;
+    });
+    m.residual[row++] = -known * plan.size;
+  }
   m.solution = m.factors.solve(m.residual);
   for (int p : g.parts) {
     const int c = m.column[at(p)];
@@ -229,16 +259,63 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
   }
 }
 
-void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion,
-                    GeneralGroupMemory& m, std::span<Wrench<double>> needed, std::span<Wrench<double>> joints,
-                    std::span<double> drives) {
+namespace {
+
+// Force of the teeth that turns the second wheel with `torque`: along the tangent of the pitch circles, and
+// away from the teeth of the other wheel by the pressure angle.
+JointReaction mesh_force(const GearMesh& mesh, const LinkageMotion& motion, double torque) {
+  const Vec<double> first = point_on(motion.parts[at(mesh.first.part)], mesh.first.at),
+                    second = point_on(motion.parts[at(mesh.second.part)], mesh.second.at);
+  const Vec<double> way = second - first;
+  const Vec<double> along = (1 / norm(way)) * way, left{-along.y, along.x};
+  JointReaction out;
+  out.point = first + mesh.first_radius * along;
+  out.moment = torque;
+  out.tangential = -torque / mesh.second_radius;
+  out.separating = std::abs(out.tangential) * mesh.tangent;
+  const bool external = mesh.first_radius > 0 && mesh.second_radius > 0;
+  out.force = out.tangential * left + (external ? out.separating : -out.separating) * along;
+  return out;
+}
+
+// The multipliers of all equations, from what the parts of the group need.
+void solve_multipliers(const Group& g, double size, std::span<const Wrench<double>> needed,
+                       GeneralGroupMemory& m) {
   for (int p : g.parts) {
     const int c = m.column[at(p)];
     m.residual[c] = needed[at(p)].force.x;
     m.residual[c + 1] = needed[at(p)].force.y;
-    m.residual[c + 2] = needed[at(p)].moment / plan.size;
+    m.residual[c + 2] = needed[at(p)].moment / size;
   }
   solve_transposed(m);
+}
+
+}  // namespace
+
+void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion,
+                    GeneralGroupMemory& m, std::span<Wrench<double>> needed, std::span<Wrench<double>> joints,
+                    std::span<double> drives, std::span<JointReaction> gears) {
+  if (g.as<GearTrain>()) factorise(plan, g, motion, m);
+  solve_multipliers(g, plan.size, needed, m);
+  // The torques of the gears are right already. Forces of teeth do the same work as these torques in every
+  // motion, so that they change only the forces of the pins.
+  const Index first_gear = m.solution.size() - static_cast<Index>(g.gears.size());
+  bool teeth = false;
+  for (std::size_t k = 0; k < g.gears.size(); ++k) {
+    const PlanGear& gear = g.gears[k];
+    const double torque = m.solution[first_gear + static_cast<Index>(k)] * plan.size;
+    gears[k] = {motion.parts[at(gear.part)].origin, {0, 0}, torque, nan, nan};
+    if (!gear.mesh) continue;
+    teeth = true;
+    gears[k] = mesh_force(*gear.mesh, motion, torque);
+    for (const auto& [part, side] : {std::pair{gear.mesh->second.part, 1.0}, {gear.mesh->first.part, -1.0}}) {
+      Wrench<double>& n = needed[at(part)];
+      n = n -
+          shifted(Wrench<double>{side * gears[k].force, 0}, gears[k].point - motion.parts[at(part)].origin);
+    }
+    for_angles(gear, [&](int part, double share) { needed[at(part)].moment += share * torque; });
+  }
+  if (teeth) solve_multipliers(g, plan.size, needed, m);
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
@@ -261,6 +338,11 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
                             needed[at(part)].moment + side * there.moment};
       }
   }
+  for (std::size_t k = 0; k < g.gears.size(); ++k)
+    for_angles(g.gears[k], [&](int part, double share) {
+      if (m.column[at(part)] < 0)
+        needed[at(part)].moment -= share * m.solution[first_gear + static_cast<Index>(k)] * plan.size;
+    });
 }
 
 }  // namespace linkwright::planar

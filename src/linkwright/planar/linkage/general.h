@@ -4,6 +4,7 @@
 #include <span>
 
 #include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/reactions.h"
 
 // A group without closed form: Newton's method on the places of its parts. The Jacobian has one row a joint
 // equation, in terms of velocities of part origins and angular speeds; the same matrix gives velocities and
@@ -28,11 +29,12 @@ void general_velocity(const LinkagePlan& plan, const Group& group, std::span<con
 void general_acceleration(const LinkagePlan& plan, const Group& group, std::span<const InputMotion> inputs,
                           LinkageMotion& motion, GeneralGroupMemory& memory);
 
-/// Joint wrenches of the group, of the part before on the part after, about the point of the part after; and
-/// the torques or forces of drives inside (NaN where a joint has none). `needed` as for dyad_forces. A gear's
-/// torque on the part it turns is the moment of its entry.
+/// Joint wrenches of the group, of the part before on the part after, about the point of the part after; the
+/// torques or forces of drives inside (NaN where a joint has none); and the loads of the gears, whose teeth
+/// press where their mesh is known. `needed` as for dyad_forces.
 void general_forces(const LinkagePlan& plan, const Group& group, const LinkageMotion& motion,
                     GeneralGroupMemory& memory, std::span<Wrench<double>> needed,
-                    std::span<Wrench<double>> joints, std::span<double> drives);
+                    std::span<Wrench<double>> joints, std::span<double> drives,
+                    std::span<JointReaction> gears);
 
 }  // namespace linkwright::planar

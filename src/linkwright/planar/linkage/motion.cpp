@@ -48,36 +48,60 @@ double closure_of(const Group& g, const LinkageMotion& m) {
 
 void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan}; }
 
-void place_gear(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
-                LinkageMotion& motion) {
-  const PlanJoint& j = g.joints[0];
-  double angle = gear.angle;
-  for (std::size_t i = 0; i < inputs.size(); ++i) angle += gear.gains[i] * inputs[i].value;
-  PartState<double>& part = motion.parts[at(j.after.part)];
-  part.direction = unit(angle);
-  part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - rotate(part.direction, j.after.at);
+// The angle of a part that loops turn, with its turns.
+double counted_angle(LinkageMotion& m, int part) {
+  const double now = angle_of(m.parts[at(part)].direction);
+  double& last = m.loop_angles[at(part)];
+  return last = std::isnan(last) ? now : now + full_turn * std::round((last - now) / full_turn);
 }
-void gear_velocity(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
-                   LinkageMotion& motion) {
-  const PlanJoint& j = g.joints[0];
-  const PartState<double>& base = motion.parts[at(j.before.part)];
-  PartState<double>& part = motion.parts[at(j.after.part)];
-  part.speed = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) part.speed += gear.gains[i] * inputs[i].rate;
-  const Vec<double> pin = point_on(base, j.before.at);
-  part.velocity = velocity_at(base, pin) - part.speed * perpendicular(pin - part.origin);
+// The sum of what inputs and other parts give to an angle, its speed or its acceleration.
+template <class Input, class Part>
+double sum_of(const DrivenAngle& angle, std::span<const InputMotion> inputs, const Input& input,
+              const Part& part) {
+  double sum = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) sum += angle.gains[i] * input(inputs[i]);
+  for (const AngleShare& s : angle.shares) sum += s.share * part(s.part);
+  return sum;
 }
-void gear_acceleration(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
-                       LinkageMotion& motion) {
-  const PlanJoint& j = g.joints[0];
-  const PartState<double>& base = motion.parts[at(j.before.part)];
-  PartState<double>& part = motion.parts[at(j.after.part)];
-  part.angular_acceleration = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    part.angular_acceleration += gear.gains[i] * inputs[i].acceleration;
-  const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
-  part.acceleration = acceleration_at(base, pin) - part.angular_acceleration * perpendicular(arm) +
-                      (part.speed * part.speed) * arm;
+
+void place_train(const Group& g, const GearTrain& train, std::span<const InputMotion> inputs,
+                 LinkageMotion& motion) {
+  for (std::size_t k = 0; k < g.parts.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    PartState<double>& part = motion.parts[at(g.parts[k])];
+    part.direction = unit(train.angles[k].angle + sum_of(
+                                                      train.angles[k], inputs,
+                                                      [](const InputMotion& i) { return i.value; },
+                                                      [&](int p) { return counted_angle(motion, p); }));
+    part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - rotate(part.direction, j.after.at);
+  }
+}
+void train_velocity(const Group& g, const GearTrain& train, std::span<const InputMotion> inputs,
+                    LinkageMotion& motion) {
+  for (std::size_t k = 0; k < g.parts.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const PartState<double>& base = motion.parts[at(j.before.part)];
+    PartState<double>& part = motion.parts[at(g.parts[k])];
+    part.speed = sum_of(
+        train.angles[k], inputs, [](const InputMotion& i) { return i.rate; },
+        [&](int p) { return motion.parts[at(p)].speed; });
+    const Vec<double> pin = point_on(base, j.before.at);
+    part.velocity = velocity_at(base, pin) - part.speed * perpendicular(pin - part.origin);
+  }
+}
+void train_acceleration(const Group& g, const GearTrain& train, std::span<const InputMotion> inputs,
+                        LinkageMotion& motion) {
+  for (std::size_t k = 0; k < g.parts.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const PartState<double>& base = motion.parts[at(j.before.part)];
+    PartState<double>& part = motion.parts[at(g.parts[k])];
+    part.angular_acceleration = sum_of(
+        train.angles[k], inputs, [](const InputMotion& i) { return i.acceleration; },
+        [&](int p) { return motion.parts[at(p)].angular_acceleration; });
+    const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
+    part.acceleration = acceleration_at(base, pin) - part.angular_acceleration * perpendicular(arm) +
+                        (part.speed * part.speed) * arm;
+  }
 }
 
 void require_inputs(const LinkagePlan& plan, std::span<const InputMotion> inputs) {
@@ -97,7 +121,10 @@ std::size_t solved(const LinkagePlan& plan, const LinkageMotion& motion) {
 }  // namespace
 
 LinkageMotion::LinkageMotion(const LinkagePlan& plan)
-    : parts(plan.parts.size()), groups(plan.groups.size()), twists(plan.twists.size(), nan) {
+    : parts(plan.parts.size()),
+      groups(plan.groups.size()),
+      twists(plan.twists.size(), nan),
+      loop_angles(plan.parts.size(), nan) {
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   for (const Group& g : plan.groups) {
     modes.push_back(g.mode);
@@ -161,8 +188,8 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
           place_driver(g, inputs[at(g.joints[0].input)].value, parts);
           return Status::done;
         },
-        [&](const Gear& gear) {
-          place_gear(g, gear, inputs, motion);
+        [&](const GearTrain& train) {
+          place_train(g, train, inputs, motion);
           return Status::done;
         },
         [&](const Dyad& dyad) {
@@ -214,7 +241,7 @@ void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs
     const auto by_matrix = [&] { general_velocity(plan, g, inputs, motion, *motion.general[k]); };
     by_kind(
         g, [&](const Driver&) { drive_velocity(g, inputs[at(g.joints[0].input)].rate, motion.parts.data()); },
-        [&](const Gear& gear) { gear_velocity(g, gear, inputs, motion); },
+        [&](const GearTrain& train) { train_velocity(g, train, inputs, motion); },
         [&](const Dyad& dyad) {
           for_dyad(dyad.type,
                    [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
@@ -233,7 +260,7 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
           const InputMotion& i = inputs[at(g.joints[0].input)];
           drive_acceleration(g, i.rate, i.acceleration, motion.parts.data());
         },
-        [&](const Gear& gear) { gear_acceleration(g, gear, inputs, motion); },
+        [&](const GearTrain& train) { train_acceleration(g, train, inputs, motion); },
         [&](const Dyad& dyad) {
           for_dyad(dyad.type,
                    [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });

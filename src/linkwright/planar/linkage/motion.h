@@ -52,6 +52,9 @@ class LinkageMotion {
   std::vector<double> modes;
   std::vector<GeneralGroupPointer> general;  ///< states of groups with a matrix, else null
   std::vector<double> twists;  ///< rad, one a torsion spring, see PlanTwist; NaN before the first position
+  /// Angles with their turns (rad) of the parts that loops turn and gears follow, see DrivenAngle::shares;
+  /// one a part, NaN before the first position and of other parts.
+  std::vector<double> loop_angles;
 };
 
 /// A point of a body in the global frame: where it is and how it moves.

@@ -68,11 +68,11 @@ PlanResult plan_linkage(const Linkage& linkage, PlanRoute route) {
   find_groups(d);
   find_problems(d);
   if (d.good()) find_modes(d);
-  if (d.good()) find_meshes(d);
   if (d.good()) find_drawn_inputs(d);
   if (d.good()) find_twists(d);
   d.plan().turned = d.angles;
   if (d.good() && route == PlanRoute::all_at_once) merge_groups(d);
+  if (d.good()) find_meshes(d);
   return std::move(d.result);
 }
 

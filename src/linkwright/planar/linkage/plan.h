@@ -62,23 +62,40 @@ struct GearMesh {
   double tangent = 0;        ///< tangent of the pressure angle
 };
 
-/// A part on a known pin, turned by a gear `ratio` times as fast as part `turning`, both seen from part
-/// `carrier`.
-struct Gear {
-  double ratio = 1;        ///< speed of the part by that of `turning`, both seen from `carrier`
-  int turning = 0,         ///< part that turns it
-      carrier = 0;         ///< part that carries both axes
-  int joint = -1;          ///< index in the linkage
-  bool backwards = false;  ///< turns the first body of its joint from the second
-  /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
-  std::optional<GearMesh> mesh;
-  /// Angle of the part where all inputs are zero (rad); with the inputs it is `angle` + the sum of `gains`
-  /// times the inputs.
-  double angle = 0;
-  std::vector<double> gains;  ///< one an input
+/// The share that the angle of one part has in that of another.
+struct AngleShare {
+  int part = 0;      ///< index of the part
+  double share = 0;  ///< change of the other angle for a unit of this part's
 };
-/// @returns the properties of a gear
-constexpr GroupTraits traits_of(const Gear&) { return {.name = "gear"}; }
+
+/// The angle of a part by relations that are linear in angles (rad): `angle` + the sum of `gains` times the
+/// inputs + the sum of `shares` times the angles of other parts.
+struct DrivenAngle {
+  double angle = 0;                ///< rad, where all inputs and the other angles are zero
+  std::vector<double> gains = {};  ///< one an input; empty where no input takes part
+  /// Parts that loops turn. Their angles count their turns: they continue from the last position by less than
+  /// half a turn, from the first one in (-pi, pi].
+  std::vector<AngleShare> shares = {};
+  /// The fewest turns of this part after which whole turns of the others leave it as it was: the denominator
+  /// of the shares. 0 if there is none.
+  int turns = 1;
+};
+
+/// A gear in a group: the angle of its second wheel by those of the first wheel and the carrier.
+struct PlanGear {
+  int joint = -1;     ///< index in the linkage
+  int part = 0;       ///< part of the second wheel
+  DrivenAngle angle;  ///< phase of the parts, and the shares of first wheel (the ratio) and carrier
+  /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
+  std::optional<GearMesh> mesh = {};
+};
+
+/// Parts on pins, each of a part that is placed before it, whose angles follow from gears and drives.
+struct GearTrain {
+  std::vector<DrivenAngle> angles;  ///< one a part of the group
+};
+/// @returns the properties of a train of gears
+constexpr GroupTraits traits_of(const GearTrain&) { return {.name = "gear", .has_matrix = true}; }
 
 /// A link between two joints of a closed form, and what that needs of it.
 struct PlanLink {
@@ -157,17 +174,19 @@ constexpr GroupTraits traits_of(const GeneralGroup&) {
 /// One step of the solution.
 struct Group {
   /// Kind of the group, with the constants of its formulas.
-  std::variant<Driver, Gear, Dyad, Triangle, GeneralGroup> kind;
-  std::string name;               ///< "coupler + rocker"
-  std::vector<int> parts;         ///< parts that this group places; in the order of the chain, if it is one
-  std::vector<PlanJoint> joints;  ///< one of a driver or gear; in the order of the chain, if it is one
+  std::variant<Driver, GearTrain, Dyad, Triangle, GeneralGroup> kind;
+  std::string name;        ///< "coupler + rocker"
+  std::vector<int> parts;  ///< parts that this group places; in the order of the chain, if it is one
+  /// One of a driver, one a part of a train; in the order of the chain, if the group is one.
+  std::vector<PlanJoint> joints;
+  std::vector<PlanGear> gears;  ///< of a train and of a general group
   /// Sign of the assembly mode that the model names or its start poses show; +1 where there is none.
   double mode = 1;
   bool mode_given = false;  ///< the model names the mode
 
   /// The group as one of a kind.
   ///
-  /// @tparam Kind Driver, Gear, Dyad, Triangle or GeneralGroup
+  /// @tparam Kind Driver, GearTrain, Dyad, Triangle or GeneralGroup
   /// @returns the kind with its constants, or null if the group is of another kind
   template <class Kind>
   const Kind* as() const {
@@ -211,12 +230,6 @@ struct PartMass {
   double inertia = 0;        ///< about the origin of the part, kg m2
 };
 
-/// Angle of a part that drives and gears alone turn (rad): `angle` + the sum of `gains` times the inputs.
-struct DrivenAngle {
-  double angle = 0;           ///< rad, where all inputs are zero
-  std::vector<double> gains;  ///< one an input
-};
-
 /// The twist of a torsion spring: the angle of its second body from its first, with its turns.
 struct PlanTwist {
   int first = 0,   ///< part of the first body
@@ -255,6 +268,7 @@ struct LinkagePlan {
   std::vector<PlanTwist> twists;                   ///< one a torsion spring
   std::vector<SharedPin> shared_pins;              ///< pins whose pairs differ from those of the model
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
+  std::vector<int> redundant_gears;                ///< joints that repeat what other gears say
   std::vector<bool> rotary;                        ///< one an input: whether its joint turns
   double size = 1;                                 ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
@@ -293,20 +307,19 @@ struct PlanResult {
 };
 
 /// The route by which a plan is solved: along the groups that the linkage falls into, or all parts at once as
-/// one general group, the independent route that checks the other (no gears).
+/// one general group, the independent route that checks the other.
 enum class PlanRoute {
   along_groups,  ///< along the groups that the linkage falls into
-  all_at_once    ///< all parts at once as one general group, without gears
+  all_at_once    ///< all parts at once as one general group
 };
 
 /// Decomposes a linkage. Problems are named in plain words with the bodies and joints that take part: bodies
 /// that hang on nothing, freedoms without a drive, drives beyond the freedoms, joints that close a loop that
-/// is closed already, gears whose angle is not known. Includes those of `check`.
+/// is closed already, gears that contradict each other. Includes those of `check`.
 ///
 /// @param linkage the linkage
 /// @param route the route by which it is to be solved
 /// @returns the plan, and the problems
-/// @throws ContractError if a linkage with gears is to be solved all at once
 PlanResult plan_linkage(const Linkage& linkage, PlanRoute route = PlanRoute::along_groups);
 
 /// The motion of one input at an instant.

@@ -4,17 +4,22 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/core/check.h"
 #include "linkwright/planar/linkage/detail/plan_draft.h"
 
 namespace linkwright::planar {
 namespace {
 
 bool linked(const PlanDraft& d, int part, const std::vector<bool>& chosen) {
-  return std::any_of(d.joints.begin(), d.joints.end(), [&](const PartJoint& joint) {
-    return !joint.used && ((joint.first.part == part && chosen[at(joint.second.part)]) ||
-                           (joint.second.part == part && chosen[at(joint.first.part)]));
-  });
+  return std::any_of(d.joints.begin(), d.joints.end(),
+                     [&](const PartJoint& joint) {
+                       return !joint.used && ((joint.first.part == part && chosen[at(joint.second.part)]) ||
+                                              (joint.second.part == part && chosen[at(joint.first.part)]));
+                     }) ||
+         std::any_of(d.gears.begin(), d.gears.end(), [&](const PartGear& gear) {
+           const auto parts = {gear.first, gear.second, gear.carrier};
+           return !gear.used && std::find(parts.begin(), parts.end(), part) != parts.end() &&
+                  std::any_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)]; });
+         });
 }
 // Smallest connected set of unknown parts with as many equations as unknowns, grown from its lowest part.
 bool grow_set(const PlanDraft& d, std::vector<int>& set, std::vector<bool>& chosen, std::size_t size,
@@ -39,6 +44,11 @@ void add_general_group(PlanDraft& d, std::vector<int> set, const std::vector<boo
     g.joints.push_back(chained(joint, joint.first.part));
     joint.used = true;
   }
+  for (PartGear& gear : d.gears) {
+    if (!holds_chosen(d, gear, chosen)) continue;
+    g.gears.push_back(gear_of_group(d, gear, true));
+    gear.used = true;
+  }
   std::vector<math::Pose>& start = std::get<GeneralGroup>(g.kind).start;
   for (int p : set)
     if (d.start[at(p)]) start.push_back(*d.start[at(p)]);
@@ -54,12 +64,17 @@ bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<
          ((chosen[at(a)] && (chosen[at(b)] || d.known[at(b)])) || (chosen[at(b)] && d.known[at(a)]));
 }
 
+bool holds_chosen(const PlanDraft& d, const PartGear& gear, const std::vector<bool>& chosen) {
+  const auto parts = {gear.first, gear.second, gear.carrier};
+  return !gear.used && std::any_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)]; }) &&
+         std::all_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)] || d.known[at(p)]; });
+}
+
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen) {
   int count = 0;
   for (const PartJoint& joint : d.joints)
     if (holds_chosen(d, joint, chosen)) count += joint.input >= 0 ? 3 : 2;
-  for (const PartGear& g : d.gears)
-    if (!g.used && (chosen[at(g.turned)] || chosen[at(g.turning)])) return -1;
+  for (const PartGear& gear : d.gears) count += holds_chosen(d, gear, chosen);
   return count;
 }
 
@@ -93,10 +108,11 @@ bool find_general_group(PlanDraft& d) {
 }
 
 void merge_groups(PlanDraft& d) {
-  LINKWRIGHT_REQUIRE(d.gears.empty(), "a linkage with {} gear(s) cannot be solved all at once",
-                     d.gears.size());
   d.plan().groups.clear();
   d.joints = d.written;
+  for (PartGear& gear : d.gears)
+    gear.used = std::find(d.plan().redundant_gears.begin(), d.plan().redundant_gears.end(), gear.joint) !=
+                d.plan().redundant_gears.end();
   d.plan().shared_pins.clear();
   std::vector<bool> chosen(d.parts(), true);
   chosen[0] = false;

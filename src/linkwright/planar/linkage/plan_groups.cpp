@@ -61,42 +61,11 @@ bool find_driver(PlanDraft& d) {
   return false;
 }
 
-bool find_gear(PlanDraft& d) {
-  for (PartGear& gl : d.gears) {
-    if (gl.used || !d.angles[at(gl.carrier)] || d.known[at(gl.turned)] == d.known[at(gl.turning)]) continue;
-    const bool backwards = d.known[at(gl.turned)];
-    const int turning = backwards ? gl.turned : gl.turning, turned = backwards ? gl.turning : gl.turned;
-    if (!d.angles[at(turning)]) continue;
-    for (PartJoint& joint : d.joints) {
-      const bool first = joint.first.part == turned;
-      if (joint.used || joint.slide || joint.input >= 0 || (!first && joint.second.part != turned)) continue;
-      const int base = first ? joint.second.part : joint.first.part;
-      if (!d.known[at(base)]) continue;
-      const double ratio = d.model(gl.joint).ratio;
-      Gear gear{.ratio = backwards ? 1 / ratio : ratio,
-                .turning = turning,
-                .carrier = gl.carrier,
-                .joint = gl.joint,
-                .backwards = backwards};
-      const DrivenAngle &a = *d.angles[at(turning)], &c = *d.angles[at(gl.carrier)];
-      gear.angle =
-          gear.ratio * a.angle + (1 - gear.ratio) * c.angle + (backwards ? -gl.phase / ratio : gl.phase);
-      for (std::size_t i = 0; i < a.gains.size(); ++i)
-        gear.gains.push_back(gear.ratio * a.gains[i] + (1 - gear.ratio) * c.gains[i]);
-      d.angles[at(turned)] = DrivenAngle{gear.angle, gear.gains};
-      joint.used = gl.used = true;
-      place_group(d, {.kind = std::move(gear), .parts = {turned}, .joints = {chained(joint, base)}});
-      return true;
-    }
-  }
-  return false;
-}
-
 bool find_dyad(PlanDraft& d) {
   for (PartJoint& inner : d.joints) {
     if (inner.used || inner.input >= 0) continue;
     int i = inner.first.part, k = inner.second.part;
-    if (d.known[at(i)] || d.known[at(k)] || geared(d, i) || geared(d, k)) continue;
+    if (d.known[at(i)] || d.known[at(k)]) continue;
     if (i > k) std::swap(i, k);
     PartJoint *outer1 = to_known(d, i), *outer3 = to_known(d, k);
     if (!outer1 || !outer3) continue;
@@ -123,14 +92,13 @@ bool find_triangle(PlanDraft& d) {
     for (const bool swapped : {false, true}) {
       const int x = swapped ? inner.second.part : inner.first.part,
                 y = swapped ? inner.first.part : inner.second.part;
-      PartJoint* foot =
-          d.known[at(x)] || d.known[at(y)] || geared(d, x) || geared(d, y) ? nullptr : to_known(d, x);
+      PartJoint* foot = d.known[at(x)] || d.known[at(y)] ? nullptr : to_known(d, x);
       if (!foot || foot->slide) continue;
       for (PartJoint& tip : d.joints) {
         if (tip.used || tip.slide || tip.input >= 0 || (tip.first.part != y && tip.second.part != y))
           continue;
         const int z = tip.first.part == y ? tip.second.part : tip.first.part;
-        PartJoint* base = z == x || d.known[at(z)] || geared(d, z) ? nullptr : to_known(d, z);
+        PartJoint* base = z == x || d.known[at(z)] ? nullptr : to_known(d, z);
         if (!base || base->slide) continue;
         std::vector<bool> chosen(d.parts(), false);
         chosen[at(x)] = chosen[at(y)] = chosen[at(z)] = true;
@@ -158,11 +126,6 @@ PartJoint* to_known(PlanDraft& d, int part) {
   }
   return nullptr;
 }
-bool geared(const PlanDraft& d, int part) {
-  return std::any_of(d.gears.begin(), d.gears.end(),
-                     [&](const PartGear& g) { return !g.used && (g.turned == part || g.turning == part); });
-}
-
 PlanJoint chained(const PartJoint& joint, int before) {
   const bool reversed = joint.first.part != before;
   return {joint.slide,
@@ -191,7 +154,7 @@ void find_groups(PlanDraft& d) {
   d.angles.assign(d.parts(), std::nullopt);
   d.angles[0] = DrivenAngle{0, std::vector<double>(d.linkage.driven.size(), 0.0)};
   d.written = d.joints;
-  while (find_driver(d) || find_gear(d) || find_dyad(d) || pair_otherwise(d) || find_triangle(d) ||
+  while (find_driver(d) || find_train(d) || find_dyad(d) || pair_otherwise(d) || find_triangle(d) ||
          find_general_group(d)) {
   }
   find_shared_pins(d);

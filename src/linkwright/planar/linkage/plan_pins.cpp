@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -107,7 +106,7 @@ bool pair_for_dyad(PlanDraft& d, const LinksAtPin& pin) {
                   [&](const PartPoint& link) { return d.known[at(link.part)]; }))
     return false;
   const auto held = [&](const PartPoint& link) {
-    return !d.known[at(link.part)] && !geared(d, link.part) && to_known(d, link.part) != nullptr;
+    return !d.known[at(link.part)] && to_known(d, link.part) != nullptr;
   };
   for (std::size_t a = 0; a < pin.links.size(); ++a)
     for (std::size_t b = a + 1; b < pin.links.size(); ++b) {
@@ -169,42 +168,29 @@ void find_meshes(PlanDraft& d) {
   constexpr double same_axis = 10 * tolerance::closure;  // in sizes of the linkage
   const std::vector<LinksAtPin> pins = pins_of(d, d.written, true);
   const auto at_pin = [](const LinksAtPin& pin, int part) { return pin.links[at(pin.place_of(part))]; };
-  for (Group& g : d.plan().groups) {
-    Gear* gear = std::get_if<Gear>(&g.kind);
-    if (!gear) continue;
-    const LinkageJoint& j = d.model(gear->joint);
+  const auto find = [&](PlanGear& gear) {
+    const LinkageJoint& j = d.model(gear.joint);
     const auto torque_alone = [&](const std::string& why) {
       d.plan().torque_gears.push_back(fmt::format("'{}': {}", j.name, why));
     };
-    const int first = d.plan().bodies[at(j.first.body)].part,
-              second = d.plan().bodies[at(j.second.body)].part;
-    const LinksAtPin *a = axis_of(pins, first, gear->carrier), *b = axis_of(pins, second, gear->carrier);
-    if (!a || !b) {
-      torque_alone(fmt::format("'{}' has no single pin on '{}'",
-                               d.body_name(a ? j.second.body : j.first.body), d.body_name(j.carrier)));
-      continue;
-    }
-    const double distance = norm(at_pin(*b, gear->carrier).at - at_pin(*a, gear->carrier).at);
-    if (!(distance > same_axis * d.plan().size)) {
-      torque_alone("both wheels turn about one axis");
-      continue;
-    }
-    if (std::abs(1 - j.ratio) < tolerance::feasibility) {
-      torque_alone(
+    const int first = d.plan().bodies[at(j.first.body)].part, carrier = d.plan().bodies[at(j.carrier)].part;
+    const LinksAtPin *a = axis_of(pins, first, carrier), *b = axis_of(pins, gear.part, carrier);
+    if (!a || !b)
+      return torque_alone(fmt::format("'{}' has no single pin on '{}'",
+                                      d.body_name(a ? j.second.body : j.first.body), d.body_name(j.carrier)));
+    const double distance = norm(at_pin(*b, carrier).at - at_pin(*a, carrier).at);
+    if (!(distance > same_axis * d.plan().size)) return torque_alone("both wheels turn about one axis");
+    if (std::abs(1 - j.ratio) < tolerance::feasibility)
+      return torque_alone(
           "a ratio of 1 is that of no two wheels that mesh; a belt has it, or an idler between them");
-      continue;
-    }
-    GearMesh mesh{.first = at_pin(*a, first), .second = at_pin(*b, second)};
-    mesh.first_radius = -j.ratio / (1 - j.ratio) * distance;
-    mesh.second_radius = distance / (1 - j.ratio);
-    mesh.tangent = std::tan(j.pressure_angle);
-    const PartPoint& turned = gear->backwards ? mesh.first : mesh.second;
-    if (norm(turned.at - g.joints[0].after.at) > same_axis * d.plan().size)
-      torque_alone(
-          fmt::format("'{}' is placed by another pin than the one on '{}'", g.name, d.body_name(j.carrier)));
-    else
-      gear->mesh = mesh;
-  }
+    gear.mesh = {.first = at_pin(*a, first),
+                 .second = at_pin(*b, gear.part),
+                 .first_radius = -j.ratio / (1 - j.ratio) * distance,
+                 .second_radius = distance / (1 - j.ratio),
+                 .tangent = std::tan(j.pressure_angle)};
+  };
+  for (Group& g : d.plan().groups)
+    for (PlanGear& gear : g.gears) find(gear);
 }
 
 }  // namespace linkwright::planar

@@ -52,23 +52,24 @@ void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
     std::vector<int> component{p};
     seen[at(p)] = true;
     bool held = false;
-    for (std::size_t i = 0; i < component.size(); ++i)
+    const auto join = [&](int there) {
+      if (seen[at(there)] || d.known[at(there)]) return;
+      seen[at(there)] = true;
+      component.push_back(there);
+    };
+    for (std::size_t i = 0; i < component.size(); ++i) {
       for (const PartJoint& joint : d.joints)
         for (const auto& [here, there] :
              {std::pair{joint.first.part, joint.second.part}, std::pair{joint.second.part, joint.first.part}})
-          if (here == component[i]) {
-            if (d.known[at(there)]) {
-              held = true;
-            } else if (!seen[at(there)]) {
-              seen[at(there)] = true;
-              component.push_back(there);
-            }
-          }
+          if (here == component[i]) held = held || d.known[at(there)], join(there);
+      for (const PartGear& gear : d.gears)
+        if (gear.first == component[i] || gear.second == component[i]) join(gear.first), join(gear.second);
+    }
     std::sort(component.begin(), component.end());
     std::vector<bool> chosen(d.parts(), false);
     for (int c : component) chosen[at(c)] = true;
     const int rows = equations_of(d, chosen);
-    const int free = 3 * static_cast<int>(component.size()) - std::max(rows, 0);
+    const int free = 3 * static_cast<int>(component.size()) - rows;
     const std::string key = "body." + d.plan().parts[at(component[0])];
     if (!held && component.size() == 1)
       d.error(key, fmt::format("{} is not joined to anything", names(component)),
@@ -76,8 +77,6 @@ void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
     else if (!held)
       d.error(key, fmt::format("{} are joined to each other but not to the ground", names(component)),
               "join one of them to the ground or to a body that is fixed to it");
-    else if (rows < 0)
-      continue;  // the gear has been named
     else if (free > 0)
       d.error(key,
               fmt::format("{} keep{} {} degree{} of freedom without a drive", names(component),
@@ -126,21 +125,7 @@ void find_problems(PlanDraft& d) {
                           d.body_name(j.first.body), d.body_name(j.second.body)),
               "leave the joint out, or one of the links beside it");
   }
-  for (const PartGear& g : d.gears) {
-    if (g.used) continue;
-    const LinkageJoint& j = d.model(g.joint);
-    if (d.known[at(g.turned)] && d.known[at(g.turning)])
-      d.error("joint." + j.name,
-              fmt::format("a redundant constraint: '{}' and '{}' are placed without the gear already",
-                          d.body_name(j.first.body), d.body_name(j.second.body)),
-              "leave the gear or a drive out");
-    else
-      d.error("joint." + j.name,
-              fmt::format("the gear between '{}' and '{}' on '{}' cannot be followed from the drives",
-                          d.body_name(j.first.body), d.body_name(j.second.body), d.body_name(j.carrier)),
-              "one of the two must be turned by drives and gears alone, so must the carrier, and the other "
-              "must have a pin on a placed body");
-  }
+  check_left_gears(d);
   if (const std::vector<int> unknown = unknown_parts(d); !unknown.empty()) name_loose_parts(d, unknown);
 }
 

@@ -84,23 +84,6 @@ void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
   }
 }
 
-// Force of the teeth that turns the second wheel with `torque`: along the tangent of the pitch circles, and
-// away from the teeth of the other wheel by the pressure angle.
-JointReaction mesh_force(const GearMesh& mesh, const LinkageMotion& motion, double torque) {
-  const Vec<double> first = point_on(motion.parts[at(mesh.first.part)], mesh.first.at),
-                    second = point_on(motion.parts[at(mesh.second.part)], mesh.second.at);
-  const Vec<double> way = second - first;
-  const Vec<double> along = (1 / norm(way)) * way, left{-along.y, along.x};
-  JointReaction out;
-  out.point = first + mesh.first_radius * along;
-  out.moment = torque;
-  out.tangential = -torque / mesh.second_radius;
-  out.separating = std::abs(out.tangential) * mesh.tangent;
-  const bool external = mesh.first_radius > 0 && mesh.second_radius > 0;
-  out.force = out.tangential * left + (external ? out.separating : -out.separating) * along;
-  return out;
-}
-
 // One pass over the groups, last first, with the loads as they are.
 void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
   const Vec<double> gravity = vec(linkage.gravity);
@@ -116,7 +99,8 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
     const PlanJoint& j = g.joints[0];
     const auto by_matrix = [&] {
       const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
-      general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
+      general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives, f.group_gears);
+      for (std::size_t i = 0; i < g.gears.size(); ++i) f.joints[at(g.gears[i].joint)] = f.group_gears[i];
       for (std::size_t i = 0; i < g.joints.size(); ++i) {
         const PlanJoint& here = g.joints[i];
         report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
@@ -130,30 +114,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
           report(j, motion, w, point_on(motion.parts[at(j.after.part)], j.after.at), f);
           f.drives[at(j.input)] = along_drive(j, motion, w);
         },
-        [&](const Gear& gear) {
-          const Vec<double> pin = point_on(motion.parts[at(j.after.part)], j.after.at);
-          Wrench<double> w = shifted(f.needed[at(g.parts[0])], motion.parts[at(g.parts[0])].origin - pin);
-          const double torque = w.moment;
-          w.moment = 0;
-          const double on_second = gear.backwards ? -gear.ratio * torque : torque;
-          if (gear.mesh) {
-            const JointReaction teeth = mesh_force(*gear.mesh, motion, on_second);
-            const Vec<double> on_turned = gear.backwards ? -teeth.force : teeth.force;
-            f.joints[at(gear.joint)] = teeth;
-            w.force = w.force - on_turned;
-            Wrench<double>& other = f.needed[at(gear.turning)];
-            other = other + shifted(Wrench<double>{on_turned, 0},
-                                    teeth.point - motion.parts[at(gear.turning)].origin);
-          } else {
-            f.joints[at(gear.joint)] = {pin, {0, 0}, on_second, nan, nan};
-          }
-          report(j, motion, w, pin, f);
-          Wrench<double>& base = f.needed[at(j.before.part)];
-          base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
-          if (gear.mesh) return;
-          f.needed[at(gear.turning)].moment += gear.ratio * torque;
-          f.needed[at(gear.carrier)].moment += (1 - gear.ratio) * torque;
-        },
+        [&](const GearTrain&) { by_matrix(); },
         [&](const Dyad& dyad) {
           const GroupState<double>& s = motion.groups[k];
           for_dyad(dyad.type, [&](auto type) {
@@ -190,7 +151,7 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
   for (std::size_t k = 0; k < l.joints.size(); ++k) {
     const LinkageJoint& j = l.joints[k];
     const JointReaction& r = f.joints[k];
-    if (j.type == JointType::fixed) continue;
+    if (j.type == JointType::fixed || std::isnan(r.moment)) continue;
     if (j.type == JointType::gear && std::isfinite(r.tangential)) {
       take(j.second.body, {r.force, 0}, r.point);
       take(j.first.body, {-r.force, 0}, r.point);
@@ -319,10 +280,14 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.drives.resize(plan.inputs());
   f.needed.resize(plan.parts.size());
   std::size_t most = 3;
-  for (const Group& g : plan.groups) most = std::max(most, g.joints.size());
+  std::size_t gears = 0;
+  for (const Group& g : plan.groups)
+    most = std::max(most, g.joints.size()), gears = std::max(gears, g.gears.size());
   for (const SharedPin& pin : plan.shared_pins) most = std::max(most, pin.joints.size());
   f.group_joints.resize(most);
   f.group_drives.resize(most);
+  f.group_gears.resize(gears);
+  for (const int j : plan.redundant_gears) f.joints[at(j)] = {{nan, nan}, {0, 0}, nan, nan, nan};
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);

@@ -50,9 +50,10 @@ struct LinkageForces {
   double kinetic_power = 0;  ///< W: rate of the kinetic energy by velocities and accelerations
   int iterations = 0;        ///< iterations of the friction; 0 = none
   // Memory.
-  std::vector<Wrench<double>> needed,  ///< memory: what the parts need
-      group_joints;                    ///< memory: forces in the joints of a group
-  std::vector<double> group_drives;    ///< memory: drives of a group
+  std::vector<Wrench<double>> needed,      ///< memory: what the parts need
+      group_joints;                        ///< memory: forces in the joints of a group
+  std::vector<double> group_drives;        ///< memory: drives of a group
+  std::vector<JointReaction> group_gears;  ///< memory: gears of a group
 };
 
 /// Forces of springs, dampers, forces and torques at the present motion, appended to `loads` in this order,

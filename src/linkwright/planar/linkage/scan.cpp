@@ -79,7 +79,7 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
     return no_limit;
   };
   return by_kind(
-      g, [](const Driver&) { return no_limit; }, [](const Gear&) { return no_limit; }, dyad_closure,
+      g, [](const Driver&) { return no_limit; }, [](const GearTrain&) { return no_limit; }, dyad_closure,
       [&](const Triangle& triangle) -> Closure {
         const InputMotion& drive = inputs_[at(g.joints[1].input)];
         const DrivenSide side = driven_side(g, drive.value);
@@ -185,8 +185,10 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
 bool periodic(const LinkagePlan& plan, int input) {
   if (!plan.rotary[at(input)]) return false;
   return std::all_of(plan.groups.begin(), plan.groups.end(), [&](const Group& g) {
-    const Gear* gear = g.as<Gear>();
-    return !gear || std::abs(gear->gains[at(input)] - std::round(gear->gains[at(input)])) < 1e-12;
+    const GearTrain* train = g.as<GearTrain>();
+    return !train || std::all_of(train->angles.begin(), train->angles.end(), [&](const DrivenAngle& a) {
+      return a.turns == 1 && std::abs(a.gains[at(input)] - std::round(a.gains[at(input)])) < 1e-12;
+    });
   });
 }
 

@@ -148,8 +148,12 @@ class Coordinates {
   // All equations of the joints; turns are measured from where they are at the start.
   void equations(std::span<const double> y) {
     const auto angle = [&](int part) { return part == 0 ? 0.0 : y[at(column_[at(part)]) + 2]; };
-    for (const LinkageJoint& j : l_.joints) {
-      if (j.type == JointType::fixed) continue;
+    for (std::size_t k = 0; k < l_.joints.size(); ++k) {
+      const LinkageJoint& j = l_.joints[k];
+      const std::vector<int>& redundant = plan_.redundant_gears;
+      if (j.type == JointType::fixed ||
+          std::find(redundant.begin(), redundant.end(), static_cast<int>(k)) != redundant.end())
+        continue;
       Equation e{RowType::x, {}, {}};
       if (j.type == JointType::gear) {
         e.type = RowType::gear;

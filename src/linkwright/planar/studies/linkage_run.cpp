@@ -357,6 +357,11 @@ class Runner {
       warn(fmt::format("joint forces leave out the forces of the teeth of {}",
                        fmt::join(s_.plan.torque_gears, ", of ")),
            "give each wheel one pin on the carrier, at the centres of the wheels");
+    for (const int j : s_.plan.redundant_gears)
+      warn(fmt::format(
+               "gear '{}' repeats what the other gears say; its force is not determined without stiffness",
+               s_.linkage.joints[at(j)].name),
+           "joint forces leave it out: the other gears carry all of the load");
     // Change points have messages of their own.
     for (const Failures::One& f : failures_.sorted()) {
       const Status s = f.status;

@@ -281,11 +281,12 @@ class Maker {
     }
     PlanResult planned = plan_linkage(l);
     for (const Group& g : planned.plan.groups)
-      if (const Gear* gear = g.as<Gear>(); gear && gear->mesh && gear->mesh->tangent > 0) {
-        why_ = fmt::format("gear '{}' has a pressure angle, whose forces are not linear in the masses",
-                           l.joints[static_cast<std::size_t>(gear->joint)].name);
-        return false;
-      }
+      for (const PlanGear& gear : g.gears)
+        if (gear.mesh && gear.mesh->tangent > 0) {
+          why_ = fmt::format("gear '{}' has a pressure angle, whose forces are not linear in the masses",
+                             l.joints[static_cast<std::size_t>(gear.joint)].name);
+          return false;
+        }
     const LinkageRows rows = rows_of(*study);
     std::vector<InputMotion> inputs;
     for (const auto& row : rows.inputs) inputs.insert(inputs.end(), row.begin(), row.end());

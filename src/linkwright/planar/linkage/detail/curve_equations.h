@@ -39,7 +39,10 @@ class CurveEquations {
         if (part > 0 && g != static_cast<int>(k)) takes[part_index(g)] = true;
       };
       for (const PlanJoint& j : plan.groups[k].joints) needs(j.before.part), needs(j.after.part);
-      if (const Gear* gear = plan.groups[k].as<Gear>()) needs(gear->turning), needs(gear->carrier);
+      for (const PlanGear& gear : plan.groups[k].gears) {
+        needs(gear.part);
+        for (const AngleShare& s : gear.angle.shares) needs(s.part);
+      }
     }
     column_.assign(plan.parts.size(), -1);
     for (std::size_t k = 0; k < takes.size(); ++k) {
@@ -88,8 +91,9 @@ class CurveEquations {
     Eigen::Index row = 0;
     for (const int k : groups_) {
       const Group& g = plan_.groups[part_index(k)];
+      const GearTrain* train = g.as<GearTrain>();
       for (const PlanJoint& j : g.joints) {
-        const InputMotion* input = j.input >= 0 ? &inputs_[part_index(j.input)] : nullptr;
+        const InputMotion* input = j.input >= 0 && !train ? &inputs_[part_index(j.input)] : nullptr;
         const JointRows r = joint_rows(j, input != nullptr, y.parts);
         const auto f = joint_residuals(j, r, input, y.parts, plan_.size);
         for (int e = 0; e < r.count; ++e, ++row) {
@@ -100,7 +104,11 @@ class CurveEquations {
           jacobian_(row - 1, n_) -=
               sense(j) * line_.direction[part_index(j.input)] / unit_ / (j.slide ? plan_.size : 1);
       }
-      if (const Gear* gear = g.as<Gear>()) turn_gear(*gear, g.parts[0], y, row++, derivatives);
+      if (train)
+        for (std::size_t i = 0; i < g.parts.size(); ++i)
+          turn(train->angles[i], g.parts[i], y, row++, derivatives);
+      else
+        for (const PlanGear& gear : g.gears) turn(gear.angle, gear.part, y, row++, derivatives);
     }
   }
 
@@ -250,16 +258,16 @@ class CurveEquations {
       jacobian_(row, c + 2) += side * (e.moment + cross(arm, e.force) / plan_.size);
     }
   }
-  void turn_gear(const Gear& gear, int part, const CurveNode& y, Eigen::Index row, bool derivatives) {
-    double angle = gear.angle, gain = 0;
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      angle += gear.gains[i] * inputs_[i].value;
-      gain += gear.gains[i] * line_.direction[i];
-    }
-    residual_[row] = math::wrap_angle(angle_of(y.parts[part_index(part)].direction) - angle);
+  void turn(const DrivenAngle& angle, int part, const CurveNode& y, Eigen::Index row, bool derivatives) {
+    residual_[row] = angle_residual(angle, part, inputs_, y.parts);
     if (!derivatives) return;
-    jacobian_(row, column_[part_index(part)] + 2) = 1;
-    jacobian_(row, n_) = -gain / unit_;
+    const auto add = [&](int p, double share) {
+      if (const int c = column_[part_index(p)]; c >= 0) jacobian_(row, c + 2) += share;
+    };
+    add(part, 1);
+    for (const AngleShare& s : angle.shares) add(s.part, -s.share);
+    for (std::size_t i = 0; i < angle.gains.size(); ++i)
+      jacobian_(row, n_) -= angle.gains[i] * line_.direction[i] / unit_;
   }
 
   const LinkagePlan& plan_;

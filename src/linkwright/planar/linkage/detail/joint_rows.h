@@ -65,4 +65,15 @@ inline std::array<double, 3> joint_residuals(const PlanJoint& j, const JointRows
   return {apart.x, apart.y, turned};
 }
 
+// By how much the angle of a part differs from the one that gears and drives give it (rad). Angles of parts
+// are known up to whole turns.
+inline double angle_residual(const DrivenAngle& angle, int part, std::span<const InputMotion> inputs,
+                             const std::vector<PartState<double>>& parts) {
+  double apart = angle_of(parts[static_cast<std::size_t>(part)].direction) - angle.angle;
+  for (std::size_t i = 0; i < angle.gains.size(); ++i) apart -= angle.gains[i] * inputs[i].value;
+  for (const AngleShare& s : angle.shares)
+    apart -= s.share * angle_of(parts[static_cast<std::size_t>(s.part)].direction);
+  return math::wrap_angle(angle.turns * apart) / angle.turns;
+}
+
 }  // namespace linkwright::planar

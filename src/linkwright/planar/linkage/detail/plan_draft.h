@@ -22,7 +22,7 @@ struct PartJoint {
   bool used = false;
 };
 struct PartGear {
-  int joint = 0, turning = 0, turned = 0, carrier = 0;
+  int joint = 0, first = 0, second = 0, carrier = 0;  // parts
   double phase = 0;
   bool used = false;
 };
@@ -59,6 +59,12 @@ void find_groups(PlanDraft& d);
 PlanJoint chained(const PartJoint& joint, int before);
 void place_group(PlanDraft& d, Group group);
 
+// plan_angles.cpp: parts whose angles follow from gears and drives, as one group; the gear of a group; and
+// gears that are left over, which repeat what others say or contradict them.
+bool find_train(PlanDraft& d);
+PlanGear gear_of_group(PlanDraft& d, const PartGear& gear, bool in_loop);
+void check_left_gears(PlanDraft& d);
+
 // plan_pins.cpp: pairs the links of a pin of several so that another one can be placed or a dyad closes;
 // false where no other pairs would help. `find_shared_pins` says at the end what the pairs of the model
 // carry.
@@ -66,7 +72,6 @@ bool pair_otherwise(PlanDraft& d);
 void find_shared_pins(PlanDraft& d);
 // The first free joint of a part to a known one; drives stay out of dyads.
 PartJoint* to_known(PlanDraft& d, int part);
-bool geared(const PlanDraft& d, int part);
 // Finds the points where the teeth of the gears mesh, as far as their wheels have one pin each on the
 // carrier.
 void find_meshes(PlanDraft& d);
@@ -75,9 +80,10 @@ void find_meshes(PlanDraft& d);
 bool find_general_group(PlanDraft& d);
 void merge_groups(PlanDraft& d);
 std::vector<int> unknown_parts(const PlanDraft& d);
-// True if a joint not used yet connects parts inside `chosen`, or one of them with a known part.
+// True if a joint or gear not used yet connects parts inside `chosen`, or one of them with known parts.
 bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen);
-// Equations of these joints, or -1 when a gear is among them.
+bool holds_chosen(const PlanDraft& d, const PartGear& gear, const std::vector<bool>& chosen);
+// Equations of these joints and gears.
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen);
 
 // plan.cpp: the twists of the torsion springs.
