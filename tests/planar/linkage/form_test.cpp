@@ -12,6 +12,7 @@
 namespace linkwright::planar {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 TEST(LinkageForm, HoldsEverySampleWithoutLoss) {
@@ -80,6 +81,112 @@ TEST(LinkageForm, TakesUniformBarsWhereOnlyAMassIsGiven) {
   const Linkage l = linkage_of(form, problems);
   EXPECT_NEAR(l.bodies[1].mass->inertia, 2.0 * 0.36 / 12, 1e-17);
   EXPECT_EQ(l.bodies[1].mass->centre, std::complex<double>(0.3, 0));
+}
+
+// An epicyclic train by its teeth: the carriers are found.
+LinkageForm epicyclic_form() {
+  LinkageForm form;
+  const Place o{0, 0}, p{0.05, 0};
+  form.bodies = {{.name = "ground", .points = {{"O", o}}},
+                 {.name = "sun", .points = {{"O", o}}},
+                 {.name = "arm", .points = {{"O", o}, {"P", p}}},
+                 {.name = "planet", .points = {{"P", o}}}};
+  form.joints = {{.name = "sun axle", .first = "ground.O", .second = "sun.O"},
+                 {.name = "arm axle", .first = "ground.O", .second = "arm.O"},
+                 {.name = "planet axle", .first = "arm.P", .second = "planet.P"}};
+  JointForm sun{.name = "sun gear", .type = JointType::gear, .first = "sun.O", .second = "planet.P"};
+  sun.teeth = {20, 30};
+  JointForm ring{.name = "ring gear", .type = JointType::gear, .first = "planet", .second = "ground"};
+  ring.teeth = {30, 80};
+  ring.internal = InternalWheel::second;
+  form.joints.insert(form.joints.end(), {sun, ring});
+  return form;
+}
+std::vector<std::string> form_problems(const LinkageForm& form) {
+  std::vector<FormProblem> problems;
+  linkage_of(form, problems);
+  std::vector<std::string> out;
+  for (const FormProblem& p : problems)
+    out.push_back(p.list + "." + std::to_string(p.index) + "." + p.key + ": " + p.message + "; " + p.hint);
+  return out;
+}
+
+TEST(LinkageForm, TakesTeethAndFindsCarriers) {
+  std::vector<FormProblem> problems;
+  Linkage l = linkage_of(epicyclic_form(), problems);
+  ASSERT_THAT(problems, IsEmpty());
+  EXPECT_EQ(l.joints[3].ratio, -20.0 / 30);
+  EXPECT_EQ(l.joints[4].ratio, 30.0 / 80);
+  EXPECT_EQ(l.joints[3].carrier, 2);
+  EXPECT_EQ(l.joints[4].carrier, 2);
+  l.driven = {0};
+  const PlanResult planned = plan_linkage(l);
+  ASSERT_THAT(planned.problems, IsEmpty());
+  LinkageMotion motion(planned.plan);
+  solve_motion(planned.plan, std::vector<InputMotion>{{0.3, 1, 0}}, motion);
+  EXPECT_NEAR(body_state(planned.plan, motion, 2).speed, 0.2, 1e-15);
+  EXPECT_NEAR(body_state(planned.plan, motion, 3).speed, -1.0 / 3, 1e-15);
+}
+
+// Profile-shifted wheels of 21, 43 and 108 teeth on one distance (University of Ljubljana, LECAD, a planetary
+// transmission): each mesh works at a pressure angle of its own.
+TEST(LinkageForm, TakesThePressureAngleFromTheModule) {
+  LinkageForm form = epicyclic_form();
+  form.bodies[2].points[1].second = {0.0568, 0};
+  form.joints[3].teeth = {21, 43};
+  form.joints[4].teeth = {43, 108};
+  form.joints[3].module = form.joints[4].module = 0.00175;
+  std::vector<FormProblem> problems;
+  const Linkage l = linkage_of(form, problems);
+  ASSERT_THAT(problems, IsEmpty());
+  constexpr double degree = std::numbers::pi / 180;
+  EXPECT_NEAR(l.joints[3].pressure_angle / degree, 22.11082806319108, 1e-11);
+  EXPECT_NEAR(l.joints[4].pressure_angle / degree, 19.791093759784818, 1e-11);
+
+  form = epicyclic_form();
+  form.bodies[2].points[1].second = {0.044, 0};
+  form.joints[3].module = 0.002;
+  EXPECT_THAT(
+      form_problems(form),
+      ElementsAre("joint.3.module_mm: wheels of 20 and 30 teeth, module 2, need 50 mm, the centres are 44 mm "
+                  "apart: the teeth would overlap; move the centres, or take module 1.76"));
+}
+
+TEST(LinkageForm, NamesWhatIsWrongWithGears) {
+  LinkageForm form = epicyclic_form();
+  form.joints[3].ratio = -2.0 / 3;
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.3.ratio: gear 'sun gear' has teeth and ratio; leave one"));
+  form = epicyclic_form();
+  form.joints[4].internal = InternalWheel::first;
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.4.internal: internal wheel 'planet' has 30 teeth, its pinion 80; the "
+                          "ring needs more: swap `internal`"));
+  form = epicyclic_form();
+  form.joints[3].teeth = {20};
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.3.teeth: gear 'sun gear' has 1 numbers of teeth; write two, that of "
+                          "the first wheel first"));
+  form = epicyclic_form();
+  form.joints[4].teeth.reset();
+  form.joints[4].ratio = 0.375;
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.4.internal: gear 'ring gear' has a ring but no teeth; write the teeth "
+                          "of both wheels; a ratio of a ring is positive by itself"));
+  form = epicyclic_form();
+  form.joints.erase(form.joints.begin() + 2);
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.2.carrier: no body carries both 'sun.O' and 'planet.P'; name the "
+                          "`carrier`, or join both wheels to one body by pins"));
+  // Two links from the sun's axle to that of the planet.
+  form = epicyclic_form();
+  form.bodies.push_back({.name = "frame", .points = {{"O", Place{0, 0}}, {"P", Place{0.05, 0}}}});
+  form.joints.push_back({.name = "frame axle", .first = "ground.O", .second = "frame.O"});
+  form.joints.push_back({.name = "frame pin", .first = "frame.P", .second = "planet.P"});
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.3.carrier: both 'arm' and 'frame' carry the wheels; name one as `carrier`",
+                          "joint.4.carrier: both 'arm' and 'frame' carry the wheels; name one as "
+                          "`carrier`"));
 }
 
 }  // namespace

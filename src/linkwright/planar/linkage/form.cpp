@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string_view>
@@ -48,6 +49,11 @@ class Names {
               nearest(name.substr(dot + 1), known));
     }
     return {b, std::max(p, 0)};
+  }
+  // The wheel of a gear: a body, or its centre.
+  BodyPoint wheel(const std::string& key, const std::string& name) {
+    const bool centre = body_index(l_, name) < 0 && name.find('.') != std::string::npos;
+    return centre ? point(key, name) : BodyPoint{body(key, name), 0};
   }
   void problem(const std::string& key, std::string message, std::string hint) {
     problems_.push_back({list_, index_, key, std::move(message), std::move(hint)});
@@ -99,6 +105,138 @@ void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
 
 }  // namespace
 
+namespace {
+
+// The speed of the second wheel by that of the first.
+double ratio_of(const JointForm& f, Names& names) {
+  if (f.teeth && f.ratio)
+    names.problem("ratio", fmt::format("gear '{}' has teeth and ratio", f.name), "leave one");
+  if (!f.teeth) {
+    if (f.internal != InternalWheel::none)
+      names.problem("internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
+                    "write the teeth of both wheels; a ratio of a ring is positive by itself");
+    return f.ratio.value_or(1);
+  }
+  if (f.teeth->size() != 2 || f.teeth->front() < 1 || f.teeth->back() < 1) {
+    names.problem("teeth", fmt::format("gear '{}' has {} numbers of teeth", f.name, f.teeth->size()),
+                  "write two, that of the first wheel first");
+    return 1;
+  }
+  const int first = f.teeth->front(), second = f.teeth->back();
+  if (f.internal == InternalWheel::none) return -static_cast<double>(first) / second;
+  const bool first_is_ring = f.internal == InternalWheel::first;
+  const int ring = first_is_ring ? first : second, pinion = first_is_ring ? second : first;
+  if (ring <= pinion)
+    names.problem("internal",
+                  fmt::format("internal wheel '{}' has {} teeth, its pinion {}",
+                              first_is_ring ? f.first : f.second, ring, pinion),
+                  "the ring needs more: swap `internal`");
+  return static_cast<double>(first) / second;
+}
+
+// An axis: pins in one place, with the bodies that they join.
+struct PinAxis {
+  std::vector<BodyPoint> points;
+
+  const BodyPoint* on(int body) const {
+    const auto found =
+        std::find_if(points.begin(), points.end(), [&](const BodyPoint& p) { return p.body == body; });
+    return found == points.end() ? nullptr : &*found;
+  }
+};
+std::complex<double> pin_place(const Linkage& l, const BodyPoint& p) {
+  return l.bodies[static_cast<std::size_t>(p.body)].points[static_cast<std::size_t>(p.point)].at;
+}
+bool same_pin_place(const Linkage& l, const BodyPoint& p, const BodyPoint& q) {
+  return p.body == q.body && std::abs(pin_place(l, p) - pin_place(l, q)) <= 1e-9 * size_of(l);
+}
+std::vector<PinAxis> axes_of(const Linkage& l) {
+  std::vector<PinAxis> axes;
+  for (const LinkageJoint& j : l.joints) {
+    if (j.type != JointType::revolute) continue;
+    PinAxis now{{j.first, j.second}};
+    std::erase_if(axes, [&](const PinAxis& axis) {
+      const bool here = std::any_of(axis.points.begin(), axis.points.end(), [&](const BodyPoint& p) {
+        return same_pin_place(l, p, j.first) || same_pin_place(l, p, j.second);
+      });
+      if (here) now.points.insert(now.points.end(), axis.points.begin(), axis.points.end());
+      return here;
+    });
+    axes.push_back(std::move(now));
+  }
+  return axes;
+}
+
+// The wheels of a gear with the axes of all pins. A wheel turns about any pin of its body, or about the one
+// at its centre where the form names that.
+struct Wheels {
+  const Linkage& l;
+  const JointForm& form;
+  const LinkageJoint& gear;
+  std::vector<PinAxis> axes;
+
+  bool first_named() const { return body_index(l, form.first) < 0; }
+  bool second_named() const { return body_index(l, form.second) < 0; }
+  bool turns_on(const BodyPoint& wheel, bool named, const PinAxis& axis) const {
+    return std::any_of(axis.points.begin(), axis.points.end(), [&](const BodyPoint& p) {
+      return p.body == wheel.body && (!named || same_pin_place(l, p, wheel));
+    });
+  }
+  // The distance of both axes on a body (m); nothing where it does not hold both.
+  std::optional<double> distance_on(int body) const {
+    for (const PinAxis& a : axes)
+      for (const PinAxis& b : axes) {
+        const BodyPoint *first = a.on(body), *second = b.on(body);
+        if (&a != &b && first && second && turns_on(gear.first, first_named(), a) &&
+            turns_on(gear.second, second_named(), b))
+          return std::abs(pin_place(l, *first) - pin_place(l, *second));
+      }
+    return std::nullopt;
+  }
+};
+
+// The body on which both wheels have a pin, each an axis of its own.
+int carrier_of(const Wheels& wheels, Names& names) {
+  const Linkage& l = wheels.l;
+  std::vector<int> found;
+  for (int body = 0; body < static_cast<int>(l.bodies.size()); ++body)
+    if (body != wheels.gear.first.body && body != wheels.gear.second.body && wheels.distance_on(body))
+      found.push_back(body);
+  const bool bodies_alone = !wheels.first_named() && !wheels.second_named();
+  if (bodies_alone && (found.empty() || found.front() == 0)) return 0;
+  const auto name = [&](std::size_t k) { return l.bodies[static_cast<std::size_t>(found[k])].name; };
+  if (found.empty())
+    names.problem("carrier",
+                  fmt::format("no body carries both '{}' and '{}'", wheels.form.first, wheels.form.second),
+                  "name the `carrier`, or join both wheels to one body by pins");
+  else if (found.size() > 1)
+    names.problem("carrier", fmt::format("both '{}' and '{}' carry the wheels", name(0), name(1)),
+                  "name one as `carrier`");
+  return found.empty() ? 0 : found.front();
+}
+
+// The pressure angle at which teeth of a module work on the distance of the centres.
+double working_angle(const Wheels& wheels, Names& names) {
+  const JointForm& f = wheels.form;
+  const double angle = wheels.gear.pressure_angle;
+  const std::optional<double> distance = wheels.distance_on(wheels.gear.carrier);
+  if (!f.module || !f.teeth || f.teeth->size() != 2 || !distance) return angle;
+  const int first = f.teeth->front(), second = f.teeth->back(),
+            sum = f.internal == InternalWheel::none ? first + second : std::abs(first - second);
+  const double cosine = *f.module * sum / 2 * std::cos(angle) / *distance;
+  if (cosine <= 1) return std::acos(cosine);
+  names.problem(
+      "module_mm",
+      fmt::format(
+          "wheels of {} and {} teeth, module {:.6g}, need {:.6g} mm, the centres are {:.6g} mm apart: the "
+          "teeth would overlap",
+          first, second, *f.module * 1e3, *f.module * sum / 2 * 1e3, *distance * 1e3),
+      fmt::format("move the centres, or take module {:.3g}", 2e3 * *distance / sum));
+  return angle;
+}
+
+}  // namespace
+
 Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) {
   Linkage l;
   for (const BodyForm& b : form.bodies) l.bodies.push_back(body_of(b, form.drawn));
@@ -114,9 +252,10 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     names.at("joint", i);
     LinkageJoint j{.name = f.name, .type = f.type};
     if (f.type == JointType::gear) {
-      j.first = {names.body("first", f.first), 0};
-      j.second = {names.body("second", f.second), 0};
-      j.carrier = names.body("carrier", f.carrier);
+      j.first = names.wheel("first", f.first);
+      j.second = names.wheel("second", f.second);
+      j.ratio = ratio_of(f, names);
+      if (!f.carrier.empty()) j.carrier = names.body("carrier", f.carrier);
       if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
     } else {
       j.first = names.point("first", f.first);
@@ -125,9 +264,17 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     j.slide_first = f.direction;
     j.slide_second =
         f.direction_second.value_or(form.drawn && (f.type == JointType::prismatic) ? f.direction : 0.0);
-    j.ratio = f.ratio, j.phase = f.phase;
+    j.phase = f.phase;
     j.friction = f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
     l.joints.push_back(std::move(j));
+  }
+  const bool pins_known = problems.empty();
+  for (std::size_t i = 0; i < form.joints.size() && pins_known; ++i) {
+    if (form.joints[i].type != JointType::gear) continue;
+    names.at("joint", i);
+    const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
+    if (form.joints[i].carrier.empty()) l.joints[i].carrier = carrier_of(wheels, names);
+    l.joints[i].pressure_angle = working_angle(wheels, names);
   }
   for (std::size_t i = 0; i < form.assembly.size(); ++i) {
     const AssemblyForm& a = form.assembly[i];
@@ -191,8 +338,8 @@ LinkageForm form_of(const Linkage& l) {
     f.second = gear ? body(j.second.body) : point(j.second);
     f.direction = j.slide_first;
     if (j.type == JointType::prismatic || j.type == JointType::fixed) f.direction_second = j.slide_second;
-    f.ratio = j.ratio, f.phase = j.phase, f.carrier = body(j.carrier);
-    if (gear) f.pressure_angle = j.pressure_angle;
+    f.phase = j.phase;
+    if (gear) f.ratio = j.ratio, f.carrier = body(j.carrier), f.pressure_angle = j.pressure_angle;
     f.friction = j.friction, f.pin_radius = j.pin_radius, f.guide_length = j.guide_length;
     form.joints.push_back(std::move(f));
   }

@@ -34,14 +34,29 @@ struct BodyForm {
   std::vector<AttachedMassForm> attached;
   std::optional<StartForm> start;
 };
+/// The wheel of a gear that has its teeth inside.
+enum class InternalWheel {
+  none,   ///< both have their teeth outside
+  first,  ///< the first wheel is a ring
+  second  ///< the second wheel is a ring
+};
+constexpr std::array<EnumName<InternalWheel>, 3> names(InternalWheel) {
+  return {{{InternalWheel::none, "none", "both wheels have their teeth outside"},
+           {InternalWheel::first, "first", "the first wheel is a ring with its teeth inside"},
+           {InternalWheel::second, "second", "the second wheel is a ring with its teeth inside"}}};
+}
 struct JointForm {
   std::string name;
   JointType type = JointType::revolute;
   std::string first, second;
   double direction = 0;
   std::optional<double> direction_second;
-  double ratio = 1, phase = 0;
-  std::string carrier = "ground";
+  std::optional<double> ratio;
+  std::optional<std::vector<int>> teeth;
+  InternalWheel internal = InternalWheel::none;
+  std::optional<double> module;
+  double phase = 0;
+  std::string carrier;
   std::optional<double> pressure_angle;
   double friction = 0, pin_radius = 0, guide_length = 0;
 };
@@ -135,9 +150,11 @@ template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {
   visit(field::entry("name", "its name; columns and drives use it").required(), j.name);
   visit(field::entry("type", "kind of joint"), j.type);
-  visit(field::entry("first", "point of the first body, \"body.point\"; of a gear the body").required(),
+  visit(field::entry("first", "point of the first body, \"body.point\"; of a gear the wheel or its centre")
+            .required(),
         j.first);
-  visit(field::entry("second", "point of the second body; of a gear the body").required(), j.second);
+  visit(field::entry("second", "point of the second body; of a gear the wheel or its centre").required(),
+        j.second);
   visit(field::angle("direction",
                      "direction of a slide or slot in the frame of the first body; of a weld the angle of "
                      "the second body from the first"),
@@ -147,11 +164,23 @@ void fields(Visitor&& visit, JointForm& j) {
             "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
             "linkage"),
         j.direction_second);
-  visit(field::entry("ratio", "gear: turns of the second body for one of the first, seen from the carrier")
+  visit(field::entry("ratio",
+                     "gear: turns of the second body for one of the first, seen from the carrier; "
+                     "negative: external teeth")
             .between(-1e6, 1e6),
         j.ratio);
+  visit(field::entry("teeth", "gear: teeth of both wheels, instead of `ratio`").between(1, 1000000), j.teeth);
+  visit(field::entry("internal", "gear: wheel that is a ring with its teeth inside"), j.internal);
+  visit(field::length("module",
+                      "gear: module of the teeth; the distance of the centres then gives the pressure "
+                      "angle at which they work")
+            .positive(),
+        j.module);
   visit(field::angle("phase", "gear: angle of the second body when that of the first is 0"), j.phase);
-  visit(field::entry("carrier", "gear: body that carries both axes"), j.carrier);
+  visit(field::entry("carrier",
+                     "gear: body that carries both axes; if absent the one that both wheels "
+                     "have pins on"),
+        j.carrier);
   visit(field::angle("pressure_angle", "gear: of its teeth, which press their wheels apart; if absent 20 deg")
             .between(0, 0.8),
         j.pressure_angle);
