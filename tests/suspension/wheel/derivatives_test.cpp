@@ -250,5 +250,37 @@ TEST(CornerMotions, AreDifferencesOfPositions) {
     }
 }
 
+// The points of rockers as design numbers: the spring's length and motion ratio by each of them.
+TEST(WheelDerivatives, ByThePointsOfRockers) {
+  Suspension suspension = pushrod_corner();
+  suspension.rockers[0].length = 0.301;
+  const DerivativePlan plan = prepare_derivatives(suspension, hard_points(suspension));
+  const CornerInput input{0.02, 0};
+  const auto solved = [&](const Suspension& at) {
+    const CornerPlan own = prepare_suspension(at);
+    return wheel_parameters(own, solve_position(own, Driver::wheel_centre_z, input, reference_position(own)));
+  };
+  const WheelDerivatives found = wheel_derivatives(
+      plan, solve_position(plan.plan, Driver::wheel_centre_z, input, reference_position(plan.plan)));
+  int compared = 0;
+  for (std::size_t k = 0; k < plan.numbers.size(); ++k) {
+    if (plan.numbers[k].kind != DesignKind::rocker_axis && plan.numbers[k].kind != DesignKind::rocker_rod &&
+        plan.numbers[k].kind != DesignKind::rocker_length)
+      continue;
+    SCOPED_TRACE(label(suspension, plan.numbers[k]));
+    const WheelParameters slope = differenced(
+        [&](double change) {
+          Suspension moved = suspension;
+          design_value(moved, plan.numbers[k]) += change;
+          return solved(moved);
+        },
+        1e-4);
+    EXPECT_NEAR(found.by[k].spring_length, slope.spring_length, 1e-8);
+    EXPECT_NEAR(found.by[k].motion_ratio, slope.motion_ratio, 1e-6);
+    ++compared;
+  }
+  EXPECT_EQ(compared, 25);
+}
+
 }  // namespace
 }  // namespace linkwright::suspension

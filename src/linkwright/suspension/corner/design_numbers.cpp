@@ -54,6 +54,21 @@ T* find(Suspension& suspension, const DesignNumber& number) {
       return suspension.spring ? coordinate<T>(suspension.spring->body, number.axis) : nullptr;
     case DesignKind::spring_moving:
       return suspension.spring ? coordinate<T>(suspension.spring->moving, number.axis) : nullptr;
+    case DesignKind::rocker_axis: {
+      auto* rocker = entry(suspension.rockers, number.index);
+      return rocker && (number.point == 0 || number.point == 1)
+                 ? coordinate<T>(rocker->axis[static_cast<std::size_t>(number.point)], number.axis)
+                 : nullptr;
+    }
+    case DesignKind::rocker_rod: {
+      auto* rocker = entry(suspension.rockers, number.index);
+      if (!rocker || number.point < 0 || number.point > 1) return nullptr;
+      return coordinate<T>(number.point == 0 ? rocker->driven_by.at : rocker->rod, number.axis);
+    }
+    case DesignKind::rocker_length: {
+      auto* rocker = entry(suspension.rockers, number.index);
+      return rocker && rocker->length ? &*rocker->length : nullptr;
+    }
     case DesignKind::wheel_centre:
       return coordinate<T>(suspension.wheel.centre, number.axis);
     case DesignKind::wheel_toe:
@@ -112,6 +127,13 @@ std::string label(const Suspension& suspension, const DesignNumber& number) {
       return fmt::format("spring.body_{}", axes[number.axis]);
     case DesignKind::spring_moving:
       return fmt::format("spring.moving_{}", axes[number.axis]);
+    case DesignKind::rocker_axis:
+    case DesignKind::rocker_rod:
+      return fmt::format("{}.{}_{}_{}", rocker_label(suspension, number.index),
+                         number.kind == DesignKind::rocker_axis ? "axis" : "rod", number.point + 1,
+                         axes[number.axis]);
+    case DesignKind::rocker_length:
+      return rocker_label(suspension, number.index) + ".rod_length";
     case DesignKind::wheel_centre:
       return fmt::format("wheel.centre_{}", axes[number.axis]);
     case DesignKind::wheel_toe:
@@ -139,6 +161,11 @@ std::vector<DesignNumber> hard_points(const Suspension& suspension) {
       point(DesignKind::coupler_begin, i, 0);
     else
       out.push_back({DesignKind::coupler_fraction, i});
+  }
+  for (int i = 0; i < static_cast<int>(suspension.rockers.size()); ++i) {
+    for (const DesignKind kind : {DesignKind::rocker_axis, DesignKind::rocker_rod})
+      for (const int which : {0, 1}) point(kind, i, which);
+    if (suspension.rockers[i].length) out.push_back({DesignKind::rocker_length, i});
   }
   if (suspension.spring) {
     point(DesignKind::spring_body, 0, 0);

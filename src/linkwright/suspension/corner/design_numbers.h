@@ -19,11 +19,14 @@ enum class DesignKind {
   coupler_begin,
   spring_body,
   spring_moving,
+  rocker_axis,
+  rocker_rod,
+  rocker_length,
   wheel_centre,
   wheel_toe,
   wheel_camber,
 };
-constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
+constexpr std::array<EnumName<DesignKind>, 14> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
            {DesignKind::length, "length", "prescribed length of a US or SS link"},
@@ -32,6 +35,9 @@ constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
            {DesignKind::coupler_begin, "coupler_begin", "coordinate of a coupler's beginning off the line"},
            {DesignKind::spring_body, "spring_body", "coordinate of the spring's end at the body"},
            {DesignKind::spring_moving, "spring_moving", "coordinate of the spring's other end"},
+           {DesignKind::rocker_axis, "rocker_axis", "coordinate of a point of a rocker's axis"},
+           {DesignKind::rocker_rod, "rocker_rod", "coordinate of an end of a rocker's rod"},
+           {DesignKind::rocker_length, "rocker_length", "prescribed length of a rocker's rod"},
            {DesignKind::wheel_centre, "wheel_centre", "coordinate of the wheel centre"},
            {DesignKind::wheel_toe, "wheel_toe", "toe at the reference"},
            {DesignKind::wheel_camber, "wheel_camber", "camber at the reference"}}};
@@ -40,9 +46,11 @@ constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
 /// One number of a wheel suspension (m; rad for angles; a share for the fraction of a coupler).
 struct DesignNumber {
   DesignKind kind = DesignKind::body;
-  int index = 0;  ///< index of the link or coupler
-  int point = 0;  ///< index among the link's body or carrier points
-  int axis = 0;   ///< 0, 1, 2 = x, y, z
+  int index = 0;  ///< index of the link, coupler or rocker
+  /// Index among the link's body or carrier points, or those of a rocker's axis; of a rod 0 is its end on the
+  /// part that drives the rocker, 1 that on the rocker.
+  int point = 0;
+  int axis = 0;  ///< 0, 1, 2 = x, y, z
 
   friend bool operator==(const DesignNumber&, const DesignNumber&) = default;
 };
@@ -57,8 +65,8 @@ double design_value(const Suspension& suspension, const DesignNumber& number);
 /// where there are two: "lower arm.body_2_z".
 std::string label(const Suspension& suspension, const DesignNumber& number);
 
-/// All coordinates of the points of links, prescribed lengths, couplers and the spring, in the order of the
-/// suspension.
+/// All coordinates of the points of links, prescribed lengths, couplers, rockers and the spring, in the
+/// order of the suspension.
 std::vector<DesignNumber> hard_points(const Suspension& suspension);
 
 }  // namespace linkwright::suspension

@@ -88,6 +88,14 @@ std::vector<HardPoint> points_of(const Suspension& suspension) {
       add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "first point",
           {*suspension.couplers[i].begin});
   }
+  for (std::size_t i = 0; i < suspension.rockers.size(); ++i) {
+    const Rocker& rocker = suspension.rockers[i];
+    const std::string name = rocker_label(suspension, static_cast<int>(i));
+    add(name, "axis", {rocker.axis[0], rocker.axis[1]});
+    add(name, "rod", {rocker.driven_by.at, rocker.rod});
+  }
+  for (const CornerElement& element : suspension.elements)
+    if (!element.turn) add(element.name, "end", {element.first.at, element.second.at});
   if (suspension.spring) {
     add("spring", "body", {suspension.spring->body});
     add("spring", "moving", {suspension.spring->moving});

@@ -55,7 +55,7 @@ constexpr std::array<EnumName<PointUnit>, 4> names(PointUnit) {
 /// The points as a table with names and columns x_m, y_m, z_m, which read_hard_points reads back.
 Table hard_point_table(const std::vector<HardPoint>& points);
 
-/// The points of a suspension's links, couplers and spring, by the names of the links: tie_rod_body,
+/// The points of a suspension's links, couplers, rockers, damper and spring, by their names: tie_rod_body,
 /// lower_wishbone_body_2.
 std::vector<HardPoint> points_of(const Suspension& suspension);
 
