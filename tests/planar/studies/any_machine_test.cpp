@@ -191,10 +191,10 @@ TEST(AnyPathStudies, TellWhoStaysWithinTheTolerance) {
 
 // A crank and a rod of nearly one length turn with no such pair angle.
 TEST(AnyPathStudies, NameTheLimitThatTheNearestMachineBreaks) {
-  const study::Result result =
-      test::run_text(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\"]\n"},
-                               {"3", "[limits]\nleast_pair_angle_deg = 70\nshortest_link = 0.5\nlongest_link = 1\n"},
-                               {"4", "[optimiser]\nevaluations = 20000\n"}}));
+  const study::Result result = test::run_text(
+      any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\"]\n"},
+                {"3", "[limits]\nleast_pair_angle_deg = 70\nshortest_link = 0.5\nlongest_link = 1\n"},
+                {"4", "[optimiser]\nevaluations = 20000\n"}}));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_THAT(to_string(result.headline), HasSubstr("No machine within the limits"));
 }

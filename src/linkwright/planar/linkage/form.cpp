@@ -109,10 +109,11 @@ namespace {
 
 // The speed of the second wheel by that of the first.
 double ratio_of(const JointForm& f, Names& names) {
+  const InternalWheel internal = f.internal.value_or(InternalWheel::none);
   if (f.teeth && f.ratio)
     names.problem("ratio", fmt::format("gear '{}' has teeth and ratio", f.name), "leave one");
   if (!f.teeth) {
-    if (f.internal != InternalWheel::none)
+    if (internal != InternalWheel::none)
       names.problem("internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
                     "write the teeth of both wheels; a ratio of a ring is positive by itself");
     return f.ratio.value_or(1);
@@ -123,8 +124,8 @@ double ratio_of(const JointForm& f, Names& names) {
     return 1;
   }
   const int first = f.teeth->front(), second = f.teeth->back();
-  if (f.internal == InternalWheel::none) return -static_cast<double>(first) / second;
-  const bool first_is_ring = f.internal == InternalWheel::first;
+  if (internal == InternalWheel::none) return -static_cast<double>(first) / second;
+  const bool first_is_ring = internal == InternalWheel::first;
   const int ring = first_is_ring ? first : second, pinion = first_is_ring ? second : first;
   if (ring <= pinion)
     names.problem("internal",
@@ -222,7 +223,8 @@ double working_angle(const Wheels& wheels, Names& names) {
   const std::optional<double> distance = wheels.distance_on(wheels.gear.carrier);
   if (!f.module || !f.teeth || f.teeth->size() != 2 || !distance) return angle;
   const int first = f.teeth->front(), second = f.teeth->back(),
-            sum = f.internal == InternalWheel::none ? first + second : std::abs(first - second);
+            sum = f.internal.value_or(InternalWheel::none) == InternalWheel::none ? first + second
+                                                                                  : std::abs(first - second);
   const double cosine = *f.module * sum / 2 * std::cos(angle) / *distance;
   if (cosine <= 1) return std::acos(cosine);
   names.problem(
@@ -255,7 +257,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
       j.first = names.wheel("first", f.first);
       j.second = names.wheel("second", f.second);
       j.ratio = ratio_of(f, names);
-      if (!f.carrier.empty()) j.carrier = names.body("carrier", f.carrier);
+      if (f.carrier) j.carrier = names.body("carrier", *f.carrier);
       if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
     } else {
       j.first = names.point("first", f.first);
@@ -273,7 +275,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     if (form.joints[i].type != JointType::gear) continue;
     names.at("joint", i);
     const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
-    if (form.joints[i].carrier.empty()) l.joints[i].carrier = carrier_of(wheels, names);
+    if (!form.joints[i].carrier) l.joints[i].carrier = carrier_of(wheels, names);
     l.joints[i].pressure_angle = working_angle(wheels, names);
   }
   for (std::size_t i = 0; i < form.assembly.size(); ++i) {

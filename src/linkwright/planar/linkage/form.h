@@ -53,10 +53,10 @@ struct JointForm {
   std::optional<double> direction_second;
   std::optional<double> ratio;
   std::optional<std::vector<int>> teeth;
-  InternalWheel internal = InternalWheel::none;
+  std::optional<InternalWheel> internal;
   std::optional<double> module;
   double phase = 0;
-  std::string carrier;
+  std::optional<std::string> carrier;
   std::optional<double> pressure_angle;
   double friction = 0, pin_radius = 0, guide_length = 0;
 };
