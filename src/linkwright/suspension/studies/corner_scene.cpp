@@ -45,7 +45,7 @@ class Drawing {
     if (suspension_.spring) add_spring(*suspension_.spring);
     for (std::size_t i = 0; i < suspension_.elements.size(); ++i) add_element(i);
     const Vec3 axis = wheel_axis(suspension_.side, suspension_.wheel.toe, suspension_.wheel.camber);
-    const int outboard = point("", [=, this](const CornerPosition& p) {
+    const int outboard = point("", [axis](const CornerPosition& p) {
       return p.place.carrier.centre + 0.1 * (p.place.carrier.rotation * axis);
     });
     const double diameter = suspension_.wheel.tyre_diameter;
