@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
-import { boxOf, byHand, lengthOf, mostPoints, PathError, prepared, smoothed, studyOf } from "../src/workbench/path";
+import { boxOf, byHand, lengthOf, mostPoints, prepared, smoothed, studyOf } from "../src/workbench/path";
 import { svgPath } from "../src/workbench/path_svg";
 import { readPath } from "../src/workbench/path_text";
+import { refusal, rounded } from "./path_checks";
 
-const ends = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
-const last = (d: string) => ends(svgPath(d).points).pop();
-/** What is wrong, and how to correct it. */
-function refusal(run: () => unknown): string {
-  try {
-    run();
-  } catch (error) {
-    expect(error).toBeInstanceOf(PathError);
-    expect((error as PathError).hint).toMatch(/\.$/);
-    return (error as PathError).message;
-  }
-  throw new Error("it was taken");
-}
+const last = (d: string) => rounded(svgPath(d).points).pop();
 
 test("lines of SVG, absolute and relative, with the y axis upwards", () => {
   const square = [[1, -1], [5, -1], [5, -4], [1, -4]];
@@ -30,10 +19,10 @@ test("lines of SVG, absolute and relative, with the y axis upwards", () => {
 test("curves of Bézier pass through the places of their formula", () => {
   const { points } = svgPath("M0 0C0 6 6 6 6 0");
   expect(points).toHaveLength(25);
-  expect(ends(points)[12]).toEqual([3, -4.5]); // (P0 + 3 P1 + 3 P2 + P3) / 8
-  expect(ends(svgPath("M0 0Q4 8 8 0").points)[12]).toEqual([4, -4]); // (P0 + 2 P1 + P2) / 4
+  expect(rounded(points)[12]).toEqual([3, -4.5]); // (P0 + 3 P1 + 3 P2 + P3) / 8
+  expect(rounded(svgPath("M0 0Q4 8 8 0").points)[12]).toEqual([4, -4]); // (P0 + 2 P1 + P2) / 4
   expect(svgPath("M1 1c0 6 6 6 6 0").points[12]).toEqual({ x: 4, y: -5.5 });
-  expect(ends(svgPath("m1 1q4 8 8 0").points)[12]).toEqual([5, -5]);
+  expect(rounded(svgPath("m1 1q4 8 8 0").points)[12]).toEqual([5, -5]);
 });
 
 test("S and T mirror the last control point of their own kind", () => {
@@ -44,14 +33,14 @@ test("S and T mirror the last control point of their own kind", () => {
   expect(svgPath("M0 0q2 4 4 0t4 0").points).toEqual(svgPath("M0 0Q2 4 4 0Q6 -4 8 0").points);
   // After another command the control point is the present place.
   expect(svgPath("M0 0L4 0S8 4 8 0").points).toEqual(svgPath("M0 0L4 0C4 0 8 4 8 0").points);
-  expect(ends(svgPath("M0 0L4 0T8 0").points).pop()).toEqual([8, 0]);
+  expect(rounded(svgPath("M0 0L4 0T8 0").points).pop()).toEqual([8, 0]);
 });
 
 test("arcs go the way of their flags, and small radii grow", () => {
   // With the sweep flag the angle grows in a plane whose y axis points down.
-  for (const [flags, y] of [["0 0", -5], ["0 1", 5]] as const) expect(ends(svgPath(`M-5 0A5 5 0 ${flags} 5 0`).points)[12], flags).toEqual([0, y]);
+  for (const [flags, y] of [["0 0", -5], ["0 1", 5]] as const) expect(rounded(svgPath(`M-5 0A5 5 0 ${flags} 5 0`).points)[12], flags).toEqual([0, y]);
   for (const p of svgPath("M3 0A3 3 0 1 0 0 3").points) expect(Math.hypot(p.x, p.y)).toBeLessThan(9);
-  expect(ends(svgPath("M0 0a1 1 0 0110 0").points)[12]).toEqual([5, 5]); // flags that touch, and a radius of 5
+  expect(rounded(svgPath("M0 0a1 1 0 0110 0").points)[12]).toEqual([5, 5]); // flags that touch, and a radius of 5
   const turned = svgPath("M0 -4A2 4 90 0 1 0 4").points;
   expect(Math.max(...turned.map((p) => Math.abs(p.x)))).toBeCloseTo(8, 6);
   expect(last("M0 0A0 3 0 0 1 4 4")).toEqual([4, -4]);
@@ -89,7 +78,7 @@ test("the form of a text is recognised", () => {
 
 test("a path that is read keeps its corners and has points between them", () => {
   const square = prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 20 }, { x: 0, y: 20 }], closed: true });
-  for (const corner of [[0, 0], [40, 0], [40, 20], [0, 20]]) expect(ends(square.points)).toContainEqual(corner);
+  for (const corner of [[0, 0], [40, 0], [40, 20], [0, 20]]) expect(rounded(square.points)).toContainEqual(corner);
   expect(square.points).toHaveLength(120);
   const many = prepared({ points: Array.from({ length: 5000 }, (_, k) => ({ x: 50 * Math.cos(k / 800), y: 50 * Math.sin(k / 800) })), closed: false });
   expect(many.points).toHaveLength(mostPoints);

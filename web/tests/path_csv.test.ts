@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
-import { PathError } from "../src/workbench/path";
 import { csvPath } from "../src/workbench/path_csv";
+import { refusal, rounded } from "./path_checks";
 
-const ends = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
-/** What is wrong, and how to correct it. */
-function refusal(run: () => unknown): string {
-  try {
-    run();
-  } catch (error) {
-    expect(error).toBeInstanceOf(PathError);
-    expect((error as PathError).hint).toMatch(/\.$/);
-    return (error as PathError).message;
-  }
-  throw new Error("it was taken");
-}
-const points = (text: string) => ends(csvPath(text).points);
+const points = (text: string) => rounded(csvPath(text).points);
 const said = (text: string) => refusal(() => csvPath(text));
 
 test("rows of coordinates with every separator and decimal commas", () => {
   const points = [{ x: 1.5, y: 2 }, { x: -3, y: 4.25 }];
   for (const text of ["1.5,2\n-3,4.25", "1,5;2\n-3;4,25", "1,5\t2\n-3\t4,25", "1.5 2\r\n\u22123 4.25\r\n", "x; y\n1,5; 2\n# a remark\n\n-3; 4,25", "x_mm,y_mm\n1.5,2\n-3,4.25", "x (cm); y (cm)\n0,15; 0,2\n-0,3; 0,425"])
-    expect(ends(csvPath(text).points), text).toEqual(ends(points));
+    expect(rounded(csvPath(text).points), text).toEqual(rounded(points));
   expect(csvPath("x_m,y_m\n0.001,0.002\n0,0").points[0]).toEqual({ x: 1, y: 2 });
   expect(refusal(() => csvPath("1,5,2,5\n3,1,4,2"))).toMatch(/Line 1, “1,5,2,5”, has 4 numbers/);
   expect(refusal(() => csvPath("1;2\n3;a"))).toMatch(/Line 2, “3;a”, is not a pair/);

@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
-import { boxOf, lengthOf, PathError } from "../src/workbench/path";
+import { boxOf, lengthOf } from "../src/workbench/path";
 import { dxfPath } from "../src/workbench/path_dxf";
-
-const rounded = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
-/** What is wrong, and how to correct it. */
-function refusal(run: () => unknown): string {
-  try {
-    run();
-  } catch (error) {
-    expect(error).toBeInstanceOf(PathError);
-    expect((error as PathError).hint).toMatch(/\.$/);
-    return (error as PathError).message;
-  }
-  throw new Error("it was taken");
-}
+import { refusal, rounded } from "./path_checks";
 
 const group = (...values: (string | number)[]) => values.map((v) => `${v}\n`).join("");
 const drawing = (entities: string, header = "") => `0\nSECTION\n2\nHEADER\n${header}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n${entities}0\nENDSEC\n0\nEOF\n`;

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { expect, test } from "vitest";
-import { boxOf, lengthOf, PathError } from "../src/workbench/path";
+import { boxOf, lengthOf } from "../src/workbench/path";
 import { svgFile } from "../src/workbench/path_svg_file";
+import { refusal, rounded } from "./path_checks";
 
-const rounded = (points: { x: number; y: number }[]) => points.map(({ x, y }) => [x, y].map((v) => Number(v.toFixed(6)) + 0)); // without a negative zero
 /** The points of a file that holds these elements. */
 const drawn = (elements: string, attributes = "") => svgFile(`<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg" ${attributes}>\n${elements}\n</svg>\n`);
 const points = (elements: string, attributes = "") => rounded(drawn(elements, attributes).points);
-/** What is wrong, and how to correct it. */
-function refusal(run: () => unknown): string {
-  try {
-    run();
-  } catch (error) {
-    expect(error).toBeInstanceOf(PathError);
-    expect((error as PathError).hint).toMatch(/\.$/);
-    return (error as PathError).message;
-  }
-  throw new Error("it was taken");
-}
 
 test("every shape of SVG is a path, with the y axis upwards", () => {
   expect(points('<path d="M0 0L4 4"/>')).toEqual([[0, 0], [4, -4]]);

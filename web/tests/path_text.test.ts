@@ -2,20 +2,10 @@
 import { expect, test } from "vitest";
 import { PathError } from "../src/workbench/path";
 import { mostBytes, readPath, requireSize, textOf } from "../src/workbench/path_text";
+import { refusal } from "./path_checks";
 
 const slow = 120_000; // ms for texts of megabytes on a machine that is busy
 const rest = () => new Promise((resolve) => setTimeout(resolve)); // the test runner reports meanwhile
-/** What is wrong, and how to correct it. */
-function refusal(run: () => unknown): string {
-  try {
-    run();
-  } catch (error) {
-    expect(error).toBeInstanceOf(PathError);
-    expect((error as PathError).hint).toMatch(/\.$/);
-    return (error as PathError).message;
-  }
-  throw new Error("it was taken");
-}
 
 const bytesOf = (text: string) => Uint8Array.from(text, (c) => c.charCodeAt(0));
 const utf16 = (text: string, big: boolean) => Uint8Array.from([...text].flatMap((c) => (big ? [c.charCodeAt(0) >> 8, c.charCodeAt(0) & 255] : [c.charCodeAt(0) & 255, c.charCodeAt(0) >> 8])));

@@ -88,7 +88,8 @@ class MachineFitter {
   double turn_body(FittedMachine& machine);
 
   /// Levenberg-Marquardt on shape and place, the crank angles following, in three stages with growing weight
-  /// of the limits. Given up (false) when the error after a stage is far above `best`, infinity = never.
+  /// of the limits and more of them while the limits are nearly kept. Given up (false) when the error after
+  /// one of the first two is far above `best`, infinity = never.
   bool polish(FittedMachine& machine, double best);
 
   /// Measures on a grid of its own, and the crank angles to rounding.

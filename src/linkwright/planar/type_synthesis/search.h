@@ -57,8 +57,7 @@ struct TypeSearchAnswer {
 };
 
 /// Finds machines of many types that trace a stroke, or whose body takes poses. The sequence of its trials
-/// depends on the seed alone; the context or the number of curves says where it ends. `found` is called after
-/// each improvement with what is known so far.
+/// depends on the seed alone; the context or the number of curves says where it ends.
 TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,
                               RunContext& context);
 
