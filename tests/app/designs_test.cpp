@@ -186,6 +186,21 @@ void any_poses(const Designed& d) {
   expect_same(found, again, exact, "cosine of the rotation of the body");
 }
 
+/// The output of a function, a link or a slider.
+void any_function(const Designed& d) {
+  const Table &sweep = table_of(d.again, "sweep"), &error = table_of(d.found, d.numbered("structural_error"));
+  const std::string output = d.solution().classification.find("output")->as_string();
+  if (output == "slider") {
+    expect_same(column(error, "output_m"), column(sweep, "slider_x_m"), exact, "travel");
+    return;
+  }
+  std::vector<double> found = column(error, "output_rad"), again = column(sweep, output + "_angle_rad");
+  const double on_link = number(d.solution().classification, "output_angle_on_link_rad");
+  for (double& v : found) v = std::cos(v - on_link);
+  for (double& v : again) v = std::cos(v);
+  expect_same(found, again, exact, "cosine of the output");
+}
+
 /// Forces, torques and energies after balancing, by the measures that have no settings.
 void balanced(const Designed& d) {
   ASSERT_EQ(d.number, 0u);
@@ -281,6 +296,7 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.slider_crank/path_points", slider_crank_path},
     {"synthesis/planar.any/path_points", any_path},
     {"synthesis/planar.any/poses", any_poses},
+    {"synthesis/planar.any/function", any_function},
     {"synthesis/planar.four_bar/poses", poses},
     {"synthesis/planar.four_bar/function", function},
     {"synthesis/planar.slider_crank/function", function},

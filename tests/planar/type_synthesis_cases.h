@@ -48,6 +48,15 @@ inline std::vector<const PointProgram*> all_programs() {
   return out;
 }
 
+/// Every program whose output is a link or a slider on the ground.
+inline std::vector<const PointProgram*> function_programs() {
+  std::vector<const PointProgram*> out;
+  for (const MachineOutput output : {MachineOutput::angle, MachineOutput::slide})
+    for (const auto& family : names(MachineFamily{}))
+      for (const PointProgram* p : programs_of(family.value, output)) out.push_back(p);
+  return out;
+}
+
 /// A shape of a program that turns fully; the draw is repeated until it does.
 inline MachineShape some_shape(const PointProgram& p, std::uint64_t seed) {
   for (std::uint32_t k = 0; k < 100'000; ++k) {

@@ -22,6 +22,7 @@ std::vector<study::Kind> studies() {
                                     slider_path_kind(),
                                     any_path_kind(),
                                     any_poses_kind(),
+                                    any_function_kind(),
                                     pose_kind(),
                                     rocker_function_kind(),
                                     slider_function_kind(),

@@ -84,7 +84,7 @@ TEST(AnyPathStudies, SayWhatIsWrong) {
   EXPECT_THAT(problems({{"2", "[target]\ntype = \"path_points\"\n"}}), HasSubstr("the target has no points"));
   EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = []\n"}}),
               HasSubstr("the list of families is empty"));
-  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_2\"]\n"}}),
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"wat_1\"]\n"}}),
               HasSubstr("watt_1"));
   EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 12\n"}}),
               HasSubstr("most_links"));
@@ -264,6 +264,85 @@ TEST(AnyPosesStudies, SayWhatIsWrong) {
                "{ x_mm = 2, y_mm = 0, angle_deg = 9 }]"),
       HasSubstr("poses 1 and 2 are the same"));
   EXPECT_THAT(problems("file = \"none.csv\""), HasSubstr("none.csv"));
+}
+
+/// A function with some of its parts replaced.
+std::string any_function(const std::map<std::string, std::string>& changed = {}) {
+  return test::text_of({{"0", "schema = 1\nkind = \"synthesis\"\n"},
+                        {"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 6\n"},
+                        {"2", "[target]\ntype = \"function\"\n"},
+                        {"21", "function = \"sin\"\nx = { from = 0, to = 90 }\n"},
+                        {"22", "input_range_deg = 90\n"},
+                        {"23", "output_range_deg = 90\n"},
+                        {"3", "[limits]\nleast_pair_angle_deg = 30\n"},
+                        {"4", "[optimiser]\nevaluations = 60000\n"}},
+                       changed);
+}
+
+TEST(AnyFunctionStudies, ListMachinesThatGenerateIt) {
+  const study::Result result = test::run_text(any_function());
+  ASSERT_GE(result.solutions.size(), 2U);
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto& greatest = machines->find("structural_error_rad")->values;
+  EXPECT_TRUE(std::is_sorted(greatest.begin(), greatest.end()));
+  EXPECT_LT(greatest[0], 0.01 * pi / 180);
+  for (const double angle : machines->find("least_pair_angle_rad")->values) EXPECT_GE(angle, 30 * pi / 180);
+  // The solver of any linkage finds the same errors.
+  const auto& errors = result.table("structural_error")->find("error_rad")->values;
+  double most = 0;
+  for (const double e : errors) most = std::max(most, std::abs(e));
+  EXPECT_LE(most, greatest[0] + 1e-9);
+  EXPECT_GT(most, 0.9 * greatest[0]);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("generates the function within"));
+}
+
+TEST(AnyFunctionStudies, MoveASliderThroughATurnAndLetItRest) {
+  const study::Result result = test::run_text(any_function(
+      {{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\", \"stephenson_3\"]\n"},
+       {"21", "table = [[0, 0], [90, 0.5], [180, 1], [270, 0.5], [360, 0]]\n"},
+       {"22", "input_range_deg = 360\n"},
+       {"23", "output_range_mm = 40\ndwell = [{ from_deg = 160, to_deg = 200 }]\n"}}));
+  ASSERT_GE(result.solutions.size(), 2U);
+  const Table* machines = result.table("machines");
+  EXPECT_LT(machines->find("structural_error_m")->values[0], 2e-3);
+  const Table* first = result.table("structural_error");
+  const auto &input = first->find("input_rad")->values, &travel = first->find("output_m")->values;
+  double least = infinity, most = -infinity;
+  for (std::size_t k = 0; k < input.size(); ++k)
+    if (input[k] > 160 * pi / 180 && input[k] < 200 * pi / 180)
+      least = std::min(least, travel[k]), most = std::max(most, travel[k]);
+  EXPECT_LE(most - least, 2 * machines->find("rest_error_m")->values[0] + 1e-9);
+  EXPECT_NEAR(travel.front(), travel.back(), 1e-9) << "the turn ends where it began";
+}
+
+TEST(AnyFunctionStudies, SayWhatIsWrong) {
+  const auto problems = [](std::map<std::string, std::string> changed) {
+    return test::problems_of(any_function(std::move(changed)));
+  };
+  EXPECT_THAT(problems({{"23", ""}}), HasSubstr("how far the output moves is missing"));
+  EXPECT_THAT(problems({{"23", "output_range_deg = 90\noutput_range_mm = 5\n"}}),
+              HasSubstr("the output is both an angle and a travel"));
+  EXPECT_THAT(problems({{"23", "output_range_deg = 0\n"}}), HasSubstr("the output does not move"));
+  EXPECT_THAT(problems({{"23", "output_range_mm = 5\nsize_mm = 50\n"}}),
+              HasSubstr("the size is for outputs that are angles"));
+  EXPECT_THAT(problems({{"23", "output_range_deg = 90\nfit = \"points\"\n"}}),
+              HasSubstr("no common number of precision points"));
+  EXPECT_THAT(problems({{"22", "input_range_deg = 360\n"}}),
+              HasSubstr("after which the output is not where it was"));
+  EXPECT_THAT(problems({{"23", "output_range_deg = 90\ndwell = [{ from_deg = 40, to_deg = 20 }]\n"}}),
+              HasSubstr("write the smaller rotation first"));
+  EXPECT_THAT(problems({{"23", "output_range_deg = 90\ndwell = [{ from_deg = 40, to_deg = 120 }]\n"}}),
+              HasSubstr("a dwell ends at 120"));
+  EXPECT_THAT(problems({{"23",
+                         "output_range_deg = 90\ndwell = [{ from_deg = 10, to_deg = 30 }, "
+                         "{ from_deg = 20, to_deg = 40 }]\n"}}),
+              HasSubstr("begins before the last one ends"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_1\"]\n"}}),
+              HasSubstr("watt_1 does not generate functions"));
+  EXPECT_THAT(
+      test::problems_of(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_2\"]\n"}})),
+      HasSubstr("a smaller machine traces"));
 }
 
 }  // namespace

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/planar/type_synthesis/search.h"
 #include "linkwright/study/kind.h"
 
-// The synthesis of machines of any type that trace a stroke or lead a body through poses: what its files
-// hold, how they are read, run and reported.
+// The synthesis of machines of any type that trace a stroke, lead a body through poses or generate a
+// function: what its files hold, how they are read, run and reported.
 namespace linkwright::planar {
 
 struct AnyMechanism {
@@ -78,6 +79,50 @@ void fields(Visitor&& visit, AnyPosesTarget& t) {
                       "of the path from its mean")
             .positive(),
         t.orientation_length);
+}
+
+struct DwellForm {
+  double from = 0, to = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DwellForm& d) {
+  visit(field::angle("from", "rotation of the crank at which the output comes to rest")
+            .not_negative()
+            .required(),
+        d.from);
+  visit(field::angle("to", "rotation at which it moves on").positive().required(), d.to);
+}
+
+/// The output is an angle of a link, or the travel of a slider.
+struct AnyFunctionTarget : FunctionTarget {
+  AnyFunctionTarget() { fit = FunctionFit::minimax; }
+  /// What the unit of output_range says, where it is known.
+  std::optional<bool> slides;
+  std::optional<double> angle, travel, size;
+  std::vector<DwellForm> dwells;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyFunctionTarget& t) {
+  formula_fields(visit, t);
+  if (!t.slides.value_or(false))
+    visit(field::angle("output_range",
+                       "rotation of the output link over the range, signed; of a function that ends as it "
+                       "begins, from its least to its greatest value")
+              .between(-6.283185307179586, 6.283185307179586),
+          t.angle);
+  if (t.slides.value_or(true))
+    visit(field::length("output_range", "travel of a slider over the range instead, likewise"), t.travel);
+  visit(field::entry("fit", "how the function is met"), t.fit);
+  visit(
+      field::entry("dwell",
+                   "parts of the crank rotation, counted from its beginning, over which the output rests at "
+                   "any one value"),
+      t.dwells);
+  visit(field::length("size",
+                      "the unit of shortest_link and longest_link, and the distance of crank and output that "
+                      "is sought, where the output is an angle; default: 100 mm")
+            .positive(),
+        t.size);
 }
 
 struct GroundBoxForm {
@@ -153,18 +198,26 @@ struct AnyStudy {
   AnyMechanism mechanism;
   AnyLimits limits;
   AnyOptimiser optimiser;
-  Stroke drawn;                        ///< the stroke, or the places of the poses
-  std::vector<double> angles;          ///< of the body at the poses (rad); none: a stroke
+  Stroke drawn;                ///< the stroke, or the places of the poses
+  std::vector<double> angles;  ///< of the body at the poses (rad); none: a stroke
+  FunctionStudy function;      ///< the function, for such studies
+  FunctionFit fit = FunctionFit::least_squares;
+  std::vector<Dwell> dwells;
   std::optional<MotionTarget> motion;  ///< what machines are fitted to; missing where problems were reported
 };
 
-/// "synthesis" of "planar.any" for "path_points" and for "poses".
+/// "synthesis" of "planar.any" for "path_points", "poses" and "function".
 study::Kind any_path_kind();
 study::Kind any_poses_kind();
+study::Kind any_function_kind();
 
 /// The limits of a search, in sizes of the stroke from its mean.
 MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target);
 
+/// The search of a study, which ends as done after its own time.
+TypeSearchAnswer search_machines(const AnyStudy& study, const MachineLimits& limits, RunContext& context);
+
 study::Result run_any_study(const AnyStudy& study, const study::Common& common, RunContext& context);
+study::Result run_any_function_study(const AnyStudy& study, const study::Common& common, RunContext& context);
 
 }  // namespace linkwright::planar

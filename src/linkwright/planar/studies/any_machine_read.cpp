@@ -6,6 +6,8 @@
 #include <complex>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -151,6 +153,83 @@ void read_poses_target(study::ObjectReader& target, const study::Common& common,
   s.motion = pose_target(s.drawn, s.angles, form.orientation_length);
 }
 
+/// The dwells of a function, within the rotation of the crank and one after the other.
+std::vector<Dwell> read_dwells(study::ObjectReader& target, const study::Common& common,
+                               const AnyFunctionTarget& form) {
+  std::vector<Dwell> out;
+  const auto angle = [&](double value) { return common.units.text(value, Dimension::angle, 5); };
+  for (const DwellForm& d : form.dwells) {
+    if (!(d.to > d.from))
+      target.error("dwell", fmt::format("a dwell goes from {} to {}", angle(d.from), angle(d.to)),
+                   "write the smaller rotation first");
+    else if (d.to > std::abs(form.input_range) + 1e-9)
+      target.error("dwell",
+                   fmt::format("a dwell ends at {}, the crank turns {}", angle(d.to),
+                               angle(std::abs(form.input_range))),
+                   "end it within the range of the input");
+    else if (!out.empty() && !(d.from > out.back().to))
+      target.error("dwell", fmt::format("a dwell from {} begins before the last one ends", angle(d.from)),
+                   "write them in their order, apart from each other");
+    else
+      out.push_back({d.from, d.to});
+  }
+  return out;
+}
+
+/// Reads the target of a function.
+void read_function_target(study::ObjectReader& target, const study::Common& common, AnyFunctionTarget& form,
+                          AnyStudy& s) {
+  // The unit of the range says whether the output is a link or a slider.
+  const std::string_view range = "output_range_";
+  for (const Value::Member& member : target.value().as_object()) {
+    if (!std::string_view(member.key).starts_with(range)) continue;
+    const bool slides = !member.key.ends_with("_deg") && !member.key.ends_with("_rad");
+    if (form.slides && *form.slides != slides) {
+      target.error(member.key, "the output is both an angle and a travel", "keep one of them");
+      return;
+    }
+    form.slides = slides;
+  }
+  target.read(form);
+  const bool slider = form.travel.has_value();
+  if (!form.angle && !form.travel) {
+    target.error("output_range", "how far the output moves is missing",
+                 "write output_range_deg for a link that turns, or output_range_mm for a slider");
+    return;
+  }
+  if (form.fit == FunctionFit::points)
+    target.error("fit", "machines of many types have no common number of precision points",
+                 "write fit = \"minimax\" or \"least_squares\"");
+  if (slider && form.size)
+    target.error("size", "the size is for outputs that are angles",
+                 "leave it out: the travel of the slider says how large machines are");
+  FunctionStudy& f = s.function;
+  f.may_return = true;
+  f.target = form;
+  f.target.output_angle = form.angle.value_or(0), f.target.output_length = form.travel.value_or(0);
+  f.problem.slider = slider;
+  const std::vector<Dwell> dwells = read_dwells(target, common, form);
+  if (form.angle == 0.0 || form.travel == 0.0) {
+    target.error("output_range", "the output does not move", "write a range other than 0");
+    return;
+  }
+  set_function(target, f);
+  if (!f.problem.output) return;
+  if (const double ends = f.problem.output(1);
+      std::abs(std::abs(form.input_range) - 2 * pi) < 1e-9 &&
+      std::abs(std::remainder(ends, slider ? infinity : 2 * pi)) > 1e-9 * (1 + std::abs(ends))) {
+    target.error("input_range", "the crank takes a whole turn, after which the output is not where it was",
+                 "let the function end as it begins, or take less than a turn");
+    return;
+  }
+  s.fit = form.fit, s.dwells = dwells;
+  s.motion = function_target({.output = slider ? MachineOutput::slide : MachineOutput::angle,
+                              .range = form.input_range,
+                              .at = f.problem.output,
+                              .dwells = dwells,
+                              .size = form.size.value_or(0.1)});
+}
+
 void read_limits(study::ObjectReader& table, AnyLimits& l) {
   table.read(l);
   if (l.shortest && l.shortest_length)
@@ -177,7 +256,7 @@ void read_limits(study::ObjectReader& table, AnyLimits& l) {
 }
 
 /// All tables but the target.
-AnyStudy read_search(study::ObjectReader& document) {
+AnyStudy read_search(study::ObjectReader& document, bool function) {
   AnyStudy s;
   if (auto table = document.table(field::entry("mechanism").required())) {
     table->read(s.mechanism);
@@ -189,7 +268,14 @@ AnyStudy read_search(study::ObjectReader& document) {
         std::count(families->begin(), families->end(), MachineFamily::eight_bar) == 0)
       table->error("families", "ten_bar is grown from eight_bar, which is not in the list", "add eight_bar");
     for (const MachineFamily family : s.mechanism.families.value_or(std::vector<MachineFamily>{}))
-      if (links_of(family) > s.mechanism.most_links)
+      if (const bool none = programs_of(family, MachineOutput::angle).empty() &&
+                            programs_of(family, MachineOutput::slide).empty();
+          function ? none : family == MachineFamily::watt_2)
+        table->error("families",
+                     function ? fmt::format("{} does not generate functions", name_of(family))
+                              : "what watt_2 traces a smaller machine traces, too",
+                     "leave it out");
+      else if (links_of(family) > s.mechanism.most_links)
         table->error("families",
                      fmt::format("{} has {} links, most_links allows {}", name_of(family), links_of(family),
                                  s.mechanism.most_links),
@@ -219,7 +305,7 @@ study::Kind any_kind(const char* target, const char* target_summary,
     document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
   };
   kind.prepare = [read_target](study::ObjectReader& document, const study::Common& common) {
-    AnyStudy s = read_search(document);
+    AnyStudy s = read_search(document, std::is_same_v<Target, AnyFunctionTarget>);
     Target form;
     if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
     if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
@@ -230,7 +316,10 @@ study::Kind any_kind(const char* target, const char* target_summary,
     prepared.canonical["target"] = study::write_fields(form);
     prepared.canonical["limits"] = study::write_fields(s.limits);
     prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
-    prepared.run = [s, common](RunContext& context) { return run_any_study(s, common, context); };
+    prepared.run = [s, common](RunContext& context) {
+      return std::is_same_v<Target, AnyFunctionTarget> ? run_any_function_study(s, common, context)
+                                                       : run_any_study(s, common, context);
+    };
     return prepared;
   };
   return kind;
@@ -249,6 +338,13 @@ study::Kind any_poses_kind() {
   study::Kind kind = any_kind<AnyPosesTarget>("poses", "the poses of a body", read_poses_target);
   kind.summary = "machines of many types that lead a body through poses, side by side";
   kind.example = templates::synthesis_any_poses();
+  return kind;
+}
+
+study::Kind any_function_kind() {
+  study::Kind kind = any_kind<AnyFunctionTarget>("function", "the function", read_function_target);
+  kind.summary = "machines of many types that generate a function, or rest, side by side";
+  kind.example = templates::synthesis_any_function();
   return kind;
 }
 

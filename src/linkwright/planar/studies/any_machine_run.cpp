@@ -16,6 +16,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/any_machine.h"
+#include "linkwright/planar/studies/any_search_tables.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/type_synthesis/curve.h"
@@ -53,9 +54,7 @@ class AnyReport {
     if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
     for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(answer_.machines[i], i + 1);
     machine_table();
-    family_table();
-    progress_table();
-    statistics();
+    add_search_tables(answer_, {error_key(), "m", size()}, result_);
     findings();
     return std::move(result_);
   }
@@ -63,7 +62,7 @@ class AnyReport {
  private:
   double size() const { return target_.size; }
   bool poses() const { return motion_.oriented; }
-  /// What machines are compared by, where it is in tables of the search.
+  /// The error that machines are compared by.
   const char* error_key() const { return poses() ? "pose_error_rms_m" : "path_error_rms_m"; }
   Measured length(double sizes, int digits = 3) const { return millimetres(sizes * size(), digits); }
 
@@ -317,68 +316,6 @@ class AnyReport {
     result_.tables.push_back(std::move(table));
   }
 
-  void family_table() {
-    Table table{.name = "families"};
-    std::vector<double> error, outside, polished, hops, grown, curves, atlas;
-    for (const FamilyReport& f : answer_.families) {
-      table.names.emplace_back(name_of(f.family));
-      error.push_back(std::isfinite(f.error) ? f.error * size() : nan);
-      const auto left =
-          std::find_if(answer_.outside.begin(), answer_.outside.end(),
-                       [&](const FoundMachine& m) { return m.machine.shape.program->family == f.family; });
-      outside.push_back(left == answer_.outside.end() ? nan : left->measures.error * size());
-      polished.push_back(static_cast<double>(f.polished)), hops.push_back(static_cast<double>(f.hops));
-      grown.push_back(static_cast<double>(f.grown)), curves.push_back(static_cast<double>(f.curves));
-      atlas.push_back(static_cast<double>(f.atlas_entries));
-    }
-    table.add(error_key(), "root mean square error of the best machine within the limits (m)",
-              std::move(error));
-    table.add("outside_limits_error_rms_m",
-              "that of the best machine outside the limits, where none is within (m)", std::move(outside));
-    table.add("polished", "shapes of the atlas that were polished", std::move(polished));
-    table.add("hops", "trials from machines found before", std::move(hops));
-    table.add("grown", "trials from machines of fewer links", std::move(grown));
-    table.add("curves", "curves that were computed", std::move(curves));
-    table.add("atlas_entries", "shapes of the atlas", std::move(atlas));
-    result_.tables.push_back(std::move(table));
-  }
-
-  void progress_table() {
-    if (answer_.progress.empty()) return;
-    Table table{.name = "progress"};
-    std::vector<double> curves, best;
-    for (const TypeSearchPoint& p : answer_.progress) {
-      table.names.emplace_back(name_of(p.family));
-      curves.push_back(static_cast<double>(p.curves));
-      best.push_back(p.error * size());
-    }
-    table.add("curves", "curves that were computed", std::move(curves));
-    table.add(error_key(), "root mean square error of a new best machine of its family (m)", std::move(best));
-    result_.tables.push_back(std::move(table));
-    result_.plots.push_back({.name = "progress",
-                             .title = "New best machines during the search",
-                             .table = "progress",
-                             .x = "curves",
-                             .y = {error_key()},
-                             .style = study::Plot::Style::points,
-                             .logarithmic_y = true});
-  }
-
-  void statistics() {
-    const auto sum = [&](std::int64_t FamilyReport::*part) {
-      std::int64_t out = 0;
-      for (const FamilyReport& f : answer_.families) out += f.*part;
-      return out;
-    };
-    result_.statistics["machines"] = answer_.machines.size();
-    result_.statistics["families"] = answer_.families.size();
-    result_.statistics["polished"] = sum(&FamilyReport::polished);
-    result_.statistics["hops"] = sum(&FamilyReport::hops);
-    result_.statistics["grown"] = sum(&FamilyReport::grown);
-    result_.statistics["evaluations"] = answer_.curves;
-    result_.statistics["atlas_entries"] = sum(&FamilyReport::atlas_entries);
-  }
-
   void findings() {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
@@ -477,12 +414,11 @@ class AnyReport {
 
 }  // namespace
 
-study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
-  const MotionTarget& target = *s.motion;
+TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits, RunContext& context) {
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;
-  options.limits = limits_of(s.limits, target.stroke);
+  options.limits = limits;
   options.seed = static_cast<std::uint64_t>(s.optimiser.seed);
   options.max_solutions = static_cast<std::size_t>(s.optimiser.max_solutions);
   options.max_curves = s.optimiser.evaluations.value_or(0);
@@ -500,9 +436,14 @@ study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunC
     context.report(shown);
   });
   if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
-  TypeSearchAnswer answer = search_types(target, options, part);
+  TypeSearchAnswer answer = search_types(*s.motion, options, part);
   answer.status = context.interruption();
-  return AnyReport(s, common, options.limits, std::move(answer)).make();
+  return answer;
+}
+
+study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
+  const MachineLimits limits = limits_of(s.limits, s.motion->stroke);
+  return AnyReport(s, common, limits, search_machines(s, limits, context)).make();
 }
 
 }  // namespace linkwright::planar

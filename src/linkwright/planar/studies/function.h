@@ -48,9 +48,8 @@ struct FunctionTarget {
   std::optional<int> points;
   std::optional<std::vector<double>> at;
 };
-/// The output range of a four-bar is an angle, that of a slider-crank a length.
 template <class Visitor>
-void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
+void formula_fields(Visitor&& visit, FunctionTarget& t) {
   visit(field::entry("function", "what is to be generated; or a table"), t.function);
   visit(field::entry("exponent", "of power"), t.exponent);
   visit(field::entry("coefficients", "of polynomial, the constant first"), t.coefficients);
@@ -63,6 +62,11 @@ void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact
             .between(-6.283185307179586, 6.283185307179586)
             .required(),
         t.input_range);
+}
+/// The output range of a four-bar is an angle, that of a slider-crank a length.
+template <class Visitor>
+void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
+  formula_fields(visit, t);
   if (slider)
     visit(field::length("output_range", "travel of the slider over the range, signed").required(),
           t.output_length);
@@ -158,7 +162,13 @@ struct FunctionStudy {
   std::string name;         ///< name of the function, for people
   double transmission = 0;  ///< rad, that six-bars are to have
   SixBarStructure structure = SixBarStructure::watt_2;
+  /// A whole turn of the crank may end where it began; the output range is then that between the least and
+  /// the greatest value.
+  bool may_return = false;
 };
+
+/// The function of a target whose forms are read, as a problem. What is wrong is reported.
+void set_function(study::ObjectReader& target, FunctionStudy& s);
 
 /// "synthesis" of "planar.four_bar" and "planar.slider_crank" for "function".
 study::Kind rocker_function_kind();

@@ -53,6 +53,11 @@ std::function<double(double)> formula_of(const FunctionTarget& t) {
   };
 }
 
+/// The crank takes a whole turn, after which the output may be where it was.
+bool takes_a_turn(const FunctionStudy& s) {
+  return s.may_return && std::abs(std::abs(s.target.input_range) - 2 * pi) < 1e-9;
+}
+
 // The function y(x) as it is given; nothing where that has been reported.
 std::function<double(double)> function_of(study::ObjectReader& target, FunctionStudy& s) {
   const FunctionTarget& t = s.target;
@@ -86,8 +91,10 @@ std::function<double(double)> function_of(study::ObjectReader& target, FunctionS
                    "stay inside, or leave x out");
       return nullptr;
     }
-    const math::PiecewisePolynomial spline =
-        math::interpolating_spline(x, y, math::SplineDegree::cubic, math::SplineEnds::natural);
+    const bool periodic =
+        takes_a_turn(s) && y.front() == y.back() && s.x_from == x.front() && s.x_to == x.back();
+    const math::PiecewisePolynomial spline = math::interpolating_spline(
+        x, y, math::SplineDegree::cubic, periodic ? math::SplineEnds::periodic : math::SplineEnds::natural);
     return [spline](double at) { return math::evaluate(spline, at)[0]; };
   }
   s.name = std::string(name_of(*t.function));
@@ -182,6 +189,8 @@ void set_points(study::ObjectReader& target, FunctionStudy& s) {
 
 bool takes_degrees(Formula f) { return f == Formula::sin || f == Formula::cos || f == Formula::tan; }
 
+}  // namespace
+
 void set_function(study::ObjectReader& target, FunctionStudy& s) {
   FunctionProblem& p = s.problem;
   const double output_range = p.slider ? s.target.output_length : s.target.output_angle;
@@ -227,12 +236,15 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
     least = std::min(least, value), most = std::max(most, value);
   }
   // But for rounding: sin of 180 deg is not 0.
-  if (!(std::abs(y1 - y0) > 1e-9 * (most - least))) {
+  const bool returns = !(std::abs(y1 - y0) > 1e-9 * (most - least));
+  const bool closed = returns && most > least && takes_a_turn(s);
+  if (returns && !closed) {
     target.error("x", fmt::format("{} has the same value at both ends: the output would not move", s.name),
                  "take a range at whose ends it differs");
     return;
   }
-  const double way = std::abs(output_range * (most - least) / (y1 - y0));
+  const double unit = closed ? most - least : y1 - y0;
+  const double way = std::abs(output_range * (most - least) / unit);
   if (!p.slider && way > full_turn) {
     target.error("x",
                  fmt::format("between the ends of its range {} turns the output by {:.0f}°, more than a turn",
@@ -240,16 +252,18 @@ void set_function(study::ObjectReader& target, FunctionStudy& s) {
                  "take a range over which it only rises or only falls");
     return;
   }
-  if (rises && falls)
+  if (rises && falls && !closed)
     target.warning("function",
                    fmt::format("{} both rises and falls over the range: the output turns back", s.name),
                    "end the range where it turns, unless that is meant");
   p.input_range = s.target.input_range;
-  p.output = [y, from, span, y0, y1, output_range](double share) {
-    return output_range * (y(from + span * share) - y0) / (y1 - y0);
+  p.output = [y, from, span, y0, unit, output_range](double share) {
+    return output_range * (y(from + span * share) - y0) / unit;
   };
   if (p.slider) p.max_link = 20 * std::abs(output_range);
 }
+
+namespace {
 
 template <class Target, class Mechanism>
 FunctionStudy read_function_study(study::ObjectReader& document, Mechanism& mechanism, Target& target) {

@@ -126,6 +126,7 @@ std::size_t pieces_of(MachineFamily family) {
     case MachineFamily::eight_bar:
       return 24;
     case MachineFamily::ten_bar:
+    case MachineFamily::watt_2:
       return 0;
   }
   return 0;

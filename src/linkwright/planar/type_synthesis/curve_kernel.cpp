@@ -28,9 +28,8 @@ LINKWRIGHT_KERNEL void curve_at(const CurveTask& task, std::size_t k,
     (sx * c.dy + sy * c.dx).store_unaligned(task.ty + k);
   }
   if (task.bx) {
-    const PointStep& traced = program.steps[last];
-    const auto &from = s.steps[static_cast<std::size_t>(traced.first)],
-               &to = s.steps[static_cast<std::size_t>(traced.second)];
+    const auto pins = program.traced_pins();
+    const auto &from = s.steps[pins[0]], &to = s.steps[pins[1]];
     const Batch dx = to.x - from.x, dy = to.y - from.y;
     (sx * dx - sy * dy).store_unaligned(task.bx + k);
     (sx * dy + sy * dx).store_unaligned(task.by + k);
@@ -62,12 +61,12 @@ LINKWRIGHT_KERNEL void rows_at(const CurveTask& task, std::size_t k, program_ker
   auto& c = s.steps[last];
   c.bx = sx * nx + sy * ny, c.by = sx * ny - sy * nx;
   if (task.na) {
-    auto &from = s.steps[static_cast<std::size_t>(program.steps[last].first)],
-         &to = s.steps[static_cast<std::size_t>(program.steps[last].second)];
+    const auto pins = program.traced_pins();
+    auto &from = s.steps[pins[0]], &to = s.steps[pins[1]];
     const Batch dx = to.x - from.x, dy = to.y - from.y,
                 by = Batch::load_unaligned(task.na + k) / (dx * dx + dy * dy);
-    to.bx = -(by * dy), to.by = by * dx;
-    from.bx = by * dy, from.by = -(by * dx);
+    to.bx = to.bx - by * dy, to.by = to.by + by * dx;
+    from.bx = from.bx + by * dy, from.by = from.by - by * dx;
   }
   const auto row = [&](int parameter) __attribute__((always_inline)) {
     return task.rows + static_cast<std::size_t>(parameter) * task.stride + k;

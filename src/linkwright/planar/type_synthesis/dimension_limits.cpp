@@ -207,6 +207,18 @@ void DimensionLimits::meet_pivots(std::span<double> x) const {
     }
 }
 
+void DimensionLimits::scale_freely(std::span<double> x) const {
+  const auto s = static_cast<std::size_t>(program_->scale());
+  MachineMeasures lengths;
+  measure_lengths(x, lengths);
+  const double ground = std::hypot(x[s], x[s + 1]) * std::abs(own_place_of(pivots_.back(), x));
+  const double least = limits_.min_length / lengths.min_length,
+               most = limits_.max_length / lengths.max_length;
+  if (!(ground > 0) || !(least <= most)) return;
+  const double by = std::clamp(1 / ground, least, most);
+  x[s] *= by, x[s + 1] *= by;
+}
+
 void DimensionLimits::measure_lengths(std::span<const double> x, MachineMeasures& out) const {
   const auto s = static_cast<std::size_t>(program_->scale());
   const double scale = std::hypot(x[s], x[s + 1]);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <optional>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/type_synthesis/curve.h"
@@ -32,8 +33,8 @@ double draw_pivot(RandomStream& random, double nearest_outside, double farthest_
 /// Draws the steps of one shape, one after the other, with their points at 32 crank angles.
 class ShapeDrawer {
  public:
-  ShapeDrawer(MachineShape& shape, RandomStream& random)
-      : shape_(shape), p_(*shape.program), random_(random) {}
+  ShapeDrawer(MachineShape& shape, RandomStream& random, std::optional<CrankPart> part)
+      : shape_(shape), p_(*shape.program), random_(random), part_(part) {}
 
   bool draw(std::size_t first) {
     for (std::size_t i = 0; i < p_.steps.size(); ++i)
@@ -108,7 +109,9 @@ class ShapeDrawer {
     return true;
   }
 
-  static std::complex<double> turned(std::size_t k, double ratio) {
+  std::complex<double> turned(std::size_t k, double ratio) const {
+    if (part_)
+      return std::polar(1.0, ratio * (part_->from + part_->range * static_cast<double>(k) / (angles - 1)));
     return std::polar(1.0, ratio * 2 * pi * static_cast<double>(k) / angles);
   }
 
@@ -172,17 +175,18 @@ class ShapeDrawer {
   MachineShape& shape_;
   const PointProgram& p_;
   RandomStream& random_;
+  std::optional<CrankPart> part_;
   std::array<Points, max_steps> points_;
 };
 
 }  // namespace
 
-bool draw_shape(MachineShape& shape, std::size_t first, RandomStream& random) {
+bool draw_shape(MachineShape& shape, std::size_t first, RandomStream& random, std::optional<CrankPart> part) {
   const PointProgram& p = *shape.program;
   shape.x.resize(static_cast<std::size_t>(p.parameters));
   double* place = shape.x.data() + p.place();
   place[0] = place[1] = place[3] = 0, place[2] = 1;
-  return ShapeDrawer(shape, random).draw(first);
+  return ShapeDrawer(shape, random, part).draw(first);
 }
 
 }  // namespace linkwright::planar

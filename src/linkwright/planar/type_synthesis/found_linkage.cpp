@@ -20,12 +20,12 @@ using Complex = std::complex<double>;
 std::string body_name(const PointProgram& p, std::size_t link) {
   if (link == 0) return "ground";
   if (link == 1) return "crank";
+  const auto pin = static_cast<std::size_t>(p.bodies[link].points[1]);
+  if (p.steps[pin].operation == PointOperation::slide || p.steps[pin].operation == PointOperation::sleeve)
+    return "rod";
   switch (p.family) {
     case MachineFamily::four_bar:
       return link == 2 ? "coupler" : "rocker";
-    case MachineFamily::slider_crank:
-    case MachineFamily::inverted_slider:
-      return "rod";
     case MachineFamily::geared_five_bar:
       return link == 2 ? "coupler" : "link";
     default:
@@ -51,7 +51,11 @@ class LinkageWriter {
     bodies(out.linkage);
     joints(out.linkage);
     const std::size_t traced = p_.steps.size() - 1;
-    out.traced = full_name(traced, link_of(traced));
+    const auto bar = static_cast<std::size_t>(p_.traced_bar);
+    const bool in_sleeve = step(traced).operation == PointOperation::sleeve;
+    out.traced = p_.output == MachineOutput::slide ? "slider." + names_[traced]
+                 : in_sleeve                       ? body_name(p_, bar) + ".S"
+                                                   : full_name(traced, bar);
     return out;
   }
 
@@ -68,15 +72,6 @@ class LinkageWriter {
     const std::string letters = "ABDEFGHIJKLMNPQRSTUVWXYZ";
     for (std::size_t i = 0; i < p_.steps.size(); ++i)
       names_.push_back(i + 1 == p_.steps.size() ? "C" : std::string(1, letters[i]));
-  }
-
-  /// The link that a point of a plate belongs to: the last that lists it.
-  std::size_t link_of(std::size_t point) const {
-    std::size_t out = 0;
-    for (std::size_t link = 0; link < p_.bodies.size(); ++link)
-      for (const int at : p_.bodies[link].points)
-        if (at == static_cast<int>(point)) out = link;
-    return out;
   }
 
   std::string full_name(std::size_t point, std::size_t link) const {
@@ -186,10 +181,12 @@ class LinkageWriter {
   }
 
   void slide(Linkage& linkage, std::size_t i) const {
+    std::size_t rod = 2;
+    while (p_.bodies[rod].points[1] != static_cast<int>(i)) ++rod;
     add_body(linkage, "slider", {{names_[i], 0}});
-    pin_to(linkage, step(i).first, 2);
+    pin_to(linkage, step(i).first, rod);
     add_slide(linkage, "slide", "ground.S", "slider." + names_[i], std::arg(scale_), 0);
-    add_pin(linkage, names_[i], full_name(i, 2), "slider." + names_[i]);
+    add_pin(linkage, names_[i], full_name(i, rod), "slider." + names_[i]);
     set_mode(linkage, "rod", "slider", AssemblyMode::plus);
   }
 

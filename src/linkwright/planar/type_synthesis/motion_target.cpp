@@ -99,4 +99,47 @@ MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
   return out;
 }
 
+MotionTarget function_target(const FunctionWanted& wanted) {
+  constexpr std::size_t n = stroke_samples;
+  SampledStroke plain;
+  plain.closed = std::abs(std::abs(wanted.range) - 2 * pi) < 1e-9;
+  const double steps = static_cast<double>(plain.closed ? n : n - 1);
+  std::array<double, n> output;
+  double mean = 0, squares = 0;
+  for (std::size_t k = 0; k < n; ++k) mean += output[k] = wanted.at(static_cast<double>(k) / steps);
+  mean /= static_cast<double>(n);
+  for (const double value : output) squares += (value - mean) * (value - mean);
+  plain.size = wanted.size;
+  if (wanted.output == MachineOutput::slide) {
+    LINKWRIGHT_REQUIRE(squares > 0, "the slider does not move");
+    plain.size = std::sqrt(squares / static_cast<double>(n));
+    plain.centre = mean;
+    for (std::size_t k = 0; k < n; ++k) plain.x[k] = (output[k] - mean) / plain.size;
+  }
+  MotionTarget out(plain);
+  out.output = wanted.output;
+  out.timed = true, out.dense = false, out.turns = plain.closed;
+  out.oriented = wanted.output == MachineOutput::angle;
+  out.angle_length = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    out.turn[k] = wanted.range * static_cast<double>(k) / steps;
+    if (out.oriented) out.angle[k] = output[k];
+  }
+  for (const Dwell& dwell : wanted.dwells) {
+    RestingSamples rest{n, n};
+    for (std::size_t k = 0; k < n; ++k) {
+      const double turned = std::abs(out.turn[k]);
+      if (turned < dwell.from - 1e-9 || turned > dwell.to + 1e-9) continue;
+      if (rest.first == n) rest.first = k;
+      rest.end = k + 1;
+    }
+    if (rest.first == n) continue;
+    // The output is compared with one value, whichever it is.
+    for (std::size_t k = rest.first; k < rest.end; ++k)
+      out.x[k] = out.x[rest.first], out.angle[k] = out.angle[rest.first];
+    out.rests.push_back(rest);
+  }
+  return out;
+}
+
 }  // namespace linkwright::planar

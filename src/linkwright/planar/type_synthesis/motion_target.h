@@ -4,15 +4,24 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/type_synthesis/program.h"
 #include "linkwright/planar/type_synthesis/stroke.h"
 
 namespace linkwright::planar {
 
+/// Samples of a motion in which the output rests: `first` to before `end`.
+struct RestingSamples {
+  std::size_t first = 0, end = 0;
+};
+
 /// What machines are fitted to: the points of a stroke, or poses of a body, at any time or at given crank
-/// angles. Lengths are in sizes of the stroke, places from its mean.
+/// angles; or a function of the crank angle. Lengths are in sizes of the stroke, places from its mean.
 struct MotionTarget {
   MotionTarget(const SampledStroke& traced);  // a stroke is the plainest target
 
@@ -24,11 +33,17 @@ struct MotionTarget {
   std::array<double, stroke_samples> turn{};    ///< crank rotation from the first sample (rad), where `timed`
   std::array<double, stroke_samples> angle{};   ///< of the body (rad), where `oriented`
   double total_weight = stroke_samples;
-  bool timed = false;       ///< the crank rotation from the first sample to each is given
-  bool oriented = false;    ///< the angle of the body of the traced point is given, up to a constant
+  bool timed = false;     ///< the crank rotation from the first sample to each is given
+  bool oriented = false;  ///< the angle of the body of the traced point is given, up to a constant
+  MachineOutput output = MachineOutput::point;  ///< what of the machine is compared
+  bool turns = true;                            ///< limits hold over the whole turn, else over the samples
+  std::vector<RestingSamples> rests;            ///< where the output of a function keeps any one value
   bool dense = true;        ///< the samples follow the stroke, between them a curve stays near it
   double angle_length = 0;  ///< an error of a radian counts as this length
   double tolerance = 0;     ///< distances up to this count as none
+
+  /// Places are compared, not angles alone.
+  bool placed() const { return output != MachineOutput::angle; }
 };
 
 /// A stroke whose points, one after the other, are met at crank rotations from the first (rad), which change
@@ -40,5 +55,24 @@ MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotation
 /// counts as `angle_length` (m); none: the size of the path. At most `stroke_samples` poses.
 MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
                          std::optional<double> angle_length);
+
+/// A part of the rotation of the crank, from where the motion begins (rad), over which the output rests.
+struct Dwell {
+  double from = 0, to = 0;
+};
+
+/// A function of the crank angle: the output (rad, or m of a slider) at a part of `range`, the rotation of
+/// the crank (rad, signed). A whole turn is closed: the function ends as it begins, but for whole turns of
+/// the output. Without a turn, limits hold over the range alone. The output is an angle, counted from any
+/// direction, with `size` (m) as the unit of lengths; or a travel, whose root mean square from its mean is
+/// the unit, along x.
+struct FunctionWanted {
+  MachineOutput output = MachineOutput::angle;
+  double range = 2 * pi;
+  std::function<double(double)> at;  ///< 0 to 1
+  std::vector<Dwell> dwells;
+  double size = 0.1;
+};
+MotionTarget function_target(const FunctionWanted& wanted);
 
 }  // namespace linkwright::planar

@@ -80,7 +80,9 @@ struct MachineFitter::Memory {
   LimitRows limit_rows, pivot_rows;
 
   /// Residuals of a sample: normal to the curve where the time is free, else both coordinates; and the angle.
-  std::size_t residuals() const { return (target.timed ? 2u : 1u) + (target.oriented ? 1u : 0u); }
+  std::size_t residuals() const {
+    return !target.placed() ? 1u : (target.timed ? 2u : 1u) + (target.oriented ? 1u : 0u);
+  }
   std::size_t column_length() const { return residuals() * target.count; }
   /// Unknowns beside the parameters: the start of the crank and the angle of the body on its bar.
   int extra_unknowns() const { return (target.timed ? 1 : 0) + (target.oriented ? 1 : 0); }
@@ -117,15 +119,32 @@ struct MachineFitter::Memory {
         ex *= beyond, ey *= beyond;
       }
       c.ex[k] = ex, c.ey[k] = ey;
-      double square = ex * ex + ey * ey;
+      if (target.oriented) c.ea[k] = angle_error(c, k);
+    }
+    for (const RestingSamples& rest : target.rests)
+      subtract_mean(rest, target.placed() ? c.ex.data() : c.ea.data());
+    for (std::size_t k = 0; k < count(); ++k) {
+      double square = target.placed() ? c.ex[k] * c.ex[k] + c.ey[k] * c.ey[k] : 0;
       if (target.oriented) {
-        c.ea[k] = angle_error(c, k);
         const double across = target.angle_length * c.ea[k];
         square += across * across;
       }
       sum += target.weight[k] * square;
     }
     c.squares = sum;
+  }
+
+  bool rests_at(std::size_t k) const {
+    return std::any_of(target.rests.begin(), target.rests.end(),
+                       [k](const RestingSamples& rest) { return k >= rest.first && k < rest.end; });
+  }
+
+  /// Where the output rests, its value is free: the mean of what it does there.
+  static void subtract_mean(const RestingSamples& rest, double* values) {
+    double mean = 0;
+    for (std::size_t k = rest.first; k < rest.end; ++k) mean += values[k];
+    mean /= static_cast<double>(rest.end - rest.first);
+    for (std::size_t k = rest.first; k < rest.end; ++k) values[k] -= mean;
   }
 
   double angle_error(const Curve& c, std::size_t k) const {
@@ -178,13 +197,15 @@ struct MachineFitter::Memory {
                            std::array<double, limit_minima>& angle, std::array<double, limit_minima>& least,
                            std::array<double, limit_minima>& where) {
     std::size_t count = 0;
+    const double step = target.turns ? 2 * pi / limit_angles : limit_angle[1] - limit_angle[0];
     for (std::size_t k = 0; k < limit_angles && count < limit_minima; ++k) {
-      const double before = quality[k == 0 ? limit_angles - 1 : k - 1],
-                   after = quality[k + 1 == limit_angles ? 0 : k + 1];
-      if (quality[k] > before || quality[k] >= after) continue;
-      const double offset = 0.5 * (before - after) / (before - 2 * quality[k] + after);
+      const bool end = !target.turns && (k == 0 || k + 1 == limit_angles);
+      const double before = quality[k == 0 ? (end ? k + 1 : limit_angles - 1) : k - 1],
+                   after = quality[k + 1 == limit_angles ? (end ? k - 1 : 0) : k + 1];
+      if (quality[k] > before || (end ? quality[k] > after : quality[k] >= after)) continue;
+      const double offset = end ? 0 : 0.5 * (before - after) / (before - 2 * quality[k] + after);
       if (!(quality[k] - 0.5 * std::abs(before - after) * std::abs(offset) < min_quality)) continue;
-      angle[count] = limit_angle[k] + offset * (2 * pi / limit_angles);
+      angle[count] = limit_angle[k] + offset * step;
       ++count;
     }
     if (count == 0) return 0;
@@ -230,10 +251,19 @@ struct MachineFitter::Memory {
 
   /// Root of the squares of what is missing at the limits and their margin.
   double missed_limits(const FittedMachine& m) {
+    cover_samples(m.angle);
     return std::sqrt(limit_squares(program_of(m.shape), m.shape.x.data(), m.shape.signs, 1, false));
   }
 
+  /// The grid of pair angles over the samples, where the crank does not turn.
+  void cover_samples(const Samples& angle) {
+    if (target.turns) return;
+    const double from = angle[0], step = (angle[count() - 1] - from) / (limit_angles - 1);
+    for (std::size_t k = 0; k < limit_angles; ++k) limit_angle[k] = from + step * static_cast<double>(k);
+  }
+
   void move_grid() {
+    if (!target.turns) return;
     phase += 0.382 * 2 * pi / limit_angles;
     if (phase > 2 * pi / limit_angles) phase -= 2 * pi / limit_angles;
     for (std::size_t k = 0; k < limit_angles; ++k)
@@ -289,9 +319,18 @@ struct MachineFitter::Memory {
     }
   }
 
+  /// The angle alone.
+  void find_angles() {
+    directions[0].x.fill(0), directions[0].y.fill(0);
+    for (std::size_t k = 0; k < count(); ++k)
+      directions[0].a[k] = std::sqrt(target.weight[k]) * target.angle_length;
+  }
+
   /// Rows of the residuals by all unknowns, and the residuals as the last row.
   void residual_rows(const PointProgram& p, const double* x, unsigned signs) {
-    if (target.timed)
+    if (!target.placed())
+      find_angles();
+    else if (target.timed)
       find_axes();
     else if (target.oriented)
       find_body_normals();
@@ -323,6 +362,10 @@ struct MachineFitter::Memory {
         if (target.oriented) column[k] += d.a[k] * now.ea[k];
       }
     }
+    // Residuals of a resting output are their differences from their mean, and so are all derivatives.
+    const auto columns = static_cast<std::size_t>(p.parameters + extra_unknowns());
+    for (const RestingSamples& rest : target.rests)
+      for (std::size_t c = 0; c < columns; ++c) subtract_mean(rest, rows.data() + c * stride);
   }
 
   static constexpr int max_unknowns = max_machine_parameters + 2;
@@ -370,7 +413,7 @@ struct MachineFitter::Memory {
     Matrix a, factor;
     Vector b, step;
     for (int i = 0; i < iterations && small_steps < 3; ++i) {
-      move_grid();
+      move_grid(), cover_samples(now.angle);
       double cost = now.squares + limit_squares(p, x.data(), m.shape.signs, weight, true);
       residual_rows(p, x.data(), m.shape.signs);
       normal_equations(p, a, b);
@@ -393,6 +436,7 @@ struct MachineFitter::Memory {
             advance(next, m.sense);
           }
           compute(p, trial.data(), m.shape.signs, next);
+          cover_samples(next.angle);
           const double found = next.squares + limit_squares(p, trial.data(), m.shape.signs, weight, false);
           better = found < cost;
           if (better) small_steps = cost - found < 1e-5 * cost ? small_steps + 1 : 0;
@@ -433,7 +477,8 @@ double MachineFitter::turn_body(FittedMachine& machine) {
   m.compute(p, machine.shape.x.data(), machine.shape.signs, m.now);
   if (m.target.oriented) {
     std::complex<double> sum{};
-    for (std::size_t k = 0; k < m.count(); ++k) sum += m.target.weight[k] * std::polar(1.0, -m.now.ea[k]);
+    for (std::size_t k = 0; k < m.count(); ++k)
+      if (!m.rests_at(k)) sum += m.target.weight[k] * std::polar(1.0, -m.now.ea[k]);
     m.now.body_angle = std::arg(sum);
     m.compute(p, machine.shape.x.data(), machine.shape.signs, m.now);
   }
@@ -456,6 +501,8 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
     m.descend(machine, weight, 40);
   }
   m.dimensions.meet_pivots(machine.shape.x);
+  if (!m.target.placed() && m.limits.ground_pivots.empty() && !m.limits.ground_box)
+    m.dimensions.scale_freely(machine.shape.x);
   return true;
 }
 
@@ -476,7 +523,9 @@ void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures&
   out.error = machine.error;
   double squares = 0, turned = 0;
   for (std::size_t k = 0; k < count(); ++k) {
-    const double ex = now.x[k] - target.x[k], ey = now.y[k] - target.y[k];
+    const bool of_points = target.output == MachineOutput::point;
+    const double ex = of_points ? now.x[k] - target.x[k] : now.ex[k],
+                 ey = of_points ? now.y[k] - target.y[k] : now.ey[k];
     out.largest_deviation = std::max(out.largest_deviation, std::hypot(ex, ey));
     squares += target.weight[k] * (ex * ex + ey * ey);
     if (!target.oriented) continue;

@@ -57,22 +57,35 @@ PointProgram begin_program(MachineFamily family, std::string name, int links) {
 /// Ends a program with the traced point on a link.
 PointProgram end_program(PointProgram p, int link) {
   add_point(p, link);
+  p.traced_bar = link;
   p.parameters += 4;
   return p;
 }
 
+/// Ends a program whose output is the angle of a link, or the travel of a slider at its end.
+PointProgram end_at_output(PointProgram p, int link, MachineOutput output) {
+  p.output = output, p.traced_bar = link;
+  p.parameters += 4;
+  return p;
+}
+
+/// Joins a slider on the ground to a point of a link by a rod.
+void add_slider(PointProgram& p, int point) {
+  const int slider = add_step(p, PointOperation::slide, point);
+  p.bodies.push_back({{point, slider}});
+}
+
 PointProgram slider_crank() {
   PointProgram p = begin_program(MachineFamily::slider_crank, "slider_crank", 4);
-  const int slider = add_step(p, PointOperation::slide, 0);
-  p.bodies.push_back({{0, slider}});
+  add_slider(p, 0);
   return end_program(std::move(p), 2);
 }
 
-PointProgram inverted_slider() {
-  PointProgram p = begin_program(MachineFamily::inverted_slider, "inverted_slider", 4);
+PointProgram inverted_slider(const char* name) {
+  PointProgram p = begin_program(MachineFamily::inverted_slider, name, 4);
   const int along = add_step(p, PointOperation::sleeve, 0);
   p.bodies.push_back({{0, along}});
-  return end_program(std::move(p), 2);
+  return p;
 }
 
 PointProgram geared_five_bar(int ratio) {
@@ -93,6 +106,7 @@ std::string digits(std::span<const PairOfBars> pairs) {
 MachineFamily six_bar_family(PairOfBars pair) {
   std::sort(pair.begin(), pair.end());
   if (pair == PairOfBars{2, 3} || pair == PairOfBars{1, 2}) return MachineFamily::watt_1;
+  if (pair == PairOfBars{0, 3}) return MachineFamily::watt_2;
   return pair == PairOfBars{1, 3} ? MachineFamily::stephenson_1 : MachineFamily::stephenson_3;
 }
 
@@ -107,12 +121,62 @@ std::string six_bar_name(PairOfBars pair, bool trace_second) {
   return fmt::format("{}:{}{}{}", name_of(six_bar_family(pair)), pair[0], pair[1], bar);
 }
 
+constexpr std::array outputs{MachineOutput::point, MachineOutput::angle, MachineOutput::slide};
+
+/// The second pair of machines of eight links whose output is on the ground: on links that need the first.
+constexpr std::array<PairOfBars, 5> second_pairs{{{2, 3}, {1, 2}, {1, 3}, {0, 2}, {0, 3}}};
+
+/// Crank, ground and the first pair of bars; further pairs behind it.
+PointProgram pairs_behind(PointProgram p, PointOperation pivot, std::span<const PairOfBars> pairs) {
+  const int ground = add_step(p, pivot);
+  p.bodies[0].points = {ground};
+  add_pair(p, 0, ground);
+  for (std::size_t k = 1; k < pairs.size(); ++k) {
+    const int first = add_point(p, pairs[k][0]), second = add_point(p, pairs[k][1]);
+    add_pair(p, first, second);
+  }
+  p.pairs.assign(pairs.begin(), pairs.end());
+  return p;
+}
+
+/// The angle of the link on the ground in the last pair: of the first pair its second bar, else its first.
+PointProgram angle_program(std::span<const PairOfBars> pairs) {
+  MachineFamily family = MachineFamily::four_bar;
+  std::string name = "four_bar:angle";
+  if (pairs.size() == 2) family = six_bar_family(pairs[1]), name = fmt::format("{}:angle", name_of(family));
+  if (pairs.size() == 3)
+    family = MachineFamily::eight_bar, name = fmt::format("eight_bar:{}:angle", digits(pairs));
+  const int links = 2 * static_cast<int>(pairs.size()) + 2;
+  PointProgram p =
+      pairs_behind(begin_program(family, std::move(name), links), PointOperation::ground_on_axis, pairs);
+  return end_at_output(std::move(p), pairs.size() == 1 ? 3 : links - 2, MachineOutput::angle);
+}
+
+/// The travel of a slider whose rod hangs on a link behind pairs of bars. The line of the slider is along the
+/// real axis, and so the ground of the first pair is anywhere.
+PointProgram slide_program(std::span<const PairOfBars> pairs, int link) {
+  const bool six = pairs.size() == 1;
+  const MachineFamily family = !six        ? MachineFamily::eight_bar
+                               : link == 3 ? MachineFamily::watt_2
+                                           : MachineFamily::stephenson_3;
+  PointProgram p = begin_program(family,
+                                 six ? fmt::format("{}:slide", name_of(family))
+                                     : fmt::format("eight_bar:{}{}:slide", digits(pairs), link),
+                                 six ? 6 : 8);
+  p = pairs_behind(std::move(p), PointOperation::ground, pairs);
+  add_slider(p, add_point(p, link));
+  return end_at_output(std::move(p), static_cast<int>(p.bodies.size()) - 1, MachineOutput::slide);
+}
+
 /// The types of each family.
 struct Catalogue {
   std::deque<PointProgram> others;  ///< those that are not of pairs alone
-  std::array<std::vector<const PointProgram*>, names(MachineFamily{}).size()> families;
+  std::array<std::array<std::vector<const PointProgram*>, names(MachineFamily{}).size()>, outputs.size()>
+      families;
 
-  void add(const PointProgram& p) { families[static_cast<std::size_t>(p.family)].push_back(&p); }
+  void add(const PointProgram& p) {
+    families[static_cast<std::size_t>(p.output)][static_cast<std::size_t>(p.family)].push_back(&p);
+  }
   void add_other(PointProgram p) { add(others.emplace_back(std::move(p))); }
   void add_pairs(int count) {
     for (const PairProgram& machine : traced_pair_machines(count, true))
@@ -122,10 +186,31 @@ struct Catalogue {
   Catalogue() {
     add_pairs(1);
     add_other(slider_crank());
-    add_other(inverted_slider());
+    add_other(end_program(inverted_slider("inverted_slider"), 2));
     for (const int ratio : {1, -1, 2, -2, 3, -3}) add_other(geared_five_bar(ratio));
     add_pairs(2);
     add_pairs(3);
+    add_angles();
+    add_slides();
+  }
+
+  void add_angles() {
+    const PairOfBars first{1, 0};
+    add_other(angle_program({&first, 1}));
+    add_other(end_at_output(inverted_slider("inverted_slider:angle"), 2, MachineOutput::angle));
+    for (const int link : {2, 3}) add_other(angle_program(std::array{first, PairOfBars{0, link}}));
+    for (const PairOfBars& second : second_pairs)
+      for (const int link : {4, 5}) add_other(angle_program(std::array{first, second, PairOfBars{0, link}}));
+  }
+
+  void add_slides() {
+    const PairOfBars first{1, 0};
+    PointProgram p = begin_program(MachineFamily::slider_crank, "slider_crank:slide", 4);
+    add_slider(p, 0);
+    add_other(end_at_output(std::move(p), 2, MachineOutput::slide));
+    for (const int link : {2, 3}) add_other(slide_program({&first, 1}, link));
+    for (const PairOfBars& second : second_pairs)
+      for (const int link : {4, 5}) add_other(slide_program(std::array{first, second}, link));
   }
 };
 
@@ -161,15 +246,9 @@ PointProgram make_pair_program(std::span<const PairOfBars> pairs, bool trace_sec
     family = MachineFamily::eight_bar, name = fmt::format("eight_bar:{}{}", digits(pairs), bar);
   if (pairs.size() == 4)
     family = MachineFamily::ten_bar, name = fmt::format("ten_bar:{}{}", digits(pairs), bar);
-  PointProgram p = begin_program(family, std::move(name), 2 * static_cast<int>(pairs.size()) + 2);
-  const int ground = add_step(p, PointOperation::ground_on_axis);
-  p.bodies[0].points = {ground};
-  add_pair(p, 0, ground);
-  for (std::size_t k = 1; k < pairs.size(); ++k) {
-    const int first = add_point(p, pairs[k][0]), second = add_point(p, pairs[k][1]);
-    add_pair(p, first, second);
-  }
-  p.pairs.assign(pairs.begin(), pairs.end());
+  PointProgram p =
+      pairs_behind(begin_program(family, std::move(name), 2 * static_cast<int>(pairs.size()) + 2),
+                   PointOperation::ground_on_axis, pairs);
   p.trace_second = trace_second;
   const int traced = p.links - 2 + (trace_second ? 1 : 0);
   return end_program(std::move(p), traced);
@@ -186,18 +265,28 @@ const PointProgram& program_of_pairs(std::span<const PairOfBars> pairs, bool tra
   return *program;
 }
 
-std::span<const PointProgram* const> programs_of(MachineFamily family) {
-  return catalogue().families[static_cast<std::size_t>(family)];
+const PointProgram* angle_program_of_pairs(std::span<const PairOfBars> pairs) {
+  for (const auto& family : catalogue().families[static_cast<std::size_t>(MachineOutput::angle)])
+    for (const PointProgram* p : family)
+      if (std::equal(p->pairs.begin(), p->pairs.end(), pairs.begin(), pairs.end())) return p;
+  return nullptr;
+}
+
+std::span<const PointProgram* const> programs_of(MachineFamily family, MachineOutput output) {
+  return catalogue().families[static_cast<std::size_t>(output)][static_cast<std::size_t>(family)];
 }
 
 int links_of(MachineFamily family) {
-  return family == MachineFamily::ten_bar ? 10 : programs_of(family).front()->links;
+  for (const MachineOutput output : outputs)
+    if (const auto programs = programs_of(family, output); !programs.empty()) return programs.front()->links;
+  return 10;
 }
 
 const PointProgram* program_named(std::string_view name) {
-  for (const auto& family : catalogue().families)
-    for (const PointProgram* p : family)
-      if (p->name == name) return p;
+  for (const auto& output : catalogue().families)
+    for (const auto& family : output)
+      for (const PointProgram* p : family)
+        if (p->name == name) return p;
   const std::size_t colon = name.find(':');
   if (colon == name.npos) return nullptr;
   const auto pairs = pairs_of_digits(name.substr(colon + 1));

@@ -39,6 +39,13 @@ struct PointStep {
   int sign = -1;      ///< index of its sign bit, -1 if it has none
 };
 
+/// What of a machine is to move as it is wanted.
+enum class MachineOutput {
+  point,  ///< a point of a bar, and the bar with it
+  angle,  ///< a link that turns about the ground, or in a sleeve that does, by its angle
+  slide,  ///< a slider on the ground, by its travel
+};
+
 /// Families of machines in which a search looks for the best.
 enum class MachineFamily {
   four_bar,
@@ -50,8 +57,9 @@ enum class MachineFamily {
   stephenson_3,
   eight_bar,
   ten_bar,
+  watt_2,
 };
-constexpr std::array<EnumName<MachineFamily>, 9> names(MachineFamily) {
+constexpr std::array<EnumName<MachineFamily>, 10> names(MachineFamily) {
   return {
       {{MachineFamily::four_bar, "four_bar", "four-bar linkage"},
        {MachineFamily::slider_crank, "slider_crank", "slider-crank"},
@@ -63,7 +71,9 @@ constexpr std::array<EnumName<MachineFamily>, 9> names(MachineFamily) {
         "six-bar linkage of Stephenson, ternary links in the loop"},
        {MachineFamily::stephenson_3, "stephenson_3", "six-bar linkage of Stephenson with a ternary ground"},
        {MachineFamily::eight_bar, "eight_bar", "eight-bar linkage of three pairs of bars"},
-       {MachineFamily::ten_bar, "ten_bar", "ten-bar linkage of four pairs of bars"}}};
+       {MachineFamily::ten_bar, "ten_bar", "ten-bar linkage of four pairs of bars"},
+       {MachineFamily::watt_2, "watt_2",
+        "six-bar linkage of Watt with a ternary ground, two four-bars in a row: for functions alone"}}};
 }
 
 /// A pair of bars that joins two links: bars 2k + 2 and 2k + 3 of pair k. Link 0 is the ground, link 1 the
@@ -80,18 +90,26 @@ struct ProgramLink {
 struct PointProgram {
   std::string name;  ///< "stephenson_3:a", "eight_bar:0213b"
   MachineFamily family{};
+  MachineOutput output = MachineOutput::point;
   int links = 4;
   double gear_ratio = 0;          ///< of geared_crank: its turns for each turn of the crank
   std::vector<PairOfBars> pairs;  ///< only of machines of pairs
   bool trace_second = false;      ///< the traced point is on the second bar of the last pair
-  std::vector<PointStep> steps;   ///< the last one gives the traced point
+  std::vector<PointStep> steps;   ///< the last one gives the traced point, or the end of the output link
   std::vector<ProgramLink>
-      bodies;          ///< ground, crank and bars; slides and sleeves have no points of their own
-  int parameters = 0;  ///< with place and scale
+      bodies;           ///< ground, crank and bars; slides and sleeves have no points of their own
+  int traced_bar = -1;  ///< body that the traced point belongs to, or whose angle is the output
+  int parameters = 0;   ///< with place and scale
   int signs = 0;
 
   int place() const { return parameters - 4; }
   int scale() const { return parameters - 2; }
+
+  /// The two pins that give the direction of the traced bar: points of steps.
+  std::array<std::size_t, 2> traced_pins() const {
+    const std::vector<int>& pins = bodies[static_cast<std::size_t>(traced_bar)].points;
+    return {static_cast<std::size_t>(pins[0]), static_cast<std::size_t>(pins[1])};
+  }
 };
 
 /// The parameters of a machine and the signs of its pairs, one bit each.
@@ -102,8 +120,9 @@ struct MachineShape {
 };
 
 /// The types of a family up to eight links, each once: isomorphs by graph, ground, driver and traced link are
-/// left out, and machines whose traced point moves with a chain of fewer links.
-std::span<const PointProgram* const> programs_of(MachineFamily family);
+/// left out, and machines whose output moves with a chain of fewer links. Few families have all outputs.
+std::span<const PointProgram* const> programs_of(MachineFamily family,
+                                                 MachineOutput output = MachineOutput::point);
 
 /// Number of links of the machines of a family, the ground among them.
 int links_of(MachineFamily family);
@@ -111,6 +130,10 @@ int links_of(MachineFamily family);
 /// The program of 1 to 4 pairs, of which the first joins crank and ground, {1, 0}; the same address for the
 /// same pairs. Parameters are in the order of these pairs.
 const PointProgram& program_of_pairs(std::span<const PairOfBars> pairs, bool trace_second);
+
+/// The program of 1 to 3 pairs whose output is the angle of the link on the ground in the last pair, which is
+/// {1, 0} or {0, t}; null where a shorter one does the same.
+const PointProgram* angle_program_of_pairs(std::span<const PairOfBars> pairs);
 
 /// The program with a name, also of pairs whose isomorph has another one; null if there is none.
 const PointProgram* program_named(std::string_view name);

@@ -17,6 +17,7 @@
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
+#include "linkwright/planar/type_synthesis/function_starts.h"
 #include "linkwright/planar/type_synthesis/place.h"
 
 namespace linkwright::planar {
@@ -42,8 +43,9 @@ struct Trial {
   std::int64_t curves = 0;
 };
 
-bool is_of_pairs(MachineFamily family) {
-  return family == MachineFamily::ten_bar || !programs_of(family).front()->pairs.empty();
+bool is_of_pairs(MachineFamily family, MachineOutput output) {
+  const auto programs = programs_of(family, output);
+  return programs.empty() ? family == MachineFamily::ten_bar : !programs.front()->pairs.empty();
 }
 
 bool dominates(const FoundMachine& a, const FoundMachine& b) {
@@ -78,7 +80,7 @@ class TypeSearch {
       const auto& wanted = options.families;
       const bool asked =
           wanted.empty() || std::find(wanted.begin(), wanted.end(), family.value) != wanted.end();
-      if (!asked || links_of(family.value) > options.max_links) continue;
+      if (!asked || links_of(family.value) > options.max_links || !has_output(family.value)) continue;
       FamilyState& state = state_.families.emplace_back();
       state.report.family = family.value, state.links = links_of(family.value);
     }
@@ -115,6 +117,12 @@ class TypeSearch {
     last_save_ = now;
   }
 
+  /// Machines of ten links are grown, and so not listed.
+  bool has_output(MachineFamily family) const {
+    return !programs_of(family, target_.output).empty() ||
+           (family == MachineFamily::ten_bar && target_.output == MachineOutput::point);
+  }
+
   double best_error() const {
     double best = infinity;
     for (const FamilyState& f : state_.families) best = std::min(best, f.report.error);
@@ -135,7 +143,7 @@ class TypeSearch {
           w *= 0.35;
           break;
         }
-      if (f.pool.empty() && f.elite.empty() && f.links < 10) w *= 0.1;
+      if (f.pooled() == 0 && f.elite.empty() && f.links < 10) w *= 0.1;
       w /= static_cast<double>(f.report.curves) * f.links + 3e5;
       weight.push_back(w);
       total += w;
@@ -155,6 +163,11 @@ class TypeSearch {
 
   bool prepare(FamilyState& f) {
     if (f.prepared) return true;
+    if (target_.output != MachineOutput::point) {
+      f.starts = function_starts(target_, options_.limits, f.report.family, pool_size, context_);
+      f.report.atlas_entries = static_cast<std::int64_t>(f.starts.size());
+      return f.prepared = !context_.interrupted();
+    }
     if (f.report.family != MachineFamily::ten_bar) {
       f.atlas = family_atlas(f.report.family, context_);
       if (!f.atlas) return false;
@@ -193,9 +206,9 @@ class TypeSearch {
   /// The best machine of pairs with two links less, null if there is none.
   const FoundMachine* smaller_machine(const FamilyState& f) const {
     const FoundMachine* best = nullptr;
-    if (!is_of_pairs(f.report.family)) return nullptr;
+    if (!is_of_pairs(f.report.family, target_.output)) return nullptr;
     for (const FamilyState& s : state_.families)
-      if (s.links == f.links - 2 && is_of_pairs(s.report.family) && !s.elite.empty() &&
+      if (s.links == f.links - 2 && is_of_pairs(s.report.family, target_.output) && !s.elite.empty() &&
           (!best || s.elite[0].measures.error < best->measures.error))
         best = &s.elite[0];
     return best;
@@ -239,9 +252,13 @@ class TypeSearch {
   /// The next shape of the pool. While a family has no machine within the limits, the pool begins again,
   /// changed at random.
   void take_from_pool(FamilyState& f, Trial& t, RandomStream& random) const {
-    const bool again = f.next_in_pool >= f.pool.size();
-    const AtlasMatch& match = f.pool[f.next_in_pool++ % f.pool.size()];
-    t.kind = TrialKind::pool, t.machine.shape = shape_of(*f.atlas, match);
+    const bool again = f.next_in_pool >= f.pooled();
+    const std::size_t next = f.next_in_pool++ % f.pooled();
+    t.kind = TrialKind::pool;
+    if (f.starts.empty())
+      t.machine.shape = shape_of(*f.atlas, f.pool[next]);
+    else
+      t.machine.shape = f.starts[next].shape, t.machine.angle[0] = f.starts[next].from;
     if (again) hop(t.machine, random);
   }
 
@@ -256,10 +273,12 @@ class TypeSearch {
       Trial t;
       t.best = f.report.error;
       t.origin = state_.rounds * static_cast<std::int64_t>(trials_a_round) + static_cast<std::int64_t>(k) + 1;
-      const bool left = f.next_in_pool < f.pool.size();
-      const bool from_pool = f.elite.empty() ? !f.pool.empty() : left && stream.uniform() < 0.5;
+      const bool left = f.next_in_pool < f.pooled();
+      const bool from_pool = f.elite.empty() ? f.pooled() > 0 : left && stream.uniform() < 0.5;
       if (grow && k < 4) {
-        auto machine = grown(smaller->machine, stream);
+        auto machine = target_.output == MachineOutput::point
+                           ? grown(smaller->machine, stream)
+                           : grown_by_parallelogram(smaller->machine, stream);
         if (!machine) continue;
         t.kind = TrialKind::grow, t.machine = std::move(*machine);
         // What was grown traces the curve of the smaller machine, which may be far from this family's best.
@@ -282,11 +301,16 @@ class TypeSearch {
     return out;
   }
 
+  bool place(FittedMachine& machine, MachineFitter& fitter) const {
+    if (target_.output == MachineOutput::point) return place_on(target_, machine) < infinity;
+    return begin_function(target_, fitter, machine.angle[0], machine) < infinity;
+  }
+
   void work(Trial& t, MachineFitter& fitter) const {
     const std::int64_t before = fitter.curves();
     const bool possible =
         ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
-    const bool placed = possible && (t.kind != TrialKind::pool || place_on(target_, t.machine) < infinity);
+    const bool placed = possible && (t.kind != TrialKind::pool || place(t.machine, fitter));
     // The body sits on another bar than before.
     if (placed && target_.oriented && t.kind != TrialKind::hop) fitter.turn_body(t.machine);
     if (placed && fitter.polish(t.machine, t.best)) {

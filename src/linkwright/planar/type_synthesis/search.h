@@ -56,8 +56,8 @@ struct TypeSearchAnswer {
   std::int64_t curves = 0;
 };
 
-/// Finds machines of many types that trace a stroke, or whose body takes poses. The sequence of its trials
-/// depends on the seed alone; the context or the number of curves says where it ends.
+/// Finds machines of many types that trace a stroke, whose body takes poses, or that generate a function. The
+/// sequence of its trials depends on the seed alone; the context or the number of curves says where it ends.
 TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,
                               RunContext& context);
 

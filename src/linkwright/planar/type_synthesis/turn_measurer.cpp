@@ -20,10 +20,13 @@ TurnMeasurer::TurnMeasurer(const MotionTarget& target) : target_(target) {
 double TurnMeasurer::least_quality(const FittedMachine& machine) const {
   const auto least = std::min_element(quality_.begin(), quality_.end());
   double quality = *least, centre = angle_[static_cast<std::size_t>(least - quality_.begin())],
-         half = 2 * pi / measured_angles;
+         half = target_.turns ? 2 * pi / measured_angles : std::abs(angle_[1] - angle_[0]);
+  const double first = target_.turns ? -infinity : std::min(angle_.front(), angle_.back()),
+               last = target_.turns ? infinity : std::max(angle_.front(), angle_.back());
   for (int zoom = 0; zoom < 4; ++zoom, half /= 3.5) {
     std::array<double, 8> angle, q, where;
-    for (std::size_t k = 0; k < 8; ++k) angle[k] = centre + half * (static_cast<double>(k) - 3.5) / 3.5;
+    for (std::size_t k = 0; k < 8; ++k)
+      angle[k] = std::clamp(centre + half * (static_cast<double>(k) - 3.5) / 3.5, first, last);
     compute_curve({.program = machine.shape.program,
                    .x = machine.shape.x.data(),
                    .signs = machine.shape.signs,
@@ -41,6 +44,7 @@ void TurnMeasurer::measure(const FittedMachine& machine, MachineMeasures& out) {
   const PointProgram& p = *machine.shape.program;
   const double* x = machine.shape.x.data();
   ++curves_;
+  if (!target_.turns) cover_samples(machine);
   compute_curve({.program = &p,
                  .x = x,
                  .signs = machine.shape.signs,
@@ -57,7 +61,15 @@ void TurnMeasurer::measure(const FittedMachine& machine, MachineMeasures& out) {
   out.min_pair_angle = quality > 0 ? std::asin(std::sqrt(quality)) : 0;
   const auto s = static_cast<std::size_t>(p.scale());
   out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
-  out.peak_acceleration = peak_acceleration(machine, out.span);
+  // The acceleration of the output of a function is given by the function.
+  if (target_.output == MachineOutput::point) out.peak_acceleration = peak_acceleration(machine, out.span);
+}
+
+/// The measured angles over the samples alone, where the crank does not turn.
+void TurnMeasurer::cover_samples(const FittedMachine& machine) {
+  const double from = machine.angle[0],
+               step = (machine.angle[target_.count - 1] - from) / (measured_angles - 1);
+  for (std::size_t k = 0; k < measured_angles; ++k) angle_[k] = from + step * static_cast<double>(k);
 }
 
 /// Larger side of the box of all pins over the turn; the ground pin of the crank is the origin of the

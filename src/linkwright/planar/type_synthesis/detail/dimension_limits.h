@@ -59,6 +59,10 @@ class DimensionLimits {
   /// Moves ground pivots onto the given ones that they are nearest to.
   void meet_pivots(std::span<double> x) const;
 
+  /// Scales a machine whose size is free so that its last pivot is at the distance 1 from that of the crank,
+  /// or as near to it as the limits of the lengths allow.
+  void scale_freely(std::span<double> x) const;
+
   void measure_lengths(std::span<const double> x, MachineMeasures& out) const;
   bool pivots_in_box(std::span<const double> x) const;
   bool pivots_as_given(std::span<const double> x) const;

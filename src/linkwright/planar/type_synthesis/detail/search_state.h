@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "linkwright/core/value.h"
 #include "linkwright/planar/type_synthesis/atlas.h"
+#include "linkwright/planar/type_synthesis/function_starts.h"
 #include "linkwright/planar/type_synthesis/search.h"
 
 namespace linkwright::planar {
@@ -19,8 +21,11 @@ struct FamilyState {
   int links = 4;
   std::shared_ptr<const FamilyAtlas> atlas;
   std::vector<AtlasMatch> pool;
+  std::vector<FunctionStart> starts;  ///< the pool of a function
   std::size_t next_in_pool = 0;
   bool prepared = false;  ///< atlas and pool are there
+
+  std::size_t pooled() const { return std::max(pool.size(), starts.size()); }
   int rounds = 0;
   double last_gain = 1;               ///< relative fall of the error in its last round
   double grown_from = infinity;       ///< error of the smaller machine that was grown last

@@ -12,7 +12,8 @@
 
 namespace linkwright::planar {
 
-/// Measures of machines over the whole turn of the crank, on a grid of its own.
+/// Measures of machines over the whole turn of the crank, or over the samples of a target that does not turn
+/// it, on a grid of its own.
 class TurnMeasurer {
  public:
   /// The target lives as long.
@@ -26,6 +27,7 @@ class TurnMeasurer {
   std::int64_t curves() const { return curves_; }
 
  private:
+  void cover_samples(const FittedMachine& machine);
   static constexpr std::size_t measured_angles = 720;
 
   double least_quality(const FittedMachine& machine) const;
