@@ -69,6 +69,8 @@ BENCHMARK_CAPTURE(curve, four_bar_rows, "four_bar", Wanted::rows)->DenseRange(0,
 BENCHMARK_CAPTURE(curve, stephenson_3_points, "stephenson_3:a", Wanted::points)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(curve, stephenson_3_tangents, "stephenson_3:a", Wanted::tangents)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(curve, stephenson_3_rows, "stephenson_3:a", Wanted::rows)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(curve, stephenson_2_points, "stephenson_2:a", Wanted::points)->DenseRange(0, 2);
+BENCHMARK_CAPTURE(curve, stephenson_2_rows, "stephenson_2:a", Wanted::rows)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(curve, eight_bar_points, "eight_bar:1315b", Wanted::points)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(curve, eight_bar_rows, "eight_bar:1315b", Wanted::rows)->DenseRange(0, 2);
 BENCHMARK_CAPTURE(curve, eight_bar_pair_angles, "eight_bar:1315b", Wanted::pair_angles)->DenseRange(0, 2);
@@ -107,6 +109,7 @@ void polish(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(polish, four_bar, "four_bar")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(polish, stephenson_3, "stephenson_3:a")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(polish, stephenson_2, "stephenson_2:a")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(polish, eight_bar, "eight_bar:1315b")->Unit(benchmark::kMicrosecond);
 
 void match(benchmark::State& state, bool closed) {

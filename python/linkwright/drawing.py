@@ -27,7 +27,7 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
     seconds: time of the search, 10 when evaluations are not given. evaluations: number of curves instead, for the same result
     on every machine with the same instruction set and any number of threads.
     most_links: 4 to 10. families: "four_bar", "slider_crank", "inverted_slider", "geared_five_bar", "watt_1", "stephenson_1",
-    "stephenson_3", "eight_bar", "ten_bar"; None: all.
+    "stephenson_2", "stephenson_3", "eight_bar", "ten_bar"; None: all.
     tolerance: metres; distances of the curve from the stroke up to this one count as none. crank_angles: one for each point, in
     degrees, rising or falling; their differences are the rotations of the crank, in either sense. None: any.
     body_angles: one for each point, in degrees: the rotation of a body whose origin is there. The points then are poses, 3 to 96, and

@@ -30,6 +30,7 @@ TEST(PointPrograms, HaveTheUnknownsOfTheirType) {
   EXPECT_EQ(parameters("inverted_slider"), 8);
   EXPECT_EQ(parameters("geared_five_bar:-2"), 12);
   EXPECT_EQ(parameters("stephenson_3:a"), 15);
+  EXPECT_EQ(parameters("stephenson_2:a"), 16);
   EXPECT_EQ(parameters("eight_bar:1315b"), 21);
   EXPECT_EQ(parameters("ten_bar:131547b"), 27);
 }

@@ -53,7 +53,8 @@ function numbersOf(objectives: JsonObject | null, classification: JsonObject | n
 
 const families: Record<string, string> = {
   four_bar: "Four-bar", slider_crank: "Slider-crank", inverted_slider: "Inverted slider-crank", geared_five_bar: "Geared five-bar",
-  watt_1: "Watt I six-bar", stephenson_1: "Stephenson I six-bar", stephenson_3: "Stephenson III six-bar", eight_bar: "Eight-bar", ten_bar: "Ten-bar",
+  watt_1: "Watt I six-bar", stephenson_1: "Stephenson I six-bar", stephenson_2: "Stephenson II six-bar",
+  stephenson_3: "Stephenson III six-bar", eight_bar: "Eight-bar", ten_bar: "Ten-bar",
 };
 
 /** The name of a type, and what tells it from others of its family: "Eight-bar 1324b". */

@@ -121,6 +121,7 @@ std::size_t pieces_of(MachineFamily family) {
       return 6;
     case MachineFamily::watt_1:
     case MachineFamily::stephenson_1:
+    case MachineFamily::stephenson_2:
     case MachineFamily::stephenson_3:
       return 10;
     case MachineFamily::eight_bar:

@@ -15,6 +15,7 @@ void compute_products(const ProductsTask& task) { widest_of<machine_curve_kernel
 double quality_gradient(const PointProgram& program, std::span<const double> x, unsigned signs, double angle,
                         int step, std::span<double> gradient) {
   program_kernel::ProgramState<double> s;
+  if (program.group >= 0) s.turn = &link_group::turn_of(program, x.data());
   program_kernel::forward<false>(program, x.data(), signs, angle, s);
   program_kernel::clear_reverse(program, s);
   std::fill(gradient.begin(), gradient.end(), 0.0);

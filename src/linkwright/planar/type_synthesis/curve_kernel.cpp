@@ -88,6 +88,7 @@ LINKWRIGHT_KERNEL void rows_at(const CurveTask& task, std::size_t k, program_ker
 
 void curve(const CurveTask& task) {
   program_kernel::ProgramState<Batch> s;
+  if (task.program->group >= 0) s.turn = &link_group::turn_of(*task.program, task.x);
   for (std::size_t k = 0; k < task.count; k += Batch::size) {
     if (task.tx)
       curve_at<true>(task, k, s);

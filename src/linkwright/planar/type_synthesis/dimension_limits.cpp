@@ -2,6 +2,7 @@
 #include "linkwright/planar/type_synthesis/detail/dimension_limits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -15,8 +16,25 @@ namespace {
 constexpr double box_margin = 0.002;  // the polish keeps pivots this much further inside, in sizes
 constexpr double pivot_weight = 8;    // of pivots next to the other limits: they are placed to be met
 
+/// The parameters of a bar of a group of four links.
+std::array<int, 3> bar_of_group(const PointProgram& p, int bar) {
+  const auto pin = static_cast<std::size_t>(p.group + bar);
+  const PointStep& of_ground = p.steps[pin];
+  return {p.steps[static_cast<std::size_t>(of_ground.first)].parameter, of_ground.parameter,
+          p.steps[pin + 2].parameter};
+}
+
+/// The bar of a group of four links at crank angle zero, in cranks.
+std::complex<double> bar_at_start(const std::array<int, 3>& bar, std::span<const double> x) {
+  const auto at = [&](int i) {
+    return std::complex<double>(x[static_cast<std::size_t>(i)], x[static_cast<std::size_t>(i) + 1]);
+  };
+  return at(bar[0]) + at(bar[1]) - 1.0 - at(bar[2]);
+}
+
 std::vector<LengthTerm> length_terms(const PointProgram& p) {
   std::vector<LengthTerm> out{{}};  // the crank
+  for (int bar = 0; p.group >= 0 && bar < 2; ++bar) out.push_back({-1, -1, bar_of_group(p, bar)});
   for (const PointStep& step : p.steps) {
     switch (step.operation) {
       case PointOperation::crank_pin:
@@ -28,6 +46,7 @@ std::vector<LengthTerm> length_terms(const PointProgram& p) {
         break;
       case PointOperation::ground:
       case PointOperation::crank_plate:
+      case PointOperation::group_point:
         out.push_back({step.parameter, -1});
         break;
       case PointOperation::geared_crank:
@@ -44,6 +63,8 @@ std::vector<LengthTerm> length_terms(const PointProgram& p) {
         if (pin.operation == PointOperation::slide) factor = pin.parameter;
         if (pin.operation == PointOperation::pair) factor = pin.parameter + (step.first == pin.first ? 0 : 1);
         out.push_back({step.parameter, factor});
+        if (pin.operation == PointOperation::group_point)
+          out.back().bar = bar_of_group(p, step.first - p.group);
         break;
       }
     }
@@ -100,6 +121,7 @@ double DimensionLimits::length_of(const LengthTerm& term, std::span<const double
   double out = scale;
   if (term.plate >= 0) out *= std::hypot(at(term.plate), at(term.plate + 1));
   if (term.factor >= 0) out *= std::abs(at(term.factor));
+  if (term.bar[0] >= 0) out *= std::abs(bar_at_start(term.bar, x));
   return out;
 }
 
@@ -124,6 +146,15 @@ void DimensionLimits::add_lengths(std::span<const double> x, double weight, Limi
       if (term.factor >= 0)
         row->gradient[static_cast<std::size_t>(term.factor)] +=
             side * weight / x[static_cast<std::size_t>(term.factor)];
+      if (term.bar[0] >= 0) {
+        const std::complex<double> c = bar_at_start(term.bar, x);
+        const std::complex<double> by = side * weight / std::max(std::norm(c), 1e-24) * c;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto i = static_cast<std::size_t>(term.bar[k]);
+          row->gradient[i] += k < 2 ? by.real() : -by.real();
+          row->gradient[i + 1] += k < 2 ? by.imag() : -by.imag();
+        }
+      }
     }
   }
 }

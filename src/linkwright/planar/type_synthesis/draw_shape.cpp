@@ -10,6 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/link_group.h"
 
 namespace linkwright::planar {
 namespace {
@@ -105,6 +106,15 @@ class ShapeDrawer {
         for (std::size_t k = 0; k < angles; ++k) f[k] = pivot + crank * turned(k, p_.gear_ratio);
         return true;
       }
+      case PointOperation::group_point: {
+        if (static_cast<int>(i) == p_.group && !draw_group(drawn)) return false;
+        const bool pin = static_cast<int>(i) < p_.group + 4;
+        const std::complex<double> c = complex_parameter(v, drawn && !pin, spread(drawn && !pin, 2, 0.7));
+        const Points &from = at(step.first),
+                     &turn = link_group::is_on_crank(p_, step) ? of_crank_ : of_ground_;
+        for (std::size_t k = 0; k < angles; ++k) f[k] = from[k] + turn[k] * c;
+        return true;
+      }
     }
     return true;
   }
@@ -172,11 +182,36 @@ class ShapeDrawer {
     return true;
   }
 
+  /// The pins of a group of four links at crank angle zero, and the directions of its two links over the
+  /// turn.
+  bool draw_group(bool drawn) {
+    for (int k = 0; k < 4; ++k)
+      complex_parameter(values(p_.steps[static_cast<std::size_t>(p_.group + k)]), drawn,
+                        spread(drawn, 2, 0.7));
+    const double* v = shape_.x.data() + link_group::first_parameter(p_);
+    const link_group::GroupTurn turn = link_group::follow_turn(v);
+    if (!turn.closes()) return false;
+    static_assert(link_group::GroupTurn::intervals % angles == 0);
+    for (std::size_t k = 0; k < angles; ++k) {
+      const auto& node = turn.nodes[k * (link_group::GroupTurn::intervals / angles)];
+      link_group::GroupState<double> g;
+      of_ground_[k] = std::polar(1.0, node.a), of_crank_[k] = std::polar(1.0, node.b);
+      g.ax = of_ground_[k].real(), g.ay = of_ground_[k].imag();
+      g.bx = of_crank_[k].real(), g.by = of_crank_[k].imag();
+      const std::complex<double> u = turned(k, 1);
+      link_group::evaluate(v, turn.squares, u.real(), u.imag(), g);
+      link_group::measure(turn.side, g);
+      if (!(g.quality >= min_quality)) return false;
+    }
+    return true;
+  }
+
   MachineShape& shape_;
   const PointProgram& p_;
   RandomStream& random_;
   std::optional<CrankPart> part_;
   std::array<Points, max_steps> points_;
+  Points of_ground_, of_crank_;  ///< directions of the links of a group
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/type_synthesis/curve.h"
 
 namespace linkwright::planar {
 namespace {
@@ -41,6 +42,7 @@ class LinkageWriter {
     const double* v = shape_.x.data() + p_.place();
     place_ = target.centre + target.size * Complex(v[0], v[1]);
     scale_ = target.size * Complex(v[2], v[3]);
+    start_ = machine.angle.front();
     name_points();
   }
 
@@ -48,7 +50,10 @@ class LinkageWriter {
     FoundLinkage out;
     out.crank_angle = std::arg(scale_);
     ground(out.linkage);
-    bodies(out.linkage);
+    if (p_.group >= 0)
+      group_bodies(out.linkage);
+    else
+      bodies(out.linkage);
     joints(out.linkage);
     const std::size_t traced = p_.steps.size() - 1;
     const auto bar = static_cast<std::size_t>(p_.traced_bar);
@@ -128,9 +133,56 @@ class LinkageWriter {
     }
   }
 
+  /// The links of a group of four and the crank, where they are at the first crank angle: a group without
+  /// closed form is followed from there.
+  void group_bodies(Linkage& linkage) const {
+    const std::vector<Complex> at = own_points();
+    add_body(linkage, "crank", {{"O", 0}, {names_[0], std::abs(scale_)}});
+    set_start(linkage, "crank", place_, start_ + std::arg(scale_));
+    for (std::size_t link = 2; link < p_.bodies.size(); ++link) {
+      const std::vector<int>& on = p_.bodies[link].points;
+      const auto global = [&](std::size_t k) {
+        return place_ + scale_ * at[static_cast<std::size_t>(on[k])];
+      };
+      const Complex origin = global(0), along = global(1) - origin, turn = along / std::abs(along);
+      std::vector<LinkagePoint> points;
+      for (std::size_t k = 0; k < on.size(); ++k)
+        points.push_back({names_[static_cast<std::size_t>(on[k])], (global(k) - origin) / turn});
+      add_body(linkage, body_name(p_, link), std::move(points));
+      set_start(linkage, body_name(p_, link), origin, std::arg(turn));
+    }
+  }
+
+  /// All points in the machine's own plane at the first crank angle.
+  std::vector<Complex> own_points() const {
+    constexpr std::size_t count = 8;
+    std::array<double, count> angle, quality, worst;
+    angle.fill(start_);
+    std::vector<double> points(2 * p_.steps.size() * count);
+    compute_curve({.program = &p_,
+                   .x = shape_.x.data(),
+                   .signs = shape_.signs,
+                   .angle = angle.data(),
+                   .count = count,
+                   .quality = quality.data(),
+                   .worst = worst.data(),
+                   .points = points.data()});
+    std::vector<Complex> out;
+    for (std::size_t i = 0; i < p_.steps.size(); ++i)
+      out.emplace_back(points[2 * i * count], points[(2 * i + 1) * count]);
+    return out;
+  }
+
+  void group_joints(Linkage& linkage) const {
+    pin_to(linkage, p_.steps[static_cast<std::size_t>(p_.group)].first, 2);
+    pin_to(linkage, 0, 3);
+    for (int k = 0; k < 4; ++k) pin_to(linkage, p_.group + k, static_cast<std::size_t>(4 + k % 2));
+  }
+
   void joints(Linkage& linkage) const {
     add_pin(linkage, "O", "ground.O", "crank.O");
     add_drive(linkage, "O");
+    if (p_.group >= 0) group_joints(linkage);
     for (std::size_t i = 0; i < p_.steps.size(); ++i) {
       switch (step(i).operation) {
         case PointOperation::pair:
@@ -209,6 +261,7 @@ class LinkageWriter {
   const PointProgram& p_;
   const MachineShape& shape_;
   Complex place_, scale_;
+  double start_ = 0;  ///< crank angle of the program at the first sample of the target (rad)
   std::vector<std::string> names_;
 };
 

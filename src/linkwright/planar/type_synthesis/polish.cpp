@@ -549,6 +549,7 @@ MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   const auto require = [&](bool kept, MachineDefect defect) {
     if (!kept && out.defect == MachineDefect::none) out.defect = defect;
   };
+  require(machine.shape.program->group < 0 || out.min_pair_angle > 0, MachineDefect::no_turn);
   require(out.min_pair_angle >= m.limits.min_pair_angle, MachineDefect::pair_angle);
   require(out.min_length >= m.limits.min_length * (1 - 1e-3), MachineDefect::short_link);
   require(out.max_length <= m.limits.max_length * (1 + 1e-3), MachineDefect::long_link);

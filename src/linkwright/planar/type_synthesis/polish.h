@@ -40,9 +40,10 @@ enum class MachineDefect {
   order,
   excursion,
   ground_box,
-  ground_pivots
+  ground_pivots,
+  no_turn
 };
-constexpr std::array<EnumName<MachineDefect>, 8> names(MachineDefect) {
+constexpr std::array<EnumName<MachineDefect>, 9> names(MachineDefect) {
   return {{{MachineDefect::none, "none", "none"},
            {MachineDefect::pair_angle, "pair_angle", "the least pair angle is below its limit"},
            {MachineDefect::short_link, "short_link", "a length is below its limit"},
@@ -50,7 +51,9 @@ constexpr std::array<EnumName<MachineDefect>, 8> names(MachineDefect) {
            {MachineDefect::order, "order", "the points are met in another order, or in more than one turn"},
            {MachineDefect::excursion, "excursion", "between two points the curve leaves the stroke"},
            {MachineDefect::ground_box, "ground_box", "a pivot on the ground is outside the box"},
-           {MachineDefect::ground_pivots, "ground_pivots", "no pivot is at one of the given ground pivots"}}};
+           {MachineDefect::ground_pivots, "ground_pivots", "no pivot is at one of the given ground pivots"},
+           {MachineDefect::no_turn, "no_turn",
+            "the crank does not turn fully, or its turn ends in another position"}}};
 }
 
 /// A machine that is compared with a stroke: parameters in sizes of the stroke from its mean.

@@ -18,7 +18,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::array<int, 9> parameters_of{0, 1, 2, 2, 2, 2, 2, 2, 4};  // in the order of PointOperation
+constexpr std::array<int, 10> parameters_of{0, 1, 2, 2, 2, 2, 2, 2, 4, 2};  // in the order of PointOperation
 
 /// Appends an operation and returns the index of its point.
 int add_step(PointProgram& p, PointOperation operation, int first = -1, int second = -1) {
@@ -62,7 +62,7 @@ PointProgram end_program(PointProgram p, int link) {
   return p;
 }
 
-/// Ends a program whose output is the angle of a link, or the travel of a slider at its end.
+/// Ends a program whose last step is its output already: a point of a link, its angle, or a slider at its end.
 PointProgram end_at_output(PointProgram p, int link, MachineOutput output) {
   p.output = output, p.traced_bar = link;
   p.parameters += 4;
@@ -94,6 +94,26 @@ PointProgram geared_five_bar(int ratio) {
   const int geared = add_step(p, PointOperation::geared_crank);
   add_pair(p, 0, geared);
   return end_program(std::move(p), 2);
+}
+
+/// A link on a ground pivot and a link on the crank pin, which two bars join.
+PointProgram stephenson_2(bool trace_bar) {
+  PointProgram p =
+      begin_program(MachineFamily::stephenson_2, fmt::format("stephenson_2:{}", trace_bar ? 'b' : 'a'), 6);
+  const int pivot = add_step(p, PointOperation::ground);
+  p.bodies[0].points = {pivot};
+  p.group = static_cast<int>(p.steps.size());
+  std::array<int, 4> pins{};
+  for (std::size_t i = 0; i < 4; ++i) pins[i] = add_step(p, PointOperation::group_point, i < 2 ? pivot : 0);
+  p.bodies.push_back({{pivot, pins[0], pins[1]}});
+  p.bodies.push_back({{0, pins[2], pins[3]}});
+  p.bodies.push_back({{pins[0], pins[2]}});
+  p.bodies.push_back({{pins[1], pins[3]}});
+  if (trace_bar) return end_program(std::move(p), 4);
+  // The hinge and the first pin give the direction of the traced link.
+  const int traced = add_step(p, PointOperation::group_point, 0, pins[2]);
+  p.bodies[3].points.push_back(traced);
+  return end_at_output(std::move(p), 3, MachineOutput::point);
 }
 
 std::string digits(std::span<const PairOfBars> pairs) {
@@ -190,6 +210,7 @@ struct Catalogue {
     for (const int ratio : {1, -1, 2, -2, 3, -3}) add_other(geared_five_bar(ratio));
     add_pairs(2);
     add_pairs(3);
+    for (const bool trace_bar : {false, true}) add_other(stephenson_2(trace_bar));
     add_angles();
     add_slides();
   }
@@ -335,6 +356,7 @@ MachineShape mirrored(const MachineShape& machine) {
       case PointOperation::plate:
       case PointOperation::slide:
       case PointOperation::sleeve:
+      case PointOperation::group_point:
         negate(step.parameter + 1);
         break;
       case PointOperation::geared_crank:

@@ -29,6 +29,9 @@ enum class PointOperation {
   slide,           ///< end of a rod of length L from P on the line Im = h, to the right of P: L, h
   sleeve,          ///< unit step from P along a rod through a sleeve that swings about g, with offset e: g, e
   geared_crank,    ///< pin E + c e^(i rho theta) of a crank that is geared to the first: E, c
+  /// Point P + c e^(i phi) of a link of a group of four that is hinged at P and has turned by phi since crank
+  /// angle zero: c.
+  group_point,
 };
 
 /// One operation. `first` and `second` number earlier points, P and Q above.
@@ -57,9 +60,10 @@ enum class MachineFamily {
   stephenson_3,
   eight_bar,
   ten_bar,
+  stephenson_2,  // atlases are drawn from the number of their family: new ones come last
   watt_2,
 };
-constexpr std::array<EnumName<MachineFamily>, 10> names(MachineFamily) {
+constexpr std::array<EnumName<MachineFamily>, 11> names(MachineFamily) {
   return {
       {{MachineFamily::four_bar, "four_bar", "four-bar linkage"},
        {MachineFamily::slider_crank, "slider_crank", "slider-crank"},
@@ -69,6 +73,8 @@ constexpr std::array<EnumName<MachineFamily>, 10> names(MachineFamily) {
        {MachineFamily::watt_1, "watt_1", "six-bar linkage of Watt, ternary link on the crank's side"},
        {MachineFamily::stephenson_1, "stephenson_1",
         "six-bar linkage of Stephenson, ternary links in the loop"},
+       {MachineFamily::stephenson_2, "stephenson_2",
+        "six-bar linkage of Stephenson whose ground and crank are binary links side by side"},
        {MachineFamily::stephenson_3, "stephenson_3", "six-bar linkage of Stephenson with a ternary ground"},
        {MachineFamily::eight_bar, "eight_bar", "eight-bar linkage of three pairs of bars"},
        {MachineFamily::ten_bar, "ten_bar", "ten-bar linkage of four pairs of bars"},
@@ -97,7 +103,10 @@ struct PointProgram {
   bool trace_second = false;      ///< the traced point is on the second bar of the last pair
   std::vector<PointStep> steps;   ///< the last one gives the traced point, or the end of the output link
   std::vector<ProgramLink>
-      bodies;           ///< ground, crank and bars; slides and sleeves have no points of their own
+      bodies;  ///< ground, crank and bars; slides and sleeves have no points of their own
+  /// Step of the first pin of a group of four links, -1 if there is none. Its pins are the two of the link on
+  /// the ground, then those of the link on the crank pin; bars join the first ones and the second ones.
+  int group = -1;
   int traced_bar = -1;  ///< body that the traced point belongs to, or whose angle is the output
   int parameters = 0;   ///< with place and scale
   int signs = 0;

@@ -37,10 +37,13 @@ struct LimitRows {
   }
 };
 
-/// A length of a machine as a product: scale x |c| x l, each where it has a parameter.
+/// A length of a machine as a product: scale x |c| x l x L, each where it has a parameter.
 struct LengthTerm {
   int plate = -1;   ///< first of the two parameters of a complex factor
   int factor = -1;  ///< parameter of a real factor
+  /// First parameters of the pivot on the ground and of the two pins of a bar of a group of four links, whose
+  /// length is L.
+  std::array<int, 3> bar{-1, -1, -1};
 };
 
 /// The limits of lengths and ground pivots of one machine after the other.

@@ -10,6 +10,7 @@
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/plane.h"
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/link_group.h"
 
 // The steps of a program at one crank angle, or at as many as a register holds: forward for the points and
 // their derivatives by the crank angle, and in reverse for the derivatives of one number by all parameters.
@@ -32,6 +33,8 @@ struct ProgramState {
   std::array<StepState<T>, max_steps> steps;
   T ux, uy;  ///< crank
   T vx, vy;  ///< geared crank
+  link_group::GroupState<T> group;
+  const link_group::GroupTurn* turn = nullptr;  ///< of the group, if there is one
 };
 
 /// Squared sines below this are held there, so that a pair that does not assemble keeps a direction.
@@ -93,6 +96,68 @@ LINKWRIGHT_KERNEL void sleeve_forward(const StepState<T>& p, const T& pivot, con
     const T wx = T(0.5) * rate / along * inverse - zx * rate * inverse, wy = -(zy * rate * inverse);
     f.dx = p.dx + ex * zx - ey * zy + dx * wx - dy * wy;
     f.dy = p.dy + ex * zy + ey * zx + dx * wy + dy * wx;
+  }
+}
+
+LINKWRIGHT_KERNEL bool any_above(double value, double limit) { return value > limit; }
+template <class T>
+LINKWRIGHT_KERNEL bool any_above(const T& value, double limit) {
+  return any(value > T(limit));  // of the registers' own namespace
+}
+
+/// Rotations of the links of a group near crank angles, and 1 where there is a position, else 0.
+LINKWRIGHT_KERNEL void group_start(const link_group::GroupTurn& turn, double angle, double& a, double& b,
+                                   double& assembled) {
+  assembled = link_group::interpolate(turn, angle, a, b) ? 1 : 0;
+}
+template <class T>
+LINKWRIGHT_KERNEL void group_start(const link_group::GroupTurn& turn, const T& angle, T& a, T& b,
+                                   T& assembled) {
+  alignas(64) std::array<double, T::size> at, from_a, from_b, found;
+  angle.store_aligned(at.data());
+  for (std::size_t k = 0; k < T::size; ++k) group_start(turn, at[k], from_a[k], from_b[k], found[k]);
+  a = T::load_aligned(from_a.data()), b = T::load_aligned(from_b.data());
+  assembled = T::load_aligned(found.data());
+}
+
+/// The rotations of the links of a group of four, and its quality, which is negative where it has no
+/// position.
+template <bool with_tangent, class T>
+LINKWRIGHT_KERNEL void group_forward(const PointProgram& program, const double* x, const T& angle,
+                                     ProgramState<T>& s, T& quality) {
+  using S = math::Scalar<T>;
+  const link_group::GroupTurn& turn = *s.turn;
+  const double* v = x + link_group::first_parameter(program);
+  auto& g = s.group;
+  T a, b, assembled;
+  group_start(turn, angle, a, b, assembled);
+  math::sincos(a, g.ay, g.ax);
+  math::sincos(b, g.by, g.bx);
+  // Two steps mostly end at rounding; where the links turn fast, more are needed.
+  for (int i = 0; i < 8; ++i) {
+    link_group::evaluate(v, turn.squares, s.ux, s.uy, g);
+    link_group::newton_step(g, assembled, 0.05, a, b);
+    if (i > 0 && !any_above(S::max(S::max(a, -a), S::max(b, -b)), 1e-8)) break;
+  }
+  link_group::evaluate(v, turn.squares, s.ux, s.uy, g);
+  link_group::measure(turn.side, g);
+  quality = S::choose(assembled == T(1.0), g.quality, T(-1.0));
+  if constexpr (with_tangent) link_group::rates(s.ux, s.uy, g);
+}
+
+/// A point of a link of the group: at `c` from its hinge `p` at crank angle zero.
+template <bool with_tangent, class T>
+LINKWRIGHT_KERNEL void group_point_forward(const PointProgram& program, const PointStep& step,
+                                           const double* c, ProgramState<T>& s, StepState<T>& f) {
+  const bool on_crank = link_group::is_on_crank(program, step);
+  const auto& g = s.group;
+  const StepState<T>& p = s.steps[static_cast<std::size_t>(step.first)];
+  const T &rx = on_crank ? g.bx : g.ax, &ry = on_crank ? g.by : g.ay;
+  const T dx = rx * T(c[0]) - ry * T(c[1]), dy = rx * T(c[1]) + ry * T(c[0]);
+  f.x = p.x + dx, f.y = p.y + dy;
+  if constexpr (with_tangent) {
+    const T& rate = on_crank ? g.db : g.da;
+    f.dx = p.dx - rate * dy, f.dy = p.dy + rate * dx;
   }
 }
 
@@ -159,6 +224,11 @@ LINKWRIGHT_KERNEL void forward(const PointProgram& program, const double* x, uns
           f.dy = T(program.gear_ratio) * (f.x - T(v[0]));
         }
         break;
+      case PointOperation::group_point:
+        if (static_cast<int>(i) == program.group)
+          group_forward<with_tangent>(program, x, angle, s, f.quality);
+        group_point_forward<with_tangent>(program, step, v, s, f);
+        break;
     }
   }
 }
@@ -180,11 +250,66 @@ LINKWRIGHT_KERNEL void clear_reverse(const PointProgram& program, ProgramState<T
   for (std::size_t i = 0; i < program.steps.size(); ++i) s.steps[i].bx = T(0.0), s.steps[i].by = T(0.0);
 }
 
+/// Adds the derivative by the rotation of a link of the group, and those by the hinge and the parameters of a
+/// point of it.
+template <class T, class Add>
+LINKWRIGHT_KERNEL void reverse_group_point(const PointProgram& program, const PointStep& step,
+                                           ProgramState<T>& s, const StepState<T>& f, const T& more_x,
+                                           const T& more_y, const Add& add) {
+  const bool on_crank = link_group::is_on_crank(program, step);
+  auto& g = s.group;
+  StepState<T>& p = s.steps[static_cast<std::size_t>(step.first)];
+  const T &rx = on_crank ? g.bx : g.ax, &ry = on_crank ? g.by : g.ay;
+  add(step.parameter, f.bx * rx + f.by * ry + more_x);
+  add(step.parameter + 1, f.by * rx - f.bx * ry + more_y);
+  p.bx = p.bx + f.bx, p.by = p.by + f.by;
+}
+
+/// Derivative of a number by the rotation of the link that a point of the group is on.
+template <class T>
+LINKWRIGHT_KERNEL void add_rotation(const PointProgram& program, const PointStep& step, ProgramState<T>& s,
+                                    const StepState<T>& f, T& by_a, T& by_b) {
+  const StepState<T>& p = s.steps[static_cast<std::size_t>(step.first)];
+  const T turned = f.by * (f.x - p.x) - f.bx * (f.y - p.y);
+  if (link_group::is_on_crank(program, step))
+    by_b = by_b + turned;
+  else
+    by_a = by_a + turned;
+}
+
+/// The four pins of a group, when the derivatives by the points of its links are there. The rotations depend
+/// on the parameters through the equations of the bars, |T_i - S_i|^2 = L_i^2, where the lengths are those at
+/// crank angle zero.
+template <class T, class Add>
+LINKWRIGHT_KERNEL void reverse_group(const PointProgram& program, const double* x, ProgramState<T>& s, T by_a,
+                                     T by_b, const Add& add) {
+  const auto first = static_cast<std::size_t>(program.group);
+  auto& g = s.group;
+  for (std::size_t i = first; i < first + 4; ++i)
+    add_rotation(program, program.steps[i], s, s.steps[i], by_a, by_b);
+  const T by = T(1.0) / g.determinant;
+  const std::array<T, 2> factor{(by_a * g.by_b[1] - by_b * g.by_a[1]) * by,
+                                (by_b * g.by_a[0] - by_a * g.by_b[0]) * by};
+  const double* v = x + link_group::first_parameter(program);
+  StepState<T>& pivot = s.steps[static_cast<std::size_t>(program.steps[first].first)];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const T cx(v[0] + v[2 + 2 * i] - 1 - v[6 + 2 * i]), cy(v[1] + v[3 + 2 * i] - v[7 + 2 * i]);
+    const T lx = factor[i] * cx, ly = factor[i] * cy, mx = factor[i] * g.dx[i], my = factor[i] * g.dy[i];
+    StepState<T>&t = s.steps[first + i], &r = s.steps[first + 2 + i];
+    t.bx = t.bx - mx, t.by = t.by - my;
+    r.bx = r.bx + mx, r.by = r.by + my;
+    reverse_group_point(program, program.steps[first + i], s, t, lx, ly, add);
+    reverse_group_point(program, program.steps[first + 2 + i], s, r, -lx, -ly, add);
+    pivot.bx = pivot.bx + lx, pivot.by = pivot.by + ly;
+  }
+}
+
 /// From the derivatives by the points (bx, by) to those by the parameters; `add(parameter, value)` receives
 /// each, some more than once. From step `last` down.
 template <class T, class Add>
 LINKWRIGHT_KERNEL void reverse(const PointProgram& program, const double* x, ProgramState<T>& s,
                                std::size_t last, const Add& add) {
+  T by_a(0.0), by_b(0.0);  // of the rotations of the links of a group
   for (std::size_t i = last + 1; i-- > 0;) {
     const PointStep& step = program.steps[i];
     const StepState<T>& f = s.steps[i];
@@ -249,7 +374,43 @@ LINKWRIGHT_KERNEL void reverse(const PointProgram& program, const double* x, Pro
         add(k + 2, f.bx * s.vx + f.by * s.vy);
         add(k + 3, f.by * s.vx - f.bx * s.vy);
         break;
+      case PointOperation::group_point:
+        if (static_cast<int>(i) > program.group + 3) {
+          add_rotation(program, step, s, f, by_a, by_b);
+          reverse_group_point(program, step, s, f, T(0.0), T(0.0), add);
+        } else if (static_cast<int>(i) == program.group) {
+          reverse_group(program, x, s, by_a, by_b, add);
+        }
+        break;
     }
+  }
+}
+
+/// The same of a group: its quality is d^2 / (m_1^2 m_2^2) with the rows (a_i, b_i) of the equations of the
+/// bars, m_i their lengths and d their determinant.
+template <class T>
+LINKWRIGHT_KERNEL void reverse_group_quality(const PointProgram& program, ProgramState<T>& s) {
+  const auto first = static_cast<std::size_t>(program.group);
+  const auto& g = s.group;
+  StepState<T>&pivot = s.steps[static_cast<std::size_t>(program.steps[first].first)],
+  &crank = s.steps[static_cast<std::size_t>(program.steps[first + 2].first)];
+  const T determinant = g.by_a[0] * g.by_b[1] - g.by_a[1] * g.by_b[0];
+  const std::array<T, 2> square{g.by_a[0] * g.by_a[0] + g.by_b[0] * g.by_b[0],
+                                g.by_a[1] * g.by_a[1] + g.by_b[1] * g.by_b[1]};
+  const T by = T(2.0) * determinant / (square[0] * square[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t j = 1 - i;
+    const T sign(i == 0 ? 1.0 : -1.0), share = T(2.0) * g.quality / square[i];
+    const T by_a = sign * by * g.by_b[j] - share * g.by_a[i],
+            by_b = -(sign * by * g.by_a[j]) - share * g.by_b[i];
+    StepState<T>&t = s.steps[first + i], &r = s.steps[first + 2 + i];
+    const T px = t.x - pivot.x, py = t.y - pivot.y, qx = r.x - crank.x, qy = r.y - crank.y;
+    const T ex = by_b * qy - by_a * py, ey = by_a * px - by_b * qx;  // by T - S
+    const T ax = by_a * g.dy[i], ay = -(by_a * g.dx[i]), cx = -(by_b * g.dy[i]), cy = by_b * g.dx[i];
+    t.bx = t.bx + ex + ax, t.by = t.by + ey + ay;
+    pivot.bx = pivot.bx - ax, pivot.by = pivot.by - ay;
+    r.bx = r.bx - ex + cx, r.by = r.by - ey + cy;
+    crank.bx = crank.bx - cx, crank.by = crank.by - cy;
   }
 }
 
@@ -280,6 +441,8 @@ LINKWRIGHT_KERNEL void reverse_quality(const PointProgram& program, const double
     const T by_r2 = (offset * offset + T(sleeve_clearance * sleeve_clearance)) * inverse * inverse;
     add(k, T(2.0) * dx * by_r2), add(k + 1, T(-2.0) * offset * inverse);
     p.bx = p.bx - T(2.0) * dx * by_r2, p.by = p.by - T(2.0) * dy * by_r2;
+  } else if (step.operation == PointOperation::group_point) {
+    reverse_group_quality(program, s);
   }
 }
 
