@@ -48,8 +48,10 @@ const Value& load(const std::string& file) {
 
 }  // namespace
 
+const Value& published_cases(const std::string& file) { return at(load(file), "cases"); }
+
 const Value& published_case(const std::string& file, std::string_view id) {
-  for (const Value& entry : at(load(file), "cases").as_array())
+  for (const Value& entry : published_cases(file).as_array())
     if (at(entry, "id").as_string() == id) return entry;
   throw std::runtime_error("no case " + std::string(id) + " in " + file);
 }

@@ -12,6 +12,9 @@ namespace linkwright::test {
 /// Case of tests/published/<file> by its id; throws when there is none.
 const Value& published_case(const std::string& file, std::string_view id);
 
+/// All cases of tests/published/<file>.
+const Value& published_cases(const std::string& file);
+
 /// Array of numbers.
 std::vector<double> numbers(const Value& array);
 

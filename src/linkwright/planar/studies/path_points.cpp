@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
+#include "linkwright/planar/drawing/drawing.h"
+#include "linkwright/planar/type_synthesis/stroke.h"
 #include "linkwright/study/beside.h"
 
 namespace linkwright::planar {
@@ -24,6 +28,7 @@ namespace {
 struct PointRules {
   std::size_t least = 3, most = 2000;
   bool merge_repeated = false;
+  bool from_drawing = false;  // a drawing may give them
 };
 
 // The lengths of a CSV file by the name of their column, in metres; any length unit.
@@ -78,11 +83,48 @@ class LengthColumns {
 constexpr std::array<const char*, 2> coordinates = {"x", "y"};
 constexpr std::array<const char*, 4> posts = {"from_x", "from_y", "to_x", "to_y"};
 
+// Points of a drawn line: at most `rules.most`, and more on its sides where it has fewer than `rules.least`.
+// A closed line ends at its first point. False where the drawing has no line, and that has been reported.
+bool read_drawn_points(study::ObjectReader& reader, const study::Common& common, const std::string& file,
+                       std::string_view text, const PointRules& rules, PathTargets& targets) {
+  if (!rules.from_drawing) {
+    reader.error("points_file", fmt::format("'{}' is a drawing, this study meets single points", file),
+                 "write them as a table with the columns x_mm, y_mm, or draw the line with planar.any");
+    return false;
+  }
+  Diagnostics problems;
+  std::optional<DrawnLine> line = read_drawing(text, (common.folder / file).string(), problems);
+  for (const Diagnostic& problem : problems) reader.unreadable("points_file", study::in_file(problem));
+  if (!line) return false;
+  if (!line->has_unit)
+    reader.warning("points_file",
+                   fmt::format("'{}' names no unit of length: its numbers are taken as mm", file),
+                   "save an SVG page with its width and height in mm, or a DXF drawing with $INSUNITS");
+  std::vector<std::complex<double>> points = std::move(line->points);
+  if (points.size() > rules.most) {
+    reader.warning("points_file", fmt::format("the line of '{}' has {} points: taken at {} equal steps", file,
+                                              points.size(), rules.most - 1));
+    points = equal_steps(points, line->closed, rules.most - 1);
+  }
+  if (line->closed) points.push_back(points.front());
+  const std::size_t sides = points.size() - 1, parts = (rules.least + sides - 1) / sides;
+  for (std::size_t i = 0; i < sides; ++i)
+    for (std::size_t k = 0; k < parts; ++k) {
+      const auto p =
+          points[i] + static_cast<double>(k) / static_cast<double>(parts) * (points[i + 1] - points[i]);
+      targets.x.push_back(p.real()), targets.y.push_back(p.imag());
+    }
+  targets.x.push_back(points.back().real()), targets.y.push_back(points.back().imag());
+  return true;
+}
+
 // False where something is missing, and has been reported.
 bool read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
-                      bool with_bands, PathTargets& targets) {
+                      bool with_bands, const PointRules& rules, PathTargets& targets) {
   const std::optional<std::string> text = study::read_beside(reader, "points_file", common.folder, file);
   if (!text) return false;
+  if (drawing_format(*text) != DrawingFormat::none)
+    return read_drawn_points(reader, common, file, *text, rules, targets);
   Diagnostics problems;
   const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
   for (const Diagnostic& problem : problems) reader.unreadable("points_file", study::in_file(problem));
@@ -140,16 +182,18 @@ double farthest(const std::vector<double>& x, const std::vector<double>& y) {
   return far;
 }
 
-// Points that agree to rounding of their coordinates are the same.
-bool same_point(const std::vector<double>& x, const std::vector<double>& y, std::size_t a, std::size_t b) {
-  return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * farthest(x, y);
+// Points that agree to rounding of their coordinates, `far` from the origin at most, are the same.
+bool same_point(const std::vector<double>& x, const std::vector<double>& y, double far, std::size_t a,
+                std::size_t b) {
+  return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * far;
 }
 
 // Leaves out points that repeat the one before, with a warning.
 void merge_repeated(study::ObjectReader& target, const char* key, PathTargets& targets) {
   std::vector<double> x, y;
+  const double far = farthest(targets.x, targets.y);
   for (std::size_t k = 0; k < targets.x.size(); ++k)
-    if (k == 0 || !same_point(targets.x, targets.y, k, k - 1))
+    if (k == 0 || !same_point(targets.x, targets.y, far, k, k - 1))
       x.push_back(targets.x[k]), y.push_back(targets.y[k]);
   if (x.size() == targets.x.size()) return;
   const std::size_t left_out = targets.x.size() - x.size();
@@ -187,7 +231,7 @@ void check_targets(study::ObjectReader& target, const char* key, const PointRule
     return;
   }
   for (std::size_t k = 1; k < n; ++k)
-    if (same_point(x, y, k, k - 1))
+    if (same_point(x, y, far, k, k - 1))
       target.error(key, fmt::format("point {} repeats point {}: ({}, {})", k + 1, k, x[k], y[k]),
                    "remove one of them");
 }
@@ -206,7 +250,7 @@ void read_points(study::ObjectReader& target, const study::Common& common, const
     return;
   }
   if (has_file) {
-    if (form.points_file && !read_points_file(target, common, *form.points_file, with_bands, targets))
+    if (form.points_file && !read_points_file(target, common, *form.points_file, with_bands, rules, targets))
       targets = {};
     else if (form.points_file)
       check_targets(target, "points_file", rules, targets);
@@ -307,7 +351,7 @@ bool leave_out_closing_target(study::ObjectReader& target, const char* key, std:
 }  // namespace
 
 bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y) {
-  return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
+  return x.size() > 1 && x.size() == y.size() && same_point(x, y, farthest(x, y), 0, x.size() - 1);
 }
 
 std::vector<double> timed_angles(study::ObjectReader& target, const study::DisplayUnits& units,
@@ -363,7 +407,8 @@ void read_path_points(study::ObjectReader& target, const study::Common& common, 
 void read_stroke(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                  std::vector<double>& x, std::vector<double>& y) {
   PathTargets targets;
-  read_points(target, common, form, false, {.least = 5, .most = 100'000, .merge_repeated = true}, targets);
+  read_points(target, common, form, false,
+              {.least = 5, .most = 100'000, .merge_repeated = true, .from_drawing = true}, targets);
   x = std::move(targets.x);
   y = std::move(targets.y);
 }

@@ -23,7 +23,10 @@ struct PathPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, PathPointsForm& t) {
   visit(field::length("points", "target points [x, y] in their order"), t.points);
-  visit(field::entry("points_file", "CSV file with columns x_m, y_m (any length unit) instead of points"),
+  visit(field::entry(
+            "points_file",
+            "CSV file with columns x_m, y_m (any length unit) instead of points; planar.any also takes "
+            "a drawing of one line, SVG or DXF"),
         t.points_file);
 }
 
@@ -86,6 +89,7 @@ void read_path_points(study::ObjectReader& target, const study::Common& common, 
                       std::vector<double>& x, std::vector<double>& y);
 
 /// The points of a stroke (m): 5 to 100 000; one that repeats the point before is left out with a warning.
+/// Its file may be a table or a drawing, SVG or DXF, whose line ends at its first point where it is closed.
 void read_stroke(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                  std::vector<double>& x, std::vector<double>& y);
 

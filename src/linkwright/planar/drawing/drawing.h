@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+
+// The one line of a drawing, from SVG or ASCII DXF.
+namespace linkwright::planar {
+
+/// The line of a drawing, with its curves as points.
+struct DrawnLine {
+  std::vector<std::complex<double>> points;  ///< m, y upwards; neighbours differ; a closed one ends before
+                                             ///< its first point comes again
+  bool closed = false;                       ///< the last point is followed by the first
+  bool has_unit = true;  ///< the drawing says in which unit its numbers are; without one they are mm
+};
+
+/// Forms of drawings that are read.
+enum class DrawingFormat {
+  none,      ///< no drawing: a table, or something else
+  svg,       ///< an SVG file
+  svg_path,  ///< the attribute d of a path alone, "M 0 0 L 40 0"
+  dxf        ///< an ASCII DXF file, or a binary one, which `read_drawing` refuses
+};
+
+/// The form of a text by its first characters.
+/// @param text text in UTF-8, without a byte order mark
+/// @returns the form
+DrawingFormat drawing_format(std::string_view text);
+
+/// Reads the line of a drawing: a path, polyline, polygon, line, rectangle, circle or ellipse of SVG with the
+/// transforms around it and the scale of the page; a polyline with bulges, line, arc, circle, ellipse or
+/// spline of DXF with its $INSUNITS. Several lines that meet end to end are one, whatever their order and
+/// direction. Curves become 24 points (SVG) or 96 a turn (DXF), fewer where a drawing has more than 20 000.
+/// Time and memory grow with the length of the text alone.
+/// @param text text in UTF-8, without a byte order mark, in a form that `drawing_format` knows
+/// @param file name of the file in diagnostics
+/// @param diagnostics receives the error, with its line where there is one
+/// @returns the line; none, with one error in `diagnostics`, where the text draws no line or several
+std::optional<DrawnLine> read_drawing(std::string_view text, const std::string& file,
+                                      Diagnostics& diagnostics);
+
+}  // namespace linkwright::planar
