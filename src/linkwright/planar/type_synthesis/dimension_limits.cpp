@@ -62,7 +62,7 @@ std::vector<LengthTerm> length_terms(const PointProgram& p) {
         int factor = -1;
         if (pin.operation == PointOperation::slide) factor = pin.parameter;
         if (pin.operation == PointOperation::pair) factor = pin.parameter + (step.first == pin.first ? 0 : 1);
-        out.push_back({step.parameter, factor});
+        out.push_back({step.parameter, factor, &step == &p.steps.back()});
         if (pin.operation == PointOperation::group_point)
           out.back().bar = bar_of_group(p, step.first - p.group);
         break;
@@ -256,6 +256,7 @@ void DimensionLimits::measure_lengths(std::span<const double> x, MachineMeasures
   out.min_length = infinity;
   for (const LengthTerm& term : lengths_) {
     const double length = length_of(term, x, scale);
+    if (term.traced && length == 0) continue;
     out.min_length = std::min(out.min_length, length), out.max_length = std::max(out.max_length, length);
   }
 }

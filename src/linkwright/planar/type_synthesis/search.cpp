@@ -15,6 +15,7 @@
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/planar/type_synthesis/atlas.h"
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/grow.h"
 #include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
 #include "linkwright/planar/type_synthesis/function_starts.h"
@@ -104,6 +105,8 @@ class TypeSearch {
       context_.report(
           {.stage = name_of(family.report.family), .fraction = std::min(1.0, share), .best = best_error()});
     }
+    if (status != Status::cancelled && target_.output == MachineOutput::point && !target_.oriented)
+      close_gaps();
     return answer(status);
   }
 
@@ -206,32 +209,14 @@ class TypeSearch {
   /// The best machine of pairs with two links less, null if there is none.
   const FoundMachine* smaller_machine(const FamilyState& f) const {
     const FoundMachine* best = nullptr;
-    if (!is_of_pairs(f.report.family, target_.output)) return nullptr;
+    // The new pair hangs at the traced point; that of a Stephenson I joins crank and rocker.
+    if (!is_of_pairs(f.report.family, target_.output) || f.report.family == MachineFamily::stephenson_1)
+      return nullptr;
     for (const FamilyState& s : state_.families)
       if (s.links == f.links - 2 && is_of_pairs(s.report.family, target_.output) && !s.elite.empty() &&
           (!best || s.elite[0].measures.error < best->measures.error))
         best = &s.elite[0];
     return best;
-  }
-
-  /// A machine with one pair more that traces nearly the same curve.
-  std::optional<FittedMachine> grown(const FittedMachine& from, RandomStream& random) const {
-    const PointProgram& old = *from.shape.program;
-    std::vector<PairOfBars> pairs = old.pairs;
-    const int traced = old.links - 2 + (old.trace_second ? 1 : 0);
-    int other = static_cast<int>(random.below(static_cast<std::uint32_t>(old.links - 1)));
-    if (other >= traced) ++other;
-    pairs.push_back({traced, other});
-    const PointProgram& p = program_of_pairs(pairs, false);
-    FittedMachine out = from;
-    out.shape.program = &p;
-    out.shape.x.resize(static_cast<std::size_t>(p.parameters));
-    // The steps of the old machine come first, its traced point among them.
-    if (!draw_shape(out.shape, old.steps.size(), random)) return std::nullopt;
-    std::copy(from.shape.x.end() - 4, from.shape.x.end(), out.shape.x.end() - 4);
-    const auto plate = static_cast<std::size_t>(p.steps.back().parameter);
-    out.shape.x[plate] = 0.02 * random.normal(), out.shape.x[plate + 1] = 0.02 * random.normal();
-    return out;
   }
 
   void hop(FittedMachine& m, RandomStream& random) const {
@@ -276,9 +261,7 @@ class TypeSearch {
       const bool left = f.next_in_pool < f.pooled();
       const bool from_pool = f.elite.empty() ? f.pooled() > 0 : left && stream.uniform() < 0.5;
       if (grow && k < 4) {
-        auto machine = target_.output == MachineOutput::point
-                           ? grown(smaller->machine, stream)
-                           : grown_by_parallelogram(smaller->machine, stream);
+        auto machine = grown_in(f.report.family, smaller->machine, stream);
         if (!machine) continue;
         t.kind = TrialKind::grow, t.machine = std::move(*machine);
         // What was grown traces the curve of the smaller machine, which may be far from this family's best.
@@ -301,19 +284,30 @@ class TypeSearch {
     return out;
   }
 
+  /// A machine of a family with one pair more that moves nearly as a smaller one does.
+  std::optional<FittedMachine> grown_in(MachineFamily family, const FittedMachine& from,
+                                        RandomStream& random) const {
+    if (target_.output == MachineOutput::point)
+      return grown_machine(
+          from, [family](MachineFamily other) { return other == family; }, random);
+    auto machine = grown_by_parallelogram(from, random);
+    if (machine && machine->shape.program->family != family) machine.reset();
+    return machine;
+  }
+
   bool place(FittedMachine& machine, MachineFitter& fitter) const {
     if (target_.output == MachineOutput::point) return place_on(target_, machine) < infinity;
     return begin_function(target_, fitter, machine.angle[0], machine) < infinity;
   }
 
-  void work(Trial& t, MachineFitter& fitter) const {
+  void work(Trial& t, MachineFitter& fitter, bool polished = true) const {
     const std::int64_t before = fitter.curves();
     const bool possible =
         ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
     const bool placed = possible && (t.kind != TrialKind::pool || place(t.machine, fitter));
     // The body sits on another bar than before.
     if (placed && target_.oriented && t.kind != TrialKind::hop) fitter.turn_body(t.machine);
-    if (placed && fitter.polish(t.machine, t.best)) {
+    if (placed && (!polished || fitter.polish(t.machine, t.best))) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
       t.inside = t.measures.defect == MachineDefect::none;
@@ -327,19 +321,80 @@ class TypeSearch {
       if (!context_.interrupted()) work(trials[i], fitters_[i]);
     });
     const double before = f.report.error;
-    for (Trial& t : trials) {
-      state_.curves += t.curves;
-      f.report.curves += t.curves;
-      (t.kind == TrialKind::hop    ? f.report.hops
-       : t.kind == TrialKind::grow ? f.report.grown
-                                   : f.report.polished) += 1;
-      if (t.accepted) take(f, std::move(t));
-    }
+    for (Trial& t : trials) count_and_take(f, t);
     f.last_gain = before == 0             ? 0
                   : std::isfinite(before) ? 1 - f.report.error / before
                   : f.elite.empty()       ? 0
                                           : 1;
     ++f.rounds;
+  }
+
+  void count_and_take(FamilyState& f, Trial& t) {
+    state_.curves += t.curves;
+    f.report.curves += t.curves;
+    (t.kind == TrialKind::hop    ? f.report.hops
+     : t.kind == TrialKind::grow ? f.report.grown
+                                 : f.report.polished) += 1;
+    if (t.accepted) take(f, std::move(t));
+  }
+
+  FamilyState* state_of(MachineFamily family) {
+    const auto found = std::find_if(state_.families.begin(), state_.families.end(),
+                                    [&](const FamilyState& f) { return f.report.family == family; });
+    return found == state_.families.end() ? nullptr : &*found;
+  }
+
+  /// The best machine of pairs with so many links, null if there is none.
+  const FoundMachine* best_of_pairs(int links) const {
+    const FoundMachine* best = nullptr;
+    for (const FamilyState& f : state_.families)
+      if (f.links == links && is_of_pairs(f.report.family, target_.output) && !f.elite.empty() &&
+          (!best || f.elite[0].measures.error < best->measures.error))
+        best = &f.elite[0];
+    return best;
+  }
+
+  /// The machine with as many pairs more as make so many links; the last pair makes a family of the search.
+  std::optional<FittedMachine> grown_to(const FittedMachine& from, int links, RandomStream& random) {
+    std::optional<FittedMachine> out = from;
+    while (out && out->shape.program->links < links)
+      out = grown_machine(
+          *out, [&](MachineFamily family) { return links_of(family) < links || state_of(family); }, random);
+    return out;
+  }
+
+  /// At the end, machines of pairs with more links are not worse than those with fewer: where they are, the
+  /// best smaller one is grown and polished. If that is in vain, it is grown once more with the traced point
+  /// on the pin of the new pair, so that the curve is the same one.
+  void close_gaps() {
+    const FoundMachine* smaller = best_of_pairs(4);
+    for (const int links : {6, 8, 10}) {
+      const auto is_behind = [&] {
+        const FoundMachine* own = best_of_pairs(links);
+        return smaller && (!own || own->measures.error > smaller->measures.error);
+      };
+      constexpr int polished_rounds = 2, rounds_on_the_pin = 6;
+      for (int turn = 0; turn < polished_rounds + rounds_on_the_pin && is_behind(); ++turn, ++state_.rounds)
+        grow_round(smaller->machine, links, turn >= polished_rounds);
+      if (const FoundMachine* own = best_of_pairs(links); own && !is_behind()) smaller = own;
+    }
+  }
+
+  void grow_round(const FittedMachine& from, int links, bool on_the_pin) {
+    std::vector<Trial> trials;
+    for (std::size_t k = 0; k < trials_a_round; ++k) {
+      RandomStream stream = random(static_cast<std::uint32_t>(2 + k));
+      auto machine = grown_to(from, links, stream);
+      if (!machine) continue;
+      Trial& t = trials.emplace_back();
+      t.kind = TrialKind::grow, t.machine = std::move(*machine);
+      t.origin = state_.rounds * static_cast<std::int64_t>(trials_a_round) + static_cast<std::int64_t>(k) + 1;
+      if (on_the_pin) trace_first_pin(t.machine);
+    }
+    optimise::parallel_for(trials.size(), context_.threads(),
+                           [&](std::size_t i) { work(trials[i], fitters_[i], !on_the_pin); });
+    for (Trial& t : trials)
+      if (FamilyState* f = state_of(t.machine.shape.program->family)) count_and_take(*f, t);
   }
 
   void take(FamilyState& f, Trial&& t) {

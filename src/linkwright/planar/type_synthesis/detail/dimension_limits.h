@@ -39,8 +39,9 @@ struct LimitRows {
 
 /// A length of a machine as a product: scale x |c| x l x L, each where it has a parameter.
 struct LengthTerm {
-  int plate = -1;   ///< first of the two parameters of a complex factor
-  int factor = -1;  ///< parameter of a real factor
+  int plate = -1;       ///< first of the two parameters of a complex factor
+  int factor = -1;      ///< parameter of a real factor
+  bool traced = false;  ///< from the first pin of the traced bar to the traced point: none if that is the pin
   /// First parameters of the pivot on the ground and of the two pins of a bar of a group of four links, whose
   /// length is L.
   std::array<int, 3> bar{-1, -1, -1};
