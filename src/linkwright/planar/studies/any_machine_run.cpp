@@ -22,6 +22,7 @@
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
 #include "linkwright/planar/type_synthesis/stroke_shape.h"
+#include "linkwright/planar/type_synthesis/title.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -71,10 +72,10 @@ class AnyReport {
     const MachineMeasures& m = found.measures;
     study::Solution out;
     const Measured pair_angle = degrees_of(m.min_pair_angle).fixed(1);
-    out.label = poses()
-                    ? say("{}, rms errors {} and {}, pair angle {}", program.name, length(m.distance),
-                          degrees_of(m.rotation, 3), pair_angle)
-                    : say("{}, rms error {}, pair angle {}", program.name, length(m.distance), pair_angle);
+    out.label =
+        poses() ? say("{}, rms errors {} and {}, pair angle {}", title_of(program), length(m.distance),
+                      degrees_of(m.rotation, 3), pair_angle)
+                : say("{}, rms error {}, pair angle {}", title_of(program), length(m.distance), pair_angle);
     const FoundLinkage of = found_linkage(found.machine, target_);
     for (const LinkageBody& body : of.linkage.bodies)
       for (std::size_t k = 1; &body != &of.linkage.bodies[0] && k < body.points.size(); ++k)
@@ -98,6 +99,7 @@ class AnyReport {
     out.objectives["peak_acceleration_share"] = m.peak_acceleration;
     out.classification["family"] = std::string(name_of(program.family));
     out.classification["program"] = program.name;
+    out.classification["type"] = short_name_of(program);
     out.classification["links"] = program.links;
     out.classification["traced_point"] = of.traced;
     if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
@@ -339,7 +341,7 @@ class AnyReport {
               "least {}.",
               links, length(m.distance), pair_angle);
     fact("best machine",
-         say("{}, {}", best.machine.shape.program->name, summary_of(best.machine.shape.program->family)));
+         say("{} ({})", title_of(*best.machine.shape.program), best.machine.shape.program->name));
     fact("root mean square error", length(m.distance));
     if (poses()) fact("root mean square error of the rotation", degrees_of(m.rotation, 3));
     if (poses()) fact("largest error of the rotation", degrees_of(m.largest_rotation, 3));
@@ -358,7 +360,7 @@ class AnyReport {
     if (simplest->machine.shape.program->links < best.machine.shape.program->links)
       fact("best machine with the fewest links",
            say("{} links ({}), root mean square error {}", count_of(simplest->machine.shape.program->links),
-               simplest->machine.shape.program->name, length(simplest->measures.distance)));
+               short_name_of(*simplest->machine.shape.program), length(simplest->measures.distance)));
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
     if (!poses()) stroke_facts(fact);
     if (m.peak_acceleration > 100 && !poses())
@@ -398,7 +400,7 @@ class AnyReport {
         [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
     warn("limits",
          say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             nearest->machine.shape.program->name, length(nearest->measures.distance),
+             short_name_of(*nearest->machine.shape.program), length(nearest->measures.distance),
              summary_of(nearest->measures.defect)),
          "search longer, allow more links, or relax the limits");
   }
