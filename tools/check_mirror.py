@@ -35,6 +35,7 @@ NO_TEST = {
     "planar/drawing/detail/svg_file.h": "part of drawing, tested in drawing_test.cpp",
     "planar/drawing/detail/svg_path.h": "part of drawing, tested in drawing_test.cpp",
     "planar/drawing/detail/xml_tags.h": "part of drawing, tested in drawing_test.cpp",
+    "planar/studies/any_machine_layouts.h": "part of the studies of planar.any, tested in any_machine_test.cpp",
     "planar/linkage/state.h": "plain data; every test of motion fills and reads it",
     "planar/path/answer.h": "plain data; tested with the syntheses that give it",
     "planar/path/local_fit.h": "plain data; tested with the fitters that give it",

@@ -53,6 +53,30 @@ TEST(AnyPathStudies, KeepToTheFamiliesAndLinksThatAreAskedFor) {
     EXPECT_EQ(solution.classification.find("links")->as_number(), 4);
 }
 
+// Cognates of the four-bars of the list, with the lengths of their own.
+TEST(AnyPathStudies, OfferTheCognatesOfFourBarsAsLayouts) {
+  const study::Result result =
+      test::run_text(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\"]\n"},
+                               {"4", "[optimiser]\nevaluations = 40000\n"}}));
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_THAT(to_string(result.solutions[0].label),
+              HasSubstr("Four-bar linkage, traced point on the coupler, rms"));
+  EXPECT_EQ(result.solutions[0].classification.find("program")->as_string(), "four_bar");
+  const Table* layouts = result.table("layouts");
+  ASSERT_TRUE(layouts);
+  EXPECT_EQ(layouts->rows(), 2 * result.solutions.size());
+  const Table* machines = result.table("machines");
+  for (std::size_t i = 0; i < layouts->rows(); ++i) {
+    EXPECT_LT(layouts->find("largest_deviation_m")->values[i], 1e-9 * layouts->find("size_m")->values[i]);
+    const auto machine = static_cast<std::size_t>(layouts->find("machine")->values[i]) - 1;
+    if (layouts->find("same_timing")->values[i] == 1) {
+      EXPECT_NEAR(layouts->find("least_pair_angle_rad")->values[i],
+                  machines->find("least_pair_angle_rad")->values[machine], 1e-3);
+    }
+    EXPECT_GT(layouts->find("crank_m")->values[i], 0);
+  }
+}
+
 // A stroke that is sampled three times as finely along one side is the same stroke.
 TEST(AnyPathStudies, DoNotDependOnTheSpacingOfThePoints) {
   const auto run = [](const char* points) {

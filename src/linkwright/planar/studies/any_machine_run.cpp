@@ -16,6 +16,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/any_machine.h"
+#include "linkwright/planar/studies/any_machine_layouts.h"
 #include "linkwright/planar/studies/any_search_tables.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
@@ -55,6 +56,7 @@ class AnyReport {
     if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
     for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(answer_.machines[i], i + 1);
     machine_table();
+    if (auto layouts = layout_table(answer_.machines, target_)) result_.tables.push_back(std::move(*layouts));
     add_search_tables(answer_, {error_key(), "m", size()}, result_);
     findings();
     return std::move(result_);
