@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How often a search finds the machine that a curve comes from, or one as good:
+//
+//   type_synthesis_statistics [MACHINES [CURVES [FAMILY...]]]
+//
+// draws so many machines (40) of each family, with pair angles of at least 23 degrees and no link of 9 sizes
+// of the curve or more, searches its family along the curve with so many curves (600 000), and prints a table
+// in Markdown: searches that end with an error below 0.05 % of the size. Machine k is drawn with the seed 5
+// and searched with the seed k. A search takes some tenths of a second on two threads.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <complex>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/core/random.h"
+#include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/draw_shape.h"
+#include "linkwright/planar/type_synthesis/polish.h"
+#include "linkwright/planar/type_synthesis/search.h"
+
+namespace {
+
+using namespace linkwright;
+using namespace linkwright::planar;
+
+constexpr double recovered_below = 5e-4, least_pair_angle = 23 * pi / 180, longest_link = 9;
+constexpr std::size_t curve_points = 720;
+
+Stroke curve_of(const MachineShape& shape) {
+  std::vector<double> angle, x(curve_points), y(curve_points);
+  for (std::size_t k = 0; k < curve_points; ++k)
+    angle.push_back(2 * pi * static_cast<double>(k) / curve_points);
+  compute_curve({.program = shape.program,
+                 .x = shape.x.data(),
+                 .signs = shape.signs,
+                 .angle = angle.data(),
+                 .count = curve_points,
+                 .px = x.data(),
+                 .py = y.data()});
+  Stroke out{.points = {}, .closed = true};
+  for (std::size_t k = 0; k < curve_points; ++k) out.points.emplace_back(x[k], y[k]);
+  return out;
+}
+
+/// True if the machine keeps the limits with something to spare, in sizes of its own curve.
+bool keeps_limits(const MachineShape& shape, const SampledStroke& stroke) {
+  FittedMachine machine{.shape = shape};
+  double* place = machine.shape.x.data() + shape.program->place();
+  place[0] = -stroke.centre.real() / stroke.size, place[1] = -stroke.centre.imag() / stroke.size;
+  place[2] = 1 / stroke.size, place[3] = 0;
+  for (std::size_t k = 0; k < stroke_samples; ++k)
+    machine.angle[k] = 2 * pi * static_cast<double>(k) / stroke_samples;
+  MachineFitter fitter(stroke, {});
+  const MachineMeasures m = fitter.measure(machine);
+  return m.min_pair_angle >= least_pair_angle && m.max_length < longest_link && m.min_length > 0.05;
+}
+
+/// A machine of one of the programs of a family, and its curve.
+Stroke drawn_curve(MachineFamily family, std::uint32_t number) {
+  const auto programs = programs_of(family);
+  for (std::uint32_t k = 0;; ++k) {
+    RandomStream random(
+        {.seed = 5, .run = static_cast<std::uint32_t>(family), .generation = number, .individual = k});
+    MachineShape shape{.program = programs[random.below(static_cast<std::uint32_t>(programs.size()))]};
+    if (!draw_shape(shape, 0, random)) continue;
+    Stroke out = curve_of(shape);
+    if (keeps_limits(shape, sampled_stroke(out))) return out;
+  }
+}
+
+std::string row(MachineFamily family, std::uint32_t count, std::int64_t curves) {
+  std::uint32_t recovered = 0;
+  std::vector<double> errors;
+  std::string missed;
+  for (std::uint32_t number = 0; number < count; ++number) {
+    RunContext context;
+    const TypeSearchAnswer answer = search_types(
+        sampled_stroke(drawn_curve(family, number)),
+        {.families = {family}, .max_links = links_of(family), .max_curves = curves, .seed = number}, context);
+    errors.push_back(answer.families[0].error);
+    if (errors.back() < recovered_below)
+      ++recovered;
+    else
+      missed += fmt::format("{}{}", missed.empty() ? "" : ", ", number);
+  }
+  std::sort(errors.begin(), errors.end());
+  return fmt::format("| {} | {} of {} | {:.1e} | {:.1e} | {} |\n", name_of(family), recovered, count,
+                     errors[errors.size() / 2], errors.back(), missed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i, long long otherwise) { return argc > i ? std::atoll(argv[i]) : otherwise; };
+  const auto count = static_cast<std::uint32_t>(std::max(1LL, number(1, 40)));
+  const std::int64_t curves = std::max(1000LL, number(2, 600'000));
+  fmt::print("{} machines of each family, {} curves a search\n\n", count, curves);
+  fmt::print(
+      "| family | recovered | median error | largest error | not recovered |\n|---|---|---|---|---|\n");
+  for (const auto& family : names(MachineFamily{})) {
+    if (programs_of(family.value).empty()) continue;
+    const bool asked = argc <= 3 || std::find_if(argv + 3, argv + argc, [&](const char* name) {
+                                      return name == family.name;
+                                    }) != argv + argc;
+    if (asked) fmt::print("{}", row(family.value, count, curves));
+    std::fflush(stdout);
+  }
+  return 0;
+}
