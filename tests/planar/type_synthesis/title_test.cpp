@@ -20,6 +20,10 @@ TEST(MachineTitles, SayTheTypeAndTheTracedBar) {
             "Five-bar linkage with cranks geared 1 to -2, traced point on the bar at the first crank");
   EXPECT_EQ(title_of(*program_named("eight_bar:1315b")),
             "Eight-bar linkage 13-15, traced point on the second bar of the last pair");
+  EXPECT_EQ(title_of(*program_named("watt_2:angle")),
+            "Watt II six-bar linkage, output by its last link on the ground");
+  EXPECT_EQ(title_of(*program_named("eight_bar:134:slide")),
+            "Eight-bar linkage 13, output by a slider on the first bar of the last pair");
 }
 
 TEST(MachineTitles, HaveShortForms) {
@@ -33,6 +37,15 @@ TEST(MachineTitles, DifferFromTypeToType) {
   for (const PointProgram* p : test::all_programs()) {
     EXPECT_TRUE(titles.insert(title_of(*p)).second) << p->name;
     EXPECT_TRUE(names.insert(short_name_of(*p)).second) << p->name;
+  }
+  names.clear();
+  for (const PointProgram* p : test::function_programs()) {
+    EXPECT_TRUE(titles.insert(title_of(*p)).second) << p->name;
+    EXPECT_TRUE(names
+                    .insert(std::string(name_of(p->family)) + short_name_of(*p) +
+                            (p->output == MachineOutput::slide ? "s" : ""))
+                    .second)
+        << p->name;
   }
 }
 

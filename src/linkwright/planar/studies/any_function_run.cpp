@@ -22,6 +22,7 @@
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
 #include "linkwright/planar/type_synthesis/minimax.h"
+#include "linkwright/planar/type_synthesis/title.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -175,7 +176,7 @@ class FunctionReport {
     const PointProgram& program = *found.machine.shape.program;
     const MachineMeasures& m = found.measures;
     study::Solution out;
-    out.label = say("{}, greatest error {}, pair angle {}", program.name, output(found_[i].greatest),
+    out.label = say("{}, greatest error {}, pair angle {}", title_of(program), output(found_[i].greatest),
                     degrees_of(m.min_pair_angle).fixed(1));
     const FoundLinkage of = found_linkage(found.machine, motion_.stroke);
     add_lengths(of.linkage, out);
@@ -187,6 +188,7 @@ class FunctionReport {
     out.objectives["longest_link_m"] = m.max_length * size();
     out.classification["family"] = std::string(name_of(program.family));
     out.classification["program"] = program.name;
+    out.classification["type"] = short_name_of(program);
     out.classification["links"] = program.links;
     out.classification["output"] = of.traced.substr(0, of.traced.find('.'));
     out.classification["crank_begins_rad"] = found.machine.angle[0] + of.crank_angle;
@@ -296,7 +298,7 @@ class FunctionReport {
     result_.headline =
         say("A machine of {} links generates the function within {}, pair angles of at least {}.",
             count_of(program.links), greatest, pair);
-    fact("best machine", say("{}", program.name));
+    fact("best machine", say("{} ({})", title_of(program), program.name));
     report_greatest_error(p_, greatest, result_);
     fact("root mean square error", output(found_[0].root_mean));
     for (std::size_t d = 0; d < s_.dwells.size(); ++d)
@@ -314,7 +316,7 @@ class FunctionReport {
     if (simplest->machine.shape.program->links < program.links)
       fact("best machine with the fewest links",
            say("{} links ({}), greatest error {}", count_of(simplest->machine.shape.program->links),
-               simplest->machine.shape.program->name, output(found_[at].greatest)));
+               short_name_of(*simplest->machine.shape.program), output(found_[at].greatest)));
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
   }
 
@@ -330,7 +332,7 @@ class FunctionReport {
       if (word.value == nearest->measures.defect) why = word.summary;
     warn("limits",
          say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             nearest->machine.shape.program->name, output(nearest->measures.error * scale()), why),
+             short_name_of(*nearest->machine.shape.program), output(nearest->measures.error * scale()), why),
          "search longer, allow more links, or relax the limits");
   }
 

@@ -62,7 +62,8 @@ PointProgram end_program(PointProgram p, int link) {
   return p;
 }
 
-/// Ends a program whose last step is its output already: a point of a link, its angle, or a slider at its end.
+/// Ends a program whose last step is its output already: a point of a link, its angle, or a slider at its
+/// end.
 PointProgram end_at_output(PointProgram p, int link, MachineOutput output) {
   p.output = output, p.traced_bar = link;
   p.parameters += 4;
@@ -184,6 +185,7 @@ PointProgram slide_program(std::span<const PairOfBars> pairs, int link) {
                                      : fmt::format("eight_bar:{}{}:slide", digits(pairs), link),
                                  six ? 6 : 8);
   p = pairs_behind(std::move(p), PointOperation::ground, pairs);
+  p.trace_second = link % 2 == 1;
   add_slider(p, add_point(p, link));
   return end_at_output(std::move(p), static_cast<int>(p.bodies.size()) - 1, MachineOutput::slide);
 }

@@ -100,8 +100,9 @@ struct PointProgram {
   int links = 4;
   double gear_ratio = 0;          ///< of geared_crank: its turns for each turn of the crank
   std::vector<PairOfBars> pairs;  ///< only of machines of pairs
-  bool trace_second = false;      ///< the traced point is on the second bar of the last pair
-  std::vector<PointStep> steps;   ///< the last one gives the traced point, or the end of the output link
+  bool trace_second =
+      false;  ///< the traced point, or the rod of a slider, is on the second bar of the last pair
+  std::vector<PointStep> steps;  ///< the last one gives the traced point, or the end of the output link
   std::vector<ProgramLink>
       bodies;  ///< ground, crank and bars; slides and sleeves have no points of their own
   /// Step of the first pin of a group of four links, -1 if there is none. Its pins are the two of the link on

@@ -25,43 +25,93 @@ bool has_ternary_crank(const PointProgram& program) {
 }
 
 std::string_view six_bar_of(MachineFamily family) {
-  return family == MachineFamily::watt_1         ? "Watt I"
-         : family == MachineFamily::stephenson_1 ? "Stephenson I"
-                                                 : "Stephenson III";
+  switch (family) {
+    case MachineFamily::watt_1:
+      return "Watt I";
+    case MachineFamily::watt_2:
+      return "Watt II";
+    case MachineFamily::stephenson_1:
+      return "Stephenson I";
+    case MachineFamily::stephenson_2:
+      return "Stephenson II";
+    default:
+      return "Stephenson III";
+  }
+}
+
+/// The machine without its output.
+std::string machine_of(const PointProgram& program) {
+  switch (program.family) {
+    case MachineFamily::four_bar:
+      return "Four-bar linkage";
+    case MachineFamily::slider_crank:
+      return "Slider-crank";
+    case MachineFamily::inverted_slider:
+      return "Inverted slider-crank";
+    case MachineFamily::geared_five_bar:
+      return fmt::format("Five-bar linkage with cranks geared 1 to {}", program.gear_ratio);
+    case MachineFamily::watt_1:
+    case MachineFamily::watt_2:
+    case MachineFamily::stephenson_1:
+    case MachineFamily::stephenson_2:
+    case MachineFamily::stephenson_3:
+      return fmt::format("{} six-bar linkage{}", six_bar_of(program.family),
+                         has_ternary_crank(program) ? " with a ternary crank" : "");
+    case MachineFamily::eight_bar:
+    case MachineFamily::ten_bar:
+      break;
+  }
+  return fmt::format("{} linkage {}", program.family == MachineFamily::eight_bar ? "Eight-bar" : "Ten-bar",
+                     links_of_pairs(program));
+}
+
+std::string traced_bar_of(const PointProgram& program) {
+  const char* bar = program.trace_second ? "second" : "first";
+  switch (program.family) {
+    case MachineFamily::four_bar:
+      return "the coupler";
+    case MachineFamily::slider_crank:
+      return "the connecting rod";
+    case MachineFamily::inverted_slider:
+      return "the rod through the swinging sleeve";
+    case MachineFamily::geared_five_bar:
+      return "the bar at the first crank";
+    case MachineFamily::stephenson_2:
+      return program.traced_bar == 3 ? "the ternary link at the crank" : "a binary bar";
+    case MachineFamily::eight_bar:
+    case MachineFamily::ten_bar:
+      return fmt::format("the {} bar of the last pair", bar);
+    default:
+      return fmt::format("the {} bar of the second pair", bar);
+  }
 }
 
 }  // namespace
 
 std::string title_of(const PointProgram& program) {
-  const char* bar = program.trace_second ? "second" : "first";
-  switch (program.family) {
-    case MachineFamily::four_bar:
-      return "Four-bar linkage, traced point on the coupler";
-    case MachineFamily::slider_crank:
-      return "Slider-crank, traced point on the connecting rod";
-    case MachineFamily::inverted_slider:
-      return "Inverted slider-crank, traced point on the rod through the swinging sleeve";
-    case MachineFamily::geared_five_bar:
-      return fmt::format(
-          "Five-bar linkage with cranks geared 1 to {}, traced point on the bar at the first crank",
-          program.gear_ratio);
-    case MachineFamily::watt_1:
-    case MachineFamily::stephenson_1:
-    case MachineFamily::stephenson_3:
-      return fmt::format("{} six-bar linkage{}, traced point on the {} bar of the second pair",
-                         six_bar_of(program.family),
-                         has_ternary_crank(program) ? " with a ternary crank" : "", bar);
-    case MachineFamily::eight_bar:
-    case MachineFamily::ten_bar:
-      break;
+  const std::string machine = machine_of(program);
+  switch (program.output) {
+    case MachineOutput::point:
+      return fmt::format("{}, traced point on {}", machine, traced_bar_of(program));
+    case MachineOutput::angle:
+      return fmt::format("{}, output by {}", machine,
+                         program.family == MachineFamily::inverted_slider ? "its swinging sleeve"
+                         : program.family == MachineFamily::four_bar      ? "its rocker"
+                                                                          : "its last link on the ground");
+    case MachineOutput::slide:
+      return program.family == MachineFamily::eight_bar
+                 ? fmt::format("{}, output by a slider on {}", machine, traced_bar_of(program))
+                 : fmt::format("{}, output by its slider", machine);
   }
-  return fmt::format("{} linkage {}, traced point on the {} bar of the last pair",
-                     program.family == MachineFamily::eight_bar ? "Eight-bar" : "Ten-bar",
-                     links_of_pairs(program), bar);
+  return machine;
 }
 
 std::string short_name_of(const PointProgram& program) {
-  const char bar = program.trace_second ? 'b' : 'a';
+  const bool traces = program.output == MachineOutput::point;
+  const std::string bar = !traces                                                                   ? ""
+                          : program.trace_second || (program.group >= 0 && program.traced_bar == 4) ? " b"
+                                                                                                    : " a";
+  const std::string_view end = program.output == MachineOutput::slide ? " with slider" : "";
   switch (program.family) {
     case MachineFamily::four_bar:
       return "four-bar";
@@ -73,14 +123,19 @@ std::string short_name_of(const PointProgram& program) {
       return fmt::format("geared five-bar 1:{}", program.gear_ratio);
     case MachineFamily::watt_1:
     case MachineFamily::stephenson_1:
+      return fmt::format("{} {}{}", six_bar_of(program.family), links_of_pairs(program), bar);
+    case MachineFamily::watt_2:
+    case MachineFamily::stephenson_2:
     case MachineFamily::stephenson_3:
-      return fmt::format("{} {} {}", six_bar_of(program.family), links_of_pairs(program), bar);
+      if (traces && program.group < 0)
+        return fmt::format("{} {}{}", six_bar_of(program.family), links_of_pairs(program), bar);
+      return fmt::format("{}{}{}", six_bar_of(program.family), bar, end);
     case MachineFamily::eight_bar:
     case MachineFamily::ten_bar:
       break;
   }
-  return fmt::format("{} {} {}", program.family == MachineFamily::eight_bar ? "eight-bar" : "ten-bar",
-                     links_of_pairs(program), bar);
+  return fmt::format("{} {}{}{}", program.family == MachineFamily::eight_bar ? "eight-bar" : "ten-bar",
+                     links_of_pairs(program), bar, end);
 }
 
 }  // namespace linkwright::planar
