@@ -85,4 +85,37 @@ inline std::vector<std::complex<double>> traced(const MachineShape& shape, std::
   return out;
 }
 
+/// A machine that draws its own curve, so that its error is nothing but rounding.
+struct OwnCurve {
+  MotionTarget target;
+  MachineFitter fitter;
+  FittedMachine machine;
+  MachineMeasures measures;
+
+  explicit OwnCurve(const PointProgram& p) : OwnCurve(shape_of(p)) {}
+
+ private:
+  static MachineShape shape_of(const PointProgram& p) {
+    MachineShape shape = some_shape(p, 5);
+    double* x = shape.x.data() + shape.x.size() - 4;
+    x[0] = 0.1, x[1] = -0.05, x[2] = 0.03, x[3] = 0.06;
+    return shape;
+  }
+  static std::vector<double> turn() {
+    std::vector<double> out;
+    for (int k = 0; k < 480; ++k) out.push_back(2 * pi * k / 480);
+    return out;
+  }
+  explicit OwnCurve(const MachineShape& shape)
+      : target(sampled_stroke({traced(shape, turn()), true})), fitter(target, {.min_pair_angle = 0.02}) {
+    machine.shape = shape;
+    double* x = machine.shape.x.data() + machine.shape.x.size() - 4;
+    const std::complex<double> place =
+        (std::complex<double>(x[0], x[1]) - target.stroke.centre) / target.stroke.size;
+    x[0] = place.real(), x[1] = place.imag(), x[2] /= target.stroke.size, x[3] /= target.stroke.size;
+    for (std::size_t k = 0; k < stroke_samples; ++k) machine.angle[k] = 2 * pi * static_cast<double>(k) / 96;
+    measures = fitter.measure(machine);
+  }
+};
+
 }  // namespace linkwright::planar::test

@@ -109,6 +109,8 @@ class Assignment {
 
 }  // namespace
 
+std::vector<LengthTerm> lengths_of(const PointProgram& program) { return length_terms(program); }
+
 void DimensionLimits::set_program(const PointProgram& program) {
   if (program_ == &program) return;
   program_ = &program;
@@ -248,6 +250,13 @@ void DimensionLimits::scale_freely(std::span<double> x) const {
   if (!(ground > 0) || !(least <= most)) return;
   const double by = std::clamp(1 / ground, least, most);
   x[s] *= by, x[s + 1] *= by;
+}
+
+void DimensionLimits::lengths(std::span<const double> x, std::vector<double>& out) const {
+  const auto s = static_cast<std::size_t>(program_->scale());
+  const double scale = std::hypot(x[s], x[s + 1]);
+  out.clear();
+  for (const LengthTerm& term : lengths_) out.push_back(length_of(term, x, scale));
 }
 
 void DimensionLimits::measure_lengths(std::span<const double> x, MachineMeasures& out) const {

@@ -540,6 +540,45 @@ void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures&
   out.span = 2 * pi;
 }
 
+ErrorModel MachineFitter::error_model(const FittedMachine& machine, bool hold_pivots) {
+  Memory& m = *memory_;
+  const PointProgram& p = m.program_of(machine.shape);
+  const std::vector<double>& x = machine.shape.x;
+  m.now.angle = machine.angle, m.now.body_angle = machine.body_angle;
+  m.compute(p, x.data(), machine.shape.signs, m.now);
+  m.residual_rows(p, x.data(), machine.shape.signs);
+  m.limit_rows.clear(true), m.pivot_rows.clear(true);
+  if (hold_pivots && !m.limits.ground_pivots.empty()) m.dimensions.add_pivots(x, 30, m.pivot_rows);
+  // Rows of a box, which are not met, are no part of the error.
+  for (std::size_t r = 0; r < m.pivot_rows.count; ++r)
+    if (LimitRow& row = m.pivot_rows.rows[r]; std::abs(row.value) > 1e-9) row.value = 0, row.gradient.fill(0);
+  Memory::Matrix a;
+  Memory::Vector b;
+  m.normal_equations(p, a, b);
+  ErrorModel out;
+  const auto n = static_cast<std::size_t>(a.rows());
+  const double by = 1 / m.target.total_weight;
+  out.unknowns = n, out.squares = by * m.now.squares;
+  out.gradient.resize(n), out.matrix.resize(n * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.gradient[i] = by * b(static_cast<Eigen::Index>(i));
+    for (std::size_t j = 0; j <= i; ++j)
+      out.matrix[i * n + j] = out.matrix[j * n + i] =
+          by * a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  return out;
+}
+
+void MachineFitter::move(FittedMachine& machine, std::span<const double> change) {
+  Memory& m = *memory_;
+  const PointProgram& p = m.program_of(machine.shape);
+  for (std::size_t i = 0; i < machine.shape.x.size(); ++i) machine.shape.x[i] += change[i];
+  if (m.target.timed)
+    for (double& angle : machine.angle) angle += change[static_cast<std::size_t>(p.parameters)];
+  if (m.target.oriented) machine.body_angle += change.back();
+  m.dimensions.meet_pivots(machine.shape.x);
+}
+
 MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   Memory& m = *memory_;
   MachineMeasures out;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -79,6 +80,15 @@ struct MachineMeasures {
   MachineDefect defect = MachineDefect::none;
 };
 
+/// The squared error near a machine, squares + 2 gradient.d + d.matrix d, for changes d of all its unknowns:
+/// parameters, the start of the crank where the target is timed, the angle of the body where it is oriented.
+/// Residuals change linearly in it, and crank angles that are free stay the closest ones.
+struct ErrorModel {
+  std::size_t unknowns = 0;
+  double squares = 0;                    ///< squared error of the machine itself, in squared sizes
+  std::vector<double> gradient, matrix;  ///< half of its gradient; symmetric matrix, row after row
+};
+
 /// Fits machines to one target, one after the other: a result depends on the machine that it begins with
 /// alone. Make one a thread; nothing is allocated afterwards.
 class MachineFitter {
@@ -97,6 +107,14 @@ class MachineFitter {
 
   /// Measures on a grid of its own, and the crank angles to rounding.
   MachineMeasures measure(FittedMachine& machine);
+
+  /// The error of a measured machine near its unknowns; with `hold_pivots` stiff rows keep given ground
+  /// pivots at their places.
+  ErrorModel error_model(const FittedMachine& machine, bool hold_pivots);
+
+  /// Changes all unknowns of a machine, as those of `error_model`; given ground pivots are met again. The
+  /// crank angles are those before: `measure` follows.
+  void move(FittedMachine& machine, std::span<const double> change);
 
   /// Number of curves that were computed, each of 96 points.
   std::int64_t curves() const;

@@ -440,26 +440,6 @@ class TypeSearch {
     }
   }
 
-  double chamfer_of(const FoundMachine& found) const {
-    constexpr std::size_t count = 2000;
-    std::vector<double> angle(count), x(count), y(count);
-    const FittedMachine& m = found.machine;
-    const double from = m.angle.front(),
-                 to = target_.stroke.closed ? from + m.sense * 2 * pi : m.angle.back();
-    for (std::size_t k = 0; k < count; ++k)
-      angle[k] = from + (to - from) * static_cast<double>(k) / (target_.stroke.closed ? count : count - 1);
-    compute_curve({.program = m.shape.program,
-                   .x = m.shape.x.data(),
-                   .signs = m.shape.signs,
-                   .angle = angle.data(),
-                   .count = count,
-                   .px = x.data(),
-                   .py = y.data()});
-    std::vector<std::complex<double>> curve;
-    for (std::size_t k = 0; k < count; ++k) curve.emplace_back(x[k], y[k]);
-    return chamfer_distance(curve, target_.stroke.closed, target_.stroke.polyline, target_.stroke.closed);
-  }
-
   TypeSearchAnswer answer(Status status) {
     TypeSearchAnswer out;
     out.status = status;
@@ -491,7 +471,7 @@ class TypeSearch {
     });
     if (out.machines.size() > options_.max_solutions) out.machines.resize(options_.max_solutions);
     if (target_.dense)
-      for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(found);
+      for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(target_, found.machine);
     return out;
   }
 
@@ -504,6 +484,24 @@ class TypeSearch {
 };
 
 }  // namespace
+
+double chamfer_of(const MotionTarget& target, const FittedMachine& m) {
+  constexpr std::size_t count = 2000;
+  std::vector<double> angle(count), x(count), y(count);
+  const double from = m.angle.front(), to = target.stroke.closed ? from + m.sense * 2 * pi : m.angle.back();
+  for (std::size_t k = 0; k < count; ++k)
+    angle[k] = from + (to - from) * static_cast<double>(k) / (target.stroke.closed ? count : count - 1);
+  compute_curve({.program = m.shape.program,
+                 .x = m.shape.x.data(),
+                 .signs = m.shape.signs,
+                 .angle = angle.data(),
+                 .count = count,
+                 .px = x.data(),
+                 .py = y.data()});
+  std::vector<std::complex<double>> curve;
+  for (std::size_t k = 0; k < count; ++k) curve.emplace_back(x[k], y[k]);
+  return chamfer_distance(curve, target.stroke.closed, target.stroke.polyline, target.stroke.closed);
+}
 
 TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,
                               RunContext& context) {

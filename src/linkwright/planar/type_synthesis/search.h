@@ -56,6 +56,9 @@ struct TypeSearchAnswer {
   std::int64_t curves = 0;
 };
 
+/// Chamfer distance of the curve of a measured machine and the stroke of a dense target, in sizes.
+double chamfer_of(const MotionTarget& target, const FittedMachine& machine);
+
 /// Finds machines of many types that trace a stroke, whose body takes poses, or that generate a function. The
 /// sequence of its trials depends on the seed alone; the context or the number of curves says where it ends.
 TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,

@@ -47,6 +47,9 @@ struct LengthTerm {
   std::array<int, 3> bar{-1, -1, -1};
 };
 
+/// All lengths of the machines of a program, that of the crank first.
+std::vector<LengthTerm> lengths_of(const PointProgram& program);
+
 /// The limits of lengths and ground pivots of one machine after the other.
 class DimensionLimits {
  public:
@@ -67,6 +70,8 @@ class DimensionLimits {
   /// or as near to it as the limits of the lengths allow.
   void scale_freely(std::span<double> x) const;
 
+  /// The lengths themselves, in sizes, that of the crank first.
+  void lengths(std::span<const double> x, std::vector<double>& out) const;
   void measure_lengths(std::span<const double> x, MachineMeasures& out) const;
   bool pivots_in_box(std::span<const double> x) const;
   bool pivots_as_given(std::span<const double> x) const;

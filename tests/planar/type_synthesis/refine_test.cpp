@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/type_synthesis/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/planar/type_synthesis/search.h"
+#include "planar/type_synthesis_cases.h"
+
+namespace linkwright::planar {
+namespace {
+
+/// A short list of four-bars and six-bars for the stroke of a leg.
+struct Found {
+  MotionTarget target{sampled_stroke(test::stroke_of(test::stroke_case("leg")))};
+  TypeSearchOptions search;
+  std::vector<FoundMachine> machines;
+
+  Found() {
+    search.families = {MachineFamily::four_bar, MachineFamily::slider_crank, MachineFamily::watt_1};
+    search.max_curves = 40'000;
+    RunContext context;
+    machines = search_types(target, search, context).machines;
+  }
+  RefineOptions options(std::vector<MachineQuantity> quantities) const {
+    RefineOptions out;
+    for (const MachineQuantity q : quantities) out.objectives.push_back({.quantity = q});
+    out.limits = search.limits;
+    out.length_tolerance = 1e-3 * target.stroke.size;
+    out.starts = 1;
+    return out;
+  }
+};
+
+const Found& found() {
+  static const Found all;
+  return all;
+}
+
+RefineAnswer refined(const RefineOptions& options, int threads = 1) {
+  RunContext context;
+  context.set_threads(threads);
+  return refine_machines(found().target, found().machines, options, context);
+}
+
+double least(const std::vector<std::vector<double>>& values, std::size_t o) {
+  double out = infinity;
+  for (const auto& v : values) out = std::min(out, v[o]);
+  return out;
+}
+
+TEST(Refinements, LowerEachObjectiveWithinTheErrorAndTheLimits) {
+  for (const auto& word : names(MachineQuantity{})) {
+    const RefineAnswer answer = refined(found().options({word.value}));
+    ASSERT_FALSE(answer.machines.empty()) << word.name;
+    EXPECT_GT(answer.steps, 0) << word.name;
+    double now = infinity;
+    for (const RefinedMachine& m : answer.machines) {
+      now = std::min(now, m.values[0]);
+      const MachineMeasures& before = found().machines[m.from].measures;
+      const MachineMeasures& after = m.found.measures;
+      EXPECT_LE(after.error, before.error + std::max(0.1 * before.error, 1e-3)) << word.name;
+      EXPECT_EQ(after.defect, MachineDefect::none) << word.name;
+      EXPECT_GE(after.min_pair_angle, found().search.limits.min_pair_angle) << word.name;
+      if (m.aim) {
+        EXPECT_LT(m.values[0], answer.as_found[m.from][0]) << word.name;
+      }
+    }
+    EXPECT_LT(now, (word.value == MachineQuantity::tolerance_90 ? 1 : 0.99) * least(answer.as_found, 0))
+        << word.name;
+  }
+}
+
+TEST(Refinements, WeighSeveralObjectives) {
+  const RefineAnswer answer =
+      refined(found().options({MachineQuantity::peak_joint_force, MachineQuantity::size}));
+  bool together = false;
+  for (const RefinedMachine& m : answer.machines) {
+    if (!m.aim || *m.aim != 2) continue;
+    together = true;
+    const std::vector<double>& before = answer.as_found[m.from];
+    EXPECT_LT(m.values[0] / before[0] + m.values[1] / before[1], 2);
+  }
+  EXPECT_TRUE(together);
+}
+
+TEST(Refinements, KeepLimitsOfOtherObjectives) {
+  RefineOptions options = found().options({MachineQuantity::peak_joint_force, MachineQuantity::size});
+  options.objectives[1].at_most = 1;
+  const RefineAnswer answer = refined(options);
+  for (const RefinedMachine& m : answer.machines)
+    EXPECT_LE(m.values[1], answer.as_found[m.from][1] * (1 + 1e-12));
+}
+
+TEST(Refinements, DoNotDependOnThreads) {
+  RefineOptions options =
+      found().options({MachineQuantity::drive_torque, MachineQuantity::peak_acceleration});
+  options.starts = 2;
+  const RefineAnswer one = refined(options, 1), two = refined(options, 2);
+  ASSERT_EQ(one.machines.size(), two.machines.size());
+  EXPECT_EQ(one.steps, two.steps);
+  for (std::size_t i = 0; i < one.machines.size(); ++i) {
+    EXPECT_EQ(one.machines[i].values, two.machines[i].values);
+    EXPECT_EQ(one.machines[i].found.machine.shape.x, two.machines[i].found.machine.shape.x);
+  }
+}
+
+TEST(Refinements, EndEarlyWithTheMachinesAsFound) {
+  RunContext context;
+  context.cancel();
+  const RefineAnswer answer =
+      refine_machines(found().target, found().machines, found().options({MachineQuantity::size}), context);
+  EXPECT_EQ(answer.status, Status::cancelled);
+  for (const RefinedMachine& m : answer.machines) EXPECT_FALSE(m.aim);
+  EXPECT_FALSE(answer.machines.empty());
+}
+
+TEST(Refinements, RefuseToRefineForNothing) {
+  EXPECT_THROW((void)refined(found().options({})), ContractError);
+}
+
+}  // namespace
+}  // namespace linkwright::planar
