@@ -181,13 +181,14 @@ TEST(FunctionSearches, NeverDoWorseWithAParallelogramMore) {
     if (found.machine.shape.program->family != MachineFamily::four_bar) continue;
     for (std::uint32_t k = 0; k < 20; ++k) {
       RandomStream random({.seed = 4, .individual = k});
-      auto more = grown_by_parallelogram(found.machine, random);
+      auto more = grown_by_parallelogram(found.machine, MachineFamily::watt_2, random);
       ASSERT_TRUE(more);
+      EXPECT_FALSE(grown_by_parallelogram(found.machine, MachineFamily::stephenson_3, random));
       EXPECT_EQ(more->shape.program->name, "watt_2:angle");
       const double error = fitter.turn_body(*more);
       EXPECT_NEAR(error, found.machine.error, 1e-9);
       for (std::uint32_t i = 0; i < 3; ++i) {
-        const auto eight = grown_by_parallelogram(*more, random);
+        const auto eight = grown_by_parallelogram(*more, MachineFamily::eight_bar, random);
         ASSERT_TRUE(eight);
         FittedMachine again = *eight;
         EXPECT_NEAR(fitter.turn_body(again), error, 1e-9) << eight->shape.program->name;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/math/dual.h"
+#include "linkwright/planar/type_synthesis/detail/link_group.h"
 #include "planar/type_synthesis_cases.h"
 
 // Derivatives of the reverse pass against dual numbers that go forward through formulas of their own.
@@ -87,6 +88,11 @@ struct Pass {
         case PointOperation::geared_crank:
           p = complex_at(step.parameter) + complex_at(step.parameter + 2) * turned(program.gear_ratio);
           break;
+        case PointOperation::group_point:
+          if (static_cast<int>(points.size()) == program.group) solve_group(shape, angle, complex_at);
+          p = place(step.first) +
+              complex_at(step.parameter) * (link_group::is_on_crank(program, step) ? of_crank : of_ground);
+          break;
       }
       points.push_back(p), quality.push_back(sine);
     }
@@ -97,6 +103,35 @@ struct Pass {
   }
 
  private:
+  Point of_ground, of_crank;  ///< directions of the two links of a group of four
+
+  /// Newton's method on numbers with derivatives: at its end the derivatives are those of the solution.
+  template <class ComplexAt>
+  void solve_group(const MachineShape& shape, double angle, const ComplexAt& complex_at) {
+    const int first = link_group::first_parameter(*shape.program);
+    double a0 = 0, b0 = 0;
+    ASSERT_TRUE(link_group::interpolate(link_group::turn_of(*shape.program, shape.x.data()), angle, a0, b0));
+    Number a(a0), b(b0);
+    const Point ground = points.back(), crank = points.front(), one{1.0, 0.0};
+    for (int pass = 0; pass < 8; ++pass) {
+      of_ground = {cos(a), sin(a)}, of_crank = {cos(b), sin(b)};
+      std::array<Number, 2> residual, by_a, by_b;
+      for (int i = 0; i < 2; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Point t = complex_at(first + 2 + 2 * i), s = complex_at(first + 6 + 2 * i);
+        const Point on_ground = of_ground * t, on_crank = of_crank * s;
+        const Point bar = ground + on_ground - crank - on_crank;
+        residual[k] = 0.5 * (square(bar) - square(ground + t - one - s));
+        by_a[k] = bar.y * on_ground.x - bar.x * on_ground.y;
+        by_b[k] = bar.x * on_crank.y - bar.y * on_crank.x;
+      }
+      const Number determinant = by_a[0] * by_b[1] - by_a[1] * by_b[0];
+      a = a - (residual[0] * by_b[1] - residual[1] * by_b[0]) / determinant;
+      b = b - (residual[1] * by_a[0] - residual[0] * by_a[1]) / determinant;
+    }
+    of_ground = {cos(a), sin(a)}, of_crank = {cos(b), sin(b)};
+  }
+
   /// The intersection of two circles, by the foot of its height on the line of their centres.
   static Point pin(const Point& p, const Point& q, const Number& l1, const Number& l2, bool minus,
                    Number& sine) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
@@ -44,6 +45,13 @@ void expect_as_told(const FoundMachine& answer, const SampledStroke& target) {
 
   double largest = 0, squares = 0;
   for (std::size_t k = 0; k < stroke_samples; ++k) {
+    // A group of four links is followed in steps of a degree.
+    const double before = k > 0 ? m.angle[k - 1] : m.angle[0];
+    const int steps = m.shape.program->group < 0
+                          ? 1
+                          : 1 + static_cast<int>(std::abs(m.angle[k] - before) / math::radians(1.0));
+    for (int i = 1; i < steps; ++i)
+      traced_at(found, planned.plan, before + (m.angle[k] - before) * i / steps + found.crank_angle, moving);
     const std::complex<double> at = traced_at(found, planned.plan, m.angle[k] + found.crank_angle, moving);
     const double apart =
         std::abs((at - target.centre) / target.size - std::complex(target.x[k], target.y[k]));
@@ -58,13 +66,19 @@ void expect_as_told(const FoundMachine& answer, const SampledStroke& target) {
   EXPECT_LE(std::abs(m.angle[stroke_samples - 1] - m.angle[0]), 2 * pi + 1e-9);
 
   // One circuit and one branch: the groups assemble on their sides over the whole turn.
+  // A group of four links is followed from where it is drawn, at the first point.
   double least = pi / 2;
-  const std::vector<double> inputs{found.crank_angle};
-  for (const TransmissionRange& range : transmission_ranges(planned.plan, inputs, 0, found.crank_angle,
-                                                            found.crank_angle + 2 * pi, 361, moving)) {
+  const bool of_four = m.shape.program->group >= 0;
+  const double from = found.crank_angle + (of_four ? m.angle[0] : 0);
+  const std::vector<double> inputs{from};
+  LinkageMotion turning(planned.plan);
+  for (const TransmissionRange& range :
+       transmission_ranges(planned.plan, inputs, 0, from, from + 2 * pi, 361, turning)) {
     EXPECT_EQ(range.missing, 0U);
     least = std::min(least, range.minimum);
   }
+  // The measure of a group of four links is one of its own.
+  if (of_four) return;
   // Beside the pair angle, a sleeve keeps the crank pin away from itself.
   if (m.shape.program->family != MachineFamily::inverted_slider) {
     EXPECT_NEAR(least, told.min_pair_angle, tenth_of_a_degree);
@@ -78,6 +92,7 @@ TEST(FoundMachines, AreAsToldWhenTheyAreAnalysedAgain) {
   for (const char* stroke : {"leg", "heart", "square", "letter_s", "step"}) {
     const SampledStroke target = sampled_stroke(test::stroke_of(test::stroke_case(stroke)));
     for (const auto& family : names(MachineFamily{})) {
+      if (programs_of(family.value).empty() && family.value != MachineFamily::ten_bar) continue;
       // Each family alone, so that none is left out of the list by another one.
       std::vector<MachineFamily> searched{family.value};
       if (family.value == MachineFamily::ten_bar) searched.push_back(MachineFamily::eight_bar);
@@ -91,7 +106,7 @@ TEST(FoundMachines, AreAsToldWhenTheyAreAnalysedAgain) {
       }
     }
   }
-  EXPECT_EQ(families.size(), names(MachineFamily{}).size());
+  EXPECT_EQ(families.size(), names(MachineFamily{}).size() - 1) << "all but Watt II, for functions alone";
   EXPECT_GE(machines, 40);
 }
 

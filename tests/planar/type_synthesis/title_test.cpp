@@ -45,7 +45,7 @@ TEST(MachineTitles, DifferFromTypeToType) {
                     .insert(std::string(name_of(p->family)) + short_name_of(*p) +
                             (p->output == MachineOutput::slide ? "s" : ""))
                     .second)
-        << p->name;
+        << p->name << ": " << short_name_of(*p);
   }
 }
 

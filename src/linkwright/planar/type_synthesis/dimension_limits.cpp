@@ -34,7 +34,7 @@ std::complex<double> bar_at_start(const std::array<int, 3>& bar, std::span<const
 
 std::vector<LengthTerm> length_terms(const PointProgram& p) {
   std::vector<LengthTerm> out{{}};  // the crank
-  for (int bar = 0; p.group >= 0 && bar < 2; ++bar) out.push_back({-1, -1, bar_of_group(p, bar)});
+  for (int bar = 0; p.group >= 0 && bar < 2; ++bar) out.push_back({-1, -1, false, bar_of_group(p, bar)});
   for (const PointStep& step : p.steps) {
     switch (step.operation) {
       case PointOperation::crank_pin:

@@ -117,13 +117,14 @@ std::vector<FunctionStart> function_starts(const MotionTarget& target, const Mac
   return out;
 }
 
-std::optional<FittedMachine> grown_by_parallelogram(const FittedMachine& from, RandomStream& random) {
+std::optional<FittedMachine> grown_by_parallelogram(const FittedMachine& from, MachineFamily family,
+                                                    RandomStream& random) {
   const PointProgram& old = *from.shape.program;
   if (old.output != MachineOutput::angle || old.pairs.empty()) return std::nullopt;
   std::vector<PairOfBars> pairs = old.pairs;
   pairs.push_back({0, old.traced_bar});
   const PointProgram* program = angle_program_of_pairs(pairs);
-  if (!program) return std::nullopt;
+  if (!program || program->family != family) return std::nullopt;
   // The pins of the old output link at the samples, from its pivot.
   std::vector<double> points(2 * old.steps.size() * stroke_samples);
   compute_curve({.program = &old,

@@ -28,8 +28,9 @@ std::vector<FunctionStart> function_starts(const MotionTarget& target, const Mac
 /// slider to the output. Returns the root mean square error.
 double begin_function(const MotionTarget& target, MachineFitter& fitter, double from, FittedMachine& machine);
 
-/// A machine of pairs with one pair more whose output is parallel to that of another one: a parallelogram,
-/// drawn at random. Nothing where there is none.
-std::optional<FittedMachine> grown_by_parallelogram(const FittedMachine& from, RandomStream& random);
+/// A machine of a family with one pair more whose output is parallel to that of another one: a parallelogram,
+/// drawn at random. Nothing where the family has none.
+std::optional<FittedMachine> grown_by_parallelogram(const FittedMachine& from, MachineFamily family,
+                                                    RandomStream& random);
 
 }  // namespace linkwright::planar

@@ -290,9 +290,7 @@ class TypeSearch {
     if (target_.output == MachineOutput::point)
       return grown_machine(
           from, [family](MachineFamily other) { return other == family; }, random);
-    auto machine = grown_by_parallelogram(from, random);
-    if (machine && machine->shape.program->family != family) machine.reset();
-    return machine;
+    return grown_by_parallelogram(from, family, random);
   }
 
   bool place(FittedMachine& machine, MachineFitter& fitter) const {

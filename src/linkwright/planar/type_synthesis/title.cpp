@@ -108,9 +108,10 @@ std::string title_of(const PointProgram& program) {
 
 std::string short_name_of(const PointProgram& program) {
   const bool traces = program.output == MachineOutput::point;
-  const std::string bar = !traces                                                                   ? ""
-                          : program.trace_second || (program.group >= 0 && program.traced_bar == 4) ? " b"
-                                                                                                    : " a";
+  const bool on_bar =
+      traces || (program.output == MachineOutput::slide && program.family == MachineFamily::eight_bar);
+  const bool second = program.group >= 0 ? program.traced_bar == 4 : program.trace_second;
+  const std::string_view bar = !on_bar ? "" : second ? " b" : " a";
   const std::string_view end = program.output == MachineOutput::slide ? " with slider" : "";
   switch (program.family) {
     case MachineFamily::four_bar:
