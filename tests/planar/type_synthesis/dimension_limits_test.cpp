@@ -29,7 +29,8 @@ std::vector<double> numbers_of(const PointProgram& program) {
 }
 
 TEST(DimensionLimits, HaveTheGradientsOfTheirDifferences) {
-  for (const char* name : {"four_bar", "inverted_slider", "geared_five_bar:2", "stephenson_3:a"}) {
+  for (const char* name : {"four_bar", "inverted_slider", "geared_five_bar:2", "stephenson_3:a",
+                           "stephenson_2:a", "stephenson_2:b"}) {
     const PointProgram& program = *program_named(name);
     DimensionLimits limits(far_limits());
     limits.set_program(program);
@@ -60,7 +61,8 @@ TEST(DimensionLimits, HaveTheGradientsOfTheirDifferences) {
 }
 
 TEST(DimensionLimits, MovePivotsOntoTheGivenOnes) {
-  for (const char* name : {"four_bar", "inverted_slider", "geared_five_bar:2", "stephenson_3:a"}) {
+  for (const char* name : {"four_bar", "inverted_slider", "geared_five_bar:2", "stephenson_3:a",
+                           "stephenson_2:a", "stephenson_2:b"}) {
     const PointProgram& program = *program_named(name);
     for (const std::size_t count : {1, 2}) {
       MachineLimits given;
