@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/any_machine_refine.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/planar/type_synthesis/search.h"
@@ -198,6 +199,7 @@ struct AnyStudy {
   AnyMechanism mechanism;
   AnyLimits limits;
   AnyOptimiser optimiser;
+  AnyRefinementStudy refinement;
   Stroke drawn;                ///< the stroke, or the places of the poses
   std::vector<double> angles;  ///< of the body at the poses (rad); none: a stroke
   FunctionStudy function;      ///< the function, for such studies

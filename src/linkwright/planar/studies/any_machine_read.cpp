@@ -287,6 +287,7 @@ AnyStudy read_search(study::ObjectReader& document, bool function) {
     if (s.optimiser.seconds && s.optimiser.evaluations)
       table->error("evaluations", "the search has both seconds and evaluations", "keep one of them");
   }
+  if (!function) s.refinement = read_refinement(document);
   return s;
 }
 
@@ -294,6 +295,7 @@ AnyStudy read_search(study::ObjectReader& document, bool function) {
 template <class Target>
 study::Kind any_kind(const char* target, const char* target_summary,
                      void (*read_target)(study::ObjectReader&, const study::Common&, Target&, AnyStudy&)) {
+  constexpr bool function = std::is_same_v<Target, AnyFunctionTarget>;
   study::Kind kind;
   kind.kind = "synthesis";
   kind.mechanism = "planar.any";
@@ -303,9 +305,10 @@ study::Kind any_kind(const char* target, const char* target_summary,
     document.property(field::entry("target", target_summary), study::schema_fields<Target>());
     document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<AnyLimits>());
     document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
+    if constexpr (!function) describe_refinement(document);
   };
   kind.prepare = [read_target](study::ObjectReader& document, const study::Common& common) {
-    AnyStudy s = read_search(document, std::is_same_v<Target, AnyFunctionTarget>);
+    AnyStudy s = read_search(document, function);
     Target form;
     if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
     if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
@@ -316,9 +319,9 @@ study::Kind any_kind(const char* target, const char* target_summary,
     prepared.canonical["target"] = study::write_fields(form);
     prepared.canonical["limits"] = study::write_fields(s.limits);
     prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
+    if constexpr (!function) write_refinement(s.refinement, prepared.canonical);
     prepared.run = [s, common](RunContext& context) {
-      return std::is_same_v<Target, AnyFunctionTarget> ? run_any_function_study(s, common, context)
-                                                       : run_any_study(s, common, context);
+      return function ? run_any_function_study(s, common, context) : run_any_study(s, common, context);
     };
     return prepared;
   };

@@ -43,13 +43,14 @@ std::string summary_of(E value) {
 class AnyReport {
  public:
   AnyReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
-            TypeSearchAnswer answer)
+            TypeSearchAnswer answer, ListFigures figures)
       : s_(s),
         common_(common),
         motion_(*s.motion),
         target_(motion_.stroke),
         limits_(limits),
-        answer_(std::move(answer)) {}
+        answer_(std::move(answer)),
+        figures_(std::move(figures)) {}
 
   study::Result make() {
     result_.status = answer_.status;
@@ -58,6 +59,10 @@ class AnyReport {
     machine_table();
     if (auto layouts = layout_table(answer_.machines, target_)) result_.tables.push_back(std::move(*layouts));
     add_search_tables(answer_, {error_key(), "m", size()}, result_);
+    if (figures_.refined) {
+      result_.statistics["refinements"] = figures_.descents;
+      result_.statistics["refinement_steps"] = figures_.steps;
+    }
     findings();
     return std::move(result_);
   }
@@ -78,7 +83,8 @@ class AnyReport {
         poses() ? say("{}, rms errors {} and {}, pair angle {}", title_of(program), length(m.distance),
                       degrees_of(m.rotation, 3), pair_angle)
                 : say("{}, rms error {}, pair angle {}", title_of(program), length(m.distance), pair_angle);
-    const FoundLinkage of = found_linkage(found.machine, target_);
+    FoundLinkage of = found_linkage(found.machine, target_);
+    if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
     for (const LinkageBody& body : of.linkage.bodies)
       for (std::size_t k = 1; &body != &of.linkage.bodies[0] && k < body.points.size(); ++k)
         out.parameters.push_back(
@@ -108,6 +114,7 @@ class AnyReport {
     out.classification["crank_range_rad"] = m.span;
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
     if (const std::string limit = limited_by(found); !limit.empty()) out.classification["limited_by"] = limit;
+    add_figures(figures_, number - 1, out);
     drawing(found, of, out, number);
     result_.solutions.push_back(std::move(out));
   }
@@ -136,15 +143,12 @@ class AnyReport {
   void drawing(const FoundMachine& found, const FoundLinkage& of, study::Solution& out, std::size_t number) {
     const PlanResult planned = plan_linkage(of.linkage);
     LinkageMotion moving(planned.plan);
-    std::vector<double> crank;
+    const std::vector<double> crank = design_rows(found.machine, of, common_.output.samples);
     std::vector<LinkageRecord> records;
-    const int samples = common_.output.samples;
-    const double from = found.machine.angle.front() + of.crank_angle;
-    for (int k = 0; k < samples; ++k) {
-      crank.push_back(from + found.machine.sense * 2 * pi * k / (samples - 1));
-      const InputMotion input{crank.back(), 0, 0};
+    for (const double angle : crank) {
+      const InputMotion input{angle, 0, 0};
       solve_motion(planned.plan, std::span(&input, 1), moving);
-      records.push_back(record_of(of.linkage, planned.plan, moving, nullptr, crank.back()));
+      records.push_back(record_of(of.linkage, planned.plan, moving, nullptr, angle));
     }
     study::Scene scene =
         linkage_scene(of.linkage, planned.plan, records, {point_named(of.linkage, of.traced)},
@@ -162,6 +166,7 @@ class AnyReport {
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     out.study = motion_study(of.linkage, true, crank, of.traced);
+    load_design(s_.refinement, out.study);
     curve_table(found, of, crank, number);
   }
 
@@ -317,7 +322,9 @@ class AnyReport {
     column("crank_range_rad", "crank rotation along the stroke (rad)", [](F, M m) { return m.span; });
     column("peak_acceleration_share", "peak acceleration at unit crank speed, of the size of the stroke",
            [](F, M m) { return m.peak_acceleration; });
+    add_figure_columns(figures_, table);
     result_.tables.push_back(std::move(table));
+    add_figure_plots(figures_, result_);
   }
 
   void findings() {
@@ -363,6 +370,7 @@ class AnyReport {
       fact("best machine with the fewest links",
            say("{} links ({}), root mean square error {}", count_of(simplest->machine.shape.program->links),
                short_name_of(*simplest->machine.shape.program), length(simplest->measures.distance)));
+    add_figure_facts(s_.refinement, figures_, *result_.table("machines"), motion_, fact);
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
     if (!poses()) stroke_facts(fact);
     if (m.peak_acceleration > 100 && !poses())
@@ -413,12 +421,11 @@ class AnyReport {
   const SampledStroke& target_;
   const MachineLimits& limits_;
   const TypeSearchAnswer answer_;
+  const ListFigures figures_;
   study::Result result_;
 };
 
-}  // namespace
-
-TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits, RunContext& context) {
+TypeSearchOptions search_options(const AnyStudy& s, const MachineLimits& limits) {
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;
@@ -426,6 +433,12 @@ TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits,
   options.seed = static_cast<std::uint64_t>(s.optimiser.seed);
   options.max_solutions = static_cast<std::size_t>(s.optimiser.max_solutions);
   options.max_curves = s.optimiser.evaluations.value_or(0);
+  return options;
+}
+
+}  // namespace
+
+TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits, RunContext& context) {
   // The time of the search is part of the study: it ends as done. Interruptions from outside end the run.
   RunContext part;
   part.set_part_of(context);
@@ -440,14 +453,18 @@ TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits,
     context.report(shown);
   });
   if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
-  TypeSearchAnswer answer = search_types(*s.motion, options, part);
+  TypeSearchAnswer answer = search_types(*s.motion, search_options(s, limits), part);
   answer.status = context.interruption();
   return answer;
 }
 
 study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
   const MachineLimits limits = limits_of(s.limits, s.motion->stroke);
-  return AnyReport(s, common, limits, search_machines(s, limits, context)).make();
+  TypeSearchAnswer answer = search_machines(s, limits, context);
+  ListFigures figures =
+      refine_list(s.refinement, *s.motion, search_options(s, limits), common.output.samples, answer, context);
+  answer.status = context.interruption();
+  return AnyReport(s, common, limits, std::move(answer), std::move(figures)).make();
 }
 
 }  // namespace linkwright::planar

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/studies/any_machine_refine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+/// Key and label of the column of a quantity, its name in facts, and whether the search has the column too.
+struct FigureColumn {
+  std::string stem, unit, label, unit_label;
+  bool of_search = false;
+  std::string key() const { return stem + unit; }
+  std::string key_before() const { return stem + "_before" + unit; }
+};
+FigureColumn figure_column(MachineQuantity quantity) {
+  switch (quantity) {
+    case MachineQuantity::peak_joint_force:
+      return {"peak_joint_force", "_N", "largest joint force", " (N)"};
+    case MachineQuantity::drive_torque:
+      return {"drive_torque", "_N_m", "largest drive torque", " (N m)"};
+    case MachineQuantity::size:
+      return {"size", "_m", "larger side of the box of all pins", " (m)", true};
+    case MachineQuantity::peak_acceleration:
+      return {"peak_acceleration", "_share", "peak acceleration at unit crank speed",
+              ", of the size of the stroke", true};
+    case MachineQuantity::tolerance_90:
+      return {"tolerance_90", "_m", "error that nine of ten machines keep with their tolerances", " (m)"};
+  }
+  return {};
+}
+
+Measured measured_figure(MachineQuantity quantity, double value) {
+  switch (quantity) {
+    case MachineQuantity::peak_joint_force:
+      return newtons(value);
+    case MachineQuantity::drive_torque:
+      return newton_metres(value);
+    case MachineQuantity::size:
+    case MachineQuantity::tolerance_90:
+      return millimetres(value);
+    case MachineQuantity::peak_acceleration:
+      break;
+  }
+  return plain_number(value);
+}
+
+/// Figures of one machine; what the refinement knows alone is given.
+std::vector<double> figures_of(const AnyRefinementStudy& s, const MotionTarget& target, int samples,
+                               std::span<const MachineQuantity> quantities, const FoundMachine& found,
+                               std::span<const double> given) {
+  PeakForces peaks;
+  if (std::any_of(quantities.begin(), quantities.end(), needs_loads)) {
+    FoundLinkage linkage = found_linkage(found.machine, target.stroke);
+    add_loads(linkage, loads_of(s));
+    peaks = peak_forces(linkage, s.loads.crank_speed, design_rows(found.machine, linkage, samples));
+  }
+  std::vector<double> out;
+  for (std::size_t q = 0; q < quantities.size(); ++q) switch (quantities[q]) {
+      case MachineQuantity::peak_joint_force:
+        out.push_back(peaks.joint_force);
+        break;
+      case MachineQuantity::drive_torque:
+        out.push_back(peaks.drive_torque);
+        break;
+      case MachineQuantity::size:
+        out.push_back(found.measures.size * target.stroke.size);
+        break;
+      case MachineQuantity::peak_acceleration:
+        out.push_back(found.measures.peak_acceleration);
+        break;
+      case MachineQuantity::tolerance_90:
+        out.push_back(q < given.size() ? given[q] : nan);
+        break;
+    }
+  return out;
+}
+
+RefineOptions options_of(const AnyRefinementStudy& s, const MotionTarget& target,
+                         const TypeSearchOptions& search) {
+  RefineOptions out;
+  for (const AnyObjective& o : s.objectives)
+    out.objectives.push_back({.quantity = o.quantity,
+                              .weight = o.weight,
+                              .reference = o.reference,
+                              .at_most = o.at_most.value_or(infinity)});
+  out.limits = search.limits;
+  out.loads = loads_of(s);
+  out.length_tolerance = s.refinement.length_tolerance.value_or(1e-3 * target.stroke.size);
+  out.error_growth = s.refinement.error_growth, out.error_share = s.refinement.error_share;
+  out.starts = s.refinement.starts;
+  out.seed = search.seed, out.max_solutions = search.max_solutions;
+  return out;
+}
+
+void find_least(ListFigures& figures, const std::vector<FoundMachine>& machines,
+                const std::vector<std::vector<double>>& values) {
+  for (std::size_t q = 0; q < figures.quantities.size(); ++q) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < values.size(); ++i)
+      if (!(values[i][q] >= values[best][q])) best = i;
+    figures.least_found.push_back(values[best][q]);
+    figures.least_found_name.push_back(machines[best].machine.shape.program->name);
+  }
+}
+
+}  // namespace
+
+AnyRefinementStudy read_refinement(study::ObjectReader& document) {
+  AnyRefinementStudy s;
+  document(field::entry("objective"), s.objectives);
+  std::vector<study::ObjectReader> entries = document.tables("objective");
+  bool forces = false;
+  for (std::size_t k = 0; k < s.objectives.size() && k < entries.size(); ++k) {
+    forces = forces || needs_loads(s.objectives[k].quantity);
+    for (std::size_t i = 0; i < k; ++i)
+      if (s.objectives[i].quantity == s.objectives[k].quantity)
+        entries[k].error("quantity",
+                         fmt::format("{} is an objective already", name_of(s.objectives[k].quantity)),
+                         "keep one of them");
+  }
+  if (auto table = document.table("machine")) table->read(s.loads), s.loaded = true;
+  s.loaded = s.loaded || forces;
+  if (auto table = document.table("environment")) {
+    table->read(s.environment);
+    if (!s.loaded)
+      table->warning("gravity", "the machines have no masses, so that gravity does nothing",
+                     "add [machine], or an objective of forces");
+  }
+  if (auto table = document.table("refinement")) {
+    table->read(s.refinement);
+    if (!document.has("objective"))
+      document.warning("refinement", "there is nothing to refine for", "add [[objective]] with a quantity");
+  }
+  return s;
+}
+
+void write_refinement(const AnyRefinementStudy& s, Value& canonical) {
+  if (!s.objectives.empty()) {
+    canonical["objective"] = study::ObjectWriter::to_value(s.objectives);
+    canonical["refinement"] = study::write_fields(s.refinement);
+  }
+  if (!s.loaded) return;
+  canonical["machine"] = study::write_fields(s.loads);
+  canonical["environment"] = study::write_fields(s.environment);
+}
+
+void describe_refinement(study::SchemaWriter& document) {
+  document.property(field::entry("objective", "what the machines of the list are refined for"),
+                    study::schema_array(study::schema_fields<AnyObjective>()));
+  document.property(field::entry("refinement", "how far machines may change for their objectives"),
+                    study::schema_fields<AnyRefinement>());
+  document.property(field::entry("machine", "masses, speed and load of the machines"),
+                    study::schema_fields<AnyLoads>());
+  document.property(field::entry("environment", "what acts from outside"),
+                    study::schema_fields<Environment>());
+}
+
+MachineLoads loads_of(const AnyRefinementStudy& s) {
+  return {.mass_per_metre = s.loads.mass_per_metre,
+          .crank_speed = s.loads.crank_speed,
+          .force = {s.loads.force[0], s.loads.force[1]},
+          .gravity = s.environment.gravity};
+}
+
+std::vector<double> design_rows(const FittedMachine& machine, const FoundLinkage& linkage, int samples) {
+  std::vector<double> out;
+  const double from = machine.angle.front() + linkage.crank_angle;
+  for (int k = 0; k < samples; ++k) out.push_back(from + machine.sense * 2 * pi * k / (samples - 1));
+  return out;
+}
+
+ListFigures refine_list(const AnyRefinementStudy& s, const MotionTarget& target,
+                        const TypeSearchOptions& search, int samples, TypeSearchAnswer& answer,
+                        RunContext& context) {
+  ListFigures out;
+  out.refined = !s.objectives.empty();
+  for (const AnyObjective& o : s.objectives) out.quantities.push_back(o.quantity);
+  if (!out.refined && s.loaded)
+    out.quantities = {MachineQuantity::peak_joint_force, MachineQuantity::drive_torque};
+  if (out.quantities.empty() || answer.machines.empty()) return out;
+  const std::vector<FoundMachine> found = answer.machines;
+  RefineAnswer refined;
+  if (out.refined) refined = refine_machines(target, found, options_of(s, target, search), context);
+  std::vector<std::vector<double>> as_found;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    as_found.push_back(
+        figures_of(s, target, samples, out.quantities, found[i],
+                   out.refined ? std::span<const double>(refined.as_found[i]) : std::span<const double>()));
+  find_least(out, found, as_found);
+  if (!out.refined) {
+    out.values = as_found;
+    return out;
+  }
+  answer.machines.clear();
+  for (RefinedMachine& m : refined.machines) {
+    out.values.push_back(m.aim ? figures_of(s, target, samples, out.quantities, m.found, m.values)
+                               : as_found[m.from]);
+    out.before.push_back(as_found[m.from]);
+    out.aim.push_back(m.aim);
+    answer.machines.push_back(std::move(m.found));
+  }
+  out.descents = refined.descents, out.steps = refined.steps;
+  return out;
+}
+
+void load_design(const AnyRefinementStudy& s, Value& design) {
+  if (!s.loaded) return;
+  Value& drive = design["drive"].as_array()[0];
+  std::erase_if(drive.as_object(), [](const Value::Member& m) { return m.key.starts_with("speed"); });
+  drive["speed_rad_per_s"] = s.loads.crank_speed;
+  design["environment"] = study::write_fields(s.environment);
+  for (const char* quantity : {"reactions", "drive"}) design["output"]["quantities"].push_back(quantity);
+}
+
+void add_figure_columns(const ListFigures& figures, Table& machines) {
+  const auto column = [&](const std::vector<std::vector<double>>& rows, std::size_t q) {
+    std::vector<double> out;
+    for (const std::vector<double>& row : rows) out.push_back(row[q]);
+    return out;
+  };
+  for (std::size_t q = 0; q < figures.quantities.size() && !figures.values.empty(); ++q) {
+    const FigureColumn what = figure_column(figures.quantities[q]);
+    if (!what.of_search) machines.add(what.key(), what.label + what.unit_label, column(figures.values, q));
+    if (figures.refined)
+      machines.add(what.key_before(), what.label + ", before it was refined" + what.unit_label,
+                   column(figures.before, q));
+  }
+  if (!figures.refined || figures.values.empty()) return;
+  std::vector<double> aim;
+  for (const auto& a : figures.aim) aim.push_back(a ? static_cast<double>(*a + 1) : 0);
+  machines.add("refined_for", "number of the objective it was refined for; 0: as found, one more: all",
+               std::move(aim));
+}
+
+void add_figures(const ListFigures& figures, std::size_t machine, study::Solution& solution) {
+  if (machine >= figures.values.size()) return;
+  for (std::size_t q = 0; q < figures.quantities.size(); ++q) {
+    const FigureColumn what = figure_column(figures.quantities[q]);
+    solution.objectives[what.key()] = figures.values[machine][q];
+    if (figures.refined) solution.objectives[what.key_before()] = figures.before[machine][q];
+  }
+  if (!figures.refined) return;
+  const auto& aim = figures.aim[machine];
+  solution.classification["refined_for"] = !aim ? std::string("nothing")
+                                           : *aim < figures.quantities.size()
+                                               ? std::string(name_of(figures.quantities[*aim]))
+                                               : std::string("all");
+}
+
+void add_figure_facts(const AnyRefinementStudy& s, const ListFigures& figures, const Table& machines,
+                      const MotionTarget& target, const study::AddFact& fact) {
+  for (std::size_t q = 0; q < figures.quantities.size() && !figures.values.empty(); ++q) {
+    const MachineQuantity quantity = figures.quantities[q];
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < figures.values.size(); ++i)
+      if (figures.values[i][q] < figures.values[best][q]) best = i;
+    const Measured now = measured_figure(quantity, figures.values[best][q]);
+    const std::string label = "least " + figure_column(quantity).label;
+    if (figures.refined)
+      fact(label, say("{} by machine {} ({}), {} before the refinement ({})", now,
+                      count_of(static_cast<double>(best + 1)), machines.names[best],
+                      measured_figure(quantity, figures.least_found[q]), figures.least_found_name[q]))
+          .number = now;
+    else
+      fact(label,
+           say("{} by machine {} ({})", now, count_of(static_cast<double>(best + 1)), machines.names[best]));
+  }
+  if (s.loaded)
+    fact("masses and speed",
+         say("{} for each metre of a bar, crank at {}", measured("kg", s.loads.mass_per_metre),
+             measured("rpm", s.loads.crank_speed)));
+  if (!figures.refined) return;
+  if (std::find(figures.quantities.begin(), figures.quantities.end(), MachineQuantity::tolerance_90) !=
+      figures.quantities.end())
+    fact("tolerance of lengths and coordinates",
+         say("{}, three standard deviations",
+             millimetres(s.refinement.length_tolerance.value_or(1e-3 * target.stroke.size))));
+  fact("error a machine may gain by the refinement",
+       target.tolerance > 0 ? say("{} of its own", percent(s.refinement.error_growth, 3))
+                            : say("{} of its own, at least {}", percent(s.refinement.error_growth, 3),
+                                  millimetres(s.refinement.error_share * target.stroke.size, 3)));
+}
+
+void add_figure_plots(const ListFigures& figures, study::Result& result) {
+  if (!figures.refined) return;
+  const study::AddPlot plot{
+      result, {.table = "machines", .x = "path_error_rms_m", .style = study::Plot::Style::points}};
+  for (const MachineQuantity quantity : figures.quantities) {
+    const FigureColumn what = figure_column(quantity);
+    std::string title = what.label + " over the error";
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+    plot(std::string("trade-off-") + std::string(name_of(quantity)), title, {what.key_before(), what.key()});
+  }
+}
+
+}  // namespace linkwright::planar
