@@ -9,11 +9,11 @@ import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { launch, runAll } from "./scenarios.mjs";
+import { briefly, launch, runAll } from "./scenarios.mjs";
 
 const [samples, executablePath, python, checkDxf, pictures] = process.argv.slice(2);
 const url = (name) => pathToFileURL(resolve(samples, name)).href;
-const browser = await launch(executablePath);
+const browser = await launch(executablePath, briefly);
 
 async function open(name, options = {}, before, argument) {
   const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true, acceptDownloads: true, ...options });

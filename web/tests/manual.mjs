@@ -10,7 +10,7 @@ import { createRequire } from "node:module";
 import { dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { promisify } from "node:util";
-import { launch, runAll } from "./scenarios.mjs";
+import { briefly, launch, runAll } from "./scenarios.mjs";
 
 const [program, workbench, out, executablePath] = process.argv.slice(2).map((p) => resolve(p));
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -21,7 +21,7 @@ execFileSync("node", [join(root, "web/manual/build.mjs"), program, out, "--workb
 
 const below = (folder, end) => readdirSync(folder, { recursive: true }).filter((n) => n.endsWith(end)).sort();
 const pages = below(out, ".html").filter((n) => n !== "workbench.html");
-const browser = await launch(executablePath);
+const browser = await launch(executablePath, briefly);
 async function open(name, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: true, reducedMotion: "reduce", bypassCSP: true, ...options });
   const page = await context.newPage();

@@ -10,7 +10,7 @@ import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { promisify } from "node:util";
-import { launch, runAll } from "./scenarios.mjs";
+import { briefly, launch, runAll } from "./scenarios.mjs";
 
 const [what, program, folder, executablePath] = process.argv.slice(2);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -34,16 +34,21 @@ async function make(name) {
   return pathToFileURL(resolve(folder, plain, "report.html")).href;
 }
 
-const browser = await launch(executablePath);
+const browser = await launch(executablePath, briefly);
 const context = await browser.newContext({ viewport: { width: 1366, height: 900 }, offline: true, reducedMotion: "reduce", bypassCSP: true });
 
-async function look(url) {
+/** A page, and what goes wrong in it. */
+async function open() {
   const page = await context.newPage();
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || errors.push(`asks for ${request.url()}`));
   page.setDefaultTimeout(120_000); // a busy machine draws slowly
+  return { page, errors };
+}
+
+async function look({ page, errors }, url) {
   await page.goto(url);
   await page.locator("#app h1").waitFor();
   const last = await page.locator("#scrub").count();
@@ -61,10 +66,9 @@ async function look(url) {
     assert.equal(new Set(looks).size, looks.length, `${plot}: curves that look the same`);
   }
   await page.evaluate(axe);
-  const found = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
-  const grave = found.violations.filter((v) => v.impact === "serious" || v.impact === "critical");
+  const found = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }).then(({ violations }) => violations));
+  const grave = found.filter((v) => v.impact === "serious" || v.impact === "critical");
   assert.deepEqual(grave.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 160)).join(" | ")}`), []);
-  await page.close();
 }
 
 // While one is looked at, the next is computed.
@@ -73,12 +77,22 @@ const begin = (i) => {
   if (i < names.length && !made[i]) (made[i] = make(names[i])).catch(() => {});
   return made[i];
 };
+// One report after the other in the same page, whose process is then started once; after a fault comes a new one.
+let opened;
 const failed = await runAll(names.map((name, i) => ({
   name,
   run: async () => {
     const report = begin(i);
     begin(i + 1);
-    await look(await report);
+    const url = await report;
+    opened ??= await open();
+    try {
+      await look(opened, url);
+    } catch (error) {
+      await opened.page.close();
+      opened = undefined;
+      throw error;
+    }
   },
 })));
 await browser.close();
