@@ -24,9 +24,9 @@ struct FigureColumn {
 FigureColumn figure_column(MachineQuantity quantity) {
   switch (quantity) {
     case MachineQuantity::peak_joint_force:
-      return {"peak_joint_force", "_N", "largest joint force", " (N)"};
+      return {"peak_joint_force", "_N", "peak joint force", " (N)"};
     case MachineQuantity::drive_torque:
-      return {"drive_torque", "_N_m", "largest drive torque", " (N m)"};
+      return {"drive_torque", "_N_m", "peak drive torque", " (N m)"};
     case MachineQuantity::size:
       return {"size", "_m", "larger side of the box of all pins", " (m)", true};
     case MachineQuantity::peak_acceleration:
@@ -264,7 +264,7 @@ void add_figure_facts(const AnyRefinementStudy& s, const ListFigures& figures, c
     for (std::size_t i = 1; i < figures.values.size(); ++i)
       if (figures.values[i][q] < figures.values[best][q]) best = i;
     const Measured now = measured_figure(quantity, figures.values[best][q]);
-    const std::string label = "least " + figure_column(quantity).label;
+    const std::string label = figure_column(quantity).label + ", lowest of all machines";
     if (figures.refined)
       fact(label, say("{} by machine {} ({}), {} before the refinement ({})", now,
                       count_of(static_cast<double>(best + 1)), machines.names[best],
