@@ -29,7 +29,7 @@ TEST(FunctionPrograms, AreEachThereOnce) {
     EXPECT_TRUE(known.insert(p->name).second) << p->name;
     EXPECT_EQ(program_named(p->name), p);
     ++count[p->output == MachineOutput::slide];
-    for (const int link : {p->traced_bar}) EXPECT_LT(static_cast<std::size_t>(link), p->bodies.size());
+    EXPECT_LT(static_cast<std::size_t>(p->traced_bar), p->bodies.size());
   }
   // Four-bar and sleeve, two six-bars and ten eight-bars; slider-crank, two six-bars and ten eight-bars.
   EXPECT_THAT(count, ::testing::ElementsAre(14, 13));
