@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/studies/any_search_tables.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,6 +31,24 @@ TEST(SearchTables, AreInTheUnitOfTheError) {
   EXPECT_EQ(result.statistics["polished"].as_number(), 5);
   EXPECT_EQ(result.statistics["grown"].as_number(), 5);
   EXPECT_EQ(result.statistics["evaluations"].as_number(), 40);
+}
+
+TEST(SearchTables, SayWhyTheNearestMachineIsNoAnswer) {
+  TypeSearchAnswer answer;
+  EXPECT_EQ(nearest_outside(answer), nullptr);
+  for (const double error : {0.4, 0.25, 0.3}) {
+    FoundMachine& found = answer.outside.emplace_back();
+    found.machine.shape.program = program_named("watt_2:angle");
+    found.measures.error = error;
+    found.measures.defect = MachineDefect::pair_angle;
+  }
+  ASSERT_EQ(nearest_outside(answer), &answer.outside[1]);
+  study::Result result;
+  report_none_found(answer, plain_number(0.25), result);
+  EXPECT_EQ(to_string(result.headline), "No machine within the limits was found.");
+  ASSERT_EQ(result.diagnostics.size(), 1u);
+  EXPECT_THAT(to_string(result.diagnostics[0]),
+              ::testing::HasSubstr("the least pair angle is below its limit"));
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ class FunctionReport {
     out.label = say("{}, greatest error {}, pair angle {}", title_of(program), output(found_[i].greatest),
                     degrees_of(m.min_pair_angle).fixed(1));
     const FoundLinkage of = found_linkage(found.machine, motion_.stroke);
-    add_lengths(of.linkage, out);
+    add_link_lengths(of.linkage, out);
     out.objectives[key("structural_error")] = found_[i].greatest;
     out.objectives[key("structural_error_rms")] = found_[i].root_mean;
     if (!s_.dwells.empty()) out.objectives[key("rest_error")] = found_[i].worst_rest;
@@ -195,15 +195,6 @@ class FunctionReport {
     if (!slider()) out.classification["output_angle_on_link_rad"] = found.machine.body_angle;
     drawing(i, of, out);
     result_.solutions.push_back(std::move(out));
-  }
-
-  static void add_lengths(const Linkage& linkage, study::Solution& out) {
-    for (const LinkageBody& body : linkage.bodies)
-      for (std::size_t k = 1; &body != &linkage.bodies[0] && k < body.points.size(); ++k)
-        out.parameters.push_back(
-            {fmt::format("{}_{}{}_m", body.name, body.points[0].name, body.points[k].name),
-             fmt::format("{}, from {} to {}", body.name, body.points[0].name, body.points[k].name),
-             std::abs(body.points[k].at - body.points[0].at), -infinity, infinity});
   }
 
   /// The output by the solver of any linkage, which knows nothing of the search.
@@ -284,11 +275,11 @@ class FunctionReport {
 
   void findings() {
     const study::AddFact fact{result_.facts};
-    const study::AddWarning warn{result_.diagnostics};
     fact("function", say("{}, x = {} to {}", s_.function.name, plain_number(s_.function.x_from),
                          plain_number(s_.function.x_to)));
     if (answer_.machines.empty()) {
-      none_found(warn);
+      const FoundMachine* nearest = nearest_outside(answer_);
+      report_none_found(answer_, nearest ? output(nearest->measures.error * scale()) : Measured{}, result_);
       return;
     }
     const FoundMachine& best = answer_.machines[0];
@@ -318,22 +309,6 @@ class FunctionReport {
            say("{} links ({}), greatest error {}", count_of(simplest->machine.shape.program->links),
                short_name_of(*simplest->machine.shape.program), output(found_[at].greatest)));
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
-  }
-
-  void none_found(const study::AddWarning& warn) {
-    result_.headline = study::is_interrupted(answer_.status) ? "Stopped before a machine was found."
-                                                             : "No machine within the limits was found.";
-    if (answer_.outside.empty()) return;
-    const auto nearest = std::min_element(
-        answer_.outside.begin(), answer_.outside.end(),
-        [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
-    std::string why;
-    for (const auto& word : names(MachineDefect{}))
-      if (word.value == nearest->measures.defect) why = word.summary;
-    warn("limits",
-         say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             short_name_of(*nearest->machine.shape.program), output(nearest->measures.error * scale()), why),
-         "search longer, allow more links, or relax the limits");
   }
 
   const AnyStudy& s_;

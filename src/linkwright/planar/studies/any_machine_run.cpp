@@ -32,14 +32,6 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
-/// What a value of an enumeration means.
-template <class E>
-std::string summary_of(E value) {
-  for (const auto& word : names(E{}))
-    if (word.value == value) return std::string(word.summary);
-  return {};
-}
-
 class AnyReport {
  public:
   AnyReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
@@ -85,12 +77,7 @@ class AnyReport {
                 : say("{}, rms error {}, pair angle {}", title_of(program), length(m.distance), pair_angle);
     FoundLinkage of = found_linkage(found.machine, target_);
     if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
-    for (const LinkageBody& body : of.linkage.bodies)
-      for (std::size_t k = 1; &body != &of.linkage.bodies[0] && k < body.points.size(); ++k)
-        out.parameters.push_back(
-            {fmt::format("{}_{}{}_m", body.name, body.points[0].name, body.points[k].name),
-             fmt::format("{}, from {} to {}", body.name, body.points[0].name, body.points[k].name),
-             std::abs(body.points[k].at - body.points[0].at), -infinity, infinity});
+    add_link_lengths(of.linkage, out);
     out.objectives["path_error_rms_m"] = m.distance * size();
     out.objectives["path_error_share"] = m.distance;
     if (poses()) {
@@ -331,7 +318,8 @@ class AnyReport {
     const study::AddFact fact{result_.facts};
     const study::AddWarning warn{result_.diagnostics};
     if (answer_.machines.empty()) {
-      none_found(warn);
+      const FoundMachine* nearest = nearest_outside(answer_);
+      report_none_found(answer_, nearest ? length(nearest->measures.distance) : Measured{}, result_);
       return;
     }
     const FoundMachine& best = answer_.machines[0];
@@ -399,20 +387,6 @@ class AnyReport {
       fact("part of the stroke that is traced back and forth", percent(shape.retraced, 2));
     if (shape.crossings > 0)
       fact("crossings of the stroke with itself", count_of(static_cast<double>(shape.crossings)));
-  }
-
-  void none_found(const study::AddWarning& warn) {
-    result_.headline = study::is_interrupted(answer_.status) ? "Stopped before a machine was found."
-                                                             : "No machine within the limits was found.";
-    if (answer_.outside.empty()) return;
-    const auto nearest = std::min_element(
-        answer_.outside.begin(), answer_.outside.end(),
-        [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
-    warn("limits",
-         say("the nearest machine, {}, has a root mean square error of {}, but {}",
-             short_name_of(*nearest->machine.shape.program), length(nearest->measures.distance),
-             summary_of(nearest->measures.defect)),
-         "search longer, allow more links, or relax the limits");
   }
 
   const AnyStudy& s_;

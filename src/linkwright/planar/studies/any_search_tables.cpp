@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/type_synthesis/title.h"
+#include "linkwright/study/remarks.h"
+#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
@@ -83,6 +88,40 @@ void add_search_tables(const TypeSearchAnswer& answer, const SearchError& error,
   result.statistics["grown"] = sum(&FamilyReport::grown);
   result.statistics["evaluations"] = answer.curves;
   result.statistics["atlas_entries"] = sum(&FamilyReport::atlas_entries);
+}
+
+const FoundMachine* nearest_outside(const TypeSearchAnswer& answer) {
+  const auto nearest = std::min_element(
+      answer.outside.begin(), answer.outside.end(),
+      [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
+  return nearest == answer.outside.end() ? nullptr : &*nearest;
+}
+
+void report_none_found(const TypeSearchAnswer& answer, const Measured& error_of_nearest,
+                       study::Result& result) {
+  result.headline = study::is_interrupted(answer.status) ? "Stopped before a machine was found."
+                                                         : "No machine within the limits was found.";
+  const FoundMachine* nearest = nearest_outside(answer);
+  if (!nearest) return;
+  std::string why;
+  for (const auto& word : names(MachineDefect{}))
+    if (word.value == nearest->measures.defect) why = word.summary;
+  study::AddWarning{result.diagnostics}(
+      "limits",
+      say("the nearest machine, {}, has a root mean square error of {}, but {}",
+          short_name_of(*nearest->machine.shape.program), error_of_nearest, why),
+      "search longer, allow more links, or relax the limits");
+}
+
+void add_link_lengths(const Linkage& linkage, study::Solution& solution) {
+  for (std::size_t i = 1; i < linkage.bodies.size(); ++i) {
+    const LinkageBody& body = linkage.bodies[i];
+    for (std::size_t k = 1; k < body.points.size(); ++k)
+      solution.parameters.push_back(
+          {fmt::format("{}_{}{}_m", body.name, body.points[0].name, body.points[k].name),
+           fmt::format("{}, from {} to {}", body.name, body.points[0].name, body.points[k].name),
+           std::abs(body.points[k].at - body.points[0].at), -infinity, infinity});
+  }
 }
 
 }  // namespace linkwright::planar
