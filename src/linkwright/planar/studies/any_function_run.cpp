@@ -91,15 +91,16 @@ class FunctionReport {
     const std::size_t n = turned.size(), padded = (n + 7) / 8 * 8;
     std::vector<double> angle(padded), px(padded), py(padded), bx(padded), by(padded), out;
     for (std::size_t k = 0; k < padded; ++k) angle[k] = m.angle[0] + turned[std::min(k, n - 1)];
-    compute_curve({.program = m.shape.program,
+    CurveTask task{.program = m.shape.program,
                    .x = m.shape.x.data(),
                    .signs = m.shape.signs,
                    .angle = angle.data(),
                    .count = padded,
                    .px = px.data(),
-                   .py = py.data(),
-                   .bx = bx.data(),
-                   .by = by.data()});
+                   .py = py.data()};
+    // A slider has one pin, and so no angle.
+    if (!slider()) task.bx = bx.data(), task.by = by.data();
+    compute_curve(task);
     for (std::size_t k = 0; k < n; ++k) {
       const double wanted = p_.output(share_of(turned[k]));
       out.push_back(
