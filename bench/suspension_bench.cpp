@@ -110,6 +110,16 @@ void axle_roll_double_wishbone(benchmark::State& state) {
 }
 BENCHMARK(axle_roll_double_wishbone)->Unit(benchmark::kMicrosecond);
 
+/// 5 heaves, 10 rolls and 10 racks with all columns: at most 50 ms.
+void axle_grid_of_500(benchmark::State& state) {
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
+  std::vector<double> heaves, rolls, racks;
+  for (int i = 0; i < 5; ++i) heaves.push_back(-0.06 + 0.03 * i);
+  for (int i = 0; i < 10; ++i) rolls.push_back(-0.07 + 0.015 * i), racks.push_back(-0.05 + 0.011 * i);
+  for (auto _ : state) benchmark::DoNotOptimize(solve_axle_grid(plan, heaves, rolls, racks));
+}
+BENCHMARK(axle_grid_of_500)->Unit(benchmark::kMillisecond);
+
 // Derivatives of all parameters at a position, for all thirty coordinates of the rods or for the first nine.
 void derivatives(benchmark::State& state, std::size_t count, Extent extent) {
   const Suspension& suspension = corner_sample("5US").suspension;

@@ -93,7 +93,73 @@ TEST(AxleStudy, SteersBothWheelsOnOneRack) {
   EXPECT_NEAR(at(steer, "steering_ratio", 1), 2 * M_PI / std::abs(0.05 * mean), 1e-9);
 }
 
+TEST(AxleStudy, TellsTurningCirclesByTheSteeringAxes) {
+  const study::Result result =
+      run_text(study("2RS-US", vehicle + "front_overhang_m = 0.8\nwidth_m = 1.8\n[axle.rack]\n" +
+                                   "values_mm = [-50, -20, 0, 50]\n"));
+  const Table& steer = table(result, "steer");
+  double axes = 0;
+  for (const std::size_t i : {0U, 1U, 3U}) {
+    const double left = at(steer, "left_steer_rad", i) - at(steer, "left_steer_rad", 2),
+                 right = at(steer, "right_steer_rad", i) - at(steer, "right_steer_rad", 2);
+    const double inner = std::abs(left > 0 ? left : right), outer = std::abs(left > 0 ? right : left);
+    EXPECT_NEAR(at(steer, "toe_out_on_turn_rad", i), inner - outer, 1e-14);
+    // cot(outer) - cot(ideal inner) = distance / wheelbase gives the distance of the axes back, the same for
+    // all angles.
+    const double ideal = inner - at(steer, "ackermann_axes_error_rad", i);
+    EXPECT_NEAR(100 * (inner - outer) / (ideal - outer), at(steer, "ackermann_axes_percent", i), 1e-9);
+    const double distance = 2.7 * (1 / std::tan(outer) - 1 / std::tan(ideal));
+    EXPECT_NEAR(axes > 0 ? axes : distance, distance, 1e-9);
+    axes = distance;
+    EXPECT_NEAR(at(steer, "turning_circle_m", i) / 2 - 2.7 / std::sin(outer), 0, 0.1);  // the scrub
+    EXPECT_NEAR(at(steer, "turning_circle_walls_m", i),
+                2 * std::hypot(2.7 + 0.8, 2.7 / std::tan(outer) - axes / 2 + 0.9), 1e-9);
+  }
+  // The axes meet the ground inboard of the contacts by the scrub of both wheels.
+  EXPECT_NEAR(axes, 2 * (at(result.tables[0], "contact_y_m", 0) - at(result.tables[0], "scrub_radius_m", 0)),
+              1e-9);
+  EXPECT_NEAR(at(steer, "turning_circle_m", 0), at(steer, "turning_circle_m", 3), 1e-9);
+  EXPECT_TRUE(std::isnan(at(steer, "turning_circle_m", 2)));
+  EXPECT_NE(fact(result, "turning circle, kerb to kerb"), "no fact");
+  EXPECT_NE(fact(result, "lock angles, turning left (rack 50 mm)") +
+                fact(result, "lock angles, turning left (rack -50 mm)"),
+            "no factno fact");
+  EXPECT_FALSE(
+      table(run_text(study("2RS-US", vehicle + "axle = \"rear\"\n[axle.rack]\nvalues_mm = [9]\n")), "steer")
+          .find("turning_circle_m"));
+}
+
+TEST(AxleStudy, TakesAnotherWheelOnTheOtherSide) {
+  const std::string axle =
+      "[axle.roll]\nvalues_deg = [-2, 0, 2]\n[axle.single]\nvalues_mm = [-20, 20]\n"
+      "[axle.grid.heave]\nvalues_mm = [-30, 30]\n[axle.grid.rack]\nvalues_mm = [10]\n";
+  const study::Result mirrored = run_text(study("2RS-US", axle));
+  const auto other = [&](const std::string& sample) {
+    return run_text(study("2RS-US", axle +
+                                        "[other_wheel.mechanism]\ntype = \"suspension.corner\"\nsample = \"" +
+                                        sample + "\"\nside = \"right\"\n"));
+  };
+  const study::Result same = other("2RS-US"), unlike = other("5US");
+  for (const char* name : {"roll", "single", "axle_grid"})
+    for (const Column& column : table(mirrored, name).columns)
+      for (std::size_t i = 0; i < column.values.size(); ++i)
+        EXPECT_NEAR(at(table(same, name), column.key, i), column.values[i], 1e-12)
+            << name << ' ' << column.key;
+  EXPECT_EQ(at(table(unlike, "single"), "left_toe_rad", 0), at(table(mirrored, "single"), "left_toe_rad", 0));
+  EXPECT_GT(
+      std::abs(at(table(unlike, "roll"), "roll_steer", 1) - at(table(mirrored, "roll"), "roll_steer", 1)),
+      1e-3);
+}
+
 TEST(AxleStudyRead, NamesWhatIsWrong) {
+  EXPECT_THAT(
+      problems_of(study("2RS-US", "[other_wheel.mechanism]\ntype = \"suspension.corner\"\nsample = \"R\"\n")),
+      HasSubstr(
+          "other_wheel.mechanism: both wheels are left ones; write side = \"right\" for the other one"));
+  EXPECT_THAT(problems_of(study("2RS-US", "[other_wheel]\n")),
+              HasSubstr("other_wheel.file: the other wheel is missing; write file = \"before.toml\""));
+  EXPECT_THAT(problems_of(study("R", "[axle.grid.rack]\nvalues_mm = [0]\n")),
+              HasSubstr("axle.grid.rack: no link is moved by the rack"));
   EXPECT_THAT(problems_of(study("R", "[axle.rack]\nvalues_mm = [0]\n")),
               HasSubstr("axle.rack: no link is moved by the rack"));
   EXPECT_THAT(problems_of(study("rear_5US", "[axle.roll]\nvalues_deg = [0]\n")),

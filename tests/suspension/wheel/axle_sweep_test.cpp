@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "linkwright/core/looks.h"
 #include "linkwright/suspension/corner/samples.h"
@@ -193,6 +194,40 @@ TEST(AxleSweep, Contract) {
                 solve_roll(plan, 1.2, 0, 0, reference_position(plan));
               }),
               ::testing::StartsWith("solve_roll: roll 1.2 rad"));
+}
+
+TEST(AxleSweep, AGridHasTheSinglePositionsWhateverItsSpacing) {
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
+  const std::vector heaves{-0.04, 0.01, 0.05}, rolls{-0.05, 0.02}, racks{-0.03, 0.0, 0.04};
+  const AxleGrid grid = solve_axle_grid(plan, heaves, rolls, racks);
+  ASSERT_EQ(grid.rows.size(), 18U);
+  std::size_t i = 0;
+  for (const double rack : racks)
+    for (const double heave : heaves)
+      for (const double roll : rolls) {
+        EXPECT_EQ(grid.rack[i], rack);
+        EXPECT_EQ(grid.heave[i], heave);
+        EXPECT_EQ(grid.roll[i], roll);
+        const AxleParameters alone =
+            parameters(plan, solve_roll(plan, roll, heave, rack, reference_position(plan)));
+        const AxleParameters& found = grid.rows[i++].parameters;
+        EXPECT_NEAR(found.road_angle, roll, 1e-12);
+        EXPECT_NEAR(found.steer_left, alone.steer_left, 1e-11);
+        EXPECT_NEAR(found.steer_right, alone.steer_right, 1e-11);
+        EXPECT_NEAR(found.roll_steer, alone.roll_steer, 1e-9);
+        EXPECT_NEAR(found.roll_centre_height, alone.roll_centre_height, 1e-8);
+      }
+}
+
+TEST(AxleSweep, SingleTravelLeavesTheOtherWheelAlone) {
+  const AxlePlan plan = prepare_axle(corner_sample("2RS-US").suspension);
+  const std::array values{-0.05, 0.05};
+  const AxlePosition still = reference_position(plan);
+  for (const AxleRow& row : sweep_axle(plan, AxleMotion::single, values)) {
+    ASSERT_EQ(row.position.status, Status::done);
+    EXPECT_NEAR(row.parameters.left.contact.z - parameters(plan, still).left.contact.z, row.value, 1e-12);
+    EXPECT_NEAR(row.parameters.right.angles.toe, parameters(plan, still).right.angles.toe, 1e-13);
+  }
 }
 
 }  // namespace

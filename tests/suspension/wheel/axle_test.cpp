@@ -135,7 +135,18 @@ TEST(Axle, AntiFeatures) {
   }
 }
 
+TEST(Axle, TurnsOnCirclesAboutTheLineOfTheRearAxle) {
+  // The centre of the turn lies 2.5 / tan(30 deg) - 0.65 m beside the middle of the rear axle.
+  const TurningCircle found = turning_circle(pi / 6, 2.5, 1.3, 0.05, 0.8, 1.7);
+  EXPECT_NEAR(found.kerb_to_kerb, 10.1, 1e-12);
+  EXPECT_NEAR(found.wall_to_wall, 2 * std::sqrt(3.3 * 3.3 + std::pow(2.5 * std::sqrt(3.0) + 0.2, 2)), 1e-12);
+  EXPECT_TRUE(std::isnan(turning_circle(pi / 6, 2.5, 1.3, 0.05).wall_to_wall));
+}
+
 TEST(Axle, Contract) {
+  EXPECT_THAT(test::message([] { turning_circle(0, 2.5, 1.3, 0.05); }),
+              ::testing::StartsWith(
+                  "turning_circle: wheelbase 2.5 m, distance of the axes 1.3 m, outer angle 0 rad"));
   EXPECT_THAT(test::message([] { anti_features({}, AxlePlace::front, {}); }),
               ::testing::StartsWith("anti_features: wheelbase 0 m, height of the mass centre 0 m"));
   EXPECT_THAT(test::message([] {

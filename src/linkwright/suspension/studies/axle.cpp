@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "linkwright/study/memory.h"
@@ -36,10 +38,13 @@ class Rows {
       column.push_back(r.position.status == Status::done ? value(r.parameters) : WheelParameters::missing);
     table_.add(std::move(key), std::move(label), std::move(column));
   }
+  void add_input(std::string key, std::string label, std::vector<double> values) {
+    table_.add(std::move(key), std::move(label), std::move(values));
+  }
   void add_values(std::string key, std::string label) {
     std::vector<double> column;
     for (const AxleRow& r : rows_) column.push_back(r.value);
-    table_.add(std::move(key), std::move(label), std::move(column));
+    add_input(std::move(key), std::move(label), std::move(column));
   }
   Table take() { return std::move(table_); }
 
@@ -48,10 +53,9 @@ class Rows {
   std::span<const AxleRow> rows_;
 };
 
-Table roll_table(std::span<const AxleRow> rows) {
+/// Columns that both wheels and their axle have at any position.
+void add_axle_columns(Rows& out) {
   using P = AxleParameters;
-  Rows out("roll", rows);
-  out.add_values("roll_rad", "roll of the body to the left (rad)");
   out.add("track_m", "track (m)", [](const P& p) { return p.track; });
   out.add("roll_centre_height_m", "roll-centre height above the road (m)",
           [](const P& p) { return p.roll_centre_height; });
@@ -73,8 +77,57 @@ Table roll_table(std::span<const AxleRow> rows) {
           [](const P& p) { return p.roll_camber_left; });
   out.add("right_roll_camber", "right camber against the road by roll (rad/rad)",
           [](const P& p) { return p.roll_camber_right; });
+}
+
+Table axle_table(std::string name, std::string key, std::string label, std::span<const AxleRow> rows) {
+  Rows out(std::move(name), rows);
+  out.add_values(std::move(key), std::move(label));
+  add_axle_columns(out);
   return out.take();
 }
+
+/// A front axle that steers, straight ahead: its steering axes at the ground, the springs held or the contact
+/// heights of a suspension without.
+class SteeredAxle {
+ public:
+  SteeredAxle(const AxleParameters& straight, const VehicleForm& vehicle)
+      : straight_(straight), vehicle_(vehicle) {
+    const SteeringAxis *left = axis_of(straight.left), *right = axis_of(straight.right);
+    if (left && right) axes_ = left->ground.y - right->ground.y;
+  }
+
+  /// Ackermann by the distance of the contacts, or of the steering axes.
+  std::optional<AxleAckermann> by_contacts(const AxleParameters& p) const { return at(p, straight_.track); }
+  std::optional<AxleAckermann> by_axes(const AxleParameters& p) const {
+    return axes_ > 0 ? at(p, axes_) : std::nullopt;
+  }
+
+  /// The turning circles; NaN straight ahead, for a rear axle and without steering axes.
+  TurningCircle circle(const AxleParameters& p) const {
+    const auto turn = by_axes(p);
+    if (!turn || vehicle_.axle != AxlePlace::front)
+      return {WheelParameters::missing, WheelParameters::missing};
+    const bool to_the_left = p.steer_left > straight_.steer_left;
+    const SteeringAxis* outer = axis_of(to_the_left ? p.right : p.left);
+    return turning_circle(turn->outer, vehicle_.layout.wheelbase, axes_,
+                          outer ? outer->wheel_scrub : WheelParameters::missing,
+                          vehicle_.front_overhang.value_or(nan), vehicle_.width.value_or(nan));
+  }
+
+ private:
+  static const SteeringAxis* axis_of(const WheelParameters& wheel) {
+    for (const auto* axis : {&wheel.axis_at_spring, &wheel.axis_at_contact})
+      if (*axis) return &**axis;
+    return nullptr;
+  }
+  std::optional<AxleAckermann> at(const AxleParameters& p, double distance) const {
+    return axle_ackermann(straight_, p, vehicle_.layout.wheelbase, distance);
+  }
+
+  const AxleParameters& straight_;
+  const VehicleForm& vehicle_;
+  double axes_ = WheelParameters::missing;
+};
 
 Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight, const AxleForm& form,
                   const std::optional<VehicleForm>& vehicle) {
@@ -105,18 +158,67 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
   of_left("left_contact_rise_by_rack", "left rise of the contact by rack (m/m)",
           &SteeringParameters::contact_rise_by_rack);
   if (vehicle) {
-    const auto ackermann_of = [&](const P& p) {
-      return axle_ackermann(straight, p, vehicle->layout.wheelbase, straight.track);
+    const SteeredAxle steered(straight, *vehicle);
+    const auto number = [](const std::optional<AxleAckermann>& a, double AxleAckermann::*member) {
+      return a ? *a.*member : WheelParameters::missing;
     };
-    out.add("ackermann_percent", "Ackermann (%), track at the contacts", [&](const P& p) {
-      const auto a = ackermann_of(p);
-      return a ? a->percent : WheelParameters::missing;
+    out.add("ackermann_percent", "Ackermann (%), track at the contacts",
+            [&](const P& p) { return number(steered.by_contacts(p), &AxleAckermann::percent); });
+    out.add("ackermann_error_rad", "inner steer angle less the ideal one (rad)",
+            [&](const P& p) { return number(steered.by_contacts(p), &AxleAckermann::error); });
+    out.add("ackermann_axes_percent", "Ackermann (%), distance of the steering axes at the ground",
+            [&](const P& p) { return number(steered.by_axes(p), &AxleAckermann::percent); });
+    out.add("ackermann_axes_error_rad", "inner steer angle less the ideal one, steering axes (rad)",
+            [&](const P& p) { return number(steered.by_axes(p), &AxleAckermann::error); });
+    out.add("toe_out_on_turn_rad", "toe-out on turn, inner less outer steer angle (rad)", [&](const P& p) {
+      const auto a = steered.by_contacts(p);
+      return a ? a->inner - a->outer : WheelParameters::missing;
     });
-    out.add("ackermann_error_rad", "inner steer angle less the ideal one (rad)", [&](const P& p) {
-      const auto a = ackermann_of(p);
-      return a ? a->error : WheelParameters::missing;
-    });
+    if (vehicle->axle == AxlePlace::front) {
+      out.add("turning_circle_m", "turning circle, kerb to kerb (m)",
+              [&](const P& p) { return steered.circle(p).kerb_to_kerb; });
+      if (vehicle->front_overhang && vehicle->width)
+        out.add("turning_circle_walls_m", "turning circle, wall to wall (m)",
+                [&](const P& p) { return steered.circle(p).wall_to_wall; });
+    }
   }
+  return out.take();
+}
+
+/// The steer angles at both ends of the rack, and the turning circles of the nearer end.
+void add_lock_facts(study::Result& result, std::span<const AxleRow> rows, const AxleParameters& straight,
+                    const std::optional<VehicleForm>& vehicle) {
+  const study::AddFact fact{result.facts};
+  TurningCircle widest{WheelParameters::missing, WheelParameters::missing};
+  for (const bool first : {true, false}) {
+    const AxleRow& end = first ? rows.front() : rows.back();
+    if (end.position.status != Status::done || end.value == 0 || (end.value < 0) != first) continue;
+    const AxleParameters& p = end.parameters;
+    const double left = p.steer_left - straight.steer_left, right = p.steer_right - straight.steer_right;
+    if (!(left * right > 0)) continue;
+    const bool to_the_left = left > 0;
+    fact(say("lock angles, turning {} (rack {})", to_the_left ? "left" : "right", millimetres(end.value)),
+         say("inner {}, outer {}", degrees_of(std::abs(to_the_left ? left : right)).fixed(2),
+             degrees_of(std::abs(to_the_left ? right : left)).fixed(2)));
+    if (!vehicle) continue;
+    const TurningCircle circle = SteeredAxle(straight, *vehicle).circle(p);
+    if (!(circle.kerb_to_kerb <= widest.kerb_to_kerb)) widest = circle;
+  }
+  if (std::isfinite(widest.kerb_to_kerb))
+    fact("turning circle, kerb to kerb", metres(widest.kerb_to_kerb, 4));
+  if (std::isfinite(widest.wall_to_wall))
+    fact("turning circle, wall to wall", metres(widest.wall_to_wall, 4));
+}
+
+Table grid_table(const AxleGrid& grid) {
+  using P = AxleParameters;
+  Rows out("axle_grid", grid.rows);
+  out.add_input("heave_m", "heave, change of the mean height of the contacts (m)", grid.heave);
+  out.add_input("roll_rad", "roll of the body to the left (rad)", grid.roll);
+  out.add_input("rack_m", "rack, to the left (m)", grid.rack);
+  out.add("left_steer_rad", "left steer angle (rad)", [](const P& p) { return p.steer_left; });
+  out.add("right_steer_rad", "right steer angle (rad)", [](const P& p) { return p.steer_right; });
+  add_axle_columns(out);
   return out.take();
 }
 
@@ -133,27 +235,42 @@ void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::stri
     }
 }
 
+AxleDescription axle_of(const CornerDescription& one, const std::optional<CornerDescription>& other) {
+  AxleDescription out{one, one, !other};
+  CornerDescription& second = one.suspension.side == Side::left ? out.right : out.left;
+  if (other)
+    second = *other;
+  else
+    second.suspension = mirrored(one.suspension);
+  return out;
+}
+
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspension& suspension) {
   auto table = document.table("axle");
   if (std::abs(suspension.wheel.centre.y) < 1e-9)
     table->error("roll", "the wheel centre lies in the middle of the vehicle: there is no axle",
                  "give the points in the vehicle's frame, y = 0 in its middle");
-  if (axle.roll)
-    if (auto roll = table->table("roll"))
-      if (auto values = values_of(*roll, *axle.roll, "deg"))
-        axle.roll = listed<AngleValues>(*std::move(values));
-  if (axle.opposite)
-    if (auto opposite = table->table("opposite"))
-      if (auto values = values_of(*opposite, *axle.opposite, "mm"))
-        axle.opposite = listed<LengthValues>(*std::move(values));
-  if (axle.rack) {
+  const auto list = [](study::ObjectReader& of, const char* key, auto& input, const char* unit) {
+    if (!input) return;
+    if (auto read = of.table(key))
+      if (auto values = values_of(*read, *input, unit))
+        input = listed<std::decay_t<decltype(*input)>>(*std::move(values));
+  };
+  const auto steered = [&](study::ObjectReader& of) {
     if (!is_steered(suspension))
-      table->error("rack", "no link is moved by the rack",
-                   "write moved_by = \"rack\" in the tie rod's table");
-    if (auto rack = table->table("rack"))
-      if (auto values = values_of(*rack, *axle.rack, "mm"))
-        axle.rack = listed<LengthValues>(*std::move(values));
-  }
+      of.error("rack", "no link is moved by the rack", "write moved_by = \"rack\" in the tie rod's table");
+  };
+  list(*table, "roll", axle.roll, "deg");
+  list(*table, "opposite", axle.opposite, "mm");
+  list(*table, "single", axle.single, "mm");
+  if (axle.rack) steered(*table);
+  list(*table, "rack", axle.rack, "mm");
+  if (!axle.grid) return;
+  auto grid = table->table("grid");
+  list(*grid, "heave", axle.grid->heave, "mm");
+  list(*grid, "roll", axle.grid->roll, "deg");
+  if (axle.grid->rack) steered(*grid);
+  list(*grid, "rack", axle.grid->rack, "mm");
 }
 
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
@@ -164,7 +281,17 @@ bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
     return study::require_memory(*table, key, bytes * static_cast<double>(rows),
                                  fmt::format("{} positions of the axle", rows), "take fewer values");
   };
-  return (!axle.roll || fits("roll", axle.roll->values)) &&
+  if (axle.grid) {
+    const auto count = [](const auto& input) {
+      return input && input->values ? static_cast<double>(input->values->size()) : 1.0;
+    };
+    const double rows = count(axle.grid->heave) * count(axle.grid->roll) * count(axle.grid->rack);
+    if (!study::require_memory(*table, "grid", bytes * rows, fmt::format("{} positions of the axle", rows),
+                               "take fewer values"))
+      return false;
+  }
+  return (!axle.single || fits("single", axle.single->values)) &&
+         (!axle.roll || fits("roll", axle.roll->values)) &&
          (!axle.opposite || fits("opposite", axle.opposite->values)) &&
          (!axle.rack || fits("rack", axle.rack->values));
 }
@@ -216,9 +343,9 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
        {brake + "_outboard_percent", brake + "_inboard_percent", drive + "_percent"});
 }
 
-void add_axle(study::Result& result, const Suspension& suspension, const AxleForm& form,
+void add_axle(study::Result& result, const AxleDescription& both, const AxleForm& form,
               const std::optional<VehicleForm>& vehicle, const RunContext& context) {
-  const AxlePlan plan = prepare_axle(suspension);
+  const AxlePlan plan = prepare_axle(both.left.suspension, both.right.suspension);
   const AxlePosition reference = reference_position(plan);
   if (reference.status != Status::done) return;  // the sweep says why
   const AxleParameters straight = axle_parameters(plan, reference);
@@ -230,7 +357,7 @@ void add_axle(study::Result& result, const Suspension& suspension, const AxleFor
   };
   if (form.roll) {
     const auto rows = swept(AxleMotion::roll, *form.roll->values);
-    result.tables.push_back(roll_table(rows));
+    result.tables.push_back(axle_table("roll", "roll_rad", "roll of the body to the left (rad)", rows));
     const study::AddPlot plot{result, {.table = "roll", .x = "roll_rad"}};
     plot("roll-steer", "Steer and toe over roll", {"steer_rad", "left_toe_rad", "right_toe_rad"});
     plot("roll-camber", "Camber against the road over roll",
@@ -242,6 +369,15 @@ void add_axle(study::Result& result, const Suspension& suspension, const AxleFor
     fact("roll steer (mean steer by roll)", measured(angle_by_angle, straight.roll_steer).fixed(4));
     fact("camber against the road by roll, left",
          measured(angle_by_angle, straight.roll_camber_left).fixed(4));
+  }
+  if (form.single) {
+    const auto rows = swept(AxleMotion::single, *form.single->values);
+    result.tables.push_back(axle_table("single", "travel_m", "travel of the left wheel alone (m)", rows));
+    const study::AddPlot plot{result, {.table = "single", .x = "travel_m"}};
+    plot("single-toe", "Toe over the travel of the left wheel alone", {"left_toe_rad", "right_toe_rad"});
+    plot("single-roll-centre", "Roll centre over the travel of the left wheel alone",
+         {"roll_centre_height_m", "roll_centre_offset_m"});
+    remark_lost(result, rows, "travel of the left wheel (m)");
   }
   if (form.rack) {
     const auto rows = swept(AxleMotion::rack, *form.rack->values);
@@ -259,6 +395,20 @@ void add_axle(study::Result& result, const Suspension& suspension, const AxleFor
                    (straight.steering_left->steer_by_rack + straight.steering_right->steer_by_rack) / 2,
                    *form.rack_per_turn))
                .fixed(2));
+    if (!rows.empty()) add_lock_facts(result, rows, straight, vehicle);
+  }
+  if (form.grid) {
+    static const std::vector<double> still{0};
+    const auto values = [](const auto& input) -> const std::vector<double>& {
+      return input ? *input->values : still;
+    };
+    const std::vector<double>&heaves = values(form.grid->heave), &rolls = values(form.grid->roll),
+          &racks = values(form.grid->rack);
+    const AxleGrid grid = solve_axle_grid(plan, heaves, rolls, racks, &context);
+    if (grid.rows.size() < heaves.size() * rolls.size() * racks.size())
+      result.status = context.interruption();
+    result.tables.push_back(grid_table(grid));
+    remark_lost(result, grid.rows, "roll (rad)");
   }
 }
 

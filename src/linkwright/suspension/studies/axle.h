@@ -8,6 +8,7 @@
 
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/axle_sweep.h"
@@ -19,6 +20,7 @@ namespace linkwright::suspension {
 struct VehicleForm {
   AxlePlace axle = AxlePlace::front;
   VehicleLayout layout;
+  std::optional<double> front_overhang, width;  ///< of the body, m
 };
 template <class Visitor>
 void fields(Visitor&& visit, VehicleForm& v) {
@@ -33,13 +35,33 @@ void fields(Visitor&& visit, VehicleForm& v) {
   };
   visit(share("front_brake_share", "of the braking force"), v.layout.front_brake_share);
   visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
+  visit(field::length("front_overhang", "of the body ahead of the front axle, for the turning circle")
+            .between(0, 1e3),
+        v.front_overhang);
+  visit(field::length("width", "of the body, for the turning circle between walls").between(0.01, 1e3),
+        v.width);
 }
 
-/// `[axle]`: the symmetric axle of the suspension.
+/// `[axle.grid]`.
+struct AxleGridForm {
+  std::optional<LengthValues> heave;
+  std::optional<AngleValues> roll;
+  std::optional<LengthValues> rack;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AxleGridForm& g) {
+  visit(field::entry("heave", "changes of the mean height of the contacts; default: none"), g.heave);
+  visit(field::entry("roll", "angles by which the body leans to the left; default: upright"), g.roll);
+  visit(field::entry("rack", "displacements of the rack; default: centred"), g.rack);
+}
+
+/// `[axle]`: both wheels.
 struct AxleForm {
   std::optional<AngleValues> roll;
   std::optional<LengthValues> opposite;
+  std::optional<LengthValues> single;
   std::optional<LengthValues> rack;
+  std::optional<AxleGridForm> grid;
   std::optional<double> rack_per_turn;
 };
 template <class Visitor>
@@ -47,12 +69,22 @@ void fields(Visitor&& visit, AxleForm& a) {
   visit(field::entry("roll", "angles by which the body leans to the left over a plane road"), a.roll);
   visit(field::entry("opposite", "travels of the left wheel, the right one travelling oppositely"),
         a.opposite);
+  visit(field::entry("single", "travels of the left wheel alone"), a.single);
   visit(field::entry("rack", "displacements of the rack, the wheels at their reference height"), a.rack);
+  visit(field::entry("grid", "every heave with every roll and every rack displacement"), a.grid);
   visit(field::length("rack_per_turn",
                       "C factor: rack travel by a turn of the steering wheel, for the steering ratio")
             .between(1e-4, 10),
         a.rack_per_turn);
 }
+
+/// Both wheels of an axle.
+struct AxleDescription {
+  CornerDescription left, right;
+  bool symmetric = true;  ///< one is the mirror image of the other
+};
+/// The axle of a wheel suspension with the other wheel, or with its mirror image where there is none.
+AxleDescription axle_of(const CornerDescription& one, const std::optional<CornerDescription>& other);
 
 /// Checks what was read against the suspension; problems go to the reader. Values are replaced by their list.
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const Suspension& suspension);
@@ -65,9 +97,9 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels, std::size_t stated, const Sentence& position);
 /// Reports the first row of an axle that has no position.
 void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::string_view what);
-/// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
-/// stop.
-void add_axle(study::Result& result, const Suspension& suspension, const AxleForm& axle,
+/// The tables `roll`, `single`, `steer` and `grid` with diagrams and facts; rows so far, with the status,
+/// when the run is to stop.
+void add_axle(study::Result& result, const AxleDescription& both, const AxleForm& axle,
               const std::optional<VehicleForm>& vehicle, const RunContext& context);
 
 }  // namespace linkwright::suspension

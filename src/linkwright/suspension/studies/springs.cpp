@@ -325,7 +325,7 @@ bool has_springs(const CornerDescription& d) {
 
 void add_springs(study::Result& result, const CornerDescription& d, const RideForm& ride,
                  std::span<const CornerPosition> positions, std::optional<std::size_t> stated,
-                 const RunContext& context) {
+                 bool symmetric_axle, const RunContext& context) {
   constexpr std::size_t between_looks = 256;
   const SpringModel model(d, ride);
   std::vector<std::optional<SpringRow>> rows(positions.size());
@@ -356,40 +356,40 @@ void add_springs(study::Result& result, const CornerDescription& d, const RideFo
   if (const auto& bar = d.springs.anti_roll_bar)
     fact("rate of the anti-roll bar at each wheel, opposite travel",
          rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
-  if (ride.sprung_mass || ride.tyre_stiffness || d.springs.anti_roll_bar)
+  if (symmetric_axle && (ride.sprung_mass || ride.tyre_stiffness || d.springs.anti_roll_bar))
     add_roll_rates(result, d, positions[*stated]);
   const double rack = positions[*stated].input.rack;
   if (d.springs.bump_stop) add_stop_facts(result, model, *d.springs.bump_stop, false, positions, rack);
   if (d.springs.rebound_stop) add_stop_facts(result, model, *d.springs.rebound_stop, true, positions, rack);
 }
 
-void add_opposite_travel(study::Result& result, const CornerDescription& description, const RideForm& ride,
+void add_opposite_travel(study::Result& result, const AxleDescription& both, const RideForm& ride,
                          std::span<const double> travels, const RunContext& context) {
-  CornerDescription left = description, right = description;
-  (description.suspension.side == Side::left ? right : left).suspension = mirrored(description.suspension);
-  const AxlePlan plan = prepare_axle(left.suspension, right.suspension);
+  const std::array<const CornerDescription*, 2> wheels{&both.left, &both.right};
+  const AxlePlan plan = prepare_axle(both.left.suspension, both.right.suspension);
   if (reference_position(plan).status != Status::done) return;  // the sweep says why
-  const auto rows = sweep_axle(plan, AxleMotion::opposite, travels, {.driver = ride.coordinate}, &context);
-  if (rows.size() < travels.size()) result.status = context.interruption();
-  const std::array models{SpringModel(left, ride), SpringModel(right, ride)};
-  using Both = std::array<SpringRow, 2>;
-  std::vector<std::optional<Both>> found;
-  for (const AxleRow& row : rows) {
+  const auto positions =
+      sweep_axle(plan, AxleMotion::opposite, travels, {.driver = ride.coordinate}, &context);
+  if (positions.size() < travels.size()) result.status = context.interruption();
+  const std::array models{SpringModel(both.left, ride), SpringModel(both.right, ride)};
+  using Rows = std::array<SpringRow, 2>;
+  std::vector<std::optional<Rows>> found;
+  for (const AxleRow& row : positions) {
     found.emplace_back();
     if (row.position.status != Status::done) continue;
-    const Both both{models[0].at(row.position.left), models[1].at(row.position.right)};
-    if (both[0].motions.status == Status::done && both[1].motions.status == Status::done) found.back() = both;
+    const Rows at{models[0].at(row.position.left), models[1].at(row.position.right)};
+    if (at[0].motions.status == Status::done && at[1].motions.status == Status::done) found.back() = at;
   }
   Table table{.name = "opposite"};
   std::vector<double> values;
-  for (const AxleRow& row : rows) values.push_back(row.value);
+  for (const AxleRow& row : positions) values.push_back(row.value);
   table.add("travel_m", "travel of the left wheel, that of the right one is opposite (m)", std::move(values));
   if (std::any_of(found.begin(), found.end(), [](const auto& row) { return !row; }))
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < positions.size(); ++i)
       table.status.emplace_back(to_string(found[i] ? Status::done
-                                          : rows[i].position.status == Status::done
+                                          : positions[i].position.status == Status::done
                                               ? Status::singular
-                                              : rows[i].position.status));
+                                              : positions[i].position.status));
   const auto add = [&](std::string key, std::string label, auto&& value) {
     std::vector<double> column;
     for (const auto& row : found) column.push_back(row ? value(*row) : missing);
@@ -397,40 +397,43 @@ void add_opposite_travel(study::Result& result, const CornerDescription& descrip
   };
   for (const std::size_t side : {0U, 1U}) {
     const std::string word = side == 0 ? "left" : "right";
-    for (std::size_t k = 0; k < description.suspension.rockers.size(); ++k) {
-      const std::string& name = description.suspension.rockers[k].name;
+    const CornerDescription& wheel = *wheels[side];
+    for (std::size_t k = 0; k < wheel.suspension.rockers.size(); ++k) {
+      const std::string& name = wheel.suspension.rockers[k].name;
       add(fmt::format("{}_{}_angle_rad", word, plain_name(name)),
           fmt::format("{} {} angle (rad)", word, name == bar_arm ? "anti-roll bar's arm" : name),
-          [=](const Both& both) { return both[side].motions.rockers[k].value; });
+          [=](const Rows& rows) { return rows[side].motions.rockers[k].value; });
     }
-    if (description.spring || description.springs.torsion_bar) {
+    if (wheel.spring || wheel.springs.torsion_bar) {
       add(word + "_wheel_force_N", fmt::format("force of springs and stops at the {} wheel (N)", word),
-          [=](const Both& both) { return both[side].force(); });
+          [=](const Rows& rows) { return rows[side].force(); });
       add(word + "_wheel_rate_N_per_m", fmt::format("{} wheel rate of springs and stops (N/m)", word),
-          [=](const Both& both) { return both[side].rate(); });
+          [=](const Rows& rows) { return rows[side].rate(); });
     }
   }
-  if (const auto& bar = description.springs.anti_roll_bar) {
-    const double k = bar->stiffness;
-    const auto arm = [i = bar->rocker](const Both& both, std::size_t side) {
-      return both[side].motions.rockers[i];
+  const auto &left_bar = both.left.springs.anti_roll_bar, &right_bar = both.right.springs.anti_roll_bar;
+  if (left_bar && right_bar) {
+    const double k = left_bar->stiffness;
+    const std::array arms{left_bar->rocker, right_bar->rocker};
+    const auto arm = [=](const Rows& rows, std::size_t side) {
+      return rows[side].motions.rockers[arms[side]];
     };
     // The twist t = b_l - b_r by the travel z of the left wheel: the right one travels by -z.
-    const auto twist = [=](const Both& both) { return arm(both, 0).value - arm(both, 1).value; };
-    const auto by_travel = [=](const Both& both) { return arm(both, 0).ratio + arm(both, 1).ratio; };
+    const auto twist = [=](const Rows& rows) { return arm(rows, 0).value - arm(rows, 1).value; };
+    const auto by_travel = [=](const Rows& rows) { return arm(rows, 0).ratio + arm(rows, 1).ratio; };
     add("twist_rad", "twist of the anti-roll bar, left less right arm (rad)", twist);
     add("twist_by_travel_rad_per_m", "twist by travel (rad/m)", by_travel);
     add("anti_roll_bar_moment_N_m", "moment of the anti-roll bar (N m)",
-        [=](const Both& both) { return k * twist(both); });
+        [=](const Rows& rows) { return k * twist(rows); });
     add("left_anti_roll_bar_force_N", "force of the anti-roll bar at the left wheel (N)",
-        [=](const Both& both) { return k * twist(both) * arm(both, 0).ratio; });
+        [=](const Rows& rows) { return k * twist(rows) * arm(rows, 0).ratio; });
     add("right_anti_roll_bar_force_N", "force of the anti-roll bar at the right wheel (N)",
-        [=](const Both& both) { return -k * twist(both) * arm(both, 1).ratio; });
+        [=](const Rows& rows) { return -k * twist(rows) * arm(rows, 1).ratio; });
     add("anti_roll_bar_wheel_rate_N_per_m", "rate of the anti-roll bar at each wheel, by its stiffness (N/m)",
-        [=](const Both& both) { return k * by_travel(both) * by_travel(both) / 2; });
+        [=](const Rows& rows) { return k * by_travel(rows) * by_travel(rows) / 2; });
     add("anti_roll_bar_geometric_rate_N_per_m",
-        "rate of the anti-roll bar at each wheel, by its moment (N/m)", [=](const Both& both) {
-          return k * twist(both) * (arm(both, 0).by_travel - arm(both, 1).by_travel) / 2;
+        "rate of the anti-roll bar at each wheel, by its moment (N/m)", [=](const Rows& rows) {
+          return k * twist(rows) * (arm(rows, 0).by_travel - arm(rows, 1).by_travel) / 2;
         });
   }
   result.tables.push_back(std::move(table));
@@ -438,7 +441,7 @@ void add_opposite_travel(study::Result& result, const CornerDescription& descrip
   plot("opposite-twist", "Twist of the anti-roll bar over opposite travel", {"twist_rad"});
   plot("opposite-forces", "Force of the anti-roll bar at the wheels over opposite travel",
        {"left_anti_roll_bar_force_N", "right_anti_roll_bar_force_N"});
-  remark_lost(result, rows, "opposite travel (m)");
+  remark_lost(result, positions, "opposite travel (m)");
 }
 
 }  // namespace linkwright::suspension

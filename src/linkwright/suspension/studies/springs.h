@@ -6,6 +6,7 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
@@ -35,15 +36,15 @@ inline constexpr double spring_columns = 40;
 bool has_springs(const CornerDescription& description);
 
 /// Columns of the first table, whose rows are `positions`, with diagrams; facts about the row `stated`, if
-/// there is one. Rows without a position, and those after an interruption, have no values.
+/// there is one, the roll rates of a symmetric axle among them. Rows without a position, and those after an interruption, have no values.
 void add_springs(study::Result& result, const CornerDescription& description, const RideForm& ride,
                  std::span<const CornerPosition> positions, std::optional<std::size_t> stated,
-                 const RunContext& context);
+                 bool symmetric_axle, const RunContext& context);
 
-/// The table `opposite`: both wheels of the symmetric axle, the left one at these travels (m) by the
+/// The table `opposite`: both wheels of the axle, the left one at these travels (m) by the
 /// coordinate of `ride`, the right one at the opposite ones; what their springs and the anti-roll bar between
 /// them do.
-void add_opposite_travel(study::Result& result, const CornerDescription& description, const RideForm& ride,
+void add_opposite_travel(study::Result& result, const AxleDescription& both, const RideForm& ride,
                          std::span<const double> travels, const RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -67,6 +67,7 @@ struct SweepStudy {
   RideForm ride;
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
+  std::optional<CornerDescription> other_wheel;  ///< of the axle; none: the mirror image of the suspension
   std::optional<ComplianceForm> compliance;
   std::optional<SensitivityForm> sensitivity;
   std::optional<TolerancesForm> tolerances;

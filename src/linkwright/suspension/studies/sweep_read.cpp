@@ -21,15 +21,17 @@ namespace {
 
 constexpr std::size_t max_rows = 1000000;
 
-/// `[baseline]`: the mechanism of another study, or one beside this one.
-std::optional<CornerDescription> read_baseline(study::ObjectReader& document, const study::Common& common) {
-  auto table = document.table("baseline");
+/// `[baseline]`, `[other_wheel]`: the mechanism of another study, or one beside this one.
+std::optional<CornerDescription> read_another(study::ObjectReader& document, const char* key,
+                                              std::string_view what, const study::Common& common) {
+  auto table = document.table(key);
   if (!table) return std::nullopt;
   std::string file;
   const bool named = (*table)(field::entry("file"), file);
   if (named == table->has("mechanism")) {
-    table->error("file", named ? "the baseline is given twice" : "the baseline is missing",
-                 "write file = \"before.toml\", the study that holds it; or [baseline.mechanism]");
+    table->error(
+        "file", fmt::format("{} is {}", what, named ? "given twice" : "missing"),
+        fmt::format("write file = \"before.toml\", the study that holds it; or [{}.mechanism]", key));
     return std::nullopt;
   }
   if (!named) {
@@ -69,6 +71,26 @@ bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
                              "take fewer travels or racks, or fewer quantities"))
     return false;
   return !s.axle || fits_memory(document, *s.axle);
+}
+
+/// `[other_wheel]`, checked against the suspension.
+std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document, const study::Common& common,
+                                                  const std::optional<CornerDescription>& one) {
+  auto other = read_another(document, "other_wheel", "the other wheel", common);
+  if (!other || !one) return other;
+  auto table = document.table("other_wheel");
+  if (other->suspension.side == one->suspension.side)
+    table->error("mechanism", fmt::format("both wheels are {} ones", name_of(one->suspension.side)),
+                 fmt::format("write side = \"{}\" for the other one",
+                             name_of(one->suspension.side == Side::left ? Side::right : Side::left)));
+  const auto &bar = one->springs.anti_roll_bar, &other_bar = other->springs.anti_roll_bar;
+  if (bar.has_value() != other_bar.has_value())
+    table->error("mechanism", "the anti-roll bar has an arm at one wheel alone",
+                 "give [mechanism.anti_roll_bar] for both wheels");
+  else if (bar && bar->stiffness != other_bar->stiffness)
+    table->error("mechanism", "the anti-roll bar has another stiffness than at the first wheel",
+                 "it is one bar: give the same stiffness for both wheels");
+  return other;
 }
 
 std::vector<Word> quantity_words() {
@@ -132,7 +154,8 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                    fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
                                travels->size(), racks->size(), travels->size() * racks->size(), max_rows));
   }
-  s.baseline = read_baseline(document, common);
+  s.baseline = read_another(document, "baseline", "the baseline", common);
+  s.other_wheel = read_other_wheel(document, common, description);
   const bool ride = document(field::entry("ride"), s.ride);
   document(field::entry("vehicle"), s.vehicle);
   document(field::entry("axle"), s.axle);
@@ -154,6 +177,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
       CornerSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
                   s.lock, s.assemblies});
   if (s.baseline) canonical["baseline"]["mechanism"] = write_suspension(*s.baseline);
+  if (s.other_wheel) canonical["other_wheel"]["mechanism"] = write_suspension(*s.other_wheel);
   if (ride) canonical["ride"] = study::write_fields(s.ride);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
@@ -202,16 +226,19 @@ study::Kind sweep_kind() {
     describe_suspension(document);
     document.property(field::entry("sweep", "positions that are taken").required(),
                       study::schema_fields<CornerSweep>());
-    study::SchemaWriter baseline;
-    baseline.property(field::entry("file", "study whose mechanism it is"), Value());
-    baseline.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
-    document.property(field::entry("baseline", "another wheel suspension to compare with"),
-                      std::move(baseline).finish());
+    const auto another = [&](const char* key, const char* summary) {
+      study::SchemaWriter table;
+      table.property(field::entry("file", "study whose mechanism it is"), Value());
+      table.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
+      document.property(field::entry(key, summary), std::move(table).finish());
+    };
+    another("baseline", "another wheel suspension to compare with");
+    another("other_wheel", "the other wheel of the axle; default: the mirror image of this one");
     document.property(field::entry("ride", "what the corner carries: natural frequency, damping ratio"),
                       study::schema_fields<RideForm>());
     document.property(field::entry("vehicle", "what the axle is part of: anti-dive, Ackermann"),
                       study::schema_fields<VehicleForm>());
-    document.property(field::entry("axle", "both wheels: roll and steering"),
+    document.property(field::entry("axle", "both wheels: roll, single and opposite travel, steering"),
                       study::schema_fields<AxleForm>());
     document.property(field::entry("compliance", "elastic joints and loads"),
                       study::schema_fields<ComplianceForm>());

@@ -401,7 +401,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   result.tables.push_back(sweep_table(grid, "sweep"));
   if (has_springs(s.description)) {
     const std::size_t middle = next_to_zero(s.racks) * s.travels.size() + next_to_zero(s.travels);
-    add_springs(result, s.description, s.ride, grid.solved.positions, middle, context);
+    add_springs(result, s.description, s.ride, grid.solved.positions, middle, !s.other_wheel, context);
   }
   std::vector<TravelLimits> limits;
   const CornerPosition reference = reference_position(plan, s.travel);
@@ -427,9 +427,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                           ? Sentence()
                           : say(" (travel {})", length(grid.travel(middle))));
   }
-  if (s.axle && s.axle->opposite)
-    add_opposite_travel(result, s.description, s.ride, *s.axle->opposite->values, context);
-  if (s.axle) add_axle(result, s.description.suspension, *s.axle, s.vehicle, context);
+  if (s.axle) {
+    const AxleDescription both = axle_of(s.description, s.other_wheel);
+    if (s.axle->opposite) add_opposite_travel(result, both, s.ride, *s.axle->opposite->values, context);
+    add_axle(result, both, *s.axle, s.vehicle, context);
+  }
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
   if (s.sensitivity) add_sensitivity(result, s.description.suspension, *s.sensitivity, inputs);
   if (s.tolerances) add_tolerances(result, s.description.suspension, *s.tolerances, inputs, context);

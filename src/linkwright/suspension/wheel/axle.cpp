@@ -55,4 +55,14 @@ Ackermann ackermann(double inner, double outer, double wheelbase, double track) 
   return {ideal, 100 * (inner - outer) / (ideal - outer)};
 }
 
+TurningCircle turning_circle(double outer, double wheelbase, double axes, double scrub, double overhang,
+                             double width) {
+  LINKWRIGHT_REQUIRE(wheelbase > 0 && axes > 0 && outer > 0,
+                     "wheelbase {} m, distance of the axes {} m, outer angle {} rad", wheelbase, axes, outer);
+  // From the middle of the rear axle to the centre of the turn.
+  const double across = wheelbase / std::tan(outer) - axes / 2;
+  return {2 * (wheelbase / std::sin(outer) + scrub),
+          2 * std::hypot(wheelbase + overhang, across + width / 2)};
+}
+
 }  // namespace linkwright::suspension

@@ -91,4 +91,26 @@ struct Ackermann {
 /// @throws ContractError unless wheelbase, track and the outer angle are positive
 Ackermann ackermann(double inner, double outer, double wheelbase, double track);
 
+/// The circles of a turn of a vehicle whose front axle steers, about a centre on the line of the rear axle.
+struct TurningCircle {
+  double kerb_to_kerb = 0;  ///< diameter of the track of the outer front wheel (m)
+  /// Diameter of the path of the outer front corner of the body (m). NaN if its overhang or width is unknown.
+  double wall_to_wall = nan;
+};
+
+/// The turning circles by the steer angle of the outer wheel.
+///
+/// @param outer change of the steer angle of the outer wheel from straight ahead (rad, > 0)
+/// @param wheelbase m, > 0
+/// @param axes distance of the steering axes at the ground (m, > 0)
+/// @param scrub from the steering axis of the outer wheel at the ground to its contact point, across the
+/// wheel
+///   (m, > 0 if the contact is outboard)
+/// @param overhang of the body ahead of the front axle (m), or NaN
+/// @param width of the body (m), or NaN
+/// @returns both diameters
+/// @throws ContractError unless wheelbase, distance and angle are positive
+TurningCircle turning_circle(double outer, double wheelbase, double axes, double scrub, double overhang = nan,
+                             double width = nan);
+
 }  // namespace linkwright::suspension

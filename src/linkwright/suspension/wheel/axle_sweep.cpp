@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linkwright/core/check.h"
 
@@ -25,6 +26,27 @@ AxlePosition joined(CornerPosition left, CornerPosition right) {
     break;
   }
   return out;
+}
+
+std::size_t nearest_to_zero(std::span<const double> values) {
+  const auto nearer = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+}
+
+/// Calls `solve` with the index of each value and the last position that was found on the way to it: first
+/// the value nearest to zero, from `start`, then outwards to both sides.
+template <class Solve>
+void outwards(std::span<const double> values, const AxlePosition& start, Solve&& solve) {
+  const auto next = [&](AxlePosition& last, std::size_t i) {
+    AxlePosition found = solve(i, last);
+    if (found.status == Status::done) last = std::move(found);
+  };
+  const std::size_t middle = nearest_to_zero(values);
+  AxlePosition up = start;
+  next(up, middle);
+  AxlePosition down = up;
+  for (std::size_t i = middle + 1; i < values.size(); ++i) next(up, i);
+  for (std::size_t i = middle; i-- > 0;) next(down, i);
 }
 
 double road_camber(const WheelParameters& wheel, Side side, double road_angle) {
@@ -157,6 +179,8 @@ std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::sp
         return solve_roll(plan, value, (held.left + held.right) / 2, held.rack, last);
       case AxleMotion::rack:
         return solve_axle(plan, {held.driver, held.left, held.right, value}, last);
+      case AxleMotion::single:
+        return solve_axle(plan, {held.driver, value, held.right, held.rack}, last);
     }
     return last;
   };
@@ -168,6 +192,50 @@ std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::sp
     if (row.position.status != Status::done) continue;
     row.parameters = axle_parameters(plan, row.position);
     last = row.position;
+  }
+  return out;
+}
+
+AxleGrid solve_axle_grid(const AxlePlan& plan, std::span<const double> heaves, std::span<const double> rolls,
+                         std::span<const double> racks, const RunContext* context) {
+  LINKWRIGHT_REQUIRE(!heaves.empty() && !rolls.empty() && !racks.empty(), "{} heaves, {} rolls, {} racks",
+                     heaves.size(), rolls.size(), racks.size());
+  const AxlePosition reference = reference_position(plan);
+  LINKWRIGHT_REQUIRE(reference.status == Status::done, "the reference is {}: {}", to_string(reference.status),
+                     reference.reason);
+  constexpr std::size_t between_looks = 64;
+  std::vector<std::pair<std::size_t, AxleRow>> found;
+  bool stopped = false;
+  const auto solve = [&](std::size_t h, std::size_t k, std::size_t r, const AxlePosition& from) {
+    return solve_roll(plan, rolls[k], heaves[h], racks[r], from);
+  };
+  const std::size_t h0 = nearest_to_zero(heaves), k0 = nearest_to_zero(rolls);
+  outwards(racks, reference, [&](std::size_t r, const AxlePosition& beside) {
+    const AxlePosition upright = solve(h0, k0, r, beside);
+    const AxlePosition& of_rack = upright.status == Status::done ? upright : beside;
+    outwards(heaves, of_rack, [&](std::size_t h, const AxlePosition& near) {
+      const AxlePosition level = solve(h, k0, r, near);
+      outwards(rolls, level.status == Status::done ? level : near,
+               [&](std::size_t k, const AxlePosition& from) {
+                 if (stopped) return from;
+                 AxleRow row{.value = rolls[k], .position = solve(h, k, r, from)};
+                 if (row.position.status == Status::done)
+                   row.parameters = axle_parameters(plan, row.position);
+                 found.emplace_back((r * heaves.size() + h) * rolls.size() + k, row);
+                 stopped = context && found.size() % between_looks == 0 && context->interrupted();
+                 return row.position;
+               });
+      return level;
+    });
+    return upright;
+  });
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  AxleGrid out;
+  for (auto& [i, row] : found) {
+    out.roll.push_back(rolls[i % rolls.size()]);
+    out.heave.push_back(heaves[i / rolls.size() % heaves.size()]);
+    out.rack.push_back(racks[i / rolls.size() / heaves.size()]);
+    out.rows.push_back(std::move(row));
   }
   return out;
 }

@@ -147,13 +147,15 @@ enum class AxleMotion {
   parallel,  ///< both wheels rise equally; values are travels (m, by the driver)
   opposite,  ///< the left wheel rises, the right one falls; values are travels of the left (m, by the driver)
   roll,      ///< the body leans over a plane road; values are rolls (rad)
-  rack       ///< the rack moves, travel held; values are rack displacements (m)
+  rack,      ///< the rack moves, travel held; values are rack displacements (m)
+  single     ///< the left wheel alone rises; values are its travels (m, by the driver)
 };
-constexpr std::array<EnumName<AxleMotion>, 4> names(AxleMotion) {
+constexpr std::array<EnumName<AxleMotion>, 5> names(AxleMotion) {
   return {{{AxleMotion::parallel, "parallel", "both wheels rise equally"},
            {AxleMotion::opposite, "opposite", "the left wheel rises, the right one falls equally"},
            {AxleMotion::roll, "roll", "the body leans over a plane road"},
-           {AxleMotion::rack, "rack", "the rack moves, travel held"}}};
+           {AxleMotion::rack, "rack", "the rack moves, travel held"},
+           {AxleMotion::single, "single", "the left wheel alone rises"}}};
 }
 
 /// One row of a sweep.
@@ -165,7 +167,8 @@ struct AxleRow {
 
 /// Positions along a motion, each followed from the last one that was found, the first from the reference.
 /// The remaining inputs are held: with `parallel` and `opposite` the rack, with `roll` the rack and the mean
-/// of the travels as heave, with `rack` the travels by their driver.
+/// of the travels as heave, with `rack` the travels by their driver, with `single` the right wheel and the
+/// rack.
 ///
 /// @param plan the plan of the axle
 /// @param motion input that moves
@@ -176,5 +179,25 @@ struct AxleRow {
 /// @throws ContractError if the reference position is not done, and as `solve_axle` and `solve_roll` do
 std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::span<const double> values,
                                 const AxleInput& held = {}, const RunContext* context = nullptr);
+
+/// Positions of every heave with every roll and every rack displacement.
+struct AxleGrid {
+  /// Inputs of the rows: rack displacement (m) changes last, roll (rad) first; heave (m) as in `solve_roll`.
+  std::vector<double> heave, roll, rack;
+  std::vector<AxleRow> rows;  ///< with the roll as their value
+};
+
+/// Solves a grid of positions. Each is followed from its neighbour on the side of zero, so that it does not
+/// depend on the spacing.
+///
+/// @param plan the plan of the axle
+/// @param heaves changes of the mean height of the contacts (m), ascending, at least one
+/// @param rolls angles as in `solve_roll` (rad), ascending, at least one
+/// @param racks rack displacements (m, to the left), ascending, at least one
+/// @param context cancellation and deadline; null: none
+/// @returns the grid; rows that were solved when the context asks to stop
+/// @throws ContractError if the reference position is not done or a list is empty, and as `solve_roll` does
+AxleGrid solve_axle_grid(const AxlePlan& plan, std::span<const double> heaves, std::span<const double> rolls,
+                         std::span<const double> racks, const RunContext* context = nullptr);
 
 }  // namespace linkwright::suspension
