@@ -36,7 +36,8 @@ inline constexpr double spring_columns = 40;
 bool has_springs(const CornerDescription& description);
 
 /// Columns of the first table, whose rows are `positions`, with diagrams; facts about the row `stated`, if
-/// there is one, the roll rates of a symmetric axle among them. Rows without a position, and those after an interruption, have no values.
+/// there is one, the roll rates of a symmetric axle among them. Rows without a position, and those after an
+/// interruption, have no values.
 void add_springs(study::Result& result, const CornerDescription& description, const RideForm& ride,
                  std::span<const CornerPosition> positions, std::optional<std::size_t> stated,
                  bool symmetric_axle, const RunContext& context);

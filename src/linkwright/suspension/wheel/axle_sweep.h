@@ -182,8 +182,9 @@ std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::sp
 
 /// Positions of every heave with every roll and every rack displacement.
 struct AxleGrid {
-  /// Inputs of the rows: rack displacement (m) changes last, roll (rad) first; heave (m) as in `solve_roll`.
-  std::vector<double> heave, roll, rack;
+  std::vector<double> heave,  ///< heave of each row (m), as in `solve_roll`
+      roll,                   ///< roll of each row (rad), which changes first
+      rack;                   ///< rack displacement of each row (m), which changes last
   std::vector<AxleRow> rows;  ///< with the roll as their value
 };
 
