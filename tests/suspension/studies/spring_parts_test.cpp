@@ -98,6 +98,18 @@ TEST(SpringParts, DampersBarsAndStops) {
                     "clearance_mm = 20\non = \"spring\"\ncurve = { compression_mm = [0, 1], "
                     "force_N = [0, 1] }"),
             "mechanism.bump_stop.stiffness_N_per_mm: needs stiffness or a curve, one of them");
+  const auto heave = [&](const std::string& lines) {
+    return problem("[mechanism.bump_stop]", "[mechanism.heave_spring]\n" + lines + "[mechanism.bump_stop]");
+  };
+  EXPECT_EQ(
+      heave("moving_mm = [0, 0, 500]\nattached_to = \"rocker\"\nstiffness_N_per_mm = 9\n"),
+      "mechanism.heave_spring.moving_mm: lies in the middle of the vehicle: both ends are the same point; "
+      "give the end on the side of this wheel");
+  EXPECT_EQ(heave("moving_mm = [0, 190, 500]\nattached_to = \"rocker\"\n"),
+            "mechanism.heave_spring.stiffness: is missing; write stiffness_N_per_mm, or a curve");
+  EXPECT_EQ(heave("attached_to = \"rocker\"\nstiffness_N_per_mm = 9\n"),
+            "mechanism.heave_spring.moving: its end is missing; write moving_m = [x, y, z], or points with "
+            "one name");
   const std::string bare = "[mechanism.damper]\ndamping_N_s_per_m = 3000\n";
   EXPECT_EQ(
       problem(bare, "[mechanism.damper]\nattached_to = \"rocker\"\n"),

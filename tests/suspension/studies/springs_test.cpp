@@ -169,6 +169,57 @@ TEST(Springs, RollRatesAreSecondDifferencesOfTheEnergy) {
               1e-6 * second(&Energy::bar));
 }
 
+// The end of the heave spring on the rocker, turned about its axis here, and the energy of the spring between
+// both ends: the wheels travelling equally, oppositely, and on a plane road in roll.
+TEST(Springs, HeaveSpringByItsEnergy) {
+  const study::Result result = run_text(replaced(pushrod_study, "[mechanism.damper]",
+                                                 "[mechanism.heave_spring]\nmoving_mm = [15, 190, 500]\n"
+                                                 "attached_to = \"rocker\"\nstiffness_N_per_mm = 60\n"
+                                                 "preload_N = 400\n[mechanism.damper]") +
+                                        "[axle.opposite]\nvalues_mm = [-10, 0, 10]\n");
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+  const AxlePlan axle = prepare_axle(pushrod_corner());
+  const AxlePosition reference = reference_position(axle);
+  const auto end = [](const CornerPlan& plan, const CornerPosition& position, double side) {
+    const double w = rocker_states(plan, position.place, position.input.rack)[0].angle;
+    const double y = 0.19 - 0.2, z = 0.5 - 0.43;  // from the axis, whose direction is -x
+    return std::array{side * (0.2 + y * std::cos(w) + z * std::sin(w)),
+                      0.43 - y * std::sin(w) + z * std::cos(w)};
+  };
+  const auto energy = [&](const AxlePosition& at) {
+    EXPECT_EQ(at.status, Status::done);
+    const auto l = end(axle.left, at.left, 1), r = end(axle.right, at.right, -1);
+    const double force = 400 + 60e3 * (0.38 - std::hypot(l[0] - r[0], l[1] - r[1]));
+    return force * force / (2 * 60e3);
+  };
+  const auto travelled = [&](double left, double right) {
+    return energy(solve_axle(axle, {Driver::wheel_centre_z, left, right, 0}, reference));
+  };
+  const auto slope = [](double step, auto&& of) {
+    return (8 * (of(step) - of(-step)) - (of(2 * step) - of(-2 * step))) / (12 * step);
+  };
+  const auto second = [](double step, auto&& of) {
+    return (16 * (of(step) + of(-step)) - (of(2 * step) + of(-2 * step)) - 30 * of(0)) / (12 * step * step);
+  };
+  const auto equally = [&](double z) { return travelled(0.015 + z, 0.015 + z); };
+  EXPECT_NEAR(column(result, "heave_spring_wheel_force_N").at(3), slope(4e-4, equally) / 2, 1e-6);
+  EXPECT_NEAR(column(result, "heave_spring_wheel_rate_N_per_m").at(3), second(1e-3, equally) / 2, 0.02);
+  EXPECT_NEAR(
+      column(result, "total_wheel_rate_N_per_m").at(1),
+      column(result, "wheel_rate_N_per_m").at(1) + column(result, "heave_spring_wheel_rate_N_per_m").at(1),
+      1e-8);
+  const Table& opposite = *result.table("opposite");
+  const auto at = [&](const char* key) { return opposite.find(key)->values.at(2); };
+  EXPECT_NEAR(at("left_heave_spring_force_N"),
+              slope(4e-4, [&](double z) { return travelled(0.01 + z, -0.01); }), 1e-6);
+  EXPECT_NEAR(at("right_heave_spring_force_N"),
+              slope(4e-4, [&](double z) { return travelled(0.01, -0.01 + z); }), 1e-6);
+  const double by_roll =
+      second(2e-3, [&](double roll) { return energy(solve_roll(axle, roll, 0, 0, reference)); });
+  EXPECT_NEAR(test::value_of_fact(result, "roll rate of the heave spring, by its force"), by_roll,
+              1e-5 * std::abs(by_roll));
+}
+
 TEST(Springs, TogglesEndTheTravelAndAreReported) {
   const study::Result result =
       run_text(replaced(pushrod_study, "values_mm = [-30, -15, 0, 15, 30]", "values_mm = [-100, 0]"));

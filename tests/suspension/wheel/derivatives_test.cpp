@@ -211,6 +211,10 @@ TEST(CornerMotions, AreDifferencesOfPositions) {
                       {.name = "carrier to rod",
                        .first = {{0, 0.5, 0.2}, {}},
                        .second = {{0.07, 0.4, 0.17}, {PartKind::link, 2}}},
+                      {.name = "heave spring",
+                       .first = {{0.02, -0.19, 0.5}},
+                       .second = {{0.02, 0.19, 0.5}, {PartKind::rocker, 0}},
+                       .across = true},
                       {.name = "wishbone", .turn = CornerPart{PartKind::link, 0}},
                       {.name = "bar", .turn = CornerPart{PartKind::rocker, 1}}};
   Suspension arm = corner_sample("RR-US").suspension;
@@ -246,6 +250,9 @@ TEST(CornerMotions, AreDifferencesOfPositions) {
         compare(suspension.elements[i].name, [i](const CornerMotions& m) { return m.elements[i]; });
       for (std::size_t i = 0; i < here.rockers.size(); ++i)
         compare(suspension.rockers[i].name, [i](const CornerMotions& m) { return m.rockers[i]; });
+      ASSERT_EQ(here.ends_across.size(), suspension.rockers.empty() ? 0U : 1U);
+      for (std::size_t i = 0; i < 3 && !here.ends_across.empty(); ++i)
+        compare("end across", [i](const CornerMotions& m) { return m.ends_across[0][i]; });
       if (here.spring) compare("spring", [](const CornerMotions& m) { return *m.spring; });
     }
 }

@@ -129,6 +129,7 @@ struct BasicElementConstants {
       second;                      ///< second end of a length
   std::optional<CornerPart> turn;  ///< part whose angle is followed instead
   Vector3<T> mark;                 ///< unit vector across the hinge of an R or RS link at the reference
+  bool across = false;             ///< true if the first end is the mirror image of the second one
 };
 /// Constants of an element, in numbers.
 using ElementConstants = BasicElementConstants<double>;

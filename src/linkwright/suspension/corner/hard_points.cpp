@@ -95,7 +95,10 @@ std::vector<HardPoint> points_of(const Suspension& suspension) {
     add(name, "rod", {rocker.driven_by.at, rocker.rod});
   }
   for (const CornerElement& element : suspension.elements)
-    if (!element.turn) add(element.name, "end", {element.first.at, element.second.at});
+    if (element.across)
+      add(element.name, "moving", {element.second.at});
+    else if (!element.turn)
+      add(element.name, "end", {element.first.at, element.second.at});
   if (suspension.spring) {
     add("spring", "body", {suspension.spring->body});
     add("spring", "moving", {suspension.spring->moving});

@@ -127,6 +127,9 @@ struct BasicCornerElement {
       second;                ///< second end of a length
   std::optional<CornerPart>
       turn;  ///< an angle instead: of a rocker, or of an R, RS or RR link about its hinge
+  /// True if the first end is the counterpart of the second one at the other wheel. The length is then that
+  /// with both wheels of a symmetric axle at the same position.
+  bool across = false;
 };
 /// An element, in numbers.
 using CornerElement = BasicCornerElement<double>;

@@ -197,6 +197,30 @@ void fields(Visitor&& visit, CornerSpringForm& s) {
   visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
 }
 
+/// Between both wheels: its other end is the counterpart of the moving one.
+struct HeaveSpringForm {
+  std::optional<PointsForm> moving;
+  std::vector<std::string> points;
+  std::string attached_to;
+  std::optional<double> stiffness;
+  double preload = 0;
+  std::optional<double> free_length;
+  std::optional<CharacteristicForm> curve;
+};
+template <class Visitor>
+void fields(Visitor&& visit, HeaveSpringForm& s) {
+  visit(field::length("moving", "its end at this wheel; the other one is its counterpart at the other wheel"),
+        s.moving);
+  visit(field::entry("points", "name of a hard point instead"), s.points);
+  visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker").required(),
+        s.attached_to);
+  visit(field::stiffness("stiffness", "of the spring").not_negative(), s.stiffness);
+  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
+  visit(field::length("free_length", "its length without force, instead of the preload").between(1e-3, 1e3),
+        s.free_length);
+  visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
+}
+
 struct DamperForm {
   std::optional<PointsForm> body, moving;
   std::vector<std::string> points;
@@ -309,6 +333,7 @@ struct CornerForm {
   std::vector<RockerForm> rockers;
   std::optional<CornerSpringForm> spring;
   std::optional<DamperForm> damper;
+  std::optional<HeaveSpringForm> heave_spring;
   std::optional<TorsionBarForm> torsion_bar;
   std::optional<AntiRollBarForm> anti_roll_bar;
   std::optional<StopForm> bump_stop, rebound_stop;
@@ -325,6 +350,8 @@ void fields(Visitor&& visit, CornerForm& g) {
   visit(field::entry("rocker", "rockers (bell cranks) that push- or pullrods drive"), g.rockers);
   visit(field::entry("spring", "between the body and the carrier, a link or a rocker"), g.spring);
   visit(field::entry("damper", "where it is not in line with the spring, and its damping"), g.damper);
+  visit(field::entry("heave_spring", "third spring, between the rockers or links of both wheels"),
+        g.heave_spring);
   visit(field::entry("torsion_bar", "spring that a rocker or a hinged link twists"), g.torsion_bar);
   visit(field::entry("anti_roll_bar", "U bar with droplinks, this wheel's arm"), g.anti_roll_bar);
   visit(field::entry("bump_stop", "engages as the spring or damper is compressed"), g.bump_stop);
@@ -346,6 +373,11 @@ struct TorsionBarDescription {
   std::size_t element = 0;
   SpringLaw law;  ///< N m/rad, N m
 };
+/// A spring between both wheels: its element.
+struct HeaveSpringDescription {
+  std::size_t element = 0;
+  SpringLaw law;  ///< N/m, N
+};
 /// An anti-roll bar: its arm is a rocker.
 struct AntiRollBarDescription {
   std::size_t rocker = 0;
@@ -359,6 +391,7 @@ struct StopDescription {
 /// Parts that spring and damp the wheel beside the spring itself.
 struct SpringParts {
   std::optional<DamperDescription> damper;
+  std::optional<HeaveSpringDescription> heave_spring;
   std::optional<TorsionBarDescription> torsion_bar;
   std::optional<AntiRollBarDescription> anti_roll_bar;
   std::optional<StopDescription> bump_stop, rebound_stop;

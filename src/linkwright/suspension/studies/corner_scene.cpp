@@ -204,6 +204,12 @@ class Drawing {
     return point(std::move(name),
                  [=, this](const CornerPosition& p) { return place_of(plan_, at, p.place, p.input.rack); });
   }
+  /// Its counterpart at the other wheel, which has the same position.
+  int mirrored_point(std::string name, const PartPoint& at) {
+    return point(std::move(name), [=, this](const CornerPosition& p) {
+      return math::mirrored(place_of(plan_, at, p.place, p.input.rack));
+    });
+  }
   /// A point on a rocker is joined to its axis.
   int joined(std::string name, const PartPoint& at) {
     const int made = part_point(std::move(name), at);
@@ -240,9 +246,13 @@ class Drawing {
   void add_element(std::size_t index) {
     const CornerElement& element = suspension_.elements[index];
     if (element.turn) return;
-    const int first = joined(named(element.name + " 1"), plan_.elements[index].first),
+    const PartPoint& moving = plan_.elements[index].second;
+    const int first = element.across ? mirrored_point(named(element.name + " 1"), moving)
+                                     : joined(named(element.name + " 1"), plan_.elements[index].first),
               second = joined(named(element.name + " 2"), plan_.elements[index].second);
-    scene_.bodies.push_back({named(element.name), {first, second}, Scene::BodyStyle::damper});
+    scene_.bodies.push_back({named(element.name),
+                             {first, second},
+                             element.across ? Scene::BodyStyle::spring : Scene::BodyStyle::damper});
   }
 
   void add_spring(const CornerSpring& spring) {

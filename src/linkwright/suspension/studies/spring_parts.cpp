@@ -54,7 +54,39 @@ class Reader {
     if (on->kind == PartKind::link) out.link = on->index;
     if (on->kind == PartKind::rocker) out.rocker = on->index;
     out_.suspension.spring = out;
-    law(*table, s, norm(out.moving - out.body));
+    out_.spring = law(*table, s, norm(out.moving - out.body));
+  }
+
+  void heave_spring() {
+    if (!form_.heave_spring) return;
+    auto table = mechanism_.table("heave_spring");
+    const HeaveSpringForm& h = *form_.heave_spring;
+    std::optional<Vec3> moving;
+    if (h.points.size() == 1 && !h.moving)
+      moving = named_(*table, "points", h.points[0]);
+    else if (h.points.empty() && h.moving)
+      moving = one_given(*table, "moving", *h.moving);
+    else
+      table->error("moving", h.moving ? "its end is given twice" : "its end is missing",
+                   "write moving_m = [x, y, z], or points with one name");
+    const auto on = part_named(*table, "attached_to", h.attached_to);
+    if (!moving || !on) return;
+    if (on->kind == PartKind::body)
+      return table->error("attached_to", "the body does not move with the wheel", "name a rocker or a link");
+    if (std::abs(moving->y) < 1e-6)
+      return table->error("moving", "lies in the middle of the vehicle: both ends are the same point",
+                          "give the end on the side of this wheel");
+    if (!h.stiffness && !h.curve)
+      return table->error("stiffness", "is missing", "write stiffness_N_per_mm, or a curve");
+    const CornerSpringForm same{
+        .stiffness = h.stiffness, .preload = h.preload, .free_length = h.free_length, .curve = h.curve};
+    const auto known = law(*table, same, 2 * std::abs(moving->y));
+    if (!known) return;
+    out_.springs.heave_spring = HeaveSpringDescription{out_.suspension.elements.size(), *known};
+    out_.suspension.elements.push_back({.name = "heave_spring",
+                                        .first = {math::mirrored(*moving)},
+                                        .second = {*moving, *on},
+                                        .across = true});
   }
 
   void damper() {
@@ -271,33 +303,33 @@ class Reader {
     return out;
   }
 
-  /// The law of the spring, whose length as drawn is known.
-  void law(study::ObjectReader& table, const CornerSpringForm& s, double length) {
+  /// The law of a spring whose length as drawn is known; nothing if it has none or a problem.
+  std::optional<SpringLaw> law(study::ObjectReader& table, const CornerSpringForm& s, double length) {
     const bool preload = table.has(field::force("preload"));
     if (s.stiffness && s.curve)
-      return table.error("curve", "the spring has a stiffness already", "keep stiffness or curve");
+      return refused(table, "curve", "the spring has a stiffness already", "keep stiffness or curve");
     if (preload && s.free_length)
-      return table.error("free_length", "the preload is given, which follows from the free length",
-                         "keep preload or free_length");
+      return refused(table, "free_length", "the preload is given, which follows from the free length",
+                     "keep preload or free_length");
     if (!s.stiffness && !s.curve) {
       if (preload) table.error("preload", "needs the stiffness as well", "write stiffness_N_per_mm");
       if (s.free_length)
         table.error("free_length", "needs the stiffness as well", "write stiffness_N_per_mm, or a curve");
-      return;
+      return std::nullopt;
     }
     SpringLaw out{.stiffness = s.stiffness.value_or(0), .preload = s.preload};
     const double compressed = s.free_length ? *s.free_length - length : 0;
     if (s.stiffness && s.free_length) out.preload = *s.stiffness * compressed;
     if (s.curve) {
       out.curve = curve(table, *s.curve);
-      if (!out.curve) return;
+      if (!out.curve) return std::nullopt;
       if (!preload && !s.free_length)
-        return table.error("curve", "the compression at the reference is not known",
-                           "write preload_N or free_length_mm");
+        return refused(table, "curve", "the compression at the reference is not known",
+                       "write preload_N or free_length_mm");
       const auto start = s.free_length ? compressed : compression_of(*out.curve, s.preload);
       if (!start)
-        return table.error("preload", "the curve does not reach this force, or does not rise throughout",
-                           "write free_length_mm instead");
+        return refused(table, "preload", "the curve does not reach this force, or does not rise throughout",
+                       "write free_length_mm instead");
       out.start = *start;
       out.preload = force_of(*out.curve, *start).force;
     }
@@ -306,7 +338,7 @@ class Reader {
                     fmt::format("the spring is drawn {} long, longer than without force",
                                 common_.units.text(length, Dimension::length)),
                     "it would pull its ends together");
-    out_.spring = out;
+    return out;
   }
 
   study::ObjectReader& mechanism_;
@@ -343,6 +375,7 @@ void read_spring_parts(study::ObjectReader& mechanism, const study::Common& comm
   Reader reader(mechanism, common, form, named, out);
   reader.rockers();
   reader.spring();
+  reader.heave_spring();
   reader.damper();
   reader.torsion_bar();
   reader.anti_roll_bar();
@@ -403,6 +436,18 @@ void write_spring_parts(const CornerDescription& d, CornerForm& form) {
       form.damper->body_attached_to = name(element.first.part);
     }
   }
+  if (const auto& heave = d.springs.heave_spring) {
+    const CornerElement& element = g.elements.at(heave->element);
+    form.heave_spring =
+        HeaveSpringForm{.moving = points_of({element.second.at}), .attached_to = name(element.second.part)};
+    if (heave->law.curve) {
+      form.heave_spring->curve = written(*heave->law.curve);
+      form.heave_spring->free_length = 2 * std::abs(element.second.at.y) + heave->law.start;
+    } else {
+      form.heave_spring->stiffness = heave->law.stiffness;
+      form.heave_spring->preload = heave->law.preload;
+    }
+  }
   if (const auto& torsion = d.springs.torsion_bar)
     form.torsion_bar = TorsionBarForm{name(*g.elements.at(torsion->element).turn), torsion->law.stiffness,
                                       torsion->law.preload};
@@ -420,19 +465,21 @@ void drop_empty_spring_keys(Value& mechanism) {
   drop_if(mechanism, "rocker", [](const Value& list) { return list.as_array().empty(); });
   if (has("rocker"))
     for (Value& rocker : mechanism["rocker"].as_array()) drop_if(rocker, "points", always);
-  for (const char* key : {"spring", "damper", "anti_roll_bar"})
+  for (const char* key : {"spring", "heave_spring", "damper", "anti_roll_bar"})
     if (has(key)) drop_if(mechanism[key], "points", always);
   if (has("spring")) {
     drop_if(mechanism["spring"], "body_attached_to", [](const Value& v) { return v.as_string() == "body"; });
     if (!mechanism["spring"].find("stiffness_N_per_m")) drop_if(mechanism["spring"], "preload_N", always);
   }
+  if (has("heave_spring") && !mechanism["heave_spring"].find("stiffness_N_per_m"))
+    drop_if(mechanism["heave_spring"], "preload_N", always);
   if (has("damper") && !mechanism["damper"].find("body_m"))
     for (const char* key : {"attached_to", "body_attached_to"}) drop_if(mechanism["damper"], key, always);
   const auto drop_lists = [&](Value& table) {
     if (!table.find("curve")) return;
     drop_if(table["curve"], "file", always);
   };
-  for (const char* key : {"spring", "bump_stop", "rebound_stop"})
+  for (const char* key : {"spring", "heave_spring", "bump_stop", "rebound_stop"})
     if (has(key)) drop_lists(mechanism[key]);
 }
 

@@ -34,14 +34,24 @@ double sum_of(std::initializer_list<const WheelRate*> parts, double WheelRate::*
   return sum;
 }
 
+/// Length of the heave spring of a symmetric axle at the reference.
+double length_across(const Suspension& suspension, const HeaveSpringDescription& heave) {
+  return 2 * std::abs(suspension.elements[heave.element].second.at.y);
+}
+
 /// A position with all that acts at its wheel.
 struct SpringRow {
   CornerMotions motions;
   WheelRate spring, torsion, bump, rebound;
+  WheelRate heave;           ///< both wheels travelling equally; half of its effect is at each wheel
   double damping = missing;  ///< at the wheel, N s/m
   bool bottomed = false;
-  double rate() const { return sum_of({&spring, &torsion, &bump, &rebound}, &WheelRate::rate); }
-  double force() const { return sum_of({&spring, &torsion, &bump, &rebound}, &WheelRate::wheel_force); }
+  /// Rate and force at the wheel of what acts on this wheel alone.
+  double own_rate() const { return sum_of({&spring, &torsion, &bump, &rebound}, &WheelRate::rate); }
+  double own_force() const { return sum_of({&spring, &torsion, &bump, &rebound}, &WheelRate::wheel_force); }
+  /// The same with the heave spring.
+  double rate() const { return own_rate() + heave.rate / 2; }
+  double force() const { return own_force() + heave.wheel_force / 2; }
 };
 
 /// The parts of the sum that are the same at all positions.
@@ -67,6 +77,10 @@ class SpringModel {
     if (parts.torsion_bar)
       out.torsion =
           effect(wound(out.motions.elements[parts.torsion_bar->element], sense_), 0, parts.torsion_bar->law);
+    if (parts.heave_spring)
+      out.heave =
+          effect(out.motions.elements[parts.heave_spring->element],
+                 length_across(description_.suspension, *parts.heave_spring), parts.heave_spring->law);
     if (parts.damper && parts.damper->damping) {
       const double ratio = rates(out.motions, StopPlace::damper).ratio;
       out.damping = *parts.damper->damping * ratio * ratio;
@@ -217,6 +231,18 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
             [&](const R& r) {
               return bar_rate(r.motions.rockers[parts.anti_roll_bar->rocker], parts.anti_roll_bar->stiffness);
             });
+  if (parts.heave_spring) {
+    out.add_rates("heave_spring", "heave spring", false, true,
+                  [&](const R& r) { return r.motions.elements[parts.heave_spring->element]; });
+    out.add("heave_spring_force_N", "force of the heave spring (N)",
+            [](const R& r) { return r.heave.spring_force; });
+    out.add("heave_spring_wheel_force_N",
+            "force of the heave spring at each wheel, both travelling equally (N)",
+            [](const R& r) { return r.heave.wheel_force / 2; });
+    out.add("heave_spring_wheel_rate_N_per_m",
+            "rate of the heave spring at each wheel, both travelling equally (N/m)",
+            [](const R& r) { return r.heave.rate / 2; });
+  }
   if (parts.bump_stop)
     out.add("bump_stop_force_N", "force of the bump stop (N)",
             [](const R& r) { return r.bump.spring_force; });
@@ -226,7 +252,7 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
   if (parts.bump_stop || parts.rebound_stop)
     out.add("stop_bottomed", "1 where a stop is at its end",
             [](const R& r) { return r.bottomed ? 1.0 : 0.0; });
-  if (parts.torsion_bar || parts.bump_stop || parts.rebound_stop) {
+  if (parts.heave_spring || parts.torsion_bar || parts.bump_stop || parts.rebound_stop) {
     out.add("total_wheel_force_N", "force of springs and stops" + at + " (N)",
             [](const R& r) { return r.force(); });
     out.add("total_wheel_rate_N_per_m", "wheel rate of springs and stops (N/m)",
@@ -244,6 +270,13 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
   }
 }
 
+/// Second derivative of the length across a symmetric axle by opposite travel, whose first one is zero. With
+/// the ends e(z) and, mirrored, e(-z), their distance is (x(z) - x(-z), y(z) + y(-z), z(z) - z(-z)).
+double by_opposite_travel(const std::array<TravelRates, 3>& end) {
+  const double y = std::abs(end[1].value), sign = end[1].value < 0 ? -1 : 1;
+  return 2 * (sign * end[1].by_travel + (end[0].ratio * end[0].ratio + end[2].ratio * end[2].ratio) / y);
+}
+
 /// Roll rate of a symmetric axle, t^2 (k_w + k_bar) / 2 with the track t and the rates at the contact points:
 /// the second derivative of the energy by roll on a plane road, the mean height of the contacts held.
 void add_roll_rates(study::Result& result, const CornerDescription& d, const CornerPosition& position) {
@@ -257,10 +290,13 @@ void add_roll_rates(study::Result& result, const CornerDescription& d, const Cor
   };
   const study::AddFact fact{result.facts};
   const bool sprung = d.spring || d.springs.torsion_bar;
-  if (sprung) fact("roll rate of the springs", roll_rate(here.rate()));
+  if (sprung) fact("roll rate of the springs", roll_rate(here.own_rate()));
   if (const auto& bar = d.springs.anti_roll_bar)
     fact("roll rate of the anti-roll bar",
          roll_rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
+  if (d.springs.heave_spring)
+    fact("roll rate of the heave spring, by its force",
+         roll_rate(-here.heave.spring_force * by_opposite_travel(here.motions.ends_across[0]) / 2));
 }
 
 /// The place between two positions at which a stop engages or ends: bisection, so that it does not depend on
@@ -320,7 +356,8 @@ void check_ride(study::ObjectReader& document, const RideForm& ride, const Corne
 }
 
 bool has_springs(const CornerDescription& d) {
-  return d.spring || !d.suspension.rockers.empty() || d.springs.damper || d.springs.torsion_bar;
+  return d.spring || !d.suspension.rockers.empty() || d.springs.damper || d.springs.torsion_bar ||
+         d.springs.heave_spring;
 }
 
 void add_springs(study::Result& result, const CornerDescription& d, const RideForm& ride,
@@ -406,9 +443,9 @@ void add_opposite_travel(study::Result& result, const AxleDescription& both, con
     }
     if (wheel.spring || wheel.springs.torsion_bar) {
       add(word + "_wheel_force_N", fmt::format("force of springs and stops at the {} wheel (N)", word),
-          [=](const Rows& rows) { return rows[side].force(); });
+          [=](const Rows& rows) { return rows[side].own_force(); });
       add(word + "_wheel_rate_N_per_m", fmt::format("{} wheel rate of springs and stops (N/m)", word),
-          [=](const Rows& rows) { return rows[side].rate(); });
+          [=](const Rows& rows) { return rows[side].own_rate(); });
     }
   }
   const auto &left_bar = both.left.springs.anti_roll_bar, &right_bar = both.right.springs.anti_roll_bar;
@@ -435,6 +472,33 @@ void add_opposite_travel(study::Result& result, const AxleDescription& both, con
         "rate of the anti-roll bar at each wheel, by its moment (N/m)", [=](const Rows& rows) {
           return k * twist(rows) * (arm(rows, 0).by_travel - arm(rows, 1).by_travel) / 2;
         });
+  }
+  if (both.left.springs.heave_spring && both.right.springs.heave_spring) {
+    const SpringLaw& law = both.left.springs.heave_spring->law;
+    const auto reference = [](const CornerDescription& d) {
+      return d.suspension.elements[d.springs.heave_spring->element].second.at;
+    };
+    const double drawn = norm(reference(both.left) - reference(both.right));
+    const auto across = [](const Rows& rows) {
+      Vec3 out;
+      const auto &l = rows[0].motions.ends_across[0], &r = rows[1].motions.ends_across[0];
+      out.x = l[0].value - r[0].value, out.y = l[1].value - r[1].value, out.z = l[2].value - r[2].value;
+      return out;
+    };
+    const auto push = [=](const Rows& rows) { return force_of(law, drawn - norm(across(rows))).force; };
+    add("heave_spring_length_m", "length of the heave spring (m)",
+        [=](const Rows& rows) { return norm(across(rows)); });
+    add("heave_spring_force_N", "force of the heave spring (N)", push);
+    for (const std::size_t side : {0U, 1U}) {
+      const std::string word = side == 0 ? "left" : "right";
+      add(word + "_heave_spring_force_N", fmt::format("force of the heave spring at the {} wheel (N)", word),
+          [=](const Rows& rows) {
+            const auto& end = rows[side].motions.ends_across[0];
+            const Vec3 d = across(rows);
+            const double lengthens = (d.x * end[0].ratio + d.y * end[1].ratio + d.z * end[2].ratio) / norm(d);
+            return push(rows) * (side == 0 ? -lengthens : lengthens);
+          });
+    }
   }
   result.tables.push_back(std::move(table));
   const study::AddPlot plot{result, {.table = "opposite", .x = "travel_m"}};

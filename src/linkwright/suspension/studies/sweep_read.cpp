@@ -88,6 +88,9 @@ std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document,
   if (bar.has_value() != other_bar.has_value())
     table->error("mechanism", "the anti-roll bar has an arm at one wheel alone",
                  "give [mechanism.anti_roll_bar] for both wheels");
+  else if (one->springs.heave_spring.has_value() != other->springs.heave_spring.has_value())
+    table->error("mechanism", "the heave spring has an end at one wheel alone",
+                 "give [mechanism.heave_spring] for both wheels");
   else if (bar && bar->stiffness != other_bar->stiffness)
     table->error("mechanism", "the anti-roll bar has another stiffness than at the first wheel",
                  "it is one bar: give the same stiffness for both wheels");

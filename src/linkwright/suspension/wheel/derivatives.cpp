@@ -56,8 +56,10 @@ BasicSuspension<T> constant(const Suspension& suspension) {
     if (rocker.length) out.rockers.back().length = T(*rocker.length);
   }
   for (const CornerElement& element : suspension.elements)
-    out.elements.push_back(
-        {.first = fixed(element.first), .second = fixed(element.second), .turn = element.turn});
+    out.elements.push_back({.first = fixed(element.first),
+                            .second = fixed(element.second),
+                            .turn = element.turn,
+                            .across = element.across});
   return out;
 }
 
@@ -308,6 +310,8 @@ CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position
     out.status = Status::singular;
     out.rockers.resize(plan.plan.rockers.size());
     out.elements.resize(plan.plan.elements.size());
+    for (const auto& element : plan.plan.elements)
+      if (element.across) out.ends_across.emplace_back();
     if (plan.plan.spring) out.spring.emplace();
     return out;
   }
@@ -335,6 +339,17 @@ CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position
   for (const auto& element : plan.inputs.elements)
     out.elements.push_back(
         rates([&](kernel::Row<T>& row) { return kernel::element_value(placed, element, row); }));
+  for (const auto& element : plan.inputs.elements) {
+    if (!element.across) continue;
+    auto& end = out.ends_across.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i)
+      end[i] = rates([&](kernel::Row<T>& row) {
+        math::Vector3<T> along;
+        (i == 0 ? along.x : i == 1 ? along.y : along.z) = T(1);
+        kernel::add_part_point(placed, element.second, along, row);
+        return dot(along, kernel::part_point(placed, element.second));
+      });
+  }
   if (plan.inputs.spring)
     out.spring = rates([&](kernel::Row<T>& row) { return kernel::spring_length(placed, row); });
   return out;

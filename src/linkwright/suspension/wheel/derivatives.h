@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,8 @@ struct CornerMotions {
   std::vector<TravelRates> rockers,   ///< angle of each rocker
       elements;                       ///< length or angle of each element
   std::optional<TravelRates> spring;  ///< length of the spring
+  /// Coordinates (m) of the moving end of each element that reaches across the vehicle, in their order.
+  std::vector<std::array<TravelRates, 3>> ends_across;
 };
 
 /// The motions of rockers, spring and elements at a position: l, dl/dz and d2l/dz2 by implicit

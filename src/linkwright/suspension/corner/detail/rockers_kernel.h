@@ -194,9 +194,20 @@ T part_angle(const Placed<T>& placed, const BasicElementConstants<T>& element, R
   return atan2(dot(across, side), dot(across, element.mark));
 }
 
+/// Distance of a point from its mirror image beyond the middle plane of the vehicle; adds its derivatives to
+/// the row.
+template <class T>
+T distance_across(const Placed<T>& placed, const BasicPartPoint<T>& point, Row<T>& row) {
+  const T y = part_point(placed, point).y;
+  const T twice(y < T(0) ? -2.0 : 2.0);
+  add_part_point(placed, point, Vector3<T>{T(0), twice, T(0)}, row);
+  return twice * y;
+}
+
 /// Length or angle of an element; adds its derivatives to the row.
 template <class T>
 T element_value(const Placed<T>& placed, const BasicElementConstants<T>& element, Row<T>& row) {
+  if (element.across) return distance_across(placed, element.second, row);
   return element.turn ? part_angle(placed, element, row)
                       : part_distance(placed, element.first, element.second, row);
 }
@@ -239,7 +250,7 @@ BasicRockerConstants<T> rocker_of(const BasicSuspension<T>& suspension, const Ba
 template <class T>
 BasicElementConstants<T> element_of(const BasicSuspension<T>& suspension, const BasicCornerPlan<T>& plan,
                                     const BasicCornerElement<T>& from) {
-  BasicElementConstants<T> out{.turn = from.turn};
+  BasicElementConstants<T> out{.turn = from.turn, .across = from.across};
   if (!from.turn) {
     out.first = part_point_of(suspension, plan, from.first);
     out.second = part_point_of(suspension, plan, from.second);
