@@ -10,6 +10,7 @@
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/packaging.h"
 #include "linkwright/suspension/studies/sensitivity.h"
 #include "linkwright/suspension/studies/springs.h"
 #include "linkwright/suspension/wheel/parameters.h"
@@ -69,6 +70,7 @@ struct SweepStudy {
   std::optional<AxleForm> axle;
   std::optional<CornerDescription> other_wheel;  ///< of the axle; none: the mirror image of the suspension
   std::optional<ComplianceForm> compliance;
+  std::optional<PackagingForm> packaging;
   std::optional<SensitivityForm> sensitivity;
   std::optional<TolerancesForm> tolerances;
 };

@@ -63,7 +63,8 @@ bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
   constexpr double of_anti_features = 3;
   const double columns = 3 + static_cast<double>(columns_of(s).size()) +
                          (has_springs(s.description) ? spring_columns : 0) +
-                         (s.vehicle ? of_anti_features : 0),
+                         (s.vehicle ? of_anti_features : 0) +
+                         (s.packaging ? packaging_columns(*s.packaging) : 0),
                positions = static_cast<double>(s.travels.size() * s.racks.size()),
                position = sizeof(CornerPosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
   auto sweep = document.table("sweep");
@@ -164,12 +165,14 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(field::entry("vehicle"), s.vehicle);
   document(field::entry("axle"), s.axle);
   document(field::entry("compliance"), s.compliance);
+  document(field::entry("packaging"), s.packaging);
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
   if (description && ride) check_ride(document, s.ride, *description);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
   if (description && s.axle) complete_axle(document, *s.axle, description->suspension);
+  if (description && s.packaging) check_packaging(document, *s.packaging, description->suspension);
   if (description && s.compliance) check_compliance(document, *s.compliance, *description);
   if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
   s.description = *description;
@@ -185,6 +188,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   if (ride) canonical["ride"] = study::write_fields(s.ride);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.packaging) canonical["packaging"] = study::write_fields(*s.packaging);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
   if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
   if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
@@ -246,6 +250,8 @@ study::Kind sweep_kind() {
                       study::schema_fields<AxleForm>());
     document.property(field::entry("compliance", "elastic joints and loads"),
                       study::schema_fields<ComplianceForm>());
+    document.property(field::entry("packaging", "angles of joints and half-shafts, clearances"),
+                      study::schema_fields<PackagingForm>());
     document.property(field::entry("sensitivity", "derivatives of curves by the hard points"),
                       study::schema_fields<SensitivityForm>());
     document.property(field::entry("tolerances", "bands of curves when points have tolerances"),

@@ -427,6 +427,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                           ? Sentence()
                           : say(" (travel {})", length(grid.travel(middle))));
   }
+  if (s.packaging) add_packaging(result, s.description.suspension, plan, *s.packaging, grid.solved.positions);
   if (s.axle) {
     const AxleDescription both = axle_of(s.description, s.other_wheel);
     if (s.axle->opposite) add_opposite_travel(result, both, s.ride, *s.axle->opposite->values, context);

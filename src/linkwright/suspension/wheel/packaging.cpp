@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/suspension/wheel/packaging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/suspension/corner/detail/rockers_kernel.h"
+
+namespace linkwright::suspension {
+namespace {
+
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+
+/// Of two directions without a sense.
+double acute_angle(const Vec3& a, const Vec3& b) {
+  const double angle = angle_between(a, b);
+  return std::min(angle, pi - angle);
+}
+
+/// A point of the carrier, given at the reference.
+Vec3 carried(const CornerPlan& plan, const CornerPosition& position, const Vec3& at) {
+  const CarrierPose& carrier = position.place.carrier;
+  return carrier.centre + carrier.rotation * (at - plan.wheel.centre);
+}
+
+double distance_to_circle(const Vec3& point, const Vec3& centre, const Vec3& axis, double radius) {
+  const Vec3 d = point - centre;
+  const double along = dot(d, axis), across = norm(d - along * axis);
+  return std::hypot(along, across - radius);
+}
+
+}  // namespace
+
+HalfShaftState half_shaft(const CornerPlan& plan, const HalfShaft& shaft, const CornerPosition& position) {
+  const Vec3 axis = unit(shaft.inner_axis), line = carried(plan, position, shaft.outer) - shaft.inner;
+  HalfShaftState out;
+  out.inner_angle = acute_angle(line, axis);
+  out.outer_angle = acute_angle(line, position.place.carrier.rotation * plan.wheel_axis);
+  out.length = norm(line);
+  out.plunge = std::abs(dot(line, axis)) - std::abs(dot(shaft.outer - shaft.inner, axis));
+  return out;
+}
+
+double ball_joint_angle(const Suspension& suspension, const CornerPlan& plan, const BallJoint& joint,
+                        const CornerPosition& position) {
+  const CornerLink& link = suspension.links.at(static_cast<std::size_t>(joint.link));
+  const std::vector<Vec3>& points = joint.at_carrier ? link.carrier : link.body;
+  LINKWRIGHT_REQUIRE(!points.empty(), "link {} has no joint at its {}", joint.link,
+                     joint.at_carrier ? "carrier" : "body");
+  // A tenth of a metre along the stud, as the link carries it.
+  const Vec3 stud = 0.1 * unit(joint.stud);
+  const kernel::Placed<double> placed{plan, position.place, position.input.rack};
+  const auto on_link = [&](const Vec3& at) {
+    const FixedPoint fixed{at, {PartKind::link, joint.link}};
+    return kernel::part_point(placed, kernel::part_point_of(suspension, plan, fixed));
+  };
+  const Vec3 of_link = on_link(points[0] + stud) - on_link(points[0]);
+  return angle_between(of_link, joint.at_carrier ? position.place.carrier.rotation * stud : stud);
+}
+
+double distance(const Segment& a, const Segment& b) {
+  const Vec3 u = a.to - a.from, v = b.to - b.from, w = a.from - b.from;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const auto part = [](double numerator, double denominator) {
+    return denominator > 0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0;
+  };
+  // The nearest points of the lines, then each in turn brought onto its own segment. For parallel lines any
+  // point of the first will do.
+  double s = part(uv * vw - vv * uw, uu * vv - uv * uv);
+  const double t = part(s * uv + vw, vv);
+  s = part(t * uv - uw, uu);
+  return norm(w + s * u - part(s * uv + vw, vv) * v);
+}
+
+double distance(const Segment& line, const Vec3& centre, const Vec3& axis, double radius) {
+  const auto at = [&](double s) {
+    return distance_to_circle(line.from + s * (line.to - line.from), centre, axis, radius);
+  };
+  // The distance has up to four minima along a line: the least of a row of points begins the search.
+  constexpr int points = 48;
+  int best = 0;
+  for (int i = 1; i <= points; ++i)
+    if (at(static_cast<double>(i) / points) < at(static_cast<double>(best) / points)) best = i;
+  double low = std::max(0, best - 1) / static_cast<double>(points),
+         high = std::min(points, best + 1) / static_cast<double>(points);
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 60; ++i) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    at(a) < at(b) ? high = b : low = a;
+  }
+  return at((low + high) / 2);
+}
+
+std::vector<Segment> lines_of(const CornerPlan& plan, int link, const CornerPosition& position) {
+  const LinkConstants& of = plan.links[static_cast<std::size_t>(link)];
+  const kernel::Placed<double> placed{plan, position.place, position.input.rack};
+  const auto outer = [&](int i) { return placed.point(placed.offset(of.offset[i])); };
+  switch (of.type) {
+    case LinkType::US:
+    case LinkType::SS:
+    case LinkType::SP:
+    case LinkType::RR:
+      return {{placed.body(of, 0), outer(0)}};
+    case LinkType::RS:
+      return {{placed.body(of, 0), outer(0)}, {placed.body(of, 1), outer(0)}};
+    case LinkType::SR:
+      return {{placed.body(of, 0), outer(0)}, {placed.body(of, 0), outer(1)}};
+    case LinkType::R:
+    case LinkType::S:
+      break;
+  }
+  return {};
+}
+
+TyreCircle tyre_circle(const CornerPlan& plan, double width, const CornerPosition& position) {
+  return {position.place.carrier.centre, position.place.carrier.rotation * plan.wheel_axis,
+          (plan.wheel.tyre_diameter - width) / 2};
+}
+
+}  // namespace linkwright::suspension
