@@ -18,7 +18,8 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::uint64_t atlas_seed = 20260617;
+constexpr std::uint64_t atlas_seed = 20260617, rocking_seed = 20261129;
+constexpr double least_part = 20 * pi / 180, most_part = 320 * pi / 180;  // of a turn of a drive that rocks
 constexpr std::size_t drawn_a_piece = 4000, most_in_a_cell = 6;
 constexpr std::size_t turn = 64;        // crank angles of a curve
 constexpr std::size_t arc_points = 64;  // of which harmonics are taken
@@ -72,10 +73,12 @@ Cell cell_of(const FamilyAtlas::Entry& e) {
   return std::min(one, other);
 }
 
-/// Fills what an entry tells of its curve; false where that is none.
-bool describe(const MachineShape& shape, FamilyAtlas::Entry& e) {
+/// Fills what an entry tells of its curve, over the turn or a part of it; false where that is none.
+bool describe(const MachineShape& shape, std::optional<CrankPart> part, FamilyAtlas::Entry& e) {
   alignas(64) std::array<double, turn> angle, x, y;
-  for (std::size_t k = 0; k < turn; ++k) angle[k] = 2 * pi * static_cast<double>(k) / turn;
+  for (std::size_t k = 0; k < turn; ++k)
+    angle[k] = part ? part->from + part->range * static_cast<double>(k) / (turn - 1)
+                    : 2 * pi * static_cast<double>(k) / turn;
   compute_curve({.program = shape.program,
                  .x = shape.x.data(),
                  .signs = shape.signs,
@@ -88,7 +91,7 @@ bool describe(const MachineShape& shape, FamilyAtlas::Entry& e) {
   for (std::size_t k = 0; k < turn; ++k)
     curve[k] = {x[k], y[k]}, extent = std::max(extent, std::abs(curve[k] - curve[0]));
   if (!(extent > 1e-3) || !std::isfinite(extent)) return false;
-  const auto points = equal_steps(curve, true, arc_points);
+  const auto points = equal_steps(curve, !part, arc_points);
   const Descriptor d = descriptor_of(points);
   for (std::size_t i = 0; i < curve_harmonics; ++i) {
     e.magnitude[i] = static_cast<float>(std::abs(d[i]));
@@ -106,6 +109,7 @@ bool describe(const MachineShape& shape, FamilyAtlas::Entry& e) {
     e.points[1][k] = static_cast<std::int16_t>(std::lround(p.imag()));
   }
   e.program = shape.program, e.signs = shape.signs;
+  if (part) e.from = static_cast<float>(part->from), e.range = static_cast<float>(part->range);
   std::transform(shape.x.begin(), shape.x.end() - 4, e.x.begin(),
                  [](double v) { return static_cast<float>(v); });
   return true;
@@ -133,7 +137,16 @@ std::size_t pieces_of(MachineFamily family) {
   return 0;
 }
 
-std::shared_ptr<const FamilyAtlas> make_atlas(MachineFamily family, const RunContext& context) {
+/// A part of the turn. A group of four links is followed from crank angle zero, which is in it.
+CrankPart drawn_part(const PointProgram& program, RandomStream& random) {
+  CrankPart out{.range = random.uniform(least_part, most_part), .rocks = true};
+  out.from = program.group < 0 ? random.uniform(0, 2 * pi) : -out.range * random.uniform();
+  // As an entry keeps it.
+  out.from = static_cast<float>(out.from), out.range = static_cast<float>(out.range);
+  return out;
+}
+
+std::shared_ptr<const FamilyAtlas> make_atlas(MachineFamily family, bool rocks, const RunContext& context) {
   const std::span<const PointProgram* const> programs = programs_of(family);
   const std::size_t pieces = pieces_of(family);
   std::vector<std::vector<FamilyAtlas::Entry>> found(pieces);
@@ -141,13 +154,15 @@ std::shared_ptr<const FamilyAtlas> make_atlas(MachineFamily family, const RunCon
     std::map<Cell, std::size_t> cells;
     for (std::size_t k = 0; k < drawn_a_piece; ++k) {
       if (k % 64 == 0 && context.interrupted()) return;
-      RandomStream random({.seed = atlas_seed,
+      RandomStream random({.seed = rocks ? rocking_seed : atlas_seed,
                            .run = static_cast<std::uint32_t>(family),
                            .generation = static_cast<std::uint32_t>(piece),
                            .individual = static_cast<std::uint32_t>(k)});
       MachineShape shape{.program = programs[(piece * drawn_a_piece + k) % programs.size()]};
       FamilyAtlas::Entry e;
-      if (!draw_shape(shape, 0, random) || !describe(shape, e)) continue;
+      const std::optional<CrankPart> part =
+          rocks ? std::optional(drawn_part(*shape.program, random)) : std::nullopt;
+      if (!draw_shape(shape, 0, random, part) || !describe(shape, part, e)) continue;
       if (++cells[cell_of(e)] <= most_in_a_cell) found[piece].push_back(e);
     }
   });
@@ -243,7 +258,7 @@ std::vector<AtlasMatch> closed_matches(const FamilyAtlas& atlas, const SampledSt
 }
 
 /// Parts of curves against an open stroke, coarsely: eight points, 32 starts, eight widths, both senses and
-/// mirror images.
+/// mirror images. A curve that is open itself has parts within its ends, and is one.
 class OpenMatcher {
  public:
   explicit OpenMatcher(const SampledStroke& target) {
@@ -264,13 +279,16 @@ class OpenMatcher {
       cy[k] = cy[k + starts] = static_cast<float>(e.points[1][k]) / 32767.0F;
     }
     AtlasMatch out;
-    for (const float width : {0.18F, 0.26F, 0.35F, 0.45F, 0.56F, 0.68F, 0.80F, 0.93F}) {
+    const bool open = e.range != 0;
+    for (const float width : {0.18F, 0.26F, 0.35F, 0.45F, 0.56F, 0.68F, 0.80F, 0.93F, 1.0F}) {
+      if (width == 1 && !open) continue;
+      const float steps = open ? starts - 1 : starts;
       // Sums over the points for all starts at once: the stroke along and against the curve, and the part's
       // own.
       std::array<float, starts> are{}, aim{}, bre{}, bim{}, cre{}, cim{}, dre{}, dim{}, mx{}, my{}, squares{};
       for (std::size_t k = 0; k < few; ++k) {
         const auto shift =
-            static_cast<std::size_t>(std::lround(width * starts * static_cast<float>(k) / (few - 1)));
+            static_cast<std::size_t>(std::lround(width * steps * static_cast<float>(k) / (few - 1)));
         const float tx = x_[k], ty = y_[k], rx = x_[few - 1 - k], ry = y_[few - 1 - k];
         for (std::size_t s = 0; s < starts; ++s) {
           const float vx = cx[s + shift], vy = cy[s + shift];
@@ -281,7 +299,9 @@ class OpenMatcher {
           mx[s] += vx, my[s] += vy, squares[s] += vx * vx + vy * vy;
         }
       }
-      for (std::size_t s = 0; s < starts; ++s) {
+      const std::size_t last =
+          open ? starts - static_cast<std::size_t>(std::lround(width * steps)) : std::size_t{starts};
+      for (std::size_t s = 0; s < last; ++s) {
         const float own = squares[s] - (mx[s] * mx[s] + my[s] * my[s]) / few;
         const float direct = std::max(are[s] * are[s] + aim[s] * aim[s], cre[s] * cre[s] + cim[s] * cim[s]);
         const float mirror = std::max(bre[s] * bre[s] + bim[s] * bim[s], dre[s] * dre[s] + dim[s] * dim[s]);
@@ -298,6 +318,25 @@ class OpenMatcher {
   float by_target_ = 1;
 };
 
+/// The atlases of all families, each made once.
+class AtlasShelf {
+ public:
+  template <class Make>
+  std::shared_ptr<const FamilyAtlas> take(MachineFamily family, const Make& make) {
+    Kept& kept = all_[static_cast<std::size_t>(family)];
+    const std::lock_guard lock(kept.mutex);
+    if (!kept.atlas) kept.atlas = make();
+    return kept.atlas;
+  }
+
+ private:
+  struct Kept {
+    std::mutex mutex;
+    std::shared_ptr<const FamilyAtlas> atlas;
+  };
+  std::array<Kept, names(MachineFamily{}).size()> all_;
+};
+
 }  // namespace
 
 MachineShape FamilyAtlas::shape(std::size_t i) const {
@@ -310,16 +349,20 @@ MachineShape FamilyAtlas::shape(std::size_t i) const {
   return out;
 }
 
+std::optional<CrankPart> FamilyAtlas::part(std::size_t i) const {
+  const Entry& e = entries[i];
+  if (e.range == 0) return std::nullopt;
+  return CrankPart{.from = e.from, .range = e.range, .rocks = true};
+}
+
 std::shared_ptr<const FamilyAtlas> family_atlas(MachineFamily family, const RunContext& context) {
-  struct Kept {
-    std::mutex mutex;
-    std::shared_ptr<const FamilyAtlas> atlas;
-  };
-  static std::array<Kept, names(MachineFamily{}).size()> all;
-  Kept& kept = all[static_cast<std::size_t>(family)];
-  const std::lock_guard lock(kept.mutex);
-  if (!kept.atlas) kept.atlas = make_atlas(family, context);
-  return kept.atlas;
+  static AtlasShelf shelf;
+  return shelf.take(family, [&] { return make_atlas(family, false, context); });
+}
+
+std::shared_ptr<const FamilyAtlas> rocking_atlas(MachineFamily family, const RunContext& context) {
+  static AtlasShelf shelf;
+  return shelf.take(family, [&] { return make_atlas(family, true, context); });
 }
 
 std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const SampledStroke& target, std::size_t count,

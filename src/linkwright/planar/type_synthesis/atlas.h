@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "linkwright/core/run_context.h"
+#include "linkwright/planar/type_synthesis/draw_shape.h"
 #include "linkwright/planar/type_synthesis/program.h"
 #include "linkwright/planar/type_synthesis/stroke.h"
 
@@ -21,6 +23,7 @@ struct FamilyAtlas {
   struct Entry {
     const PointProgram* program = nullptr;
     unsigned signs = 0;
+    float from = 0, range = 0;  ///< part of the turn that its curve is of (rad); no range: the whole turn
     std::array<float, 18> x{};  ///< without place and scale
     std::array<float, curve_harmonics>
         magnitude{};  ///< of its harmonics; the squares of all harmonics add up to 1
@@ -31,11 +34,13 @@ struct FamilyAtlas {
   std::int64_t drawn = 0;  ///< shapes that were tried
 
   MachineShape shape(std::size_t i) const;
+  /// The part of the turn of an entry; none: it turns fully.
+  std::optional<CrankPart> part(std::size_t i) const;
 };
 
 /// An entry that may trace a stroke, or its mirror image.
 struct AtlasMatch {
-  std::size_t entry = 0;
+  std::size_t entry = 0, atlas = 0;  ///< number of the entry, and of its atlas where there are several
   bool mirrored = false;
   double score = 1;  ///< squared distance that is left over that of the stroke from its mean
 };
@@ -44,8 +49,11 @@ struct AtlasMatch {
 /// interrupted.
 std::shared_ptr<const FamilyAtlas> family_atlas(MachineFamily family, const RunContext& context);
 
+/// The same of shapes that assemble over a part of the turn, for drives that rock.
+std::shared_ptr<const FamilyAtlas> rocking_atlas(MachineFamily family, const RunContext& context);
+
 /// The best matches of a stroke, best first, at most `count`. For closed strokes these are exact nearest
-/// neighbours.
+/// neighbours. Entries of a part of the turn are for open strokes.
 std::vector<AtlasMatch> match_atlas(const FamilyAtlas& atlas, const SampledStroke& target, std::size_t count,
                                     const RunContext& context);
 

@@ -11,6 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/link_group.h"
+#include "linkwright/planar/type_synthesis/detail/program_kernel.h"
 
 namespace linkwright::planar {
 namespace {
@@ -31,6 +32,9 @@ double draw_pivot(RandomStream& random, double nearest_outside, double farthest_
   return random.uniform(0.05, farthest_inside);
 }
 
+/// The same on both sides of the circle alike, for cranks that need not turn.
+double draw_any_pivot(RandomStream& random) { return 1.3 * std::exp(0.8 * random.normal()); }
+
 /// Draws the steps of one shape, one after the other, with their points at 32 crank angles.
 class ShapeDrawer {
  public:
@@ -46,6 +50,7 @@ class ShapeDrawer {
  private:
   const Points& at(int i) const { return points_[static_cast<std::size_t>(i)]; }
   double* values(const PointStep& step) { return shape_.x.data() + step.parameter; }
+  bool rocks() const { return part_ && part_->rocks; }
 
   /// Two parameters as one complex number, drawn with this spread.
   std::complex<double> complex_parameter(double* v, bool drawn, double spread) {
@@ -76,7 +81,7 @@ class ShapeDrawer {
         for (std::size_t k = 0; k < angles; ++k) f[k] = turned(k, 1);
         return true;
       case PointOperation::ground_on_axis:
-        if (drawn) v[0] = draw_pivot(random_, 1, 1);
+        if (drawn) v[0] = rocks() ? draw_any_pivot(random_) : draw_pivot(random_, 1, 1);
         f.fill(v[0]);
         return true;
       case PointOperation::ground:
@@ -119,9 +124,12 @@ class ShapeDrawer {
     return true;
   }
 
+  double crank_angle(std::size_t k) const {
+    if (part_) return part_->from + part_->range * static_cast<double>(k) / (angles - 1);
+    return 2 * pi * static_cast<double>(k) / angles;
+  }
   std::complex<double> turned(std::size_t k, double ratio) const {
-    if (part_)
-      return std::polar(1.0, ratio * (part_->from + part_->range * static_cast<double>(k) / (angles - 1)));
+    if (part_) return std::polar(1.0, ratio * crank_angle(k));
     return std::polar(1.0, ratio * 2 * pi * static_cast<double>(k) / angles);
   }
 
@@ -156,7 +164,12 @@ class ShapeDrawer {
     double* v = values(step);
     if (drawn) {
       v[1] = 1.5 * random_.normal();
-      v[0] = (1 + std::abs(v[1])) * (1.02 + 0.5 * std::exp(random_.normal()));
+      double highest = 1 + std::abs(v[1]);
+      if (rocks()) {
+        highest = 0;
+        for (const auto& p : from) highest = std::max(highest, std::abs(v[1] - p.imag()));
+      }
+      v[0] = highest * (1.02 + 0.5 * std::exp(random_.normal()));
     }
     for (std::size_t k = 0; k < angles; ++k) {
       const double sine = (v[1] - from[k].imag()) / v[0], quality = 1 - sine * sine;
@@ -170,7 +183,7 @@ class ShapeDrawer {
     const Points& from = at(step.first);
     double* v = values(step);
     if (drawn) {
-      v[0] = draw_pivot(random_, 1.32, 0.65);
+      v[0] = rocks() ? draw_any_pivot(random_) : draw_pivot(random_, 1.32, 0.65);
       v[1] = std::abs(v[0] - 1) * 0.5 * random_.normal();
     }
     for (std::size_t k = 0; k < angles; ++k) {
@@ -190,6 +203,7 @@ class ShapeDrawer {
                         spread(drawn, 2, 0.7));
     const double* v = shape_.x.data() + link_group::first_parameter(p_);
     const link_group::GroupTurn turn = link_group::follow_turn(v);
+    if (part_) return draw_part_of_group(turn);
     if (!turn.closes()) return false;
     static_assert(link_group::GroupTurn::intervals % angles == 0);
     for (std::size_t k = 0; k < angles; ++k) {
@@ -202,6 +216,22 @@ class ShapeDrawer {
       link_group::evaluate(v, turn.squares, u.real(), u.imag(), g);
       link_group::measure(turn.side, g);
       if (!(g.quality >= min_quality)) return false;
+    }
+    return true;
+  }
+
+  /// The same over a part of the turn. Crank angle zero, at which a group assembles by its parameters, has to
+  /// be reached from there without a gap, and is where the part lies.
+  bool draw_part_of_group(const link_group::GroupTurn& turn) {
+    program_kernel::ProgramState<double> s;
+    s.turn = &turn;
+    for (std::size_t k = 0; k < angles; ++k) {
+      const std::complex<double> u = turned(k, 1);
+      s.ux = u.real(), s.uy = u.imag();
+      double quality;
+      program_kernel::group_forward<false>(p_, shape_.x.data(), crank_angle(k), s, quality);
+      if (!(quality >= min_quality)) return false;
+      of_ground_[k] = {s.group.ax, s.group.ay}, of_crank_[k] = {s.group.bx, s.group.by};
     }
     return true;
   }

@@ -12,6 +12,7 @@ namespace linkwright::planar {
 /// The rotation of the crank over which a shape assembles (rad).
 struct CrankPart {
   double from = 0, range = 0;  ///< of either sign
+  bool rocks = false;          ///< shapes whose crank cannot turn fully are drawn as often as others
 };
 
 /// Draws the parameters of the steps from `first` on, in their order, so that every pair assembles over the

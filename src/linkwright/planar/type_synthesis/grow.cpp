@@ -7,13 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "linkwright/planar/type_synthesis/draw_shape.h"
-
 namespace linkwright::planar {
 
 std::optional<FittedMachine> grown_machine(const FittedMachine& from,
                                            math::FunctionRef<bool(MachineFamily)> wanted,
-                                           RandomStream& random) {
+                                           RandomStream& random, std::optional<CrankPart> part) {
   const PointProgram& old = *from.shape.program;
   const int traced = old.links - 2 + (old.trace_second ? 1 : 0);
   std::vector<const PointProgram*> larger;
@@ -30,7 +28,7 @@ std::optional<FittedMachine> grown_machine(const FittedMachine& from,
   out.shape.program = &p;
   out.shape.x.resize(static_cast<std::size_t>(p.parameters));
   // The steps of the old machine come first, its traced point among them.
-  if (!draw_shape(out.shape, old.steps.size(), random)) return std::nullopt;
+  if (!draw_shape(out.shape, old.steps.size(), random, part)) return std::nullopt;
   std::copy(from.shape.x.end() - 4, from.shape.x.end(), out.shape.x.end() - 4);
   const auto plate = static_cast<std::size_t>(p.steps.back().parameter);
   out.shape.x[plate] = 0.02 * random.normal(), out.shape.x[plate + 1] = 0.02 * random.normal();

@@ -16,15 +16,17 @@ namespace {
 
 constexpr int turn_angles = 720;
 
-/// What is measured of one layout along the turn.
+/// What is measured of one layout along a rotation of the crank, from its ground link.
 class LayoutMeasure {
  public:
-  LayoutMeasure(const FourBar& original, bool same_timing) : original_(original), same_timing_(same_timing) {}
+  LayoutMeasure(const FourBar& original, bool same_timing, std::optional<CrankPart> part)
+      : original_(original), same_timing_(same_timing), part_(part) {}
 
   MachineLayout measure() {
     MachineLayout out{.linkage = {}, .same_timing = same_timing_, .min_pair_angle = pi / 2};
     for (int k = 0; k < turn_angles; ++k) {
-      const double angle = 2 * pi * k / turn_angles;
+      const double angle =
+          part_ ? part_->from + part_->range * k / (turn_angles - 1) : 2 * pi * k / turn_angles;
       const FourBarPosition found = position(original_, angle);
       const FourBar linkage = at(angle);
       if (k == 0) {
@@ -54,6 +56,7 @@ class LayoutMeasure {
 
   const FourBar& original_;
   bool same_timing_;
+  std::optional<CrankPart> part_;
   double left_ = infinity, right_ = -infinity, bottom_ = infinity, top_ = -infinity;
 };
 
@@ -87,12 +90,19 @@ FourBar four_bar_of(const FittedMachine& machine, const SampledStroke& target) {
   return out;
 }
 
-std::vector<MachineLayout> layouts_of(const FittedMachine& machine, const SampledStroke& target) {
+std::vector<MachineLayout> layouts_of(const FittedMachine& machine, const SampledStroke& target,
+                                      std::optional<CrankPart> part) {
   std::vector<MachineLayout> out;
   if (machine.shape.program->family != MachineFamily::four_bar) return out;
   const FourBar original = four_bar_of(machine, target);
-  for (const Cognate& cognate : cognates(original, 0))
-    out.push_back(LayoutMeasure(original, cognate.same_timing).measure());
+  if (part) {
+    const PointProgram& p = *machine.shape.program;
+    const auto s = static_cast<std::size_t>(p.scale());
+    const double turned = std::arg(std::complex<double>(machine.shape.x[s], machine.shape.x[s + 1]));
+    part->from += turned - original.frame_angle;
+  }
+  for (const Cognate& cognate : cognates(original, part ? part->from : 0))
+    out.push_back(LayoutMeasure(original, cognate.same_timing, part).measure());
   return out;
 }
 

@@ -78,6 +78,7 @@ void MachineDescent::evaluate_limits(const FittedMachine& machine, std::vector<d
   const MachineLimits& limits = options_.limits;
   alignas(64) std::array<double, limit_samples> angle, quality, worst;
   for (std::size_t k = 0; k < limit_samples; ++k) angle[k] = 2 * pi * static_cast<double>(k) / limit_samples;
+  if (!target_.turns) target_.cover_used_part(machine.angle, angle);
   compute_curve({.program = &p,
                  .x = x.data(),
                  .signs = machine.shape.signs,
@@ -118,8 +119,10 @@ void MachineDescent::choose_rows(const DescentAim& aim) {
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     if (limits_[i] > heeded) continue;
     if (i < limit_samples) {
-      const double before = limits_[(i + limit_samples - 1) % limit_samples],
-                   after = limits_[(i + 1) % limit_samples];
+      // Without a turn both ends have one neighbour.
+      const bool first = !target_.turns && i == 0, last = !target_.turns && i + 1 == limit_samples;
+      const double before = limits_[first ? i : (i + limit_samples - 1) % limit_samples],
+                   after = limits_[last ? i : (i + 1) % limit_samples];
       if (limits_[i] > before || limits_[i] > after) continue;
     }
     rows_.push_back({.group = terms_.size(), .index = i, .value = limits_[i]});

@@ -98,12 +98,15 @@ MachineObjectives::MachineObjectives(const MotionTarget& target, std::vector<Mac
 bool MachineObjectives::evaluate(const FittedMachine& machine, MachineFitter& fitter,
                                  std::vector<QuantityTerms>& out) {
   out.resize(quantities_.size());
+  if (!target_.turns) choose_angles(machine);
   bool traced = false, loaded = false;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const MachineQuantity quantity = quantities_[q];
     if (needs_loads(quantity) && !loaded) {
       FoundLinkage linkage = found_linkage(machine, target_.stroke);
       add_loads(linkage, loads_);
+      if (!target_.turns)
+        for (double& angle : force_angle_) angle += linkage.crank_angle;
       if (!sample_forces(linkage, loads_.crank_speed, force_angle_, forces_)) return false;
       loaded = true;
     }
@@ -138,6 +141,12 @@ void MachineObjectives::tolerance_terms(const FittedMachine& machine, MachineFit
   const ErrorModel model = fitter.error_model(machine, false);
   const double error = tolerance_90(machine.shape, model, tolerance_ / size);
   out = {{size * error}, 1, size * size * (error * error - model.squares)};
+}
+
+/// The used part of the turn.
+void MachineObjectives::choose_angles(const FittedMachine& machine) {
+  target_.cover_used_part(machine.angle, angle_);
+  target_.cover_used_part(machine.angle, force_angle_);
 }
 
 void MachineObjectives::trace(const FittedMachine& machine) {
@@ -176,6 +185,13 @@ void MachineObjectives::acceleration_terms(const FittedMachine& machine, Quantit
   const double from = std::min(first, last), span = std::abs(last - first);
   out.values.assign(traced_angles, 0.0);
   out.series = traced_angles;
+  if (!target_.turns) {
+    const double by = 0.5 / std::abs(angle_[1] - angle_[0]);
+    for (std::size_t k = 1; k + 1 < traced_angles; ++k)
+      if ((angle_[k] - first) * (angle_[k] - last) <= 0)
+        out.values[k] = by * std::hypot(tx_[k + 1] - tx_[k - 1], ty_[k + 1] - ty_[k - 1]);
+    return;
+  }
   for (std::size_t k = 0; k < traced_angles; ++k) {
     const double ahead = angle_[k] - from;
     if (!target_.stroke.closed && ahead - 2 * pi * std::floor(ahead / (2 * pi)) > span) continue;

@@ -64,7 +64,8 @@ std::vector<std::vector<std::pair<std::size_t, double>>> dimension_effects(const
 /// @returns the error, in sizes
 double tolerance_90(const MachineShape& shape, const ErrorModel& model, double tolerance);
 
-/// Evaluates quantities of one machine after the other. Make one a thread.
+/// Evaluates quantities of one machine after the other, over the turn of its crank, or over the used part of
+/// it where its drive may rock. Make one a thread.
 class MachineObjectives {
  public:
   /// @param target what machines are fitted to; lives as long
@@ -82,6 +83,7 @@ class MachineObjectives {
   bool evaluate(const FittedMachine& machine, MachineFitter& fitter, std::vector<QuantityTerms>& out);
 
  private:
+  void choose_angles(const FittedMachine& machine);
   void trace(const FittedMachine& machine);
   void size_terms(const FittedMachine& machine, QuantityTerms& out) const;
   void acceleration_terms(const FittedMachine& machine, QuantityTerms& out) const;

@@ -16,7 +16,8 @@ namespace linkwright::planar {
 
 namespace {
 
-constexpr std::size_t points_a_side = 12;  // of the smooth path between two places
+constexpr std::size_t points_a_side = 12;           // of the smooth path between two places
+constexpr double margin_of_rocking = 1 * pi / 180;  // of the limits beyond the ends of the motion
 
 /// A smooth curve through points: cubics with the slopes of parabolas through three neighbours.
 std::vector<std::complex<double>> smooth_path(const std::vector<std::complex<double>>& points, bool closed) {
@@ -49,6 +50,17 @@ std::vector<std::complex<double>> smooth_path(const std::vector<std::complex<dou
 MotionTarget::MotionTarget(const SampledStroke& traced) : stroke(traced), x(traced.x), y(traced.y) {
   weight.fill(1);
   for (std::size_t k = 0; k < stroke_samples; ++k) at[k] = static_cast<double>(k);
+}
+
+void MotionTarget::cover_used_part(std::span<const double> sampled, std::span<double> out) const {
+  const double first = sampled[0], last = sampled[count - 1], more = last < first ? -beyond : beyond;
+  const double from = first - more, step = (last + more - from) / static_cast<double>(out.size() - 1);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = from + step * static_cast<double>(k);
+}
+
+void let_drive_rock(MotionTarget& target) {
+  LINKWRIGHT_REQUIRE(!target.stroke.closed, "a drive that rocks does not come round a closed stroke");
+  target.turns = false, target.beyond = margin_of_rocking;
 }
 
 MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotations) {

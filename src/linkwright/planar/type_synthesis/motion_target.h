@@ -37,6 +37,7 @@ struct MotionTarget {
   bool oriented = false;  ///< the angle of the body of the traced point is given, up to a constant
   MachineOutput output = MachineOutput::point;  ///< what of the machine is compared
   bool turns = true;                            ///< limits hold over the whole turn, else over the samples
+  double beyond = 0;                            ///< and so much further at both ends (rad), without turns
   std::vector<RestingSamples> rests;            ///< where the output of a function keeps any one value
   bool dense = true;        ///< the samples follow the stroke, between them a curve stays near it
   double angle_length = 0;  ///< an error of a radian counts as this length
@@ -44,7 +45,18 @@ struct MotionTarget {
 
   /// Places are compared, not angles alone.
   bool placed() const { return output != MachineOutput::angle; }
+
+  /// Crank angles, equally far apart, over which limits hold where the crank does not turn: `sampled` are
+  /// those of the samples (rad).
+  void cover_used_part(std::span<const double> sampled, std::span<double> out) const;
 };
+
+/// Lets the drive of an open stroke or of open poses rock over the part of its rotation that they take:
+/// machines need not turn, and limits hold over that part and a degree further at both ends.
+///
+/// @param target an open one
+/// @throws ContractError for a closed target
+void let_drive_rock(MotionTarget& target);
 
 /// A stroke whose points, one after the other, are met at crank rotations from the first (rad), which change
 /// in one sense; between two points they change with the arc length. A closed stroke takes one turn.

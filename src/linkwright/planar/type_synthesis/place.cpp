@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,12 @@ std::complex<double> point_at(const std::vector<std::complex<double>>& curve, do
   if (at >= n) at = 0;
   const auto i = static_cast<std::size_t>(at);
   return curve[i] + (at - static_cast<double>(i)) * (curve[(i + 1) % curve.size()] - curve[i]);
+}
+
+/// Crank rotation from one point of a curve to the next.
+double angle_step(const std::vector<std::complex<double>>& curve, std::optional<CrankPart> part) {
+  return part ? part->range / static_cast<double>(curve.size() - 1)
+              : 2 * pi / static_cast<double>(curve.size());
 }
 
 double place_closed(const SampledStroke& target, FittedMachine& m,
@@ -82,11 +89,12 @@ double place_closed(const SampledStroke& target, FittedMachine& m,
 }
 
 double place_open(const SampledStroke& target, FittedMachine& m,
-                  const std::vector<std::complex<double>>& curve, std::span<const double> arc) {
+                  const std::vector<std::complex<double>>& curve, std::span<const double> arc,
+                  std::optional<CrankPart> part) {
   constexpr std::size_t few = 24, table = 256, starts = 64;
   std::array<std::complex<double>, table> even;
   for (std::size_t i = 0; i < table; ++i)
-    even[i] = point_at(curve, index_at(arc, static_cast<double>(i) / table));
+    even[i] = point_at(curve, index_at(arc, static_cast<double>(i) / (part ? table - 1 : table)));
   std::array<std::complex<double>, few> t;
   double of_target = 0;
   std::complex<double> target_mean{};
@@ -101,8 +109,8 @@ double place_open(const SampledStroke& target, FittedMachine& m,
     std::complex<double> mean{};
     double re = 0, im = 0, squares = 0;
     for (std::size_t k = 0; k < few; ++k) {
-      double at = (start + sense * width * static_cast<double>(k) / (few - 1)) * table;
-      at -= table * std::floor(at / table);
+      double at = (start + sense * width * static_cast<double>(k) / (few - 1)) * (part ? table - 1 : table);
+      if (!part) at -= table * std::floor(at / table);
       const auto i = std::min(static_cast<std::size_t>(at), table - 1);
       const std::complex<double> v =
           even[i] + (at - static_cast<double>(i)) * (even[(i + 1) % table] - even[i]);
@@ -121,6 +129,7 @@ double place_open(const SampledStroke& target, FittedMachine& m,
   std::complex<double> scale, place;
   const auto look = [&](double s, double w, double sense) {
     std::complex<double> k, p;
+    if (part && !(s >= 0 && s <= 1 && s + sense * w >= 0 && s + sense * w <= 1)) return;
     if (const double found = evaluate(s, w, sense, k, p); found < best)
       best = found, start = s, width = w, m.sense = sense, scale = k, place = p;
   };
@@ -135,19 +144,24 @@ double place_open(const SampledStroke& target, FittedMachine& m,
   }
   if (best == infinity) return infinity;
   set_place(m, scale, place);
-  const double by_index = 2 * pi / static_cast<double>(curve.size());
-  for (std::size_t k = 0; k < stroke_samples; ++k)
-    m.angle[k] =
-        index_at(arc, start + m.sense * width * static_cast<double>(k) / (stroke_samples - 1)) * by_index;
+  const double from = part ? part->from : 0, by_index = angle_step(curve, part);
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    const double at = start + m.sense * width * static_cast<double>(k) / (stroke_samples - 1);
+    m.angle[k] = from + index_at(arc, part ? std::clamp(at, 0.0, 1.0) : at) * by_index;
+  }
+  // The sense is that of the crank.
+  if (part && part->range < 0) m.sense = -m.sense;
   return best;
 }
 
-/// Points of the shape in its own plane over a turn, equal crank angles apart; none for shapes that do not
-/// turn.
-std::vector<std::complex<double>> own_curve(FittedMachine& machine) {
+/// Points of the shape in its own plane over a turn or a part of it, equal crank angles apart; none for
+/// shapes that do not assemble there.
+std::vector<std::complex<double>> own_curve(FittedMachine& machine, std::optional<CrankPart> part) {
   set_place(machine, 1, 0);
   alignas(64) std::array<double, turn_samples> angle, x, y, quality, worst;
-  for (std::size_t k = 0; k < turn_samples; ++k) angle[k] = 2 * pi * static_cast<double>(k) / turn_samples;
+  for (std::size_t k = 0; k < turn_samples; ++k)
+    angle[k] = part ? part->from + part->range * static_cast<double>(k) / (turn_samples - 1)
+                    : 2 * pi * static_cast<double>(k) / turn_samples;
   compute_curve({.program = machine.shape.program,
                  .x = machine.shape.x.data(),
                  .signs = machine.shape.signs,
@@ -165,7 +179,7 @@ std::vector<std::complex<double>> own_curve(FittedMachine& machine) {
 
 /// The start and sense of the crank for which a similarity brings the curve nearest to timed samples.
 double place_timed(const MotionTarget& target, FittedMachine& m,
-                   const std::vector<std::complex<double>>& curve) {
+                   const std::vector<std::complex<double>>& curve, std::optional<CrankPart> part) {
   constexpr std::size_t starts = 96;
   const std::size_t n = target.count;
   std::complex<double> target_mean{};
@@ -176,14 +190,22 @@ double place_timed(const MotionTarget& target, FittedMachine& m,
     of_target += target.weight[k] * std::norm(std::complex<double>(target.x[k], target.y[k]) - target_mean);
   double best = infinity, start = 0;
   std::complex<double> scale, place;
-  const double by_angle = static_cast<double>(curve.size()) / (2 * pi);
+  const double by_angle = 1 / angle_step(curve, part), origin = part ? part->from : 0;
+  const double left_over = part ? std::abs(part->range) - target.turn[n - 1] : 2 * pi;
+  if (!(left_over >= 0)) return infinity;
   for (const double sense : {1.0, -1.0})
     for (std::size_t i = 0; i < starts; ++i) {
-      const double from = 2 * pi * static_cast<double>(i) / starts;
+      double from = 2 * pi * static_cast<double>(i) / starts;
+      if (part) {
+        from = left_over * static_cast<double>(i) / (starts - 1) + (sense < 0 ? target.turn[n - 1] : 0);
+        from += std::min(part->from, part->from + part->range);
+      }
       std::complex<double> mean{}, sum{};
       double squares = 0;
       for (std::size_t k = 0; k < n; ++k) {
-        const std::complex<double> v = point_at(curve, (from + sense * target.turn[k]) * by_angle);
+        const double at = (from + sense * target.turn[k] - origin) * by_angle;
+        const std::complex<double> v =
+            point_at(curve, part ? std::clamp(at, 0.0, static_cast<double>(curve.size() - 1)) : at);
         const std::complex<double> t = std::complex<double>(target.x[k], target.y[k]) - target_mean;
         sum += target.weight[k] * std::conj(v) * t;
         squares += target.weight[k] * std::norm(v), mean += target.weight[k] * v / target.total_weight;
@@ -202,21 +224,30 @@ double place_timed(const MotionTarget& target, FittedMachine& m,
 
 }  // namespace
 
-double place_machine(const SampledStroke& target, FittedMachine& machine) {
-  const std::vector<std::complex<double>> curve = own_curve(machine);
+double place_machine(const SampledStroke& target, FittedMachine& machine, std::optional<CrankPart> part) {
+  const std::vector<std::complex<double>> curve = own_curve(machine, part);
   if (curve.empty()) return infinity;
-  std::vector<double> arc(turn_samples + 1, 0.0);
-  for (std::size_t k = 0; k < turn_samples; ++k)
+  std::vector<double> arc(part ? turn_samples : turn_samples + 1, 0.0);
+  for (std::size_t k = 0; k + 1 < arc.size(); ++k)
     arc[k + 1] = arc[k] + std::abs(curve[(k + 1) % turn_samples] - curve[k]);
-  return target.closed ? place_closed(target, machine, curve, arc) : place_open(target, machine, curve, arc);
+  return target.closed ? place_closed(target, machine, curve, arc)
+                       : place_open(target, machine, curve, arc, part);
 }
 
-double place_on(const MotionTarget& target, FittedMachine& machine) {
+std::optional<CrankPart> used_part(const MotionTarget& target, const FittedMachine& machine) {
+  if (target.turns) return std::nullopt;
+  std::array<double, 2> ends;
+  target.cover_used_part(machine.angle, ends);
+  return CrankPart{.from = ends[0], .range = ends[1] - ends[0], .rocks = true};
+}
+
+double place_on(const MotionTarget& target, FittedMachine& machine, std::optional<CrankPart> part) {
   double left = infinity;
   if (target.timed) {
-    if (const auto curve = own_curve(machine); !curve.empty()) left = place_timed(target, machine, curve);
+    if (const auto curve = own_curve(machine, part); !curve.empty())
+      left = place_timed(target, machine, curve, part);
   } else {
-    left = place_machine(target.stroke, machine);
+    left = place_machine(target.stroke, machine, part);
     if (target.dense) return left;
     const std::array<double, stroke_samples> along = machine.angle;
     for (std::size_t k = 0; k < target.count; ++k) {

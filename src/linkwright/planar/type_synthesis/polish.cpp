@@ -258,8 +258,7 @@ struct MachineFitter::Memory {
   /// The grid of pair angles over the samples, where the crank does not turn.
   void cover_samples(const Samples& angle) {
     if (target.turns) return;
-    const double from = angle[0], step = (angle[count() - 1] - from) / (limit_angles - 1);
-    for (std::size_t k = 0; k < limit_angles; ++k) limit_angle[k] = from + step * static_cast<double>(k);
+    target.cover_used_part(angle, limit_angle);
   }
 
   void move_grid() {
@@ -588,7 +587,8 @@ MachineMeasures MachineFitter::measure(FittedMachine& machine) {
   const auto require = [&](bool kept, MachineDefect defect) {
     if (!kept && out.defect == MachineDefect::none) out.defect = defect;
   };
-  require(machine.shape.program->group < 0 || out.min_pair_angle > 0, MachineDefect::no_turn);
+  const bool must_close = machine.shape.program->group >= 0 && m.target.turns;
+  require(!must_close || out.min_pair_angle > 0, MachineDefect::no_turn);
   require(out.min_pair_angle >= m.limits.min_pair_angle, MachineDefect::pair_angle);
   require(out.min_length >= m.limits.min_length * (1 - 1e-3), MachineDefect::short_link);
   require(out.max_length <= m.limits.max_length * (1 + 1e-3), MachineDefect::long_link);

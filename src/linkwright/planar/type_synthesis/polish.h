@@ -25,7 +25,7 @@ struct PlaneBox {
 
 /// What a machine must keep; lengths in sizes of the stroke, places from its mean.
 struct MachineLimits {
-  double min_pair_angle = 20 * pi / 180;  ///< rad, over the whole turn
+  double min_pair_angle = 20 * pi / 180;  ///< rad, over the whole turn, or the used part of it
   double min_length = 0.05, max_length = 10;
   std::optional<PlaneBox> ground_box = {};               ///< all pivots on the ground are inside
   std::vector<std::complex<double>> ground_pivots = {};  ///< each is a pivot of the machine on the ground
@@ -72,9 +72,11 @@ struct MachineMeasures {
   double distance = 0;      ///< root mean square distance of the points of the stroke
   double largest_deviation = 0;
   double rotation = 0, largest_rotation = 0;  ///< errors of the angle of the body (rad)
-  double min_pair_angle = 0;                  ///< rad, over the whole turn; 0 where the machine does not turn
+  /// Over the whole turn, or over the used part where the crank need not turn (rad); 0 where the machine does
+  /// not assemble.
+  double min_pair_angle = 0;
   double min_length = 0, max_length = 0;
-  double size = 0;               ///< larger side of the box of all pins over the turn
+  double size = 0;               ///< larger side of the box of all pins over the same rotation
   double span = 0;               ///< crank angle between the first and the last point (rad)
   double peak_acceleration = 0;  ///< of the traced point at unit crank speed
   MachineDefect defect = MachineDefect::none;

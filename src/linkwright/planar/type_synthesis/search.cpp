@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "linkwright/core/checkpoint.h"
@@ -39,6 +40,7 @@ struct Trial {
   FittedMachine machine;
   double best = infinity;
   std::int64_t origin = 0;
+  std::optional<CrankPart> part = {};  ///< of the turn, of a shape of the pool
   bool accepted = false, inside = false;
   MachineMeasures measures;
   std::int64_t curves = 0;
@@ -76,6 +78,7 @@ class TypeSearch {
  public:
   TypeSearch(const MotionTarget& target, const TypeSearchOptions& options, RunContext& context)
       : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
+    state_.turns = target.turns;
     for (std::size_t k = 0; k < trials_a_round; ++k) fitters_.emplace_back(target, options.limits);
     for (const auto& family : names(MachineFamily{})) {
       const auto& wanted = options.families;
@@ -172,38 +175,56 @@ class TypeSearch {
       return f.prepared = !context_.interrupted();
     }
     if (f.report.family != MachineFamily::ten_bar) {
-      f.atlas = family_atlas(f.report.family, context_);
-      if (!f.atlas) return false;
-      f.pool = pool_of(*f.atlas);
+      // Shapes that turn may rock as well.
+      f.atlases = {family_atlas(f.report.family, context_)};
+      if (!target_.turns) f.atlases.push_back(rocking_atlas(f.report.family, context_));
+      if (!f.atlases.front() || !f.atlases.back()) return false;
+      f.pool = pool_of(f);
       if (context_.interrupted()) return false;
-      f.report.atlas_entries = static_cast<std::int64_t>(f.atlas->entries.size());
+      f.report.atlas_entries = 0;
+      for (const auto& atlas : f.atlases)
+        f.report.atlas_entries += static_cast<std::int64_t>(atlas->entries.size());
     }
     return f.prepared = true;
   }
 
-  /// The shapes of an atlas that come nearest. The atlas knows paths alone: where more is asked, more shapes
-  /// are placed and compared.
-  std::vector<AtlasMatch> pool_of(const FamilyAtlas& atlas) {
+  /// The shapes of the atlases that come nearest. They know paths alone: where more is asked, more shapes are
+  /// placed and compared.
+  std::vector<AtlasMatch> pool_of(const FamilyState& f) {
     const bool path_alone = !target_.timed && !target_.oriented;
-    std::vector<AtlasMatch> found =
-        match_atlas(atlas, target_.stroke, path_alone ? pool_size : 2 * pool_size, context_);
+    const std::size_t wanted = path_alone ? pool_size : 2 * pool_size;
+    const auto nearest_first = [](std::vector<AtlasMatch>& list, std::size_t count) {
+      std::sort(list.begin(), list.end(), [](const AtlasMatch& a, const AtlasMatch& b) {
+        return std::tuple(a.score, a.atlas, a.entry) < std::tuple(b.score, b.atlas, b.entry);
+      });
+      if (list.size() > count) list.resize(count);
+    };
+    std::vector<AtlasMatch> found;
+    for (std::size_t i = 0; i < f.atlases.size(); ++i)
+      for (AtlasMatch& match : match_atlas(*f.atlases[i], target_.stroke, wanted, context_))
+        match.atlas = i, found.push_back(match);
+    nearest_first(found, wanted);
     if (path_alone) return found;
     optimise::parallel_for(fitters_.size(), context_.threads(), [&](std::size_t part) {
       for (std::size_t i = part; i < found.size() && !context_.interrupted(); i += fitters_.size()) {
-        FittedMachine machine{.shape = shape_of(atlas, found[i])};
-        found[i].score = place_on(target_, machine) < infinity ? fitters_[part].turn_body(machine) : infinity;
+        FittedMachine machine{.shape = shape_of(f, found[i])};
+        const bool placed = place_on(target_, machine, part_of(f, found[i])) < infinity;
+        found[i].score = placed ? fitters_[part].turn_body(machine) : infinity;
       }
     });
-    std::sort(found.begin(), found.end(), [](const AtlasMatch& a, const AtlasMatch& b) {
-      return std::pair(a.score, a.entry) < std::pair(b.score, b.entry);
-    });
-    if (found.size() > pool_size) found.resize(pool_size);
+    nearest_first(found, pool_size);
     return found;
   }
 
-  static MachineShape shape_of(const FamilyAtlas& atlas, const AtlasMatch& match) {
-    MachineShape shape = atlas.shape(match.entry);
+  static MachineShape shape_of(const FamilyState& f, const AtlasMatch& match) {
+    MachineShape shape = f.atlas_of(match).shape(match.entry);
     return match.mirrored ? mirrored(shape) : shape;
+  }
+
+  static std::optional<CrankPart> part_of(const FamilyState& f, const AtlasMatch& match) {
+    std::optional<CrankPart> part = f.atlas_of(match).part(match.entry);
+    if (part && match.mirrored) part->from = -part->from, part->range = -part->range;
+    return part;
   }
 
   /// The best machine of pairs with two links less, null if there is none.
@@ -241,7 +262,7 @@ class TypeSearch {
     const std::size_t next = f.next_in_pool++ % f.pooled();
     t.kind = TrialKind::pool;
     if (f.starts.empty())
-      t.machine.shape = shape_of(*f.atlas, f.pool[next]);
+      t.machine.shape = shape_of(f, f.pool[next]), t.part = part_of(f, f.pool[next]);
     else
       t.machine.shape = f.starts[next].shape, t.machine.angle[0] = f.starts[next].from;
     if (again) hop(t.machine, random);
@@ -289,12 +310,13 @@ class TypeSearch {
                                         RandomStream& random) const {
     if (target_.output == MachineOutput::point)
       return grown_machine(
-          from, [family](MachineFamily other) { return other == family; }, random);
+          from, [family](MachineFamily other) { return other == family; }, random, used_part(target_, from));
     return grown_by_parallelogram(from, family, random);
   }
 
-  bool place(FittedMachine& machine, MachineFitter& fitter) const {
-    if (target_.output == MachineOutput::point) return place_on(target_, machine) < infinity;
+  bool place(Trial& t, MachineFitter& fitter) const {
+    FittedMachine& machine = t.machine;
+    if (target_.output == MachineOutput::point) return place_on(target_, machine, t.part) < infinity;
     return begin_function(target_, fitter, machine.angle[0], machine) < infinity;
   }
 
@@ -302,7 +324,7 @@ class TypeSearch {
     const std::int64_t before = fitter.curves();
     const bool possible =
         ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
-    const bool placed = possible && (t.kind != TrialKind::pool || place(t.machine, fitter));
+    const bool placed = possible && (t.kind != TrialKind::pool || place(t, fitter));
     // The body sits on another bar than before.
     if (placed && target_.oriented && t.kind != TrialKind::hop) fitter.turn_body(t.machine);
     if (placed && (!polished || fitter.polish(t.machine, t.best))) {
@@ -357,7 +379,8 @@ class TypeSearch {
     std::optional<FittedMachine> out = from;
     while (out && out->shape.program->links < links)
       out = grown_machine(
-          *out, [&](MachineFamily family) { return links_of(family) < links || state_of(family); }, random);
+          *out, [&](MachineFamily family) { return links_of(family) < links || state_of(family); }, random,
+          used_part(target_, from));
     return out;
   }
 

@@ -135,6 +135,7 @@ Value saved_state(const SearchState& state) {
   Value out;
   out["rounds"] = state.rounds;
   out["curves"] = state.curves;
+  out["turns"] = state.turns;
   out["families"] = Value::array();
   for (const FamilyState& f : state.families) out["families"].push_back(saved_family(f));
   std::vector<double> progress;
@@ -147,6 +148,10 @@ Value saved_state(const SearchState& state) {
 void load_state(const Value& value, SearchState& state) {
   state.rounds = load_integer(value, "rounds", 0, std::int64_t{1} << 31, what);
   state.curves = load_integer(value, "curves", 0, most_counted, what);
+  const Value& turns = load_member(value, "turns", what);
+  if (!turns.is_bool() || turns.as_bool() != state.turns)
+    throw CheckpointError(std::string(what) +
+                          ": its drives turn, and those of the study rock, or the other way");
   const Value& families = load_member(value, "families", what);
   const std::vector<double> progress = unpack_numbers(load_member(value, "progress", what), what);
   if (!families.is_array() || families.as_array().size() != state.families.size() || progress.size() % 3 != 0)

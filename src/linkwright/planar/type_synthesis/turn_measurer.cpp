@@ -44,7 +44,7 @@ void TurnMeasurer::measure(const FittedMachine& machine, MachineMeasures& out) {
   const PointProgram& p = *machine.shape.program;
   const double* x = machine.shape.x.data();
   ++curves_;
-  if (!target_.turns) cover_samples(machine);
+  if (!target_.turns) target_.cover_used_part(machine.angle, angle_);
   compute_curve({.program = &p,
                  .x = x,
                  .signs = machine.shape.signs,
@@ -62,14 +62,9 @@ void TurnMeasurer::measure(const FittedMachine& machine, MachineMeasures& out) {
   const auto s = static_cast<std::size_t>(p.scale());
   out.size = box_of_pins(p, std::complex<double>(x[s], x[s + 1]));
   // The acceleration of the output of a function is given by the function.
-  if (target_.output == MachineOutput::point) out.peak_acceleration = peak_acceleration(machine, out.span);
-}
-
-/// The measured angles over the samples alone, where the crank does not turn.
-void TurnMeasurer::cover_samples(const FittedMachine& machine) {
-  const double from = machine.angle[0],
-               step = (machine.angle[target_.count - 1] - from) / (measured_angles - 1);
-  for (std::size_t k = 0; k < measured_angles; ++k) angle_[k] = from + step * static_cast<double>(k);
+  if (target_.output == MachineOutput::point)
+    out.peak_acceleration =
+        target_.turns ? peak_acceleration(machine, out.span) : peak_acceleration_of_part(machine);
 }
 
 /// Larger side of the box of all pins over the turn; the ground pin of the crank is the origin of the
@@ -99,6 +94,17 @@ double TurnMeasurer::peak_acceleration(const FittedMachine& machine, double span
     peak = std::max(peak, std::hypot(tx_[b] - tx_[a], ty_[b] - ty_[a]));
   }
   return peak * measured_angles / (4 * pi);
+}
+
+/// The same where the crank does not turn.
+double TurnMeasurer::peak_acceleration_of_part(const FittedMachine& machine) const {
+  const double first = machine.angle[0], last = machine.angle[target_.count - 1];
+  const double step = std::abs(angle_[1] - angle_[0]);
+  double peak = 0;
+  for (std::size_t k = 1; k + 1 < measured_angles && step > 0; ++k)
+    if ((angle_[k] - first) * (angle_[k] - last) <= 0)
+      peak = std::max(peak, std::hypot(tx_[k + 1] - tx_[k - 1], ty_[k + 1] - ty_[k - 1]));
+  return step > 0 ? peak / (2 * step) : 0;
 }
 
 /// True if the curve stays near the stroke between the points, too.

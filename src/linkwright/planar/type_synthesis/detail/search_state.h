@@ -19,13 +19,14 @@ namespace linkwright::planar {
 struct FamilyState {
   FamilyReport report;
   int links = 4;
-  std::shared_ptr<const FamilyAtlas> atlas;
+  std::vector<std::shared_ptr<const FamilyAtlas>> atlases;  ///< of shapes that turn, and of others
   std::vector<AtlasMatch> pool;
   std::vector<FunctionStart> starts;  ///< the pool of a function
   std::size_t next_in_pool = 0;
-  bool prepared = false;  ///< atlas and pool are there
+  bool prepared = false;  ///< atlases and pool are there
 
   std::size_t pooled() const { return std::max(pool.size(), starts.size()); }
+  const FamilyAtlas& atlas_of(const AtlasMatch& match) const { return *atlases[match.atlas]; }
   int rounds = 0;
   double last_gain = 1;               ///< relative fall of the error in its last round
   double grown_from = infinity;       ///< error of the smaller machine that was grown last
@@ -39,6 +40,7 @@ struct SearchState {
   std::vector<FamilyState> families;
   std::vector<TypeSearchPoint> progress;
   std::int64_t curves = 0, rounds = 0;
+  bool turns = true;  ///< the drives of its machines turn fully
 };
 
 /// The state as a checkpoint keeps it, without atlases and pools, which follow from the stroke.

@@ -27,12 +27,12 @@ class TurnMeasurer {
   std::int64_t curves() const { return curves_; }
 
  private:
-  void cover_samples(const FittedMachine& machine);
   static constexpr std::size_t measured_angles = 720;
 
   double least_quality(const FittedMachine& machine) const;
   double box_of_pins(const PointProgram& p, std::complex<double> scale) const;
   double peak_acceleration(const FittedMachine& machine, double span) const;
+  double peak_acceleration_of_part(const FittedMachine& machine) const;
 
   const MotionTarget& target_;
   std::int64_t curves_ = 0;
