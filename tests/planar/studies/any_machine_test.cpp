@@ -292,6 +292,66 @@ TEST(AnyPosesStudies, SayWhatIsWrong) {
   EXPECT_THAT(problems("file = \"none.csv\""), HasSubstr("none.csv"));
 }
 
+/// An open stroke, and a drive that rocks.
+std::map<std::string, std::string> rocking(const char* stroke_end = "closed = false\n") {
+  return {{"1", "[mechanism]\ntype = \"planar.any\"\nmost_links = 4\n"},
+          {"2", std::string("[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [20, 3], [40, 5], [60, "
+                            "30], [40, 50], [0, 40]]\n") +
+                    stroke_end},
+          {"3", "[limits]\ncrank_turns = false\n"}};
+}
+
+TEST(AnyPathStudies, LetTheDriveRock) {
+  const study::Result result = test::run_text(any_path(rocking()));
+  ASSERT_FALSE(result.solutions.empty());
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto &range = machines->find("crank_range_rad")->values,
+             &from = machines->find("drive_from_rad")->values, &to = machines->find("drive_to_rad")->values;
+  for (std::size_t i = 0; i < range.size(); ++i) {
+    EXPECT_NEAR(std::abs(to[i] - from[i]), range[i], 1e-12);
+    EXPECT_LE(std::abs(from[i]), pi + 1e-12);
+  }
+  EXPECT_THAT(to_string(result.solutions[0].label), HasSubstr("drive over"));
+  const auto fact = std::find_if(result.facts.begin(), result.facts.end(),
+                                 [](const study::Fact& f) { return f.label == "range of the drive"; });
+  ASSERT_NE(fact, result.facts.end());
+  EXPECT_THAT(to_string(fact->text), HasSubstr("from"));
+  // The design is a linkage whose drive goes over that range and no further, and runs again.
+  const Value& input = result.solutions[0].study.find("sweep")->find("input")->as_array()[0];
+  EXPECT_NEAR(input.find("from_rad")->as_number(), from[0], 1e-12);
+  EXPECT_NEAR(input.find("to_rad")->as_number(), to[0], 1e-12);
+  const Table* curve = result.table("curve");
+  ASSERT_TRUE(curve);
+  EXPECT_NEAR(curve->find("crank_angle_rad")->values.front(), from[0], 1e-12);
+  EXPECT_NEAR(curve->find("crank_angle_rad")->values.back(), to[0], 1e-12);
+}
+
+TEST(AnyPathStudies, RefineMachinesWhoseDriveRocks) {
+  auto changed = rocking();
+  changed["4"] =
+      "[optimiser]\nevaluations = 30000\nmax_solutions = 3\n[[objective]]\nquantity = \"size\"\n"
+      "[[objective]]\nquantity = \"peak_acceleration\"\n[[objective]]\nquantity = \"drive_torque\"\n";
+  const study::Result result = test::run_text(any_path(changed));
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto &refined = machines->find("refined_for")->values, &size = machines->find("size_m")->values,
+             &before = machines->find("size_before_m")->values;
+  EXPECT_GT(*std::max_element(refined.begin(), refined.end()), 0);
+  for (std::size_t i = 0; i < refined.size(); ++i)
+    if (refined[i] == 1) EXPECT_LT(size[i], before[i]);
+  for (const double angle : machines->find("least_pair_angle_rad")->values) EXPECT_GE(angle, 20 * pi / 180);
+}
+
+TEST(AnyPathStudies, SayThatADriveThatRocksTurnsBack) {
+  EXPECT_THAT(test::problems_of(any_path(rocking("closed = true\n"))),
+              ::testing::AllOf(HasSubstr("limits.crank_turns"), HasSubstr("the stroke is closed"),
+                               HasSubstr("write closed = false in [target]")));
+  EXPECT_THAT(
+      test::problems_of(any_poses({{"21", "closed = true\n"}, {"3", "[limits]\ncrank_turns = false\n"}})),
+      HasSubstr("the poses are closed"));
+}
+
 /// A function with some of its parts replaced.
 std::string any_function(const std::map<std::string, std::string>& changed = {}) {
   return test::text_of({{"0", "schema = 1\nkind = \"synthesis\"\n"},

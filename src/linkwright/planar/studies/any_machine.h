@@ -146,7 +146,7 @@ template <class Visitor>
 void fields(Visitor&& visit, AnyLimits& l) {
   visit(field::angle("least_pair_angle",
                      "of the two bars at a pin, or of a rod and the normal of its slide, over the whole turn "
-                     "of the crank")
+                     "of the crank, or over the range of a drive that rocks")
             .between(1 * pi / 180, 70 * pi / 180),
         l.pair_angle);
   visit(field::entry("shortest_link",
@@ -174,6 +174,20 @@ void fields(Visitor&& visit, AnyLimits& l) {
         l.pivot_tolerance);
 }
 
+/// Of machines that move a point or a body: a function says by itself how far the crank turns.
+struct AnyMotionLimits : AnyLimits {
+  bool crank_turns = true;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyMotionLimits& l) {
+  fields(visit, static_cast<AnyLimits&>(l));
+  visit(
+      field::entry("crank_turns",
+                   "the crank turns fully; false: the drive rocks over the part of its rotation that an open "
+                   "stroke takes, and machines need not turn"),
+      l.crank_turns);
+}
+
 struct AnyOptimiser {
   std::optional<double> seconds;
   std::optional<std::int64_t> evaluations;
@@ -197,7 +211,7 @@ void fields(Visitor&& visit, AnyOptimiser& o) {
 
 struct AnyStudy {
   AnyMechanism mechanism;
-  AnyLimits limits;
+  AnyMotionLimits limits;
   AnyOptimiser optimiser;
   AnyRefinementStudy refinement;
   Stroke drawn;                ///< the stroke, or the places of the poses

@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "linkwright/planar/type_synthesis/layouts.h"
+#include "linkwright/planar/type_synthesis/place.h"
 
 namespace linkwright::planar {
 
-std::optional<Table> layout_table(const std::vector<FoundMachine>& machines, const SampledStroke& target) {
+std::optional<Table> layout_table(const std::vector<FoundMachine>& machines, const MotionTarget& target) {
   Table table{.name = "layouts"};
   std::vector<double> number;
   std::vector<MachineLayout> layouts;
   for (std::size_t i = 0; i < machines.size(); ++i)
-    for (MachineLayout& layout : layouts_of(machines[i].machine, target)) {
+    for (MachineLayout& layout :
+         layouts_of(machines[i].machine, target.stroke, used_part(target, machines[i].machine))) {
       table.names.push_back(fmt::format("machine {}, cognate {}", i + 1,
                                         layout.same_timing ? "of the same timing" : "driven as its coupler"));
       number.push_back(static_cast<double>(i + 1));
@@ -47,7 +49,9 @@ std::optional<Table> layout_table(const std::vector<FoundMachine>& machines, con
          [](L, F f) { return f.coupler_v; });
   column("crossed", "it begins on the crossed branch: 1, on the open one: 0",
          [](L, F f) { return f.branch == Branch::crossed ? 1.0 : 0.0; });
-  column("least_pair_angle_rad", "least angle of coupler and rocker over the whole turn (rad)",
+  column("least_pair_angle_rad",
+         target.turns ? "least angle of coupler and rocker over the whole turn (rad)"
+                      : "least angle of coupler and rocker over the range of the drive (rad)",
          [](L l, F) { return l.min_pair_angle; });
   column("size_m", "larger side of the box of all pins (m)", [](L l, F) { return l.size; });
   column("largest_deviation_m", "largest distance from the curve of the machine (m)",

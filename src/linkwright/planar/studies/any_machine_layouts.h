@@ -11,7 +11,7 @@ namespace linkwright::planar {
 
 /// The table of the other layouts of the four-bars in a list of machines: their cognates, one a row. None
 /// where no machine has one.
-/// @param target stroke that the machines were fitted to
-std::optional<Table> layout_table(const std::vector<FoundMachine>& machines, const SampledStroke& target);
+/// @param target what the machines were fitted to
+std::optional<Table> layout_table(const std::vector<FoundMachine>& machines, const MotionTarget& target);
 
 }  // namespace linkwright::planar

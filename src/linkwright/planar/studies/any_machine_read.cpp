@@ -230,8 +230,11 @@ void read_function_target(study::ObjectReader& target, const study::Common& comm
                               .size = form.size.value_or(0.1)});
 }
 
-void read_limits(study::ObjectReader& table, AnyLimits& l) {
-  table.read(l);
+void read_limits(study::ObjectReader& table, bool function, AnyMotionLimits& l) {
+  if (function)
+    table.read(static_cast<AnyLimits&>(l));
+  else
+    table.read(l);
   if (l.shortest && l.shortest_length)
     table.error("shortest_link", "the shortest length is given in sizes of the stroke and as a length",
                 "keep one of them");
@@ -253,6 +256,19 @@ void read_limits(study::ObjectReader& table, AnyLimits& l) {
         box && !(x >= box->x[0] && x <= box->x[1] && y >= box->y[0] && y <= box->y[1]))
       table.error("ground_pivots", "a given ground pivot is outside the box of the ground pivots",
                   "move it inside, or widen ground_box");
+}
+
+/// Lets the drive rock where the crank need not turn.
+void release_crank(study::ObjectReader& document, AnyStudy& s) {
+  if (s.limits.crank_turns || !s.motion) return;
+  if (!s.motion->stroke.closed)
+    let_drive_rock(*s.motion);
+  else if (auto table = document.table("limits"))
+    table->error("crank_turns",
+                 s.angles.empty()
+                     ? "a drive that rocks turns back at the ends of its range, and the stroke is closed"
+                     : "a drive that rocks turns back at the ends of its range, and the poses are closed",
+                 "write closed = false in [target] for a motion with two ends, or leave crank_turns out");
 }
 
 /// All tables but the target.
@@ -281,7 +297,7 @@ AnyStudy read_search(study::ObjectReader& document, bool function) {
                                  s.mechanism.most_links),
                      fmt::format("write most_links = {}, or leave the family out", links_of(family)));
   }
-  if (auto table = document.table("limits")) read_limits(*table, s.limits);
+  if (auto table = document.table("limits")) read_limits(*table, function, s.limits);
   if (auto table = document.table("optimiser")) {
     table->read(s.optimiser);
     if (s.optimiser.seconds && s.optimiser.evaluations)
@@ -296,6 +312,7 @@ template <class Target>
 study::Kind any_kind(const char* target, const char* target_summary,
                      void (*read_target)(study::ObjectReader&, const study::Common&, Target&, AnyStudy&)) {
   constexpr bool function = std::is_same_v<Target, AnyFunctionTarget>;
+  using Limits = std::conditional_t<function, AnyLimits, AnyMotionLimits>;
   study::Kind kind;
   kind.kind = "synthesis";
   kind.mechanism = "planar.any";
@@ -303,7 +320,7 @@ study::Kind any_kind(const char* target, const char* target_summary,
   kind.schema = [target_summary](study::SchemaWriter& document) {
     document.property(field::entry("mechanism", "types of machines"), study::schema_fields<AnyMechanism>());
     document.property(field::entry("target", target_summary), study::schema_fields<Target>());
-    document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<AnyLimits>());
+    document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<Limits>());
     document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
     if constexpr (!function) describe_refinement(document);
   };
@@ -311,13 +328,14 @@ study::Kind any_kind(const char* target, const char* target_summary,
     AnyStudy s = read_search(document, function);
     Target form;
     if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
+    release_crank(document, s);
     if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
     if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
     if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
     study::Prepared prepared;
     prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
     prepared.canonical["target"] = study::write_fields(form);
-    prepared.canonical["limits"] = study::write_fields(s.limits);
+    prepared.canonical["limits"] = study::write_fields(static_cast<const Limits&>(s.limits));
     prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
     if constexpr (!function) write_refinement(s.refinement, prepared.canonical);
     prepared.run = [s, common](RunContext& context) {

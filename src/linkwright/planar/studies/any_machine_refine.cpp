@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 
+#include "linkwright/math/angles.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -61,7 +63,7 @@ std::vector<double> figures_of(const AnyRefinementStudy& s, const MotionTarget& 
   if (std::any_of(quantities.begin(), quantities.end(), needs_loads)) {
     FoundLinkage linkage = found_linkage(found.machine, target.stroke);
     add_loads(linkage, loads_of(s));
-    peaks = peak_forces(linkage, s.loads.crank_speed, design_rows(found.machine, linkage, samples));
+    peaks = peak_forces(linkage, s.loads.crank_speed, design_rows(target, found.machine, linkage, samples));
   }
   std::vector<double> out;
   for (std::size_t q = 0; q < quantities.size(); ++q) switch (quantities[q]) {
@@ -171,8 +173,21 @@ MachineLoads loads_of(const AnyRefinementStudy& s) {
           .gravity = s.environment.gravity};
 }
 
-std::vector<double> design_rows(const FittedMachine& machine, const FoundLinkage& linkage, int samples) {
+std::array<double, 2> drive_range(const FittedMachine& machine) {
+  const auto s = static_cast<std::size_t>(machine.shape.program->scale());
+  const double turned = std::arg(std::complex<double>(machine.shape.x[s], machine.shape.x[s + 1]));
+  const double from = math::wrap_angle(machine.angle.front() + turned);
+  return {from, from + machine.angle.back() - machine.angle.front()};
+}
+
+std::vector<double> design_rows(const MotionTarget& target, const FittedMachine& machine,
+                                const FoundLinkage& linkage, int samples) {
   std::vector<double> out;
+  if (!target.turns) {
+    const auto [first, last] = drive_range(machine);
+    for (int k = 0; k < samples; ++k) out.push_back(first + (last - first) * k / (samples - 1));
+    return out;
+  }
   const double from = machine.angle.front() + linkage.crank_angle;
   for (int k = 0; k < samples; ++k) out.push_back(from + machine.sense * 2 * pi * k / (samples - 1));
   return out;

@@ -107,8 +107,14 @@ struct ListFigures {
 /// The loads of a study as the refinement takes them.
 MachineLoads loads_of(const AnyRefinementStudy& study);
 
-/// Crank angles of the rows of the study of a machine: a turn in its sense from the first point on.
-std::vector<double> design_rows(const FittedMachine& machine, const FoundLinkage& linkage, int samples);
+/// Crank angles of a machine at the first and the last sample of an open target, in the global frame (rad);
+/// the first is in (-pi, pi].
+std::array<double, 2> drive_range(const FittedMachine& machine);
+
+/// Crank angles of the rows of the study of a machine: a turn in its sense from the first point on, or the
+/// range of a drive that rocks.
+std::vector<double> design_rows(const MotionTarget& target, const FittedMachine& machine,
+                                const FoundLinkage& linkage, int samples);
 
 /// Refines the machines of an answer where objectives are given, and evaluates the figures of its list.
 ListFigures refine_list(const AnyRefinementStudy& study, const MotionTarget& target,

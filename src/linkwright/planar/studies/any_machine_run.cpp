@@ -32,6 +32,8 @@ namespace {
 
 using Verdict = study::Fact::Verdict;
 
+constexpr double most_of_a_turn = 300 * pi / 180;  // of an open stroke: more is told
+
 class AnyReport {
  public:
   AnyReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
@@ -49,7 +51,7 @@ class AnyReport {
     if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
     for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(answer_.machines[i], i + 1);
     machine_table();
-    if (auto layouts = layout_table(answer_.machines, target_)) result_.tables.push_back(std::move(*layouts));
+    if (auto layouts = layout_table(answer_.machines, motion_)) result_.tables.push_back(std::move(*layouts));
     add_search_tables(answer_, {error_key(), "m", size()}, result_);
     if (figures_.refined) {
       result_.statistics["refinements"] = figures_.descents;
@@ -62,6 +64,8 @@ class AnyReport {
  private:
   double size() const { return target_.size; }
   bool poses() const { return motion_.oriented; }
+  /// The drive need not turn.
+  bool rocks() const { return !motion_.turns; }
   /// The error that machines are compared by.
   const char* error_key() const { return poses() ? "pose_error_rms_m" : "path_error_rms_m"; }
   Measured length(double sizes, int digits = 3) const { return millimetres(sizes * size(), digits); }
@@ -75,6 +79,7 @@ class AnyReport {
         poses() ? say("{}, rms errors {} and {}, pair angle {}", title_of(program), length(m.distance),
                       degrees_of(m.rotation, 3), pair_angle)
                 : say("{}, rms error {}, pair angle {}", title_of(program), length(m.distance), pair_angle);
+    if (rocks()) out.label = say("{}, drive over {}", out.label, degrees_of(m.span).fixed(0));
     FoundLinkage of = found_linkage(found.machine, target_);
     if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
     add_link_lengths(of.linkage, out);
@@ -99,6 +104,10 @@ class AnyReport {
     out.classification["traced_point"] = of.traced;
     if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
     out.classification["crank_range_rad"] = m.span;
+    if (rocks()) {
+      const auto [from, to] = drive_range(found.machine);
+      out.classification["drive_from_rad"] = from, out.classification["drive_to_rad"] = to;
+    }
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
     if (const std::string limit = limited_by(found); !limit.empty()) out.classification["limited_by"] = limit;
     add_figures(figures_, number - 1, out);
@@ -130,7 +139,7 @@ class AnyReport {
   void drawing(const FoundMachine& found, const FoundLinkage& of, study::Solution& out, std::size_t number) {
     const PlanResult planned = plan_linkage(of.linkage);
     LinkageMotion moving(planned.plan);
-    const std::vector<double> crank = design_rows(found.machine, of, common_.output.samples);
+    const std::vector<double> crank = design_rows(motion_, found.machine, of, common_.output.samples);
     std::vector<LinkageRecord> records;
     for (const double angle : crank) {
       const InputMotion input{angle, 0, 0};
@@ -306,7 +315,14 @@ class AnyReport {
     column("size_m", "larger side of the box of all pins (m)", [&](F, M m) { return m.size * size(); });
     column("shortest_link_m", "shortest length (m)", [&](F, M m) { return m.min_length * size(); });
     column("longest_link_m", "longest length (m)", [&](F, M m) { return m.max_length * size(); });
-    column("crank_range_rad", "crank rotation along the stroke (rad)", [](F, M m) { return m.span; });
+    column("crank_range_rad", rocks() ? "range of the drive (rad)" : "crank rotation along the stroke (rad)",
+           [](F, M m) { return m.span; });
+    if (rocks()) {
+      column("drive_from_rad", "crank angle at which the motion begins (rad)",
+             [](F f, M) { return drive_range(f.machine)[0]; });
+      column("drive_to_rad", "crank angle at which the motion ends (rad)",
+             [](F f, M) { return drive_range(f.machine)[1]; });
+    }
     column("peak_acceleration_share", "peak acceleration at unit crank speed, of the size of the stroke",
            [](F, M m) { return m.peak_acceleration; });
     add_figure_columns(figures_, table);
@@ -345,9 +361,12 @@ class AnyReport {
     fact("largest deviation", length(m.largest_deviation));
     if (motion_.tolerance > 0) tolerance_fact(fact);
     if (!poses()) fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
-    fact("least pair angle over the whole turn", pair_angle);
-    fact("box of the pins over the whole turn, larger side", length(m.size));
-    if (!target_.closed)
+    const std::string over = rocks() ? "over the range of the drive" : "over the whole turn";
+    fact("least pair angle " + over, pair_angle);
+    fact("box of the pins " + over + ", larger side", length(m.size));
+    if (rocks())
+      drive_fact(best.machine, fact);
+    else if (!target_.closed)
       fact(poses() ? "crank rotation through the poses" : "crank rotation along the stroke",
            degrees_of(m.span).fixed(0));
     const auto simplest = std::min_element(
@@ -366,6 +385,20 @@ class AnyReport {
            say("the best machine passes a corner with {} times the acceleration of a point on a circle",
                plain_number(m.peak_acceleration, 3)),
            "round the corners of the stroke where speed matters");
+    if (!rocks() && !target_.closed && m.span > most_of_a_turn)
+      warn("limits",
+           say("the best machine takes {} of its turn along the {}, and has {} to come back",
+               degrees_of(m.span).fixed(0), poses() ? "poses" : "stroke",
+               degrees_of(2 * pi - m.span).fixed(0)),
+           "write crank_turns = false for machines whose drive rocks");
+  }
+
+  void drive_fact(const FittedMachine& machine, const study::AddFact& fact) const {
+    const auto [from, to] = drive_range(machine);
+    const Measured range = degrees_of(std::abs(to - from)).fixed(1);
+    fact("range of the drive",
+         say("{}, from {} to {}", range, degrees_of(from).fixed(1), degrees_of(to).fixed(1)))
+        .number = range;
   }
 
   /// The polish ends at the edge of the band, to rounding.
