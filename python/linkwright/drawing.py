@@ -18,7 +18,7 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
                tolerance: Optional[float] = None, crank_angles: Optional[ArrayLike] = None,
                body_angles: Optional[ArrayLike] = None, orientation_length: Optional[float] = None,
                least_pair_angle: float = 20.0, shortest_link: float = 0.05, longest_link: float = 10.0,
-               ground_box: Optional[ArrayLike] = None, ground_pivots: Optional[ArrayLike] = None,
+               ground_box: Optional[ArrayLike] = None, ground_pivots: Optional[ArrayLike] = None, crank_turns: bool = True,
                max_solutions: int = 12, seed: int = 1) -> Study:
     """The study that `draw` runs: "synthesis" of "planar.any" for "path_points", or for "poses" where body_angles are given.
 
@@ -36,6 +36,7 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
     its root mean square distance from its mean.
     ground_box: [[least x, greatest x], [least y, greatest y]] in metres, around all pivots on the ground. ground_pivots: an array
     (n, 2) in metres, at each row of which the machine has a pivot on the ground.
+    crank_turns: False lets the drive of an open stroke, or of open poses, rock over the range that it needs.
 
     Raises ValueError for points or angles of another shape.
     """
@@ -76,6 +77,8 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
         limits["ground_box_m"] = {"x": [left, right], "y": [bottom, top]}
     if ground_pivots is not None:
         limits["ground_pivots_m"] = numpy.asarray(ground_pivots, dtype=float).tolist()
+    if not crank_turns:
+        limits["crank_turns"] = False
     return Study({"schema": 1, "kind": "synthesis", "title": "Drawn motion", "mechanism": mechanism, "target": target,
                   "limits": limits, "optimiser": optimiser})
 
@@ -84,7 +87,8 @@ def draw(points: ArrayLike, **options) -> Result:
     """Machines of many types that trace a stroke, best first in `solutions`; each has a study of its own (`Solution.study`).
 
     points and options are those of `draw_study`: closed, seconds or evaluations, most_links, families, tolerance,
-    crank_angles, body_angles, orientation_length, least_pair_angle, shortest_link, longest_link, ground_box, ground_pivots, max_solutions, seed.
+    crank_angles, body_angles, orientation_length, least_pair_angle, shortest_link, longest_link, ground_box, ground_pivots,
+    crank_turns, max_solutions, seed.
 
     Raises ValueError for points of another shape and StudyError for a stroke or limits that the study does not take.
     """

@@ -373,6 +373,37 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, DesignsOf, ::testing::ValuesIn(finders()), [
   return name;
 });
 
+// A drive that rocks goes over its range, within which the machine assembles though it need not turn.
+TEST(Designs, OfDrivesThatRockRunOverTheirRange) {
+  const study::Study source = study_in(R"(
+schema = 1
+kind = "synthesis"
+[mechanism]
+type = "planar.any"
+most_links = 6
+[target]
+type = "path_points"
+closed = false
+points_mm = [[0, 0], [8, 30], [30, 52], [60, 60], [120, 60], [200, 60], [300, 60], [400, 60]]
+[limits]
+crank_turns = false
+[optimiser]
+evaluations = 60000
+max_solutions = 6
+)");
+  RunContext context;
+  const Result found = study::run_study(source, context);
+  ASSERT_GE(found.solutions.size(), 3U);
+  for (std::size_t i = 0; i < found.solutions.size(); ++i) {
+    const std::string text = study::design_toml(found.solutions[i], i + 1, title_of(source), "linkwright");
+    SCOPED_TRACE(text);
+    const Result again = study::run_study(study_in(text), context);
+    EXPECT_EQ(again.status, Status::done);
+    for (const Diagnostic& d : again.diagnostics) ADD_FAILURE() << to_string(d);
+    any_path({found, i, again});
+  }
+}
+
 // A crank that locks has no determined speed there, and an analysis that goes there has no answer.
 TEST(Designs, OfCranksThatDoNotTurnFullyStayOffTheirDeadPoints) {
   const study::Study source = study_in(R"(

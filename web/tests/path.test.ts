@@ -111,8 +111,10 @@ test("smoothing is for the eye: it begins and ends where the path does", () => {
 });
 
 test("the study holds the path in mm and what is wished", () => {
-  const text = studyOf(prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 30 }], closed: true }), { mostLinks: 6, leastPairAngle: 25, longestLink: 4 }, 0.7);
+  const text = studyOf(prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 30 }], closed: true }), { mostLinks: 6, leastPairAngle: 25, longestLink: 4, rocks: true }, 0.7);
   for (const line of ['type       = "planar.any"', "most_links = 6", "closed    = true", "least_pair_angle_deg = 25", "longest_link         = 4", "seconds       = 0.7"]) expect(text).toContain(line);
+  expect(text).not.toContain("crank_turns"); // a closed path has no ends to turn back at
+  expect(studyOf(prepared({ points: [{ x: 0, y: 0 }, { x: 40, y: 0 }, { x: 40, y: 30 }], closed: false }), { mostLinks: 6, leastPairAngle: 25, longestLink: 4, rocks: true }, 0.7)).toContain("crank_turns          = false");
   expect(text.match(/\[-?[\d.]+, -?[\d.]+\]/g)!.length).toBe(120);
   expect(boxOf([{ x: 1, y: 2 }, { x: 4, y: 8 }])).toEqual({ x: 1, y: 2, width: 3, height: 6 });
 });

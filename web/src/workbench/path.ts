@@ -98,10 +98,11 @@ export interface Wishes {
   mostLinks: number;
   leastPairAngle: number; // degrees
   longestLink: number; // sizes of the path
+  rocks: boolean; // the drive of an open path, which need not turn
 }
 
 /** The study that asks for machines of every type along a path, with so many seconds for the search. */
-export function studyOf({ points, closed }: Path, { mostLinks, leastPairAngle, longestLink }: Wishes, seconds: number): string {
+export function studyOf({ points, closed }: Path, { mostLinks, leastPairAngle, longestLink, rocks }: Wishes, seconds: number): string {
   const size = Math.max(boxOf(points).width, boxOf(points).height);
   const rows = points.map((p) => `[${tidy(p.x, size)}, ${tidy(p.y, size)}]`);
   const lines = Array.from({ length: Math.ceil(rows.length / 6) }, (_, k) => `  ${rows.slice(6 * k, 6 * k + 6).join(", ")},`);
@@ -122,7 +123,7 @@ ${lines.join("\n")}
 
 [limits]
 least_pair_angle_deg = ${leastPairAngle}
-longest_link         = ${longestLink}
+longest_link         = ${longestLink}${rocks && !closed ? "\ncrank_turns          = false" : ""}
 
 [optimiser]
 seconds       = ${seconds}

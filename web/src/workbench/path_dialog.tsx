@@ -63,6 +63,8 @@ function Tools() {
         <button type="button" id="path-clear" disabled={!path} onClick={clearPath}>Clear</button>
       </span>
       <label><input type="checkbox" id="path-closed" disabled={!path} checked={path?.closed ?? false} onChange={(e) => closePath(e.currentTarget.checked)} /> Closed</label>
+      <label title="The drive of an open path goes there and back over the range that it needs, and the machine need not turn fully">
+        <input type="checkbox" id="path-rocks" disabled={!path || path.closed} checked={wishes.value.rocks} onChange={(e) => (wishes.value = { ...wishes.peek(), rocks: e.currentTarget.checked })} /> Drive rocks</label>
     </div>
   );
 }
@@ -97,7 +99,7 @@ function Description() {
   return <p class="note" id="path-said">{`${path.closed ? "Closed" : "Open"} path of ${mm(width)} × ${mm(height)} mm, ${mm(lengthOf(path))} mm long, with ${path.points.length} points.`}</p>;
 }
 
-const sliders: { key: keyof Wishes; label: string; min: number; max: number; step: number; unit: string; hint: string }[] = [
+const sliders: { key: Exclude<keyof Wishes, "rocks">; label: string; min: number; max: number; step: number; unit: string; hint: string }[] = [
   { key: "mostLinks", label: "most links", min: 4, max: 10, step: 1, unit: "", hint: "The frame counts as a link: a four-bar has four" },
   { key: "leastPairAngle", label: "least pair angle", min: 5, max: 45, step: 1, unit: "°", hint: "The smallest angle between two links that hold a pin, over the whole turn: large angles transmit forces well" },
   { key: "longestLink", label: "longest link", min: 1, max: 20, step: 1, unit: "×", hint: "In sizes of the path, which are the root mean square distance of its points from their middle" },

@@ -28,7 +28,7 @@ const past = signal<Sheet[]>([]);
 const future = signal<Sheet[]>([]);
 export const canUndoPath = computed(() => past.value.length > 0);
 export const canRedoPath = computed(() => future.value.length > 0);
-export const wishes = signal<Wishes>({ mostLinks: 8, leastPairAngle: 20, longestLink: 10 });
+export const wishes = signal<Wishes>({ mostLinks: 8, leastPairAngle: 20, longestLink: 10, rocks: false });
 
 export function put(next: Sheet): void {
   past.value = [...past.value, sheet.value];
