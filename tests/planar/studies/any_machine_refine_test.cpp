@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "linkwright/core/value.h"
@@ -155,6 +156,126 @@ TEST(RefinedMachines, WarnOfTablesWithoutUse) {
       messages));
   EXPECT_THAT(messages, HasSubstr("nothing to refine for"));
   EXPECT_THAT(messages, HasSubstr("gravity does nothing"));
+}
+
+/// A study of a function, refined for forces, with some of its parts replaced.
+std::string refined_function(const std::map<std::string, std::string>& changed = {}) {
+  return test::text_of(
+      {{"0", "schema = 1\nkind = \"synthesis\"\n"},
+       {"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\", \"stephenson_3\"]\n"},
+       {"2",
+        "[target]\ntype = \"function\"\nfunction = \"sin\"\nx = { from = 0, to = 60 }\ninput_range_deg = "
+        "60\n"},
+       {"21", "output_range_deg = 60\n"},
+       {"22", "fit = \"minimax\"\n"},
+       {"3", "[optimiser]\nevaluations = 40000\n"},
+       {"4",
+        "[machine]\nmass_per_metre_kg = 2\ncrank_speed_rpm = 60\ntorque_N_m = 3\n[environment]\n"
+        "gravity_m_per_s2 = 0\n"},
+       {"5",
+        "[[objective]]\nquantity = \"peak_joint_force\"\n[[objective]]\nquantity = \"drive_torque\"\n"
+        "[refinement]\nstarts = 1\n"}},
+      changed);
+}
+
+/// Greatest error of the machines of a list, of one program.
+double greatest_of(const Table& machines, const std::string& program, const std::string& key) {
+  double out = 0;
+  for (std::size_t i = 0; i < machines.names.size(); ++i)
+    if (machines.names[i] == program) out = std::max(out, machines.find(key)->values[i]);
+  return out;
+}
+
+TEST(RefinedFunctions, KeepTheirErrors) {
+  for (const std::string fit : {"minimax", "least_squares"}) {
+    const std::map<std::string, std::string> by{{"22", "fit = \"" + fit + "\"\n"}};
+    std::map<std::string, std::string> plain = by;
+    plain["4"] = plain["5"] = "";
+    const study::Result found = test::run_text(refined_function(plain)),
+                        refined = test::run_text(refined_function(by));
+    EXPECT_EQ(refined.status, Status::done);
+    const Table *before = found.table("machines"), *after = refined.table("machines");
+    ASSERT_TRUE(before && after);
+    const std::string key = fit == "minimax" ? "structural_error_rad" : "structural_error_rms_rad";
+    bool lower = false;
+    for (std::size_t i = 0; i < after->names.size(); ++i) {
+      EXPECT_LE(after->find(key)->values[i], 1.1 * greatest_of(*before, after->names[i], key)) << fit << i;
+      EXPECT_GE(after->find("least_pair_angle_rad")->values[i], 20 * pi / 180) << fit << i;
+      if (after->find("refined_for")->values[i] != 1) continue;
+      lower = true;
+      EXPECT_LT(after->find("peak_joint_force_N")->values[i],
+                after->find("peak_joint_force_before_N")->values[i]);
+    }
+    EXPECT_TRUE(lower) << fit;
+    EXPECT_TRUE(std::is_sorted(after->find(key)->values.begin(), after->find(key)->values.end()));
+  }
+}
+
+TEST(RefinedFunctions, AreStudiesWithTheSameForces) {
+  for (const bool slider : {false, true}) {
+    const std::string whole_turn =
+        "[target]\ntype = \"function\"\ntable = [[0, 0], [90, 0.45], [180, 1], [270, 0.55], [360, 0]]\n"
+        "input_range_deg = 360\n";
+    const study::Result result = test::run_text(
+        slider
+            ? refined_function({{"2", whole_turn},
+                                {"21", "output_range_mm = 40\n"},
+                                {"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\"]\n"},
+                                {"4", "[machine]\nforce_N = [-50, 0]\n"}})
+            : refined_function());
+    ASSERT_FALSE(result.solutions.empty());
+    for (const study::Solution& solution : result.solutions) {
+      const study::Result again = test::run_text(study::design_toml(solution, 1, "a list", "a test"));
+      const Table* sweep = again.table("sweep");
+      ASSERT_TRUE(sweep) << to_string(solution.label);
+      EXPECT_NEAR(largest_ending(*sweep, "_drive_torque_N_m") /
+                      solution.objectives.find("drive_torque_N_m")->as_number(),
+                  1, 1e-9);
+    }
+  }
+}
+
+// A massless crank carries the torque of the output times the slope of the function, pi/2 at its beginning.
+TEST(RefinedFunctions, CarryTheTorqueOnTheirOutput) {
+  const study::Result result = test::run_text(
+      refined_function({{"2",
+                         "[target]\ntype = \"function\"\nfunction = \"sin\"\nx = { from = 0, to = 90 }\n"
+                         "input_range_deg = 90\n"},
+                        {"21", "output_range_deg = 90\n"},
+                        {"4",
+                         "[machine]\nmass_per_metre_kg = 1e-6\ncrank_speed_rpm = 0\ntorque_N_m = 3\n"
+                         "[environment]\ngravity_m_per_s2 = 0\n"},
+                        {"5", ""}}));
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  EXPECT_NEAR(machines->find("drive_torque_N_m")->values[0], 3 * pi / 2, 0.05);
+}
+
+TEST(RefinedFunctions, NameTheAccelerationOfTheOutput) {
+  const study::Result result = test::run_text(refined_function(
+      {{"5", "[[objective]]\nquantity = \"peak_acceleration\"\n[[objective]]\nquantity = \"size\"\n"}}));
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  ASSERT_TRUE(machines->find("peak_acceleration_rad") && machines->find("size_before_m"));
+  const Table* first = result.table("structural_error");
+  const auto &turned = first->find("input_rad")->values, &output = first->find("output_rad")->values;
+  double peak = 0;
+  for (std::size_t k = 1; k + 1 < turned.size(); ++k)
+    peak = std::max(peak, std::abs(output[k + 1] - 2 * output[k] + output[k - 1]) /
+                              ((turned[k + 1] - turned[k]) * (turned[k + 1] - turned[k])));
+  EXPECT_NEAR(machines->find("peak_acceleration_rad")->values[0] / peak, 1, 0.01);
+  // A machine of the same scale becomes smaller.
+  const auto &size = machines->find("size_m")->values, &before = machines->find("size_before_m")->values;
+  bool smaller = false;
+  for (std::size_t i = 0; i < size.size(); ++i) smaller = smaller || size[i] < 0.98 * before[i];
+  EXPECT_TRUE(smaller);
+}
+
+TEST(RefinedFunctions, SayWhatIsWrong) {
+  EXPECT_THAT(test::problems_of(refined_function({{"21", "output_range_mm = 50\n"}})),
+              HasSubstr("a torque acts on the output, which is a slider"));
+  EXPECT_THAT(test::problems_of(refined_path({{"4", "[machine]\ntorque_N_m = 2\n"}})),
+              HasSubstr("torque_N_m"));
 }
 
 }  // namespace

@@ -133,6 +133,37 @@ TEST(Refinements, DoNotDependOnThreads) {
   }
 }
 
+// The logarithm over a part of a turn, where forces, sizes and pair angles are those of the range alone.
+TEST(Refinements, LowerEachObjectiveOfAFunction) {
+  const MotionTarget target = function_target(
+      {.range = 1.2, .at = [](double part) { return 1.1 * std::log10(1 + 9 * part); }, .size = 0.2});
+  TypeSearchOptions search;
+  search.families = {MachineFamily::four_bar, MachineFamily::stephenson_3};
+  search.max_curves = 30'000;
+  RunContext context;
+  const std::vector<FoundMachine> list = search_types(target, search, context).machines;
+  ASSERT_FALSE(list.empty());
+  for (const bool greatest : {false, true})
+    for (const auto& word : names(MachineQuantity{})) {
+      RefineOptions options = found_for_leg().options({word.value});
+      options.greatest = greatest;
+      options.error_share = 0;
+      options.length_tolerance = 1e-4;
+      options.loads.torque = 1;
+      const RefineAnswer answer = refine_machines(target, list, options, context);
+      bool lower = false;
+      for (const RefinedMachine& m : answer.machines) {
+        const MachineMeasures &before = list[m.from].measures, &after = m.found.measures;
+        EXPECT_LE(greatest ? after.largest_rotation : after.error,
+                  1.1 * (greatest ? before.largest_rotation : before.error))
+            << word.name;
+        EXPECT_EQ(after.defect, MachineDefect::none) << word.name;
+        lower = lower || (m.aim && m.values[0] < answer.as_found[m.from][0]);
+      }
+      EXPECT_TRUE(lower) << word.name << greatest;
+    }
+}
+
 TEST(Refinements, EndEarlyWithTheMachinesAsFound) {
   RunContext context;
   context.cancel();

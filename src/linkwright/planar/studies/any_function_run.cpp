@@ -52,6 +52,8 @@ class FunctionReport {
 
   study::Result make(RunContext& context) {
     find_errors(context);
+    refine(context);
+    answer_.status = context.interruption();
     result_.status = answer_.status;
     if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
     for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(i);
@@ -59,6 +61,10 @@ class FunctionReport {
     add_search_tables(answer_,
                       {slider() ? "structural_error_rms_m" : "structural_error_rms_rad", unit(), scale()},
                       result_);
+    if (figures_.refined) {
+      result_.statistics["refinements"] = figures_.descents;
+      result_.statistics["refinement_steps"] = figures_.steps;
+    }
     findings();
     return std::move(result_);
   }
@@ -160,16 +166,40 @@ class FunctionReport {
       if (lessened.measures.defect == MachineDefect::none && now.greatest < found_[i].greatest)
         list[i] = lessened, found_[i] = now;
     });
-    const auto by = [&](std::size_t i) {
-      return s_.fit == FunctionFit::minimax ? found_[i].greatest : found_[i].root_mean;
-    };
-    std::vector<std::size_t> order(list.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return by(a) < by(b); });
+    std::vector<std::size_t> all(list.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    keep_sorted(std::move(all));
+  }
+
+  /// The error that machines are compared by.
+  double error_of(const FunctionFindings& found) const {
+    return s_.fit == FunctionFit::minimax ? found.greatest : found.root_mean;
+  }
+
+  /// Keeps machines of the list, sorted by their errors.
+  void keep_sorted(std::vector<std::size_t> kept) {
+    std::stable_sort(kept.begin(), kept.end(),
+                     [&](std::size_t a, std::size_t b) { return error_of(found_[a]) < error_of(found_[b]); });
     std::vector<FoundMachine> sorted;
     std::vector<FunctionFindings> errors;
-    for (const std::size_t i : order) sorted.push_back(list[i]), errors.push_back(found_[i]);
-    list = std::move(sorted), found_ = std::move(errors);
+    for (const std::size_t i : kept) sorted.push_back(answer_.machines[i]), errors.push_back(found_[i]);
+    answer_.machines = std::move(sorted), found_ = std::move(errors);
+    keep_figures(figures_, kept);
+  }
+
+  /// Refines the list for the objectives: errors are limited over the whole range, closer than the samples.
+  void refine(RunContext& context) {
+    const FunctionErrorLimit limit{
+        .greatest = s_.fit == FunctionFit::minimax,
+        .whole_error = [&](const FittedMachine& m) { return error_of(findings_of(m)) / scale(); }};
+    figures_ = refine_list(s_.refinement, motion_, search_options(s_, limits_), common_.output.samples,
+                           answer_, context, limit);
+    if (!figures_.refined) return;
+    found_.clear();
+    std::vector<std::size_t> all;
+    for (const FoundMachine& found : answer_.machines)
+      all.push_back(all.size()), found_.push_back(findings_of(found.machine));
+    keep_sorted(std::move(all));
   }
 
   void solution(std::size_t i) {
@@ -179,7 +209,8 @@ class FunctionReport {
     study::Solution out;
     out.label = say("{}, greatest error {}, pair angle {}", title_of(program), output(found_[i].greatest),
                     degrees_of(m.min_pair_angle).fixed(1));
-    const FoundLinkage of = found_linkage(found.machine, motion_.stroke);
+    FoundLinkage of = found_linkage(found.machine, motion_.stroke);
+    if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
     add_link_lengths(of.linkage, out);
     out.objectives[key("structural_error")] = found_[i].greatest;
     out.objectives[key("structural_error_rms")] = found_[i].root_mean;
@@ -192,6 +223,7 @@ class FunctionReport {
     out.classification["type"] = short_name_of(program);
     out.classification["links"] = program.links;
     out.classification["output"] = of.traced.substr(0, of.traced.find('.'));
+    add_figures(figures_, i, out);
     out.classification["crank_begins_rad"] = found.machine.angle[0] + of.crank_angle;
     if (!slider()) out.classification["output_angle_on_link_rad"] = found.machine.body_angle;
     drawing(i, of, out);
@@ -246,6 +278,7 @@ class FunctionReport {
     out.scene = scene.name;
     result_.scenes.push_back(std::move(scene));
     out.study = motion_study(of.linkage, true, crank, of.traced);
+    load_design(s_.refinement, out.study);
   }
 
   void machine_table() {
@@ -271,7 +304,9 @@ class FunctionReport {
            [&](M m, F) { return m.measures.size * size(); });
     column("shortest_link_m", "shortest length (m)", [&](M m, F) { return m.measures.min_length * size(); });
     column("longest_link_m", "longest length (m)", [&](M m, F) { return m.measures.max_length * size(); });
+    add_figure_columns(figures_, table);
     result_.tables.push_back(std::move(table));
+    add_figure_plots(figures_, key("structural_error"), result_);
   }
 
   void findings() {
@@ -309,6 +344,7 @@ class FunctionReport {
       fact("best machine with the fewest links",
            say("{} links ({}), greatest error {}", count_of(simplest->machine.shape.program->links),
                short_name_of(*simplest->machine.shape.program), output(found_[at].greatest)));
+    add_figure_facts(s_.refinement, figures_, *result_.table("machines"), motion_, fact);
     fact("curves computed", count_of(static_cast<double>(answer_.curves)));
   }
 
@@ -319,6 +355,7 @@ class FunctionReport {
   const MachineLimits& limits_;
   TypeSearchAnswer answer_;
   std::vector<FunctionFindings> found_;  ///< of each machine of the list
+  ListFigures figures_;
   study::Result result_;
 };
 

@@ -230,6 +230,9 @@ study::Kind any_function_kind();
 /// The limits of a search, in sizes of the stroke from its mean.
 MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target);
 
+/// What a study asks of the search.
+TypeSearchOptions search_options(const AnyStudy& study, const MachineLimits& limits);
+
 /// The search of a study, which ends as done after its own time.
 TypeSearchAnswer search_machines(const AnyStudy& study, const MachineLimits& limits, RunContext& context);
 

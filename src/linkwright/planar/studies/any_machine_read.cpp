@@ -303,7 +303,7 @@ AnyStudy read_search(study::ObjectReader& document, bool function) {
     if (s.optimiser.seconds && s.optimiser.evaluations)
       table->error("evaluations", "the search has both seconds and evaluations", "keep one of them");
   }
-  if (!function) s.refinement = read_refinement(document);
+  s.refinement = read_refinement(document, function);
   return s;
 }
 
@@ -322,13 +322,16 @@ study::Kind any_kind(const char* target, const char* target_summary,
     document.property(field::entry("target", target_summary), study::schema_fields<Target>());
     document.property(field::entry("limits", "what every machine keeps"), study::schema_fields<Limits>());
     document.property(field::entry("optimiser", "how long to search"), study::schema_fields<AnyOptimiser>());
-    if constexpr (!function) describe_refinement(document);
+    describe_refinement(document, function);
   };
   kind.prepare = [read_target](study::ObjectReader& document, const study::Common& common) {
     AnyStudy s = read_search(document, function);
     Target form;
     if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
     release_crank(document, s);
+    if (function && s.refinement.loads.torque != 0 && s.function.problem.slider)
+      document.error("machine", "a torque acts on the output, which is a slider",
+                     "write force_N for a slider, or output_range_deg for a link that turns");
     if (!s.limits.shortest_length && !s.limits.shortest) s.limits.shortest = 0.05;
     if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
     if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
@@ -337,7 +340,7 @@ study::Kind any_kind(const char* target, const char* target_summary,
     prepared.canonical["target"] = study::write_fields(form);
     prepared.canonical["limits"] = study::write_fields(static_cast<const Limits&>(s.limits));
     prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
-    if constexpr (!function) write_refinement(s.refinement, prepared.canonical);
+    write_refinement(s.refinement, prepared.canonical);
     prepared.run = [s, common](RunContext& context) {
       return function ? run_any_function_study(s, common, context) : run_any_study(s, common, context);
     };

@@ -23,7 +23,8 @@ struct FigureColumn {
   std::string key() const { return stem + unit; }
   std::string key_before() const { return stem + "_before" + unit; }
 };
-FigureColumn figure_column(MachineQuantity quantity) {
+FigureColumn figure_column(MachineQuantity quantity, MachineOutput output) {
+  const bool angle = output == MachineOutput::angle;
   switch (quantity) {
     case MachineQuantity::peak_joint_force:
       return {"peak_joint_force", "_N", "peak joint force", " (N)"};
@@ -32,27 +33,33 @@ FigureColumn figure_column(MachineQuantity quantity) {
     case MachineQuantity::size:
       return {"size", "_m", "larger side of the box of all pins", " (m)", true};
     case MachineQuantity::peak_acceleration:
+      if (output != MachineOutput::point)
+        return {"peak_acceleration", angle ? "_rad" : "_m",
+                "peak acceleration of the output at unit crank speed", angle ? " (rad)" : " (m)"};
       return {"peak_acceleration", "_share", "peak acceleration at unit crank speed",
               ", of the size of the stroke", true};
     case MachineQuantity::tolerance_90:
-      return {"tolerance_90", "_m", "error that nine of ten machines keep with their tolerances", " (m)"};
+      return {"tolerance_90", angle ? "_rad" : "_m",
+              "error that nine of ten machines keep with their tolerances", angle ? " (rad)" : " (m)"};
   }
   return {};
 }
 
-Measured measured_figure(MachineQuantity quantity, double value) {
+Measured measured_figure(MachineQuantity quantity, MachineOutput output, double value) {
   switch (quantity) {
     case MachineQuantity::peak_joint_force:
       return newtons(value);
     case MachineQuantity::drive_torque:
       return newton_metres(value);
     case MachineQuantity::size:
-    case MachineQuantity::tolerance_90:
       return millimetres(value);
+    case MachineQuantity::tolerance_90:
+      break;
     case MachineQuantity::peak_acceleration:
+      if (output == MachineOutput::point) return plain_number(value);
       break;
   }
-  return plain_number(value);
+  return output == MachineOutput::angle ? degrees_of(value, 4) : millimetres(value);
 }
 
 /// Figures of one machine; what the refinement knows alone is given.
@@ -77,13 +84,22 @@ std::vector<double> figures_of(const AnyRefinementStudy& s, const MotionTarget& 
         out.push_back(found.measures.size * target.stroke.size);
         break;
       case MachineQuantity::peak_acceleration:
-        out.push_back(found.measures.peak_acceleration);
+        out.push_back(!target.is_function() ? found.measures.peak_acceleration
+                      : q < given.size()    ? given[q]
+                                            : nan);
         break;
       case MachineQuantity::tolerance_90:
         out.push_back(q < given.size() ? given[q] : nan);
         break;
     }
   return out;
+}
+
+/// Range of the output of a function, in sizes or rad.
+double output_range(const MotionTarget& target) {
+  const auto& values = target.placed() ? target.x : target.angle;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least;
 }
 
 RefineOptions options_of(const AnyRefinementStudy& s, const MotionTarget& target,
@@ -98,6 +114,7 @@ RefineOptions options_of(const AnyRefinementStudy& s, const MotionTarget& target
   out.loads = loads_of(s);
   out.length_tolerance = s.refinement.length_tolerance.value_or(1e-3 * target.stroke.size);
   out.error_growth = s.refinement.error_growth, out.error_share = s.refinement.error_share;
+  if (target.is_function()) out.error_share *= output_range(target);
   out.starts = s.refinement.starts;
   out.seed = search.seed, out.max_solutions = search.max_solutions;
   return out;
@@ -116,8 +133,14 @@ void find_least(ListFigures& figures, const std::vector<FoundMachine>& machines,
 
 }  // namespace
 
-AnyRefinementStudy read_refinement(study::ObjectReader& document) {
+AnyRefinementStudy read_refinement(study::ObjectReader& document, bool function) {
   AnyRefinementStudy s;
+  s.function = function;
+  const auto read = [](study::ObjectReader& table, auto form, auto& out) {
+    table.read(form);
+    out = form;
+  };
+  if (function) s.refinement = AnyFunctionRefinement();
   document(field::entry("objective"), s.objectives);
   std::vector<study::ObjectReader> entries = document.tables("objective");
   bool forces = false;
@@ -129,7 +152,10 @@ AnyRefinementStudy read_refinement(study::ObjectReader& document) {
                          fmt::format("{} is an objective already", name_of(s.objectives[k].quantity)),
                          "keep one of them");
   }
-  if (auto table = document.table("machine")) table->read(s.loads), s.loaded = true;
+  if (auto table = document.table("machine")) {
+    function ? read(*table, AnyFunctionLoads(), s.loads) : read(*table, AnyLoads(), s.loads);
+    s.loaded = true;
+  }
   s.loaded = s.loaded || forces;
   if (auto table = document.table("environment")) {
     table->read(s.environment);
@@ -138,7 +164,8 @@ AnyRefinementStudy read_refinement(study::ObjectReader& document) {
                      "add [machine], or an objective of forces");
   }
   if (auto table = document.table("refinement")) {
-    table->read(s.refinement);
+    function ? read(*table, AnyFunctionRefinement(), s.refinement)
+             : read(*table, AnyRefinement(), s.refinement);
     if (!document.has("objective"))
       document.warning("refinement", "there is nothing to refine for", "add [[objective]] with a quantity");
   }
@@ -148,20 +175,26 @@ AnyRefinementStudy read_refinement(study::ObjectReader& document) {
 void write_refinement(const AnyRefinementStudy& s, Value& canonical) {
   if (!s.objectives.empty()) {
     canonical["objective"] = study::ObjectWriter::to_value(s.objectives);
-    canonical["refinement"] = study::write_fields(s.refinement);
+    AnyFunctionRefinement of_function;
+    static_cast<AnyRefinement&>(of_function) = s.refinement;
+    canonical["refinement"] =
+        s.function ? study::write_fields(of_function) : study::write_fields(s.refinement);
   }
   if (!s.loaded) return;
-  canonical["machine"] = study::write_fields(s.loads);
+  AnyFunctionLoads of_function;
+  static_cast<AnyLoads&>(of_function) = s.loads;
+  canonical["machine"] = s.function ? study::write_fields(of_function) : study::write_fields(s.loads);
   canonical["environment"] = study::write_fields(s.environment);
 }
 
-void describe_refinement(study::SchemaWriter& document) {
+void describe_refinement(study::SchemaWriter& document, bool function) {
   document.property(field::entry("objective", "what the machines of the list are refined for"),
                     study::schema_array(study::schema_fields<AnyObjective>()));
-  document.property(field::entry("refinement", "how far machines may change for their objectives"),
-                    study::schema_fields<AnyRefinement>());
+  document.property(
+      field::entry("refinement", "how far machines may change for their objectives"),
+      function ? study::schema_fields<AnyFunctionRefinement>() : study::schema_fields<AnyRefinement>());
   document.property(field::entry("machine", "masses, speed and load of the machines"),
-                    study::schema_fields<AnyLoads>());
+                    function ? study::schema_fields<AnyFunctionLoads>() : study::schema_fields<AnyLoads>());
   document.property(field::entry("environment", "what acts from outside"),
                     study::schema_fields<Environment>());
 }
@@ -170,21 +203,22 @@ MachineLoads loads_of(const AnyRefinementStudy& s) {
   return {.mass_per_metre = s.loads.mass_per_metre,
           .crank_speed = s.loads.crank_speed,
           .force = {s.loads.force[0], s.loads.force[1]},
+          .torque = s.loads.torque,
           .gravity = s.environment.gravity};
 }
 
-std::array<double, 2> drive_range(const FittedMachine& machine) {
+std::array<double, 2> drive_range(const MotionTarget& target, const FittedMachine& machine) {
   const auto s = static_cast<std::size_t>(machine.shape.program->scale());
   const double turned = std::arg(std::complex<double>(machine.shape.x[s], machine.shape.x[s + 1]));
   const double from = math::wrap_angle(machine.angle.front() + turned);
-  return {from, from + machine.angle.back() - machine.angle.front()};
+  return {from, from + machine.angle[target.count - 1] - machine.angle.front()};
 }
 
 std::vector<double> design_rows(const MotionTarget& target, const FittedMachine& machine,
                                 const FoundLinkage& linkage, int samples) {
   std::vector<double> out;
   if (!target.turns) {
-    const auto [first, last] = drive_range(machine);
+    const auto [first, last] = drive_range(target, machine);
     for (int k = 0; k < samples; ++k) out.push_back(first + (last - first) * k / (samples - 1));
     return out;
   }
@@ -195,8 +229,9 @@ std::vector<double> design_rows(const MotionTarget& target, const FittedMachine&
 
 ListFigures refine_list(const AnyRefinementStudy& s, const MotionTarget& target,
                         const TypeSearchOptions& search, int samples, TypeSearchAnswer& answer,
-                        RunContext& context) {
+                        RunContext& context, const FunctionErrorLimit& of_function) {
   ListFigures out;
+  out.output = target.output;
   out.refined = !s.objectives.empty();
   for (const AnyObjective& o : s.objectives) out.quantities.push_back(o.quantity);
   if (!out.refined && s.loaded)
@@ -204,7 +239,9 @@ ListFigures refine_list(const AnyRefinementStudy& s, const MotionTarget& target,
   if (out.quantities.empty() || answer.machines.empty()) return out;
   const std::vector<FoundMachine> found = answer.machines;
   RefineAnswer refined;
-  if (out.refined) refined = refine_machines(target, found, options_of(s, target, search), context);
+  RefineOptions options = options_of(s, target, search);
+  options.greatest = of_function.greatest, options.whole_error = of_function.whole_error;
+  if (out.refined) refined = refine_machines(target, found, options, context);
   std::vector<std::vector<double>> as_found;
   for (std::size_t i = 0; i < found.size(); ++i)
     as_found.push_back(
@@ -227,6 +264,16 @@ ListFigures refine_list(const AnyRefinementStudy& s, const MotionTarget& target,
   return out;
 }
 
+void keep_figures(ListFigures& figures, std::span<const std::size_t> kept) {
+  const auto keep = [&](auto& rows) {
+    if (rows.empty()) return;
+    auto all = std::move(rows);
+    rows.clear();
+    for (const std::size_t i : kept) rows.push_back(all[i]);
+  };
+  keep(figures.values), keep(figures.before), keep(figures.aim);
+}
+
 void load_design(const AnyRefinementStudy& s, Value& design) {
   if (!s.loaded) return;
   Value& drive = design["drive"].as_array()[0];
@@ -243,7 +290,7 @@ void add_figure_columns(const ListFigures& figures, Table& machines) {
     return out;
   };
   for (std::size_t q = 0; q < figures.quantities.size() && !figures.values.empty(); ++q) {
-    const FigureColumn what = figure_column(figures.quantities[q]);
+    const FigureColumn what = figure_column(figures.quantities[q], figures.output);
     if (!what.of_search) machines.add(what.key(), what.label + what.unit_label, column(figures.values, q));
     if (figures.refined)
       machines.add(what.key_before(), what.label + ", before it was refined" + what.unit_label,
@@ -259,7 +306,7 @@ void add_figure_columns(const ListFigures& figures, Table& machines) {
 void add_figures(const ListFigures& figures, std::size_t machine, study::Solution& solution) {
   if (machine >= figures.values.size()) return;
   for (std::size_t q = 0; q < figures.quantities.size(); ++q) {
-    const FigureColumn what = figure_column(figures.quantities[q]);
+    const FigureColumn what = figure_column(figures.quantities[q], figures.output);
     solution.objectives[what.key()] = figures.values[machine][q];
     if (figures.refined) solution.objectives[what.key_before()] = figures.before[machine][q];
   }
@@ -278,12 +325,13 @@ void add_figure_facts(const AnyRefinementStudy& s, const ListFigures& figures, c
     std::size_t best = 0;
     for (std::size_t i = 1; i < figures.values.size(); ++i)
       if (figures.values[i][q] < figures.values[best][q]) best = i;
-    const Measured now = measured_figure(quantity, figures.values[best][q]);
-    const std::string label = figure_column(quantity).label + ", lowest of all machines";
+    const Measured now = measured_figure(quantity, figures.output, figures.values[best][q]);
+    const std::string label = figure_column(quantity, figures.output).label + ", lowest of all machines";
     if (figures.refined)
       fact(label, say("{} by machine {} ({}), {} before the refinement ({})", now,
                       count_of(static_cast<double>(best + 1)), machines.names[best],
-                      measured_figure(quantity, figures.least_found[q]), figures.least_found_name[q]))
+                      measured_figure(quantity, figures.output, figures.least_found[q]),
+                      figures.least_found_name[q]))
           .number = now;
     else
       fact(label,
@@ -299,18 +347,28 @@ void add_figure_facts(const AnyRefinementStudy& s, const ListFigures& figures, c
     fact("tolerance of lengths and coordinates",
          say("{}, three standard deviations",
              millimetres(s.refinement.length_tolerance.value_or(1e-3 * target.stroke.size))));
+  const double share = s.refinement.error_share;
+  const Sentence growth = percent(s.refinement.error_growth, 3);
+  if (target.is_function()) {
+    const double least = share * output_range(target) * target.error_unit();
+    fact("error a machine may gain by the refinement",
+         least > 0 ? say("{} of its own, at least {}", growth,
+                         target.placed() ? millimetres(least, 3) : degrees_of(least, 3))
+                   : say("{} of its own", growth));
+    return;
+  }
   fact("error a machine may gain by the refinement",
        target.tolerance > 0 ? say("{} of its own", percent(s.refinement.error_growth, 3))
                             : say("{} of its own, at least {}", percent(s.refinement.error_growth, 3),
                                   millimetres(s.refinement.error_share * target.stroke.size, 3)));
 }
 
-void add_figure_plots(const ListFigures& figures, study::Result& result) {
+void add_figure_plots(const ListFigures& figures, std::string_view error_key, study::Result& result) {
   if (!figures.refined) return;
   const study::AddPlot plot{
-      result, {.table = "machines", .x = "path_error_rms_m", .style = study::Plot::Style::points}};
+      result, {.table = "machines", .x = std::string(error_key), .style = study::Plot::Style::points}};
   for (const MachineQuantity quantity : figures.quantities) {
-    const FigureColumn what = figure_column(quantity);
+    const FigureColumn what = figure_column(quantity, figures.output);
     std::string title = what.label + " over the error";
     title[0] = static_cast<char>(title[0] - 'a' + 'A');
     plot(std::string("trade-off-") + std::string(name_of(quantity)), title, {what.key_before(), what.key()});

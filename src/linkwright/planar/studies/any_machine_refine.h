@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -40,6 +42,7 @@ struct AnyLoads {
   double mass_per_metre = 1;
   double crank_speed = 2 * pi;
   std::array<double, 2> force{};
+  double torque = 0;  ///< on the output link of a function
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyLoads& l) {
@@ -49,6 +52,19 @@ void fields(Visitor&& visit, AnyLoads& l) {
         l.mass_per_metre);
   visit(field::speed_angular("crank_speed", "constant speed of the crank").between(0, 1e5), l.crank_speed);
   visit(field::force("force", "constant force [x, y] on the traced point, in the global frame"), l.force);
+}
+
+struct AnyFunctionLoads : AnyLoads {};
+template <class Visitor>
+void fields(Visitor&& visit, AnyFunctionLoads& l) {
+  visit(field::mass("mass_per_metre", "mass of a bar or plate by its largest extent, for each metre")
+            .positive()
+            .at_most(1e6),
+        l.mass_per_metre);
+  visit(field::speed_angular("crank_speed", "constant speed of the crank").between(0, 1e5), l.crank_speed);
+  visit(field::force("force", "constant force [x, y] on the pin of the slider, or of the output link"),
+        l.force);
+  visit(field::torque("torque", "constant torque on the output link, counter-clockwise positive"), l.torque);
 }
 
 struct AnyRefinement {
@@ -77,8 +93,35 @@ void fields(Visitor&& visit, AnyRefinement& r) {
         r.starts);
 }
 
-/// What a study asks for beyond the path.
+/// The error of a function may be so small that no share of its range is small.
+struct AnyFunctionRefinement : AnyRefinement {
+  AnyFunctionRefinement() { error_share = 0; }
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyFunctionRefinement& r) {
+  visit(
+      field::entry("error_growth",
+                   "share of its error by which that of a machine may grow: of the greatest error, or of the "
+                   "root mean square, as fit says")
+          .between(0, 100),
+      r.error_growth);
+  visit(field::entry("error_share", "part of the output's range by which it may grow where that is more")
+            .between(0, 1),
+        r.error_share);
+  visit(
+      field::length("length_tolerance",
+                    "of every length and coordinate, for tolerance_90: three standard deviations; default: a "
+                    "thousandth of the distance of crank and output, or of the root mean square travel")
+          .positive(),
+      r.length_tolerance);
+  visit(field::entry("starts", "for each machine and aim: the machine itself, then changes of it")
+            .between(1, 100),
+        r.starts);
+}
+
+/// What a study asks for beyond the path or the function.
 struct AnyRefinementStudy {
+  bool function = false;  ///< machines generate a function
   std::vector<AnyObjective> objectives;
   AnyLoads loads;
   Environment environment;
@@ -87,13 +130,20 @@ struct AnyRefinementStudy {
 };
 
 /// Reads `[[objective]]`, `[refinement]`, `[machine]` and `[environment]`; problems go to the reader.
-AnyRefinementStudy read_refinement(study::ObjectReader& document);
+AnyRefinementStudy read_refinement(study::ObjectReader& document, bool function);
 /// Writes them into the canonical study where the study has them.
 void write_refinement(const AnyRefinementStudy& study, Value& canonical);
-void describe_refinement(study::SchemaWriter& document);
+void describe_refinement(study::SchemaWriter& document, bool function);
+
+/// The error of a function that a refinement limits, as `RefineOptions` has it.
+struct FunctionErrorLimit {
+  bool greatest = false;
+  std::function<double(const FittedMachine&)> whole_error = {};
+};
 
 /// Figures of the machines of a list beside those of the search.
 struct ListFigures {
+  MachineOutput output = MachineOutput::point;  ///< what of the machines is compared
   std::vector<MachineQuantity> quantities;
   std::vector<std::vector<double>> values;      ///< of each machine, by the analysis of any linkage
   std::vector<std::vector<double>> before;      ///< of the machine from which each was refined
@@ -109,7 +159,7 @@ MachineLoads loads_of(const AnyRefinementStudy& study);
 
 /// Crank angles of a machine at the first and the last sample of an open target, in the global frame (rad);
 /// the first is in (-pi, pi].
-std::array<double, 2> drive_range(const FittedMachine& machine);
+std::array<double, 2> drive_range(const MotionTarget& target, const FittedMachine& machine);
 
 /// Crank angles of the rows of the study of a machine: a turn in its sense from the first point on, or the
 /// range of a drive that rocks.
@@ -119,7 +169,10 @@ std::vector<double> design_rows(const MotionTarget& target, const FittedMachine&
 /// Refines the machines of an answer where objectives are given, and evaluates the figures of its list.
 ListFigures refine_list(const AnyRefinementStudy& study, const MotionTarget& target,
                         const TypeSearchOptions& search, int samples, TypeSearchAnswer& answer,
-                        RunContext& context);
+                        RunContext& context, const FunctionErrorLimit& of_function = {});
+
+/// Keeps the machines of a list with these numbers, in this order.
+void keep_figures(ListFigures& figures, std::span<const std::size_t> kept);
 
 /// Gives the study of a machine speed, gravity and the quantities of forces; its linkage has the masses.
 void load_design(const AnyRefinementStudy& study, Value& design);
@@ -129,6 +182,6 @@ void add_figure_columns(const ListFigures& figures, Table& machines);
 void add_figures(const ListFigures& figures, std::size_t machine, study::Solution& solution);
 void add_figure_facts(const AnyRefinementStudy& study, const ListFigures& figures, const Table& machines,
                       const MotionTarget& target, const study::AddFact& fact);
-void add_figure_plots(const ListFigures& figures, study::Result& result);
+void add_figure_plots(const ListFigures& figures, std::string_view error_key, study::Result& result);
 
 }  // namespace linkwright::planar

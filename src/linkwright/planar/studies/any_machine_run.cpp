@@ -105,7 +105,7 @@ class AnyReport {
     if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
     out.classification["crank_range_rad"] = m.span;
     if (rocks()) {
-      const auto [from, to] = drive_range(found.machine);
+      const auto [from, to] = drive_range(motion_, found.machine);
       out.classification["drive_from_rad"] = from, out.classification["drive_to_rad"] = to;
     }
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
@@ -319,15 +319,15 @@ class AnyReport {
            [](F, M m) { return m.span; });
     if (rocks()) {
       column("drive_from_rad", "crank angle at which the motion begins (rad)",
-             [](F f, M) { return drive_range(f.machine)[0]; });
+             [this](F f, M) { return drive_range(motion_, f.machine)[0]; });
       column("drive_to_rad", "crank angle at which the motion ends (rad)",
-             [](F f, M) { return drive_range(f.machine)[1]; });
+             [this](F f, M) { return drive_range(motion_, f.machine)[1]; });
     }
     column("peak_acceleration_share", "peak acceleration at unit crank speed, of the size of the stroke",
            [](F, M m) { return m.peak_acceleration; });
     add_figure_columns(figures_, table);
     result_.tables.push_back(std::move(table));
-    add_figure_plots(figures_, result_);
+    add_figure_plots(figures_, "path_error_rms_m", result_);
   }
 
   void findings() {
@@ -394,7 +394,7 @@ class AnyReport {
   }
 
   void drive_fact(const FittedMachine& machine, const study::AddFact& fact) const {
-    const auto [from, to] = drive_range(machine);
+    const auto [from, to] = drive_range(motion_, machine);
     const Measured range = degrees_of(std::abs(to - from)).fixed(1);
     fact("range of the drive",
          say("{}, from {} to {}", range, degrees_of(from).fixed(1), degrees_of(to).fixed(1)))
@@ -432,6 +432,8 @@ class AnyReport {
   study::Result result_;
 };
 
+}  // namespace
+
 TypeSearchOptions search_options(const AnyStudy& s, const MachineLimits& limits) {
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
@@ -442,8 +444,6 @@ TypeSearchOptions search_options(const AnyStudy& s, const MachineLimits& limits)
   options.max_curves = s.optimiser.evaluations.value_or(0);
   return options;
 }
-
-}  // namespace
 
 TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits, RunContext& context) {
   // The time of the search is part of the study: it ends as done. Interruptions from outside end the run.

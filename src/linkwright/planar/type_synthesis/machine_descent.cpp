@@ -22,6 +22,7 @@ constexpr std::size_t max_peaks = 24;            // terms of an objective that a
 constexpr double lowest_peak = 0.6;              // of the largest: lower ones are left out
 constexpr double pair_margin = 0.05 * pi / 180;  // as the polish keeps it
 constexpr double heeded = 0.5;                   // limits that are further off are left out
+constexpr double heeded_errors = 0.3;            // of the greatest allowed: smaller ones are left out
 constexpr double first_radius = 0.05, max_radius = 0.5, min_radius = 2e-4;  // of a step, in parameters
 constexpr int max_steps_down = 40, max_small_steps = 3;
 constexpr double small_gain = 1e-3;
@@ -42,8 +43,9 @@ std::vector<std::size_t> peaks_of(const QuantityTerms& terms) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < v.size(); ++i) {
     const std::size_t first = i / terms.series * terms.series, k = i - first;
-    const double before = v[first + (k + terms.series - 1) % terms.series],
-                 after = v[first + (k + 1) % terms.series];
+    const bool begins = terms.ends && k == 0, ends = terms.ends && k + 1 == terms.series;
+    const double before = begins ? -infinity : v[first + (k + terms.series - 1) % terms.series],
+                 after = ends ? -infinity : v[first + (k + 1) % terms.series];
     if (v[i] >= least && v[i] >= before && (v[i] > after || terms.series == 1)) out.push_back(i);
   }
   std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) { return v[a] > v[b]; });
@@ -68,6 +70,14 @@ std::vector<double> MachineDescent::largest(const std::vector<QuantityTerms>& te
 
 std::vector<double> MachineDescent::values_of(const FittedMachine& machine) {
   return objectives_.evaluate(machine, fitter_, terms_) ? largest(terms_) : std::vector<double>();
+}
+
+/// True for an unknown of a function's machine that changes nothing but where it stands: its place and turn,
+/// and the scale that an angle does not depend on.
+bool MachineDescent::is_held(std::size_t unknown, const FittedMachine& machine) const {
+  const auto place = static_cast<std::size_t>(machine.shape.program->place());
+  if (!target_.is_function() || unknown < place || unknown >= place + 4) return false;
+  return !target_.placed() || unknown == place + 1 || unknown == place + 3;
 }
 
 /// Squared sines of the pair angles above their limit, logarithms of lengths, distances of pivots from the
@@ -134,12 +144,24 @@ bool MachineDescent::linearise(const DescentAim& aim, const FittedMachine& machi
   if (!objectives_.evaluate(machine, fitter_, terms_)) return false;
   evaluate_limits(machine, limits_);
   choose_rows(aim);
-  const std::size_t n = machine.shape.x.size();
+  const std::size_t own = machine.shape.x.size(),
+                    extra = (target_.timed ? 1u : 0u) + (target_.oriented ? 1u : 0u);
+  // What a function asks for depends on where the crank begins.
+  const bool function = target_.is_function();
+  const std::size_t n = function ? own + extra : own;
   for (Row& row : rows_) row.gradient.assign(n, 0.0);
   FittedMachine moved = machine;
+  std::vector<double> change(own + extra);
   for (std::size_t i = 0; i < n; ++i) {
-    const double by = 1e-6 * scale_of(machine.shape.x[i]);
-    moved.shape.x[i] = machine.shape.x[i] + by;
+    if (is_held(i, machine)) continue;
+    const double by = 1e-6 * (i < own ? scale_of(machine.shape.x[i]) : 1);
+    if (function) {
+      moved = machine;
+      change.assign(n, 0.0), change[i] = by;
+      fitter_.move(moved, change);
+    } else {
+      moved.shape.x[i] = machine.shape.x[i] + by;
+    }
     if (!objectives_.evaluate(moved, fitter_, moved_terms_)) return false;
     evaluate_limits(moved, moved_limits_);
     for (Row& row : rows_) {
@@ -148,7 +170,7 @@ bool MachineDescent::linearise(const DescentAim& aim, const FittedMachine& machi
                                                     : moved_terms_[row.group].values[row.index];
       row.gradient[i] = (now - row.value) / by;
     }
-    moved.shape.x[i] = machine.shape.x[i];
+    if (!function) moved.shape.x[i] = machine.shape.x[i];
   }
   return true;
 }
@@ -160,7 +182,7 @@ MachineDescent::ScaledError MachineDescent::scaled_error(const FittedMachine& ma
   ScaledError out;
   out.squares = model.squares;
   out.by.assign(n, 0.1);
-  for (std::size_t i = 0; i < own; ++i) out.by[i] = scale_of(machine.shape.x[i]);
+  for (std::size_t i = 0; i < own; ++i) out.by[i] = is_held(i, machine) ? 0 : scale_of(machine.shape.x[i]);
   const auto size = static_cast<Eigen::Index>(n);
   out.matrix.resize(size, size), out.gradient.resize(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -203,7 +225,7 @@ optimise::Affine MachineDescent::linear_part(const Row& row, double factor, cons
 /// q <= t for q^2 = squared error + a linear part, by its tangent (q^2 + q0^2) / (2 q0) above it.
 optimise::Cone MachineDescent::error_cone(const Row& row, const DescentAim& aim, const ScaledError& error,
                                           double radius, std::optional<std::size_t> ratio) {
-  const double reference = aim.reference[row.group], unit = target_.stroke.size / reference;
+  const double reference = aim.reference[row.group], unit = target_.error_unit() / reference;
   const double now = terms_[row.group].values[0] / reference;
   std::vector<optimise::Affine> parts;
   const double rest = error_parts(error, radius, parts);
@@ -264,7 +286,23 @@ optimise::ConeProgramme MachineDescent::programme(const DescentAim& aim, const S
     for (double& factor : part.factors) factor /= room;
   }
   out.cones.push_back(std::move(path));
+  if (aim.max_greatest < infinity) add_greatest(aim, error, radius, out.cones);
   return out;
+}
+
+/// The errors of a function that come near the greatest that is allowed, each with its sign.
+void MachineDescent::add_greatest(const DescentAim& aim, const ScaledError& error, double radius,
+                                  std::vector<optimise::Cone>& cones) const {
+  const std::size_t count = errors_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (std::abs(errors_[k]) < heeded_errors * aim.max_greatest) continue;
+    const double by = (errors_[k] > 0 ? 1 : -1) / aim.max_greatest;
+    optimise::Affine room{.constant = std::max(1 - by * errors_[k], 0.0)};
+    for (std::size_t i = 0; i < error.by.size(); ++i)
+      room.variables.push_back(i),
+          room.factors.push_back(-by * radius * error.by[i] * derivatives_[i * count + k]);
+    cones.push_back({.bound = std::move(room)});
+  }
 }
 
 /// The best step of the model within a radius; false where there is none.
@@ -308,8 +346,39 @@ bool MachineDescent::return_to_path(const DescentAim& aim, FittedMachine& machin
   return true;
 }
 
+/// The least change, in shares, that brings the greatest error of a function back to what is allowed.
+bool MachineDescent::lessen_greatest(const DescentAim& aim, FittedMachine& machine, RunContext& context) {
+  const ScaledError error = scaled_error(machine);
+  std::vector<double> errors, derivatives;
+  fitter_.output_errors(machine, errors, derivatives);
+  const std::size_t n = error.by.size(), count = errors.size();
+  optimise::ConeProgramme least;
+  least.cost.assign(n + 1, 0.0), least.cost[n] = 1;
+  optimise::Cone size{.bound = {.variables = {n}, .factors = {1.0}}};
+  for (std::size_t i = 0; i < n; ++i) size.parts.push_back({.variables = {i}, .factors = {1.0}});
+  least.cones.push_back(std::move(size));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (std::abs(errors[k]) < heeded_errors * aim.max_greatest) continue;
+    const double by = (errors[k] > 0 ? 1 : -1) / aim.max_greatest;
+    optimise::Affine room{.constant = 1 - 1e-4 - by * errors[k]};
+    for (std::size_t i = 0; i < n; ++i)
+      room.variables.push_back(i), room.factors.push_back(-by * error.by[i] * derivatives[i * count + k]);
+    least.cones.push_back({.bound = std::move(room)});
+  }
+  const optimise::ConeReport report =
+      optimise::solve(least, {.gap = 1e-3, .residual = 1e-6, .max_iterations = 50}, context);
+  if (report.x.size() < n || report.end == optimise::ConeEnd::unbounded ||
+      report.end == optimise::ConeEnd::interrupted)
+    return false;
+  std::vector<double> change(n);
+  for (std::size_t i = 0; i < n; ++i) change[i] = report.x[i] * error.by[i];
+  if (!std::all_of(change.begin(), change.end(), [](double v) { return std::isfinite(v); })) return false;
+  fitter_.move(machine, change);
+  return true;
+}
+
 /// The machine after a share of the change; false where it breaks the path or a limit.
-bool MachineDescent::moved(const DescentAim& aim, double part, FoundMachine& found) {
+bool MachineDescent::moved(const DescentAim& aim, double part, FoundMachine& found, RunContext& context) {
   std::vector<double> change = change_;
   for (double& c : change) c *= part;
   fitter_.move(found.machine, change);
@@ -318,8 +387,19 @@ bool MachineDescent::moved(const DescentAim& aim, double part, FoundMachine& fou
     if (!(found.measures.error < 2 * aim.max_error) || !return_to_path(aim, found.machine)) return false;
     found.measures = fitter_.measure(found.machine);
   }
-  return found.measures.error <= aim.max_error && found.measures.defect == MachineDefect::none &&
+  const auto greatest = [&] { return greatest_error(target_, found.measures); };
+  for (int pass = 0; pass < 2 && !(greatest() <= aim.max_greatest); ++pass) {
+    if (!(greatest() < 2 * aim.max_greatest) || !lessen_greatest(aim, found.machine, context)) return false;
+    found.measures = fitter_.measure(found.machine);
+  }
+  return keeps_errors(aim, found) &&
          (!aim.within_tolerance || found.measures.largest_deviation <= target_.tolerance * (1 + 1e-9));
+}
+
+bool MachineDescent::keeps_errors(const DescentAim& aim, const FoundMachine& found) const {
+  return found.measures.error <= aim.max_error && found.measures.defect == MachineDefect::none &&
+         greatest_error(target_, found.measures) <= aim.max_greatest &&
+         (!options_.whole_error || options_.whole_error(found.machine) <= aim.max_whole);
 }
 
 double MachineDescent::cost(const DescentAim& aim, std::span<const double> values) const {
@@ -340,12 +420,13 @@ bool MachineDescent::improve(const DescentAim& aim, double& radius, FoundMachine
                              std::vector<double>& values, RunContext& context) {
   const double before = cost(aim, values);
   const ScaledError error = scaled_error(found.machine);
+  if (aim.max_greatest < infinity) fitter_.output_errors(found.machine, errors_, derivatives_);
   for (; radius > min_radius; radius *= 0.25) {
     if (context.interrupted()) return false;
     if (!propose(aim, error, radius, context)) continue;
     for (double part = 1; part > 0.2; part *= 0.5) {
       FoundMachine trial = found;
-      if (!moved(aim, part, trial)) continue;
+      if (!moved(aim, part, trial, context)) continue;
       std::vector<double> now = values_of(trial.machine);
       if (now.empty() || !(cost(aim, now) < before) || !within_bounds(aim, now, values)) continue;
       const bool as_predicted = before - cost(aim, now) > 0.5 * (before - predicted_);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "linkwright/planar/linkage/build.h"
@@ -20,6 +21,11 @@ void add_loads(FoundLinkage& found, const MachineLoads& loads) {
   if (loads.force != 0.0)
     linkage.forces.push_back(
         {.name = "load", .point = point_named(linkage, found.traced), .force = loads.force});
+  if (loads.torque != 0)
+    linkage.torques.push_back(
+        {.name = "load torque",
+         .body = body_index(linkage, std::string_view(found.traced).substr(0, found.traced.find('.'))),
+         .torque = loads.torque});
 }
 
 PeakForces peak_forces(const FoundLinkage& loaded, double crank_speed, std::span<const double> crank) {

@@ -16,6 +16,7 @@ struct MachineLoads {
   double mass_per_metre = 1;     ///< of bars and plates by their largest extent (kg/m), > 0
   double crank_speed = 2 * pi;   ///< constant (rad/s)
   std::complex<double> force{};  ///< constant force on the traced point, in the global frame (N)
+  double torque = 0;             ///< constant, on the body of the traced point, counter-clockwise (N m)
   double gravity = 9.81;         ///< along -y (m/s2), >= 0
 };
 

@@ -89,6 +89,8 @@ MachineObjectives::MachineObjectives(const MotionTarget& target, std::vector<Mac
       tx_(traced_angles),
       ty_(traced_angles),
       points_(2 * max_steps * traced_angles) {
+  if (target.output == MachineOutput::angle)
+    for (std::vector<double>* row : {&bx_, &by_, &rate_}) row->resize(traced_angles);
   for (std::size_t k = 0; k < traced_angles; ++k)
     angle_.push_back(2 * pi * static_cast<double>(k) / traced_angles);
   for (std::size_t k = 0; k < force_angles; ++k)
@@ -97,7 +99,7 @@ MachineObjectives::MachineObjectives(const MotionTarget& target, std::vector<Mac
 
 bool MachineObjectives::evaluate(const FittedMachine& machine, MachineFitter& fitter,
                                  std::vector<QuantityTerms>& out) {
-  out.resize(quantities_.size());
+  out.assign(quantities_.size(), {});
   if (!target_.turns) choose_angles(machine);
   bool traced = false, loaded = false;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
@@ -114,16 +116,16 @@ bool MachineObjectives::evaluate(const FittedMachine& machine, MachineFitter& fi
       trace(machine), traced = true;
     switch (quantity) {
       case MachineQuantity::peak_joint_force:
-        out[q] = {forces_.joint_force, forces_.count};
+        out[q] = {.values = forces_.joint_force, .series = forces_.count, .ends = !target_.turns};
         break;
       case MachineQuantity::drive_torque:
-        out[q] = {forces_.drive_torque, forces_.count};
+        out[q] = {.values = forces_.drive_torque, .series = forces_.count, .ends = !target_.turns};
         break;
       case MachineQuantity::size:
         size_terms(machine, out[q]);
         break;
       case MachineQuantity::peak_acceleration:
-        acceleration_terms(machine, out[q]);
+        target_.is_function() ? output_acceleration_terms(out[q]) : acceleration_terms(machine, out[q]);
         break;
       case MachineQuantity::tolerance_90:
         tolerance_terms(machine, fitter, out[q]);
@@ -137,10 +139,10 @@ bool MachineObjectives::evaluate(const FittedMachine& machine, MachineFitter& fi
 
 void MachineObjectives::tolerance_terms(const FittedMachine& machine, MachineFitter& fitter,
                                         QuantityTerms& out) const {
-  const double size = target_.stroke.size;
+  const double unit = target_.error_unit();
   const ErrorModel model = fitter.error_model(machine, false);
-  const double error = tolerance_90(machine.shape, model, tolerance_ / size);
-  out = {{size * error}, 1, size * size * (error * error - model.squares)};
+  const double error = tolerance_90(machine.shape, model, tolerance_ / target_.stroke.size);
+  out = {{unit * error}, 1, unit * unit * (error * error - model.squares)};
 }
 
 /// The used part of the turn.
@@ -150,14 +152,16 @@ void MachineObjectives::choose_angles(const FittedMachine& machine) {
 }
 
 void MachineObjectives::trace(const FittedMachine& machine) {
-  compute_curve({.program = machine.shape.program,
+  CurveTask task{.program = machine.shape.program,
                  .x = machine.shape.x.data(),
                  .signs = machine.shape.signs,
                  .angle = angle_.data(),
                  .count = traced_angles,
                  .tx = tx_.data(),
                  .ty = ty_.data(),
-                 .points = points_.data()});
+                 .points = points_.data()};
+  if (!rate_.empty()) task.bx = bx_.data(), task.by = by_.data(), task.rate = rate_.data();
+  compute_curve(task);
 }
 
 /// Both sides of the box of all pins, the pivot of the crank at the origin of the machine's plane among them.
@@ -186,6 +190,7 @@ void MachineObjectives::acceleration_terms(const FittedMachine& machine, Quantit
   out.values.assign(traced_angles, 0.0);
   out.series = traced_angles;
   if (!target_.turns) {
+    out.ends = true;
     const double by = 0.5 / std::abs(angle_[1] - angle_[0]);
     for (std::size_t k = 1; k + 1 < traced_angles; ++k)
       if ((angle_[k] - first) * (angle_[k] - last) <= 0)
@@ -197,6 +202,21 @@ void MachineObjectives::acceleration_terms(const FittedMachine& machine, Quantit
     if (!target_.stroke.closed && ahead - 2 * pi * std::floor(ahead / (2 * pi)) > span) continue;
     const std::size_t a = (k + traced_angles - 1) % traced_angles, b = (k + 1) % traced_angles;
     out.values[k] = std::hypot(tx_[b] - tx_[a], ty_[b] - ty_[a]) * traced_angles / (4 * pi);
+  }
+}
+
+/// Differences of the speed of the slider, or of the angular speed of the output link; none at the ends of a
+/// range.
+void MachineObjectives::output_acceleration_terms(QuantityTerms& out) const {
+  const bool angle = target_.output == MachineOutput::angle;
+  const double step = angle_[1] - angle_[0], by = 1 / std::abs(2 * step);
+  out.values.assign(traced_angles, 0.0);
+  out.series = traced_angles, out.ends = !target_.turns;
+  for (std::size_t k = 0; k < traced_angles; ++k) {
+    if (out.ends && (k == 0 || k + 1 == traced_angles)) continue;
+    const std::size_t a = (k + traced_angles - 1) % traced_angles, b = (k + 1) % traced_angles;
+    out.values[k] = by * (angle ? std::abs(rate_[b] - rate_[a])
+                                : target_.stroke.size * std::hypot(tx_[b] - tx_[a], ty_[b] - ty_[a]));
   }
 }
 

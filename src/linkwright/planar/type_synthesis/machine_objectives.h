@@ -18,8 +18,8 @@ enum class MachineQuantity {
   peak_joint_force,   ///< N
   drive_torque,       ///< N m
   size,               ///< m
-  peak_acceleration,  ///< at unit crank speed, in sizes of the stroke
-  tolerance_90,       ///< m
+  peak_acceleration,  ///< at unit crank speed, in sizes of the stroke; of the output of a function m or rad
+  tolerance_90,       ///< m, or rad where the output is an angle
 };
 constexpr std::array<EnumName<MachineQuantity>, 5> names(MachineQuantity) {
   return {{{MachineQuantity::peak_joint_force, "peak_joint_force",
@@ -27,7 +27,7 @@ constexpr std::array<EnumName<MachineQuantity>, 5> names(MachineQuantity) {
            {MachineQuantity::drive_torque, "drive_torque", "largest torque of the drive, without its sign"},
            {MachineQuantity::size, "size", "larger side of the box of all pins over the turn"},
            {MachineQuantity::peak_acceleration, "peak_acceleration",
-            "largest acceleration of the traced point at unit crank speed"},
+            "largest acceleration of the traced point, or of the output, at unit crank speed"},
            {MachineQuantity::tolerance_90, "tolerance_90",
             "root mean square error that nine of ten machines keep, made with tolerances of their lengths"}}};
 }
@@ -43,6 +43,7 @@ struct QuantityTerms {
   std::size_t series = 1;  ///< values of one row over the turn, one row after the other
   /// Of a quantity that contains the error, whose only term it is: its square less the squared error.
   std::optional<double> beside_error = {};
+  bool ends = false;  ///< rows end at both sides instead of going around a turn
 
   double largest() const;
 };
@@ -65,7 +66,7 @@ std::vector<std::vector<std::pair<std::size_t, double>>> dimension_effects(const
 double tolerance_90(const MachineShape& shape, const ErrorModel& model, double tolerance);
 
 /// Evaluates quantities of one machine after the other, over the turn of its crank, or over the used part of
-/// it where its drive may rock. Make one a thread.
+/// it where it need not turn. Make one a thread.
 class MachineObjectives {
  public:
   /// @param target what machines are fitted to; lives as long
@@ -87,6 +88,7 @@ class MachineObjectives {
   void trace(const FittedMachine& machine);
   void size_terms(const FittedMachine& machine, QuantityTerms& out) const;
   void acceleration_terms(const FittedMachine& machine, QuantityTerms& out) const;
+  void output_acceleration_terms(QuantityTerms& out) const;
   void tolerance_terms(const FittedMachine& machine, MachineFitter& fitter, QuantityTerms& out) const;
 
   static constexpr std::size_t traced_angles = 720, force_angles = 180;
@@ -95,7 +97,7 @@ class MachineObjectives {
   std::vector<MachineQuantity> quantities_;
   MachineLoads loads_;
   double tolerance_;
-  std::vector<double> angle_, force_angle_, tx_, ty_, points_;
+  std::vector<double> angle_, force_angle_, tx_, ty_, bx_, by_, rate_, points_;
   ForceSamples forces_;
 };
 

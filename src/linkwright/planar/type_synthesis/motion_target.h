@@ -49,6 +49,10 @@ struct MotionTarget {
   /// Crank angles, equally far apart, over which limits hold where the crank does not turn: `sampled` are
   /// those of the samples (rad).
   void cover_used_part(std::span<const double> sampled, std::span<double> out) const;
+  /// The output of a function is compared, not a path or a body.
+  bool is_function() const { return output != MachineOutput::point; }
+  /// An error of 1 in m, or in rad where the output is an angle.
+  double error_unit() const { return placed() ? stroke.size : 1; }
 };
 
 /// Lets the drive of an open stroke or of open poses rock over the part of its rotation that they take:

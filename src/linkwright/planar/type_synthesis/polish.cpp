@@ -249,6 +249,11 @@ struct MachineFitter::Memory {
     return limit_rows.squares + pivot_rows.squares;
   }
 
+  /// The scale of a machine whose output is an angle, where nothing else gives it.
+  void scale_freely(std::span<double> x) const {
+    if (!target.placed() && limits.ground_pivots.empty() && !limits.ground_box) dimensions.scale_freely(x);
+  }
+
   /// Root of the squares of what is missing at the limits and their margin.
   double missed_limits(const FittedMachine& m) {
     cover_samples(m.angle);
@@ -500,8 +505,7 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
     m.descend(machine, weight, 40);
   }
   m.dimensions.meet_pivots(machine.shape.x);
-  if (!m.target.placed() && m.limits.ground_pivots.empty() && !m.limits.ground_box)
-    m.dimensions.scale_freely(machine.shape.x);
+  m.scale_freely(machine.shape.x);
   return true;
 }
 
@@ -568,6 +572,23 @@ ErrorModel MachineFitter::error_model(const FittedMachine& machine, bool hold_pi
   return out;
 }
 
+void MachineFitter::output_errors(const FittedMachine& machine, std::vector<double>& errors,
+                                  std::vector<double>& derivatives) {
+  Memory& m = *memory_;
+  const PointProgram& p = m.program_of(machine.shape);
+  const double* x = machine.shape.x.data();
+  m.now.angle = machine.angle, m.now.body_angle = machine.body_angle;
+  m.compute(p, x, machine.shape.signs, m.now);
+  m.residual_rows(p, x, machine.shape.signs);
+  // The first direction is that of the travel, or the angle.
+  const std::size_t stride = m.column_length(), n = m.count();
+  const auto unknowns = static_cast<std::size_t>(p.parameters + m.extra_unknowns());
+  errors.resize(n), derivatives.resize(n * unknowns);
+  for (std::size_t c = 0; c < unknowns; ++c)
+    std::copy_n(m.rows.data() + c * stride, n, derivatives.data() + c * n);
+  std::copy_n(m.rows.data() + unknowns * stride, n, errors.data());
+}
+
 void MachineFitter::move(FittedMachine& machine, std::span<const double> change) {
   Memory& m = *memory_;
   const PointProgram& p = m.program_of(machine.shape);
@@ -576,6 +597,7 @@ void MachineFitter::move(FittedMachine& machine, std::span<const double> change)
     for (double& angle : machine.angle) angle += change[static_cast<std::size_t>(p.parameters)];
   if (m.target.oriented) machine.body_angle += change.back();
   m.dimensions.meet_pivots(machine.shape.x);
+  m.scale_freely(machine.shape.x);
 }
 
 MachineMeasures MachineFitter::measure(FittedMachine& machine) {

@@ -114,8 +114,14 @@ class MachineFitter {
   /// pivots at their places.
   ErrorModel error_model(const FittedMachine& machine, bool hold_pivots);
 
-  /// Changes all unknowns of a machine, as those of `error_model`; given ground pivots are met again. The
-  /// crank angles are those before: `measure` follows.
+  /// Errors of the output of a function at all samples, in sizes or rad, and their derivatives by the
+  /// unknowns of `error_model`: those of all samples by the first unknown, then by the second, ...
+  void output_errors(const FittedMachine& machine, std::vector<double>& errors,
+                     std::vector<double>& derivatives);
+
+  /// Changes all unknowns of a machine, as those of `error_model`; given ground pivots are met again, and a
+  /// machine whose scale is free has its own scale again. The crank angles are those before, but for the
+  /// start of the crank: `measure` follows.
   void move(FittedMachine& machine, std::span<const double> change);
 
   /// Number of curves that were computed, each of 96 points.

@@ -11,6 +11,7 @@
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/optimise/pareto.h"
 #include "linkwright/planar/type_synthesis/detail/machine_descent.h"
+#include "linkwright/planar/type_synthesis/minimax.h"
 
 namespace linkwright::planar {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 constexpr std::size_t descents_a_round = 16;
 constexpr int hops_a_start = 6;            // of which the first that keeps path and limits is refined
 constexpr double negligible_error = 1e-6;  // as the search has it, in sizes
+constexpr double between_samples = 0.99;   // of what a function's error may be is used at its samples
 
 /// One start for one machine of the list and one aim.
 struct Descent {
@@ -30,8 +32,14 @@ struct Descent {
   std::int64_t steps = 0;
 };
 
+/// The error of a machine that is limited.
+double limited_error(const MotionTarget& target, const RefineOptions& options, const MachineMeasures& m) {
+  return options.greatest ? greatest_error(target, m) : m.error;
+}
+
 /// A machine changed at random and fitted again; false where it does not keep its path or its limits.
-bool hop(const DescentAim& aim, MachineFitter& fitter, RandomStream& random, FoundMachine& found) {
+bool hop(const MotionTarget& target, const RefineOptions& options, const DescentAim& aim,
+         MachineDescent& worker, RandomStream& random, FoundMachine& found, RunContext& context) {
   const double sigma = 0.01 + 0.14 * random.uniform();
   for (double& x : found.machine.shape.x) x += sigma * (std::abs(x) + 0.1) * random.normal();
   for (const PointStep& step : found.machine.shape.program->steps)
@@ -40,9 +48,13 @@ bool hop(const DescentAim& aim, MachineFitter& fitter, RandomStream& random, Fou
         double& length = found.machine.shape.x[static_cast<std::size_t>(step.parameter + k)];
         length = std::max(std::abs(length), 1e-3);
       }
-  if (!fitter.polish(found.machine, infinity)) return false;
-  found.measures = fitter.measure(found.machine);
-  return found.measures.defect == MachineDefect::none && found.measures.error <= aim.max_error;
+  if (!worker.fitter().polish(found.machine, infinity)) return false;
+  found.measures = worker.fitter().measure(found.machine);
+  if (greatest_error(target, found.measures) > aim.max_greatest) {
+    lessen_greatest_error(target, options.limits, found.machine, context);
+    found.measures = worker.fitter().measure(found.machine);
+  }
+  return worker.keeps_errors(aim, found);
 }
 
 class Refinement {
@@ -92,7 +104,15 @@ class Refinement {
     }
     const MachineMeasures& m = list_[machine].measures;
     const double share = target_.tolerance > 0 ? negligible_error : options_.error_share;
-    out.max_error = m.error + std::max(options_.error_growth * m.error, share);
+    const double error = limited_error(target_, options_, m);
+    out.max_error = error + std::max(options_.error_growth * error, share);
+    if (target_.is_function()) out.max_error = std::max(error, between_samples * out.max_error);
+    // A root mean square is not above the greatest error.
+    if (options_.greatest) out.max_greatest = out.max_error;
+    if (options_.whole_error) {
+      const double whole = options_.whole_error(list_[machine].machine);
+      out.max_whole = whole + std::max(options_.error_growth * whole, share);
+    }
     out.within_tolerance = target_.tolerance > 0 && m.largest_deviation <= target_.tolerance * (1 + 1e-9);
     return out;
   }
@@ -119,7 +139,7 @@ class Refinement {
     bool ready = d.start == 0;
     for (int k = 0; k < hops_a_start && !ready && !context_.interrupted(); ++k) {
       d.found = list_[d.machine];
-      ready = hop(aim, worker.fitter(), random, d.found);
+      ready = hop(target_, options_, aim, worker, random, d.found, context_);
     }
     const std::int64_t before = worker.steps();
     if (!ready || !worker.descend(aim, d.found, d.values, context_)) return;
@@ -168,16 +188,17 @@ class Refinement {
     const std::size_t width = 3 + objectives();
     for (const RefinedMachine& m : all) {
       costs.push_back(m.found.machine.shape.program->links);
-      costs.push_back(std::max(m.found.measures.error, negligible_error));
+      costs.push_back(std::max(limited_error(target_, options_, m.found.measures), negligible_error));
       costs.push_back(-m.found.measures.min_pair_angle);
       for (const double value : m.values) costs.push_back(std::isnan(value) ? infinity : value);
     }
     const std::vector<std::size_t> kept = chosen(optimise::non_dominated(costs, width), costs, width);
     for (const std::size_t i : kept) answer_.machines.push_back(std::move(all[i]));
+    const auto error = [&](const RefinedMachine& m) {
+      return limited_error(target_, options_, m.found.measures);
+    };
     std::stable_sort(answer_.machines.begin(), answer_.machines.end(),
-                     [](const RefinedMachine& a, const RefinedMachine& b) {
-                       return a.found.measures.error < b.found.measures.error;
-                     });
+                     [&](const RefinedMachine& a, const RefinedMachine& b) { return error(a) < error(b); });
     if (target_.dense)
       for (RefinedMachine& m : answer_.machines)
         if (m.aim) m.found.chamfer = chamfer_of(target_, m.found.machine);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -28,8 +29,13 @@ struct RefineOptions {
   MachineLoads loads;
   double length_tolerance = 0;  ///< of lengths and coordinates, three standard deviations (m)
   /// The error may grow by the larger of these: a share of itself, and a share of the size of the stroke.
-  /// With a tolerance of the target, machines within it stay within it.
+  /// With a tolerance of the target, machines within it stay within it. The size of an angle is a radian.
   double error_growth = 0.1, error_share = 1e-3;
+  /// The greatest error of a function is limited, not its root mean square.
+  bool greatest = false;
+  /// The limited error of a function over its whole range, closer than the samples, in sizes or rad; may grow
+  /// as that of the samples. None: the samples alone are compared. Called from several threads.
+  std::function<double(const FittedMachine&)> whole_error = {};
   int starts = 2;  ///< for each machine and aim: the machine itself, then changes of it; >= 1
   std::uint64_t seed = 1;
   std::size_t max_solutions = 12;
@@ -53,8 +59,9 @@ struct RefineAnswer {
 };
 
 /// Refines machines of a list for further objectives, each alone and all together by their weights, without
-/// giving up the path: by steps that are the optimum of a convex model, in which objectives and limits are
-/// linear and the error is quadratic. The result depends on list, options and seed alone, not on threads.
+/// giving up the path or the function: by steps that are the optimum of a convex model, in which objectives
+/// and limits are linear and the error is quadratic. The result depends on list, options and seed alone, not
+/// on threads.
 ///
 /// @param target what the machines were fitted to
 /// @param list machines within the limits, measured

@@ -17,12 +17,19 @@ namespace linkwright::planar {
 
 /// What a descent makes small: the sum of weights times the ratios of the objectives to their references.
 struct DescentAim {
-  std::vector<double> weight;     ///< one an objective, 0 = free
-  std::vector<double> reference;  ///< likewise, > 0
-  std::vector<double> at_most;    ///< largest ratio
-  double max_error = infinity;    ///< in sizes
-  bool within_tolerance = false;  ///< the points stay within the tolerance of the target
+  std::vector<double> weight;      ///< one an objective, 0 = free
+  std::vector<double> reference;   ///< likewise, > 0
+  std::vector<double> at_most;     ///< largest ratio
+  double max_error = infinity;     ///< in sizes
+  bool within_tolerance = false;   ///< the points stay within the tolerance of the target
+  double max_greatest = infinity;  ///< of the errors of a function at its samples, in sizes or rad
+  double max_whole = infinity;     ///< of the error over the whole range of a function
 };
+
+/// The greatest error of the output of a function at its samples, in sizes or rad.
+inline double greatest_error(const MotionTarget& target, const MachineMeasures& measures) {
+  return target.placed() ? measures.largest_deviation : measures.largest_rotation;
+}
 
 /// Descents of machines for further objectives, one after the other; make one a thread.
 class MachineDescent {
@@ -41,6 +48,9 @@ class MachineDescent {
   std::vector<double> values_of(const FittedMachine& machine);
 
   MachineFitter& fitter() { return fitter_; }
+
+  /// True for a measured machine without defects whose errors are as small as they are to be.
+  bool keeps_errors(const DescentAim& aim, const FoundMachine& found) const;
   std::int64_t steps() const { return steps_; }
 
  private:
@@ -63,6 +73,7 @@ class MachineDescent {
 
   void evaluate_limits(const FittedMachine& machine, std::vector<double>& out);
   void choose_rows(const DescentAim& aim);
+  bool is_held(std::size_t unknown, const FittedMachine& machine) const;
   bool linearise(const DescentAim& aim, const FittedMachine& machine);
   ScaledError scaled_error(const FittedMachine& machine);
   static double error_parts(const ScaledError& error, double radius, std::vector<optimise::Affine>& parts);
@@ -70,9 +81,12 @@ class MachineDescent {
   optimise::Cone error_cone(const Row& row, const DescentAim& aim, const ScaledError& error, double radius,
                             std::optional<std::size_t> ratio);
   optimise::ConeProgramme programme(const DescentAim& aim, const ScaledError& error, double radius);
+  void add_greatest(const DescentAim& aim, const ScaledError& error, double radius,
+                    std::vector<optimise::Cone>& cones) const;
   bool propose(const DescentAim& aim, const ScaledError& error, double radius, RunContext& context);
   bool return_to_path(const DescentAim& aim, FittedMachine& machine);
-  bool moved(const DescentAim& aim, double part, FoundMachine& found);
+  bool lessen_greatest(const DescentAim& aim, FittedMachine& machine, RunContext& context);
+  bool moved(const DescentAim& aim, double part, FoundMachine& found, RunContext& context);
   bool improve(const DescentAim& aim, double& radius, FoundMachine& found, std::vector<double>& values,
                RunContext& context);
   double cost(const DescentAim& aim, std::span<const double> values) const;
@@ -90,7 +104,9 @@ class MachineDescent {
   std::vector<double> limits_, moved_limits_;
   std::vector<Row> rows_;
   std::vector<double> change_;  ///< of all unknowns
-  double predicted_ = 0;        ///< cost after the change, by the model
+  /// Errors of the output of a function and their derivatives, where the greatest is limited.
+  std::vector<double> errors_, derivatives_;
+  double predicted_ = 0;  ///< cost after the change, by the model
 };
 
 }  // namespace linkwright::planar
