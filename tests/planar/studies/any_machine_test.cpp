@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "planar/studies.h"
 
@@ -259,6 +260,29 @@ TEST(AnyPosesStudies, ListMachinesThatLeadTheBody) {
   EXPECT_NEAR(std::sqrt(places), machines->find("path_error_rms_m")->values[0], 1e-9);
   EXPECT_NEAR(std::sqrt(rotations), machines->find("rotation_error_rms_rad")->values[0], 1e-9);
   EXPECT_THAT(to_string(result.headline), HasSubstr("leads the body through the poses"));
+}
+
+// The crank turns from pose to pose by what is given, in either sense.
+TEST(AnyPosesStudies, MeetPosesAtGivenCrankRotations) {
+  const std::vector<double> given{0, 20, 45, 70, 100, 130};
+  const study::Result result = test::run_text(
+      any_poses({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\", \"stephenson_1\"]\n"},
+                 {"21", "timing = { mode = \"given\", angles_deg = [10, 30, 55, 80, 110, 140] }\n"}}));
+  ASSERT_FALSE(result.solutions.empty());
+  for (std::size_t i = 0; i < result.solutions.size(); ++i) {
+    const Table* poses = result.table(i == 0 ? "poses" : "poses-" + std::to_string(i + 1));
+    ASSERT_TRUE(poses);
+    const auto& crank = poses->find("crank_angle_rad")->values;
+    for (std::size_t k = 0; k < given.size(); ++k)
+      EXPECT_NEAR(std::abs(crank[k] - crank[0]), given[k] * pi / 180, 1e-9) << i << k;
+  }
+  EXPECT_LT(result.table("machines")->find("pose_error_rms_m")->values[0], 0.03);
+  const auto problems = [](const std::string& angles) {
+    return test::problems_of(
+        any_poses({{"21", "timing = { mode = \"given\", angles_deg = [" + angles + "] }\n"}}));
+  };
+  EXPECT_THAT(problems("0, 20, 10, 70, 100, 130"), HasSubstr("does not turn on from pose 2 to pose 3"));
+  EXPECT_THAT(problems("0, 20, 45, 70, 100, 430"), HasSubstr("more than the stroke leaves"));
 }
 
 // A rotation counts as much as its length: a longer one brings the rotations nearer.

@@ -68,6 +68,7 @@ struct AnyPosesTarget {
   std::vector<AnyPoseForm> poses;
   std::optional<std::string> file;
   std::optional<double> orientation_length;
+  PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyPosesTarget& t) {
@@ -80,6 +81,10 @@ void fields(Visitor&& visit, AnyPosesTarget& t) {
                       "of the path from its mean")
             .positive(),
         t.orientation_length);
+  visit(field::entry("timing",
+                     "crank rotations from the first pose to the others, in either sense; angles tell the "
+                     "same by their differences"),
+        t.timing);
 }
 
 struct DwellForm {

@@ -61,24 +61,27 @@ bool check_stroke(study::ObjectReader& target, const study::Common& common, cons
 }
 
 /// The crank rotations of a stroke by its timing, of which `given` points were told: a closed one may have
-/// been given its first point again. None where the timing is free.
+/// been given its first point again. None where the timing is free. `place` is what a message calls a point.
 std::vector<double> read_rotations(study::ObjectReader& target, const study::Common& common,
-                                   const PathTiming& timing, std::size_t given, const Stroke& stroke) {
+                                   const PathTiming& timing, std::size_t given, const Stroke& stroke,
+                                   std::string_view place = "point") {
   std::vector<double> turned = timed_angles(target, common.units, timing, given);
   if (turned.empty()) return turned;
   const double sense = turned.back() < turned.front() ? -1 : 1;
   for (std::size_t k = 1; k < turned.size(); ++k)
     if (!(sense * (turned[k] - turned[k - 1]) > 0)) {
-      target.error("timing", fmt::format("the crank does not turn on from point {} to point {}", k, k + 1),
-                   "let the angles rise, or fall, from point to point");
+      target.error("timing",
+                   fmt::format("the crank does not turn on from {0} {1} to {0} {2}", place, k, k + 1),
+                   fmt::format("let the angles rise, or fall, from {0} to {0}", place));
       return {};
     }
   const double most = stroke.closed && given == stroke.points.size() ? 2 * pi - 1e-9 : 2 * pi + 1e-9;
   if (const double whole = std::abs(turned.back() - turned.front()); whole > most) {
-    target.error("timing",
-                 fmt::format("the crank turns {} along the points, more than the stroke leaves",
-                             common.units.text(whole, Dimension::angle, 5)),
-                 "a stroke takes one turn of the crank, with its way back to the first point");
+    target.error(
+        "timing",
+        fmt::format("the crank turns {} along the {}s, more than the stroke leaves",
+                    common.units.text(whole, Dimension::angle, 5), place),
+        fmt::format("a stroke takes one turn of the crank, with its way back to the first {}", place));
     return {};
   }
   turned.resize(stroke.points.size());
@@ -150,7 +153,9 @@ void read_poses_target(study::ObjectReader& target, const study::Common& common,
     if (std::abs(points[k] - points[k - 1]) <= 1e-9 * extent &&
         std::abs(math::wrap_angle(s.angles[k] - s.angles[k - 1])) <= 1e-9)
       target.error(key, fmt::format("poses {} and {} are the same", k, k + 1), "keep one of them");
-  s.motion = pose_target(s.drawn, s.angles, form.orientation_length);
+  const std::vector<double> rotations =
+      read_rotations(target, common, form.timing, points.size(), s.drawn, "pose");
+  s.motion = pose_target(s.drawn, s.angles, form.orientation_length, rotations);
 }
 
 /// The dwells of a function, within the rotation of the crank and one after the other.

@@ -81,8 +81,10 @@ MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotation
 }
 
 MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
-                         std::optional<double> angle_length) {
+                         std::optional<double> angle_length, std::span<const double> rotations) {
   const std::size_t n = places.points.size();
+  LINKWRIGHT_REQUIRE(rotations.empty() || rotations.size() == n, "{} rotations for {} poses",
+                     rotations.size(), n);
   LINKWRIGHT_REQUIRE(n >= 2 && n <= stroke_samples && angles.size() == n,
                      "{} places and {} angles, must be as many, from 2 to {}", n, angles.size(),
                      stroke_samples);
@@ -106,8 +108,11 @@ MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
     out.x[k] = at.real(), out.y[k] = at.imag(), out.angle[k] = angles[i];
     out.weight[k] = 1 / static_cast<double>(times[i]);
     out.at[k] = arc[points_a_side * i] * by_arc;
+    // The sense of the crank is free: rotations are counted forward.
+    if (!rotations.empty()) out.turn[k] = std::abs(rotations[i] - rotations[0]);
   }
   out.total_weight = static_cast<double>(n);
+  out.timed = !rotations.empty();
   return out;
 }
 

@@ -68,9 +68,10 @@ MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotation
 
 /// Poses of a body, one after the other: places of its origin (m) and rotations (rad), whose common offset is
 /// free. Between the places the path is a smooth curve, by which machines are looked up. An error of a radian
-/// counts as `angle_length` (m); none: the size of the path. At most `stroke_samples` poses.
+/// counts as `angle_length` (m); none: the size of the path. At most `stroke_samples` poses. With `rotations`
+/// the poses are met at crank rotations from the first (rad), one each, which change in one sense.
 MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
-                         std::optional<double> angle_length);
+                         std::optional<double> angle_length, std::span<const double> rotations = {});
 
 /// A part of the rotation of the crank, from where the motion begins (rad), over which the output rests.
 struct Dwell {
