@@ -95,6 +95,41 @@ TEST(SensitivityStudy, DrawsBandsOfTolerances) {
   EXPECT_EQ(plot->bands.size(), 2U);
 }
 
+// A rod that keeps its length turns the wheel when its bracket moves, by the part of that shift along the
+// rod.
+TEST(SensitivityStudy, PartsAsBuiltKeepTheirLengths) {
+  const auto worst = [](const std::string& parts, const std::string& coordinate) {
+    const study::Result result =
+        run_text(study("[tolerances]\nparts = \"" + parts +
+                       "\"\nquantities = [\"toe\"]\n[[tolerances.point]]\ncoordinate = \"" + coordinate +
+                       "\"\ntolerance_mm = 1.0\n"));
+    const Table& band = table(result, "band-toe");
+    for (std::size_t i = 0; i < band.rows(); ++i)
+      if (std::abs(band.find("travel_m")->values[i]) < 1e-12)
+        return band.find("worst_upper_toe_rad")->values[i] - band.find("toe_rad")->values[i];
+    ADD_FAILURE();
+    return 0.0;
+  };
+  const double by_length = worst("as_built", "tie rod.length");
+  EXPECT_GT(by_length, 1e-3);
+  double along = 0;
+  for (const char* axis : {"x", "y", "z"}) {
+    const double by_body = worst("as_built", std::string("tie rod.body_") + axis);
+    along += std::pow(by_body / by_length, 2);
+    EXPECT_NEAR(worst("as_drawn", std::string("tie rod.body_") + axis), 0, 1e-12);
+  }
+  EXPECT_NEAR(along, 1, 1e-9);  // direction cosines of the rod
+  EXPECT_NEAR(
+      worst("as_built", "tie rod.body"),
+      [&] {
+        double sum = 0;
+        for (const char* axis : {"x", "y", "z"})
+          sum += worst("as_built", std::string("tie rod.body_") + axis);
+        return sum;
+      }(),
+      1e-12);
+}
+
 TEST(SensitivityStudyRead, NamesWhatIsWrong) {
   EXPECT_THAT(problems_of(study("[sensitivity]\nquantities = [\"tow\"]\n")),
               HasSubstr("sensitivity.quantities: there is no quantity 'tow'; there are: toe, camber"));

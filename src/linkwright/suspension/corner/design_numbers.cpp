@@ -36,7 +36,9 @@ T* find(Suspension& suspension, const DesignNumber& number) {
     }
     case DesignKind::length: {
       auto* link = entry(suspension.links, number.index);
-      return link && link->length ? &*link->length : nullptr;
+      if (!link || number.point < 0 || number.point > 1) return nullptr;
+      if (link->made) return &(*link->made)[static_cast<std::size_t>(number.point)];
+      return link->length && number.point == 0 ? &*link->length : nullptr;
     }
     case DesignKind::coupler_point: {
       auto* coupler = entry(suspension.couplers, number.index);
@@ -116,7 +118,8 @@ std::string label(const Suspension& suspension, const DesignNumber& number) {
     case DesignKind::carrier:
       return link_point("carrier", suspension.links[number.index].carrier.size());
     case DesignKind::length:
-      return link_label(suspension, number.index) + ".length";
+      return link_label(suspension, number.index) + ".length" +
+             (suspension.links[number.index].made ? fmt::format("_{}", number.point + 1) : "");
     case DesignKind::coupler_point:
       return coupler(fmt::format("point_{}", axes[number.axis]));
     case DesignKind::coupler_fraction:
@@ -144,6 +147,22 @@ std::string label(const Suspension& suspension, const DesignNumber& number) {
   return {};
 }
 
+Suspension as_built(const Suspension& suspension) {
+  LINKWRIGHT_REQUIRE(suspension.couplers.empty(), "{} couplers", suspension.couplers.size());
+  Suspension out = suspension;
+  for (CornerLink& link : out.links) {
+    if (link.type == LinkType::US || link.type == LinkType::SS)
+      link.length = link.length.value_or(norm(link.carrier[0] - link.body[0]));
+    if (link.type == LinkType::RS)
+      link.made = {norm(link.carrier[0] - link.body[0]), norm(link.carrier[0] - link.body[1])};
+    if (link.type == LinkType::SR)
+      link.made = {norm(link.carrier[0] - link.body[0]), norm(link.carrier[1] - link.body[0])};
+  }
+  for (Rocker& rocker : out.rockers)
+    rocker.length = rocker.length.value_or(norm(rocker.rod - rocker.driven_by.at));
+  return out;
+}
+
 std::vector<DesignNumber> hard_points(const Suspension& suspension) {
   std::vector<DesignNumber> out;
   const auto point = [&](DesignKind kind, int index, int which) {
@@ -154,6 +173,8 @@ std::vector<DesignNumber> hard_points(const Suspension& suspension) {
     for (int k = 0; k < static_cast<int>(link.body.size()); ++k) point(DesignKind::body, i, k);
     for (int k = 0; k < static_cast<int>(link.carrier.size()); ++k) point(DesignKind::carrier, i, k);
     if (link.length) out.push_back({DesignKind::length, i});
+    if (link.made)
+      for (const int which : {0, 1}) out.push_back({DesignKind::length, i, which});
   }
   for (int i = 0; i < static_cast<int>(suspension.couplers.size()); ++i) {
     point(DesignKind::coupler_point, i, 0);

@@ -29,7 +29,7 @@ enum class DesignKind {
 constexpr std::array<EnumName<DesignKind>, 14> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
-           {DesignKind::length, "length", "prescribed length of a US or SS link"},
+           {DesignKind::length, "length", "prescribed length of a link"},
            {DesignKind::coupler_point, "coupler_point", "coordinate of a coupler's point"},
            {DesignKind::coupler_fraction, "coupler_fraction", "where a coupler holds its first link"},
            {DesignKind::coupler_begin, "coupler_begin", "coordinate of a coupler's beginning off the line"},
@@ -48,7 +48,7 @@ struct DesignNumber {
   DesignKind kind = DesignKind::body;
   int index = 0;  ///< index of the link, coupler or rocker
   /// Index among the link's body or carrier points, or those of a rocker's axis; of a rod 0 is its end on the
-  /// part that drives the rocker, 1 that on the rocker.
+  /// part that drives the rocker, 1 that on the rocker. Of a length of an RS or SR link 0 or 1.
   int point = 0;
   int axis = 0;  ///< 0, 1, 2 = x, y, z
 
@@ -64,6 +64,11 @@ double design_value(const Suspension& suspension, const DesignNumber& number);
 /// The name in files and reports: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
 /// where there are two: "lower arm.body_2_z".
 std::string label(const Suspension& suspension, const DesignNumber& number);
+
+/// The suspension as it is made: every link and every rocker's rod keeps its lengths when points move, which
+/// are then numbers of the design. Throws ContractError if a coupler is on a US link, whose place depends on
+/// the length.
+Suspension as_built(const Suspension& suspension);
 
 /// All coordinates of the points of links, prescribed lengths, couplers, rockers and the spring, in the
 /// order of the suspension.

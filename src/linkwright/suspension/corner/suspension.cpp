@@ -85,6 +85,10 @@ void check_link(const Suspension& suspension, int index, CornerFindings& found) 
     else if (!(*link.length >= no_length) || !std::isfinite(*link.length))
       found.add(key, fmt::format("length {} m, needs a positive number", *link.length));
   }
+  if (link.made && link.type != LinkType::RS && link.type != LinkType::SR)
+    found.add(key, fmt::format("two lengths can be given to RS and SR links only, this is {}", type));
+  else if (link.made && !((*link.made)[0] >= no_length && (*link.made)[1] >= no_length))
+    found.add(key, fmt::format("lengths {} and {} m, need to be positive", (*link.made)[0], (*link.made)[1]));
 }
 
 /// A rocker whose axis, arm and rod are as they must be; the rod's far end by `check_point`.

@@ -62,6 +62,9 @@ struct BasicCornerLink {
   /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
   /// the rod off that line takes. Not given: level, and across the rod at the reference.
   std::optional<Vec3> cross_axis{};
+  /// Lengths of an RS or SR link as it is made (m), from its single point to both others, instead of the
+  /// distances of its points: the link then keeps them when a point moves.
+  std::optional<std::array<T, 2>> made{};
 };
 /// A link, in numbers.
 using CornerLink = BasicCornerLink<double>;

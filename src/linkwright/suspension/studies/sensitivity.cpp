@@ -76,6 +76,10 @@ Way solve_way(const CornerPlan& plan, const SensitivityInputs& inputs) {
   return out;
 }
 
+Suspension made_as(Parts parts, const Suspension& suspension) {
+  return parts == Parts::as_built ? as_built(suspension) : suspension;
+}
+
 }  // namespace
 
 void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form,
@@ -91,7 +95,13 @@ void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, co
     table->error("tolerance", "no point has a tolerance", "write tolerance_mm = 0.5");
   std::vector<study::ObjectReader> tables = table->tables("point");
   std::vector<std::string> known;
-  for (const DesignNumber& n : hard_points(suspension)) known.push_back(label(suspension, n));
+  if (form.parts == Parts::as_built && !suspension.couplers.empty()) {
+    table->error("parts", "a coupler is on a link of this suspension, whose place depends on the length",
+                 "take parts = \"as_drawn\"");
+    return;
+  }
+  const Suspension made = made_as(form.parts, suspension);
+  for (const DesignNumber& n : hard_points(made)) known.push_back(label(made, n));
   for (std::size_t i = 0; i < form.points.size() && i < tables.size(); ++i) {
     const std::string& asked = form.points[i].coordinate;
     if (std::any_of(known.begin(), known.end(),
@@ -163,14 +173,18 @@ void add_sensitivity(study::Result& result, const Suspension& suspension, const 
   for (Table& t : over_travel) result.tables.push_back(std::move(t));
 }
 
-void add_tolerances(study::Result& result, const Suspension& suspension, const TolerancesForm& form,
+void add_tolerances(study::Result& result, const Suspension& drawn, const TolerancesForm& form,
                     const SensitivityInputs& inputs, RunContext& context) {
+  const Suspension suspension = made_as(form.parts, drawn);
   ToleranceTask task{
       .suspension = suspension, .numbers = {}, .driver = inputs.travel, .inputs = {}, .curves = {}};
   std::vector<std::string> names;
   for (const DesignNumber& n : hard_points(suspension)) {
     const std::string name = label(suspension, n);
-    double tolerance = n.kind == DesignKind::coupler_fraction ? 0 : form.tolerance;
+    const bool coordinate = n.kind != DesignKind::coupler_fraction &&
+                            (form.parts == Parts::as_drawn ||
+                             (n.kind != DesignKind::length && n.kind != DesignKind::rocker_length));
+    double tolerance = coordinate ? form.tolerance : 0;
     for (const PointTolerance& p : form.points)
       if (name == p.coordinate || name.starts_with(p.coordinate + "_")) tolerance = p.tolerance;
     if (!(tolerance > 0)) continue;

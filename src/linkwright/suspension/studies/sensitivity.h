@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,13 +34,27 @@ struct PointTolerance {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PointTolerance& p) {
-  visit(field::entry("coordinate", "\"tie rod.body\" for all three, \"tie rod.body_z\" for one").required(),
+  visit(field::entry("coordinate",
+                     "\"tie rod.body\" for all three, \"tie rod.body_z\" for one; of parts as built also "
+                     "\"tie rod.length\"")
+            .required(),
         p.coordinate);
   visit(field::length("tolerance", "plus and minus").between(0, 1).required(), p.tolerance);
 }
 
+/// What stays as it is when a point moves within its tolerance.
+enum class Parts {
+  as_drawn,  ///< the wheel's place at the reference: links have the lengths between their points
+  as_built   ///< the lengths of the links: the wheel moves, and lengths have tolerances of their own
+};
+constexpr std::array<EnumName<Parts>, 2> names(Parts) {
+  return {{{Parts::as_drawn, "as_drawn", "links fit their points; the wheel stays in its place"},
+           {Parts::as_built, "as_built", "links and rods keep their lengths; the wheel moves"}}};
+}
+
 /// `[tolerances]`.
 struct TolerancesForm {
+  Parts parts = Parts::as_drawn;
   double tolerance = 0;
   std::vector<PointTolerance> points;
   std::vector<std::string> quantities;
@@ -47,6 +62,7 @@ struct TolerancesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, TolerancesForm& t) {
+  visit(field::entry("parts", "what stays as it is when a point moves"), t.parts);
   visit(field::length("tolerance",
                       "plus and minus, of every coordinate of every point that has none of its own")
             .between(0, 1),

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/suspension/studies/adjust.h"
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
@@ -71,6 +72,7 @@ struct SweepStudy {
   std::optional<CornerDescription> other_wheel;  ///< of the axle; none: the mirror image of the suspension
   std::optional<ComplianceForm> compliance;
   std::optional<PackagingForm> packaging;
+  std::optional<AdjustForm> adjust;
   std::optional<SensitivityForm> sensitivity;
   std::optional<TolerancesForm> tolerances;
 };

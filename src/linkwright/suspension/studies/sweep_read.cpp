@@ -166,12 +166,14 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(field::entry("axle"), s.axle);
   document(field::entry("compliance"), s.compliance);
   document(field::entry("packaging"), s.packaging);
+  document(field::entry("adjust"), s.adjust);
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
   if (description && ride) check_ride(document, s.ride, *description);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
   if (description && s.axle) complete_axle(document, *s.axle, description->suspension);
+  if (description && s.adjust) check_adjust(document, *s.adjust, description->suspension);
   if (description && s.packaging) check_packaging(document, *s.packaging, description->suspension);
   if (description && s.compliance) check_compliance(document, *s.compliance, *description);
   if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
@@ -188,6 +190,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   if (ride) canonical["ride"] = study::write_fields(s.ride);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.adjust) canonical["adjust"] = study::write_fields(*s.adjust);
   if (s.packaging) canonical["packaging"] = study::write_fields(*s.packaging);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
   if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
@@ -250,6 +253,8 @@ study::Kind sweep_kind() {
                       study::schema_fields<AxleForm>());
     document.property(field::entry("compliance", "elastic joints and loads"),
                       study::schema_fields<ComplianceForm>());
+    document.property(field::entry("adjust", "turns of adjusters that set toe, camber and caster"),
+                      study::schema_fields<AdjustForm>());
     document.property(field::entry("packaging", "angles of joints and half-shafts, clearances"),
                       study::schema_fields<PackagingForm>());
     document.property(field::entry("sensitivity", "derivatives of curves by the hard points"),

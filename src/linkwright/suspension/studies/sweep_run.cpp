@@ -427,6 +427,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                           ? Sentence()
                           : say(" (travel {})", length(grid.travel(middle))));
   }
+  if (s.adjust) add_adjustment(result, s.description.suspension, *s.adjust, s.travel, s.lock);
   if (s.packaging) add_packaging(result, s.description.suspension, plan, *s.packaging, grid.solved.positions);
   if (s.axle) {
     const AxleDescription both = axle_of(s.description, s.other_wheel);

@@ -35,6 +35,7 @@ BasicSuspension<T> constant(const Suspension& suspension) {
                          .moved_by_rack = link.moved_by_rack,
                          .cross_axis = link.cross_axis});
     if (link.length) out.links.back().length = T(*link.length);
+    if (link.made) out.links.back().made = {T((*link.made)[0]), T((*link.made)[1])};
   }
   for (const Coupler& coupler : suspension.couplers) {
     out.couplers.push_back({.first = coupler.first,

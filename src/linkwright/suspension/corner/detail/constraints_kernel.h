@@ -198,10 +198,12 @@ BasicCornerPlan<T> prepare(const BasicSuspension<T>& suspension) {
           link.standing_axis = standing_axis(from.cross_axis, from.carrier[0] - from.body[0]);
         break;
       case LinkType::RS:
-        for (int k = 0; k < 2; ++k) link.length[k] = norm(from.carrier[0] - from.body[k]);
+        for (int k = 0; k < 2; ++k)
+          link.length[k] = from.made ? (*from.made)[k] : norm(from.carrier[0] - from.body[k]);
         break;
       case LinkType::SR:
-        for (int k = 0; k < 2; ++k) link.length[k] = norm(from.carrier[k] - from.body[0]);
+        for (int k = 0; k < 2; ++k)
+          link.length[k] = from.made ? (*from.made)[k] : norm(from.carrier[k] - from.body[0]);
         break;
       case LinkType::SP:
         link.axis = unit(from.carrier[0] - from.body[0]);
