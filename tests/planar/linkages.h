@@ -53,6 +53,7 @@ inline double open_joints(const Linkage& l, const LinkagePlan& plan, const Linka
   for (const LinkageJoint& j : l.joints) {
     const PartState<double> a = body_state(plan, m, j.first.body), b = body_state(plan, m, j.second.body);
     const auto turned = [&](int body) { return angle_of(body_state(plan, m, body).direction); };
+    if (j.type == JointType::gear && j.curve) continue;
     if (j.type == JointType::gear) {
       const double carrier = turned(j.carrier);
       const double off =
@@ -62,6 +63,15 @@ inline double open_joints(const Linkage& l, const LinkagePlan& plan, const Linka
       continue;
     }
     const Vec<double> apart = place_of(l, plan, m, j.second) - place_of(l, plan, m, j.first);
+    if (j.type == JointType::rack) {
+      const Vec<double> along = rotate(b.direction, unit(j.slide_second));
+      const double turned_by = turned(j.first.body) - turned(j.second.body) - j.phase;
+      // Angles are known up to whole turns.
+      const double off = turned_by - dot(along, apart) / j.radius;
+      worst = std::max({worst, std::abs(cross(along, apart) + j.radius),
+                        std::abs(std::remainder(off, 2 * std::acos(-1.0)) * j.radius)});
+      continue;
+    }
     const Vec<double> along = rotate(a.direction, unit(j.slide_first)),
                       other = rotate(b.direction, unit(j.slide_second));
     if (j.type == JointType::revolute || j.type == JointType::fixed) worst = std::max(worst, norm(apart));
@@ -105,7 +115,7 @@ inline double unbalance(const Linkage& l, const LinkagePlan& plan, const Linkage
     for (std::size_t k = 0; k < l.joints.size(); ++k) {
       const LinkageJoint& j = l.joints[k];
       const JointReaction& r = f.joints[k];
-      if (j.type == JointType::gear && std::isfinite(r.tangential)) {
+      if (j.type == JointType::rack || (j.type == JointType::gear && std::isfinite(r.tangential))) {
         if (j.second.body == body) add(r.point, r.force, 0);
         if (j.first.body == body) add(r.point, -r.force, 0);
         continue;
@@ -118,6 +128,11 @@ inline double unbalance(const Linkage& l, const LinkagePlan& plan, const Linkage
       }
       if (j.second.body == body) add(r.point, r.force, r.moment);
       if (j.first.body == body) add(r.point, -r.force, -r.moment);
+    }
+    for (std::size_t k = 0; k < f.strands.size(); ++k) {
+      const JointReaction& r = f.strands[k];
+      if (plan.strands[k].second == body) add(r.point, r.force, 0);
+      if (plan.strands[k].first == body) add(r.point, -r.force, 0);
     }
     for (const AppliedLoad& load : f.loads)
       if (load.body == body) add(load.point, load.force, load.torque);

@@ -201,6 +201,29 @@ TEST(PlanAngles, TrainsPressTheirTeethAtThePitchPoints) {
   EXPECT_LE(unbalance(l, p, m, f), 1e-11);
 }
 
+// A loss in the mesh of the sun, whose power against the arm is less than that of the whole train.
+TEST(PlanAngles, EfficiencyOfATrainIsThatOfItsRollingPower) {
+  const Value& wanted = at(machine("gear-epicyclic-efficiency"), "computed");
+  for (const bool back : {false, true}) {
+    Linkage l = epicyclic(20, 30, 80, 0.002, "ring", {"sun"});
+    l.joints[index(joint_index(l, "sun and planet"))].efficiency = 0.98;
+    // The load turns against the arm, or with it.
+    l.torques.push_back({.name = "load", .body = body_index(l, "arm"), .torque = back ? 50.0 : -50.0});
+    without_mass(l);
+    const LinkagePlan p = planned(l);
+    LinkageMotion m(p);
+    const std::vector<InputMotion> in{{0.3, 1, 0}};
+    solve_motion(p, in, m);
+    LinkageForces f;
+    solve_forces(l, p, m, 0, 0, f);
+    ASSERT_EQ(f.status, Status::done);
+    const double arm = 50 * speed_of(l, p, m, "arm"), sun = std::abs(f.drives[0]);
+    EXPECT_NEAR(back ? sun / arm : arm / sun, number_at(wanted, back ? "carrier_to_sun" : "sun_to_carrier"),
+                1e-12);
+    EXPECT_LE(unbalance(l, p, m, f), 1e-11);
+  }
+}
+
 TEST(PlanAngles, TrainsMoveUnderForces) {
   const Value& wanted = at(machine("gear-epicyclic-dynamics"), "computed");
   Linkage l = epicyclic(20, 30, 80, 0.002, "ring", {"sun"});

@@ -186,9 +186,15 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
   LINKWRIGHT_REQUIRE(times.empty() || times.size() == forces.samples, "{} times for {} samples", times.size(),
                      forces.samples);
   for (const LinkageJoint& j : linkage.joints)
+    LINKWRIGHT_REQUIRE(j.efficiency == 1,
+                       "gear '{}' has losses, with which forces are not linear in the masses", j.name);
+  for (const LinkageJoint& j : linkage.joints)
     LINKWRIGHT_REQUIRE(j.friction == 0,
                        "joint '{}' has friction, with which forces are not linear in the masses", j.name);
 
+  for (const LinkageJoint& j : linkage.joints)
+    LINKWRIGHT_REQUIRE((j.type != JointType::rack && !j.curve) || j.pressure_angle == 0,
+                       "'{}' has a pressure angle, with which forces are not linear in the masses", j.name);
   for (const Group& g : plan.groups)
     for (const PlanGear& gear : g.gears)
       LINKWRIGHT_REQUIRE(!gear.mesh || gear.mesh->tangent == 0,

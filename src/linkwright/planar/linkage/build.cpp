@@ -186,6 +186,17 @@ int add_gear(Linkage& linkage, std::string name, std::string_view first, std::st
                              .carrier = body_named(linkage, carrier)});
 }
 
+int add_rack(Linkage& linkage, std::string name, std::string_view pinion, std::string_view rack,
+             double radius, double direction, double phase) {
+  return add_joint(linkage, {.name = std::move(name),
+                             .type = JointType::rack,
+                             .first = point_named(linkage, pinion),
+                             .second = point_named(linkage, rack),
+                             .slide_second = direction,
+                             .phase = phase,
+                             .radius = radius});
+}
+
 void add_drive(Linkage& linkage, std::string_view joint) {
   const int j = joint_index(linkage, joint);
   LINKWRIGHT_REQUIRE(j >= 0, "there is no joint '{}'", joint);

@@ -134,6 +134,20 @@ int add_weld(Linkage& linkage, std::string name, std::string_view first, std::st
 int add_gear(Linkage& linkage, std::string name, std::string_view first, std::string_view second,
              double ratio, double phase = 0, std::string_view carrier = "ground");
 
+/// Adds a rack and its pinion.
+///
+/// @param linkage the linkage that receives it
+/// @param name name of the joint
+/// @param pinion centre of the pinion, as "body.point"
+/// @param rack point of the pitch line, as "body.point"
+/// @param radius radius of the pinion (m), negative where its centre lies to the right of the direction
+/// @param direction direction of the pitch line in the frame of the rack (rad)
+/// @param phase angle of the pinion from the rack where its centre is beside the point of the rack (rad)
+/// @returns index of the joint
+/// @throws ContractError if there is no such body or point
+int add_rack(Linkage& linkage, std::string name, std::string_view pinion, std::string_view rack,
+             double radius, double direction = 0, double phase = 0);
+
 /// Drives a joint; the order of calls is the order of the inputs.
 ///
 /// @param linkage the linkage that has the joint

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/quantity.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/screw.h"
 
 namespace linkwright::planar {
 std::string group_key(std::string name) {
@@ -156,7 +158,9 @@ constexpr Row<Joint> joint_forces[] = {{"x", force, [](const Joint& j) { return 
 constexpr Row<Joint> tooth_forces[] = {
     {"tangential", force, [](const Joint& j) { return j.tangential; }, "along the teeth", true},
     {"separating", force, [](const Joint& j) { return j.separating; }, "that presses the wheels apart"},
-    {"tooth", force, [](const Joint& j) { return norm(j.force); }, "of the teeth"}};
+    {"tooth", force, [](const Joint& j) { return norm(j.force); }, "of the teeth"},
+    {"flank", none, [](const Joint& j) { return j.tangential < 0 ? -1.0 : 1.0; },
+     "flank that presses, 1 or -1 as the force along the teeth"}};
 constexpr Row<Joint> joint_moments[] = {
     {"moment", torque, [](const Joint& j) { return j.moment; }, "moment", true}};
 using Forces = LinkageForces;
@@ -203,6 +207,10 @@ void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, con
           out, rows, identifier(joint.name) + "_", joint.name + " ",
           [j](const LinkageInstant& i) -> const JointReaction& { return i.forces->joints[j]; }, pair);
     };
+    if (joint.type == JointType::rack) {
+      add_rows(column_rows::tooth_forces);
+      continue;
+    }
     if (joint.type != JointType::gear) {
       add_rows(column_rows::joint_forces);
       add_column(out, {identifier(joint.name), joint.name, Dimension::force},
@@ -213,10 +221,45 @@ void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, con
         return gear.joint == static_cast<int>(j) && gear.mesh;
       });
     };
-    if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes)) add_rows(column_rows::tooth_forces);
+    const auto meshes_curved = [j](const Group& g) {
+      return std::any_of(g.pairs.begin(), g.pairs.end(), [j](const PlanPair& pair) {
+        const auto* curve = std::get_if<CurvePair>(&pair.kind);
+        return curve && pair.joint == static_cast<int>(j) && curve->mesh;
+      });
+    };
+    if (std::any_of(plan.groups.begin(), plan.groups.end(), meshes) ||
+        std::any_of(plan.groups.begin(), plan.groups.end(), meshes_curved))
+      add_rows(column_rows::tooth_forces);
     if (joint.type == JointType::prismatic || joint.type == JointType::fixed || joint.type == JointType::gear)
       add_rows(column_rows::joint_moments);
   }
+  for (std::size_t s = 0; s < plan.strands.size(); ++s) {
+    const PlanStrand& strand = plan.strands[s];
+    const std::string &belt = l.belts[at(strand.belt)].name, &first = l.bodies[at(strand.first)].name,
+                      &second = l.bodies[at(strand.second)].name;
+    add_column(out,
+               {fmt::format("{}_{}_{}_tension", identifier(belt), identifier(first), identifier(second)),
+                fmt::format("{} tension from {} to {}", belt, first, second), Dimension::force},
+               [s](const LinkageInstant& i) { return i.forces->strands[s].tangential; });
+  }
+}
+
+void add_spindle_columns(std::vector<LinkageColumn>& out, const Screw& screw, const std::string& name,
+                         std::size_t input) {
+  const double turning = spindle_turning(screw);
+  const auto add = [&](const char* key, Dimension dimension, ColumnValue value) {
+    add_column(out,
+               {fmt::format("{}_spindle_{}", identifier(name), key), fmt::format("{} spindle {}", name, key),
+                dimension},
+               std::move(value));
+  };
+  add("angle", Dimension::angle, [=](const LinkageInstant& i) { return turning * i.inputs[input].value; });
+  add("speed", Dimension::speed_angular,
+      [=](const LinkageInstant& i) { return turning * i.inputs[input].rate; });
+  add("torque", Dimension::torque, [=](const LinkageInstant& i) {
+    const InputMotion& nut = i.inputs[input];
+    return spindle_torque(screw, i.forces->drives[input], nut.rate, nut.acceleration);
+  });
 }
 
 }  // namespace
@@ -272,6 +315,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
   if (q.drive)
     for (std::size_t k = 0; k < plan.inputs(); ++k) {
       const std::string& name = input_joint(l, k).name;
+      if (const auto& screw = input_joint(l, k).screw) add_spindle_columns(out, *screw, name, k);
       out.push_back({identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
                      fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
                      [k](const LinkageInstant& i) { return i.forces->drives[k]; }});

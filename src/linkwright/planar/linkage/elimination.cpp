@@ -28,12 +28,12 @@ Vec<double> point_of(const PlanJoint& j, const LinkageMotion& motion) {
 
 bool LinkageElimination::takes(const LinkagePlan& plan) {
   return std::none_of(plan.groups.begin(), plan.groups.end(),
-                      [](const Group& g) { return !g.gears.empty(); });
+                      [](const Group& g) { return !g.gears.empty() || !g.pairs.empty(); });
 }
 
 LinkageElimination::LinkageElimination(const LinkagePlan& plan, const std::vector<bool>& free)
     : plan_(plan), parts_(plan.parts.size()), joint_of_input_(plan.inputs()) {
-  LINKWRIGHT_REQUIRE(takes(plan), "the linkage has gears");
+  LINKWRIGHT_REQUIRE(takes(plan), "the linkage has gears, racks or belts");
   for (const Group& g : plan.groups)
     for (const PlanJoint& j : g.joints) {
       if (j.input >= 0) joint_of_input_[at(j.input)] = joints_.size();

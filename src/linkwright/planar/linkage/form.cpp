@@ -8,6 +8,8 @@
 #include <complex>
 #include <string_view>
 
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/belt_run.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {
@@ -55,8 +57,8 @@ class Names {
     const bool centre = body_index(l_, name) < 0 && name.find('.') != std::string::npos;
     return centre ? point(key, name) : BodyPoint{body(key, name), 0};
   }
-  void problem(const std::string& key, std::string message, std::string hint) {
-    problems_.push_back({list_, index_, key, std::move(message), std::move(hint)});
+  void problem(const std::string& key, std::string message, std::string hint, bool warning = false) {
+    problems_.push_back({list_, index_, key, std::move(message), std::move(hint), warning});
   }
 
  private:
@@ -112,6 +114,10 @@ double ratio_of(const JointForm& f, Names& names) {
   const InternalWheel internal = f.internal.value_or(InternalWheel::none);
   if (f.teeth && f.ratio)
     names.problem("ratio", fmt::format("gear '{}' has teeth and ratio", f.name), "leave one");
+  if (f.ratio_curve && (f.teeth || f.ratio))
+    names.problem("ratio_curve",
+                  fmt::format("gear '{}' has {} and a ratio curve", f.name, f.teeth ? "teeth" : "ratio"),
+                  "leave one");
   if (!f.teeth) {
     if (internal != InternalWheel::none)
       names.problem("internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
@@ -226,6 +232,17 @@ double working_angle(const Wheels& wheels, Names& names) {
             sum = f.internal.value_or(InternalWheel::none) == InternalWheel::none ? first + second
                                                                                   : std::abs(first - second);
   const double cosine = *f.module * sum / 2 * std::cos(angle) / *distance;
+  // Teeth are shifted by some percent of the distance, seldom by more.
+  constexpr double shifted = 0.05;
+  const double reference = *f.module * sum / 2;
+  if (cosine <= 1 && std::abs(*distance / reference - 1) > shifted)
+    names.problem(
+        "module_mm",
+        fmt::format("the centres of gear '{}' are {:.6g} mm apart, {:.3g} % off the {:.6g} mm of its "
+                    "teeth, which then press at {:.4g} deg",
+                    f.name, *distance * 1e3, std::abs(*distance / reference - 1) * 100, reference * 1e3,
+                    std::acos(cosine) * 180 / pi),
+        "check the numbers of teeth, the module and the centres", true);
   if (cosine <= 1) return std::acos(cosine);
   names.problem(
       "module_mm",
@@ -235,6 +252,126 @@ double working_angle(const Wheels& wheels, Names& names) {
           first, second, *f.module * 1e3, *f.module * sum / 2 * 1e3, *distance * 1e3),
       fmt::format("move the centres, or take module {:.3g}", 2e3 * *distance / sum));
   return angle;
+}
+
+// The radius of a pinion, with the side of the pitch line on which its centre lies; and its angle where it is
+// beside the point of the rack.
+void measure_rack(const Linkage& l, const JointForm& f, bool drawn, LinkageJoint& rack, Names& names) {
+  if (!drawn) {
+    if (!f.radius)
+      names.problem("radius_mm", fmt::format("the pinion of rack '{}' has no radius", f.name),
+                    "give it, negative where the centre lies to the right of the direction of the rack");
+    rack.radius = f.radius.value_or(1);
+    return;
+  }
+  const std::complex<double> apart =
+      (pin_place(l, rack.first) - pin_place(l, rack.second)) * std::polar(1.0, -rack.slide_second);
+  rack.radius = apart.imag();
+  if (f.radius && std::abs(std::abs(*f.radius) - std::abs(apart.imag())) > 1e-6 * std::abs(*f.radius))
+    names.problem(
+        "radius_mm",
+        fmt::format("the pinion of rack '{}' has a radius of {:.6g} mm and is drawn {:.6g} mm from the "
+                    "pitch line",
+                    f.name, std::abs(*f.radius) * 1e3, std::abs(apart.imag()) * 1e3),
+        "move the point of the rack or the pinion, or leave the radius out");
+  if (apart.imag() != 0) rack.phase += apart.real() / apart.imag();
+}
+
+// The centres of the wheels of a belt on a body that carries all of them; empty where it does not.
+std::vector<std::complex<double>> centres_on(const Linkage& l, const std::vector<PinAxis>& axes,
+                                             const Belt& belt, int body) {
+  std::vector<std::complex<double>> out;
+  for (const BeltWheel& wheel : belt.wheels)
+    for (const PinAxis& axis : axes) {
+      const BodyPoint *own = axis.on(wheel.centre.body), *there = axis.on(body);
+      if (body == wheel.centre.body || !own || !there || !same_pin_place(l, *own, wheel.centre)) continue;
+      out.push_back(pin_place(l, *there));
+      break;
+    }
+  if (out.size() != belt.wheels.size()) out.clear();
+  return out;
+}
+
+std::vector<double> signed_radii(const Belt& belt) {
+  std::vector<double> out;
+  for (const BeltWheel& wheel : belt.wheels) out.push_back(wheel.side * wheel.radius);
+  return out;
+}
+
+// A closed belt runs round its wheels once: left of it where they are listed counter-clockwise, else right.
+void orient(Belt& belt, const std::vector<std::complex<double>>& centres) {
+  if (!belt.closed || belt.wheels.size() < 3) return;
+  const auto once = [&] { return std::abs(belt_run(centres, signed_radii(belt), true).turns); };
+  const auto turn_over = [&] {
+    for (BeltWheel& wheel : belt.wheels) wheel.side = -wheel.side;
+  };
+  if (std::abs(once() - 1) < 1e-6) return;
+  turn_over();
+  if (std::abs(once() - 1) > 1e-6) turn_over();
+}
+
+void check_run(const BeltForm& f, const Belt& belt, const std::vector<std::complex<double>>& centres,
+               Names& names) {
+  const std::size_t n = belt.wheels.size();
+  const std::vector<double> radii = signed_radii(belt);
+  for (std::size_t i = 0; i + (belt.closed ? 0 : 1) < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    const double distance = std::abs(centres[next] - centres[i]);
+    if (distance > std::abs(radii[next] - radii[i])) continue;
+    return names.problem(
+        "wheels",
+        fmt::format("wheels of belt '{}' overlap: distance {:.6g} mm, radii {:.6g} and {:.6g} "
+                    "mm",
+                    f.name, distance * 1e3, std::abs(radii[i]) * 1e3, std::abs(radii[next]) * 1e3),
+        "move them apart; crossed belts need more than the sum");
+  }
+  const double length = belt_run(centres, radii, belt.closed).length;
+  if (f.length && std::abs(*f.length - length) > 1e-6 * length)
+    names.problem("length_mm",
+                  fmt::format("belt '{}' is {:.7g} mm long over its wheels, not {:.7g} mm", f.name,
+                              length * 1e3, *f.length * 1e3),
+                  "move a wheel, or leave the length out");
+}
+
+Belt belt_of(const BeltForm& f, Names& names) {
+  Belt belt{.name = f.name, .closed = f.closed, .tension = f.tension};
+  for (const BeltWheelForm& w : f.wheels) {
+    BeltWheel wheel{names.point("wheels", w.at), w.radius, w.side == BeltSide::inside ? 1.0 : -1.0};
+    if (w.teeth && !f.pitch)
+      names.problem("wheels", fmt::format("belt '{}' has teeth but no pitch", f.name),
+                    "give the pitch of the chain, or radii");
+    else if (w.teeth)
+      wheel.radius = *f.pitch / (2 * std::sin(pi / *w.teeth));
+    belt.wheels.push_back(wheel);
+  }
+  if (belt.wheels.size() < 2)
+    names.problem("wheels", fmt::format("belt '{}' has {} wheels", f.name, belt.wheels.size()),
+                  "it runs over two or more");
+  if (f.carrier) belt.carrier = names.body("carrier", *f.carrier);
+  return belt;
+}
+
+// Finds the body that carries a closed belt, the direction in which it runs, and checks its way.
+void complete_belt(const Linkage& l, const BeltForm& f, bool drawn, Belt& belt, Names& names) {
+  const std::vector<PinAxis> axes = axes_of(l);
+  std::vector<std::complex<double>> centres;
+  for (int body = 0; body < static_cast<int>(l.bodies.size()) && belt.closed && belt.carrier < 0; ++body)
+    if (!centres_on(l, axes, belt, body).empty()) belt.carrier = body;
+  if (belt.carrier >= 0) {
+    centres = centres_on(l, axes, belt, belt.carrier);
+    if (centres.empty())
+      return names.problem("carrier",
+                           fmt::format("'{}' does not carry all wheels of belt '{}'", *f.carrier, f.name),
+                           "join each wheel to it by a pin at its centre");
+  } else if (drawn) {
+    for (const BeltWheel& wheel : belt.wheels) centres.push_back(pin_place(l, wheel.centre));
+  }
+  if (belt.tension && belt.carrier < 0)
+    names.problem("tension_N", fmt::format("the tension of '{}' follows from its loads", f.name),
+                  "leave it out: only a closed belt on one carrier has a tension of its own");
+  if (centres.empty()) return;
+  orient(belt, centres);
+  check_run(f, belt, centres, names);
 }
 
 }  // namespace
@@ -259,24 +396,51 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
       j.ratio = ratio_of(f, names);
       if (f.carrier) j.carrier = names.body("carrier", *f.carrier);
       if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
+      if (f.ratio_curve) j.curve = RatioCurve{f.ratio_curve->first, f.ratio_curve->second};
+      j.efficiency = f.efficiency.value_or(1);
     } else {
       j.first = names.point("first", f.first);
       j.second = names.point("second", f.second);
     }
+    if (f.type == JointType::screw) {
+      if (!f.lead)
+        names.problem("lead_mm", fmt::format("screw '{}' has no lead", f.name),
+                      "give the displacement for one turn of the spindle");
+      j.type = JointType::prismatic;
+      j.screw = Screw{f.lead.value_or(1),
+                      f.pitch_diameter.value_or(0),
+                      f.friction,
+                      f.flank_angle.value_or(pi / 3),
+                      f.spindle_inertia.value_or(0),
+                      f.hand == ThreadHand::left};
+    }
     j.slide_first = f.direction;
     j.slide_second =
-        f.direction_second.value_or(form.drawn && (f.type == JointType::prismatic) ? f.direction : 0.0);
+        f.direction_second.value_or(form.drawn && (j.type == JointType::prismatic) ? f.direction : 0.0);
     j.phase = f.phase;
-    j.friction = f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
+    if (f.type == JointType::rack) {
+      j.slide_first = 0, j.slide_second = f.direction;
+      if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
+    }
+    j.friction = j.screw ? 0 : f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
     l.joints.push_back(std::move(j));
   }
   const bool pins_known = problems.empty();
   for (std::size_t i = 0; i < form.joints.size() && pins_known; ++i) {
-    if (form.joints[i].type != JointType::gear) continue;
     names.at("joint", i);
+    if (form.joints[i].type == JointType::rack)
+      measure_rack(l, form.joints[i], form.drawn, l.joints[i], names);
+    if (form.joints[i].type != JointType::gear) continue;
     const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
     if (!form.joints[i].carrier) l.joints[i].carrier = carrier_of(wheels, names);
     l.joints[i].pressure_angle = working_angle(wheels, names);
+  }
+  for (std::size_t i = 0; i < form.belts.size() && pins_known; ++i) {
+    names.at("belt", i);
+    const std::size_t before = problems.size();
+    Belt belt = belt_of(form.belts[i], names);
+    if (problems.size() == before) complete_belt(l, form.belts[i], form.drawn, belt, names);
+    l.belts.push_back(std::move(belt));
   }
   for (std::size_t i = 0; i < form.assembly.size(); ++i) {
     const AssemblyForm& a = form.assembly[i];
@@ -338,11 +502,22 @@ LinkageForm form_of(const Linkage& l) {
     const bool gear = j.type == JointType::gear;
     f.first = gear ? body(j.first.body) : point(j.first);
     f.second = gear ? body(j.second.body) : point(j.second);
-    f.direction = j.slide_first;
+    f.direction = j.type == JointType::rack ? j.slide_second : j.slide_first;
     if (j.type == JointType::prismatic || j.type == JointType::fixed) f.direction_second = j.slide_second;
     f.phase = j.phase;
     if (gear) f.ratio = j.ratio, f.carrier = body(j.carrier), f.pressure_angle = j.pressure_angle;
-    f.friction = j.friction, f.pin_radius = j.pin_radius, f.guide_length = j.guide_length;
+    if (j.efficiency < 1) f.efficiency = j.efficiency;
+    if (j.curve) f.ratio_curve = RatioCurveForm{j.curve->first, j.curve->second}, f.ratio.reset();
+    if (j.type == JointType::rack) f.radius = j.radius, f.pressure_angle = j.pressure_angle;
+    if (j.screw) {
+      const Screw& s = *j.screw;
+      f.type = JointType::screw;
+      f.lead = s.lead, f.flank_angle = s.flank_angle, f.spindle_inertia = s.spindle_inertia;
+      if (s.pitch_diameter > 0) f.pitch_diameter = s.pitch_diameter;
+      f.hand = s.left_hand ? ThreadHand::left : ThreadHand::right;
+    }
+    f.friction = j.screw ? j.screw->friction : j.friction, f.pin_radius = j.pin_radius,
+    f.guide_length = j.guide_length;
     form.joints.push_back(std::move(f));
   }
   for (const DyadMode& m : l.modes) form.assembly.push_back({{body(m.first), body(m.second)}, m.mode});
@@ -355,6 +530,13 @@ LinkageForm form_of(const Linkage& l) {
     form.forces.push_back({f.name, point(f.point), place(f.force), f.turns_with_body, form_of(f.factor)});
   for (const BodyTorque& t : l.torques)
     form.torques.push_back({t.name, body(t.body), body(t.from), t.torque, form_of(t.factor)});
+  for (const Belt& b : l.belts) {
+    BeltForm f{.name = b.name, .closed = b.closed, .tension = b.tension};
+    for (const BeltWheel& w : b.wheels)
+      f.wheels.push_back({point(w.centre), w.radius, w.side > 0 ? BeltSide::inside : BeltSide::outside, {}});
+    if (b.carrier >= 0) f.carrier = body(b.carrier);
+    form.belts.push_back(std::move(f));
+  }
   return form;
 }
 

@@ -45,6 +45,18 @@ constexpr std::array<EnumName<InternalWheel>, 3> names(InternalWheel) {
            {InternalWheel::first, "first", "the first wheel is a ring with its teeth inside"},
            {InternalWheel::second, "second", "the second wheel is a ring with its teeth inside"}}};
 }
+/// The hand of a thread.
+enum class ThreadHand {
+  right,  ///< a positive turn moves the nut forward
+  left    ///< a positive turn moves the nut backward
+};
+constexpr std::array<EnumName<ThreadHand>, 2> names(ThreadHand) {
+  return {{{ThreadHand::right, "right", "a positive turn moves the nut forward"},
+           {ThreadHand::left, "left", "a positive turn moves the nut backward"}}};
+}
+struct RatioCurveForm {
+  std::vector<double> first, second;
+};
 struct JointForm {
   std::string name;
   JointType type = JointType::revolute;
@@ -58,7 +70,34 @@ struct JointForm {
   double phase = 0;
   std::optional<std::string> carrier;
   std::optional<double> pressure_angle;
+  std::optional<double> radius;
+  std::optional<double> efficiency;
+  std::optional<RatioCurveForm> ratio_curve;
+  std::optional<double> lead, pitch_diameter, flank_angle, spindle_inertia;
+  std::optional<ThreadHand> hand;
   double friction = 0, pin_radius = 0, guide_length = 0;
+};
+/// The side of a belt on which a wheel lies.
+enum class BeltSide {
+  inside,  ///< within a closed belt, or to the left of a rope as it runs
+  outside  ///< the back of the belt runs over it, or to the right of a rope
+};
+constexpr std::array<EnumName<BeltSide>, 2> names(BeltSide) {
+  return {{{BeltSide::inside, "inside", "within a closed belt, or to the left of a rope as it runs"},
+           {BeltSide::outside, "outside", "the back of the belt runs over it, or to the right of a rope"}}};
+}
+struct BeltWheelForm {
+  std::string at;
+  double radius = 0;
+  BeltSide side = BeltSide::inside;
+  std::optional<int> teeth;
+};
+struct BeltForm {
+  std::string name;
+  std::vector<BeltWheelForm> wheels;
+  bool closed = true;
+  std::optional<double> tension, length, pitch;
+  std::optional<std::string> carrier;
 };
 struct AssemblyForm {
   std::vector<std::string> bodies;
@@ -100,6 +139,7 @@ struct LinkageForm {
   std::vector<TorsionSpringForm> torsion_springs;
   std::vector<ForceForm> forces;
   std::vector<TorqueForm> torques;
+  std::vector<BeltForm> belts;
 };
 
 /// A problem of one entry of a form: list "joint", its index, the key in it.
@@ -108,6 +148,7 @@ struct FormProblem {
   std::size_t index = 0;
   std::string key;
   std::string message, hint;
+  bool warning = false;  ///< the study can be run
 };
 
 /// The model; names that do not exist become problems. Masses: a missing `inertia` or `centre` is that of a
@@ -147,17 +188,30 @@ void fields(Visitor&& visit, BodyForm& b) {
   visit(field::entry("start", "approximate position of the body at the start"), b.start);
 }
 template <class Visitor>
+void fields(Visitor&& visit, RatioCurveForm& c) {
+  visit(field::angle("first", "rising angles of the first wheel from the carrier, over a turn or a sector")
+            .required(),
+        c.first);
+  visit(field::angle("second", "angles of the second wheel there, all rising or all falling").required(),
+        c.second);
+}
+template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {
   visit(field::entry("name", "its name; columns and drives use it").required(), j.name);
   visit(field::entry("type", "kind of joint"), j.type);
-  visit(field::entry("first", "point of the first body, \"body.point\"; of a gear the wheel or its centre")
+  visit(field::entry("first",
+                     "point of the first body, \"body.point\"; of a gear the wheel or its "
+                     "centre, of a rack the centre of the pinion")
             .required(),
         j.first);
-  visit(field::entry("second", "point of the second body; of a gear the wheel or its centre").required(),
+  visit(field::entry("second",
+                     "point of the second body; of a gear the wheel or its centre, of a rack a point of its "
+                     "pitch line")
+            .required(),
         j.second);
   visit(field::angle("direction",
                      "direction of a slide or slot in the frame of the first body; of a weld the angle of "
-                     "the second body from the first"),
+                     "the second body from the first; of a rack its pitch line in the frame of the second"),
         j.direction);
   visit(field::angle(
             "direction_second",
@@ -176,18 +230,72 @@ void fields(Visitor&& visit, JointForm& j) {
                       "angle at which they work")
             .positive(),
         j.module);
-  visit(field::angle("phase", "gear: angle of the second body when that of the first is 0"), j.phase);
+  visit(field::angle("phase",
+                     "gear: angle of the second body when that of the first is 0; rack: angle of the pinion "
+                     "from the rack when its centre is beside the point of the rack"),
+        j.phase);
   visit(field::entry("carrier",
                      "gear: body that carries both axes; if absent the one that both wheels "
                      "have pins on"),
         j.carrier);
-  visit(field::angle("pressure_angle", "gear: of its teeth, which press their wheels apart; if absent 20 deg")
+  visit(field::length("radius",
+                      "rack: radius of the pinion, negative where its centre lies to the right of the pitch "
+                      "line; if absent that of a drawn linkage"),
+        j.radius);
+  visit(field::angle("pressure_angle",
+                     "gear, rack: of its teeth, which press their wheels apart; if absent 20 deg")
             .between(0, 0.8),
         j.pressure_angle);
-  visit(field::entry("friction", "coefficient of Coulomb friction").between(0, 10), j.friction);
+  visit(
+      field::entry("efficiency",
+                   "gear: share of the rolling power, seen from the carrier, that the driven wheel gets; if "
+                   "absent 1")
+          .between(0.01, 1),
+      j.efficiency);
+  visit(field::entry("ratio_curve",
+                     "gear of wheels that are not circular: angles of both, instead of `ratio` or `teeth`"),
+        j.ratio_curve);
+  visit(field::length("lead", "screw: displacement for one turn of the spindle").positive(), j.lead);
+  visit(field::length("pitch_diameter", "screw: pitch diameter of the thread, for its friction").positive(),
+        j.pitch_diameter);
+  visit(field::angle("flank_angle", "screw: whole angle between the flanks of the thread; if absent 60 deg")
+            .between(0, 3),
+        j.flank_angle);
+  visit(field::inertia("spindle_inertia", "screw: moment of inertia of what turns with the spindle")
+            .not_negative(),
+        j.spindle_inertia);
+  visit(field::entry("hand", "screw: hand of the thread; if absent right"), j.hand);
+  visit(field::entry("friction", "coefficient of Coulomb friction; of a screw that of its thread")
+            .between(0, 10),
+        j.friction);
   visit(field::length("pin_radius", "radius of the pin, for its friction").not_negative(), j.pin_radius);
   visit(field::length("guide_length", "length of the slide, for the friction of its moment").not_negative(),
         j.guide_length);
+}
+template <class Visitor>
+void fields(Visitor&& visit, BeltWheelForm& w) {
+  visit(field::entry("at", "centre of the wheel on its own body, \"body.point\"").required(), w.at);
+  visit(field::length("radius", "radius on which the belt runs; 0 of an end of a rope").not_negative(),
+        w.radius);
+  visit(field::entry("side", "side of the belt on which the wheel lies"), w.side);
+  visit(field::entry("teeth", "teeth of a wheel of a chain with `pitch`, instead of `radius`").at_least(3),
+        w.teeth);
+}
+template <class Visitor>
+void fields(Visitor&& visit, BeltForm& b) {
+  visit(field::entry("name", "its name; columns use it").required(), b.name);
+  visit(field::entry("wheels", "its wheels in the order in which it runs; a rope begins and ends with one")
+            .required(),
+        b.wheels);
+  visit(field::entry("closed", "it runs back to the first wheel; false: a rope"), b.closed);
+  visit(field::force("tension", "closed belt on one carrier: mean tension of its strands").not_negative(),
+        b.tension);
+  visit(field::length("length", "its length, which is checked").positive(), b.length);
+  visit(field::length("pitch", "chain: pitch, for wheels that give `teeth`").positive(), b.pitch);
+  visit(field::entry("carrier",
+                     "closed belt: body that carries the axes of all wheels; if absent the one on which all "
+                     "wheels have pins"),
+        b.carrier);
 }
 template <class Visitor>
 void fields(Visitor&& visit, AssemblyForm& a) {
@@ -255,6 +363,7 @@ void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("torsion_spring", "springs and dampers that turn two bodies"), l.torsion_springs);
   visit(field::entry("force", "forces on points"), l.forces);
   visit(field::entry("torque", "torques on bodies"), l.torques);
+  visit(field::entry("belt", "belts, chains and ropes"), l.belts);
 }
 
 }  // namespace linkwright::planar

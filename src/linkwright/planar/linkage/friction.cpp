@@ -13,9 +13,12 @@ namespace {
 
 double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
-// The load that the friction of a joint is proportional to, times its coefficient: N m of a pin, N of a
-// slide.
-double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<double>& along) {
+// The load that the friction of a joint is proportional to, times its coefficient: N m of a pin or gear,
+// N of a slide.
+double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<double>& along, double sense) {
+  // The second wheel gets the share of what the first one gives, or gives more than the first one gets.
+  if (j.type == JointType::gear)
+    return std::abs(r.moment) * (r.moment * sense > 0 ? 1 - j.efficiency : 1 / j.efficiency - 1);
   if (j.type == JointType::revolute) return j.friction * j.pin_radius * norm(r.force);
   const double normal = cross(along, r.force);
   if (j.guide_length > 0)
@@ -24,7 +27,7 @@ double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<do
   return j.friction * std::abs(normal);
 }
 
-// Joints with friction that slide, in which sense.
+// Joints with friction that slide, and gears with losses that turn, in which sense.
 struct Sliding {
   std::size_t joint;
   double sense;
@@ -38,7 +41,12 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
   std::vector<Sliding> out;
   for (std::size_t k = 0; k < l.joints.size(); ++k) {
     const LinkageJoint& j = l.joints[k];
-    if (j.friction == 0) continue;
+    if (!loses_power(j) || std::isnan(joints[k].moment)) continue;
+    if (j.type == JointType::gear) {
+      const Sliding s{k, sign_of(part_of(j.second.body).speed - part_of(j.carrier).speed), {0, 0}};
+      if (s.sense != 0) out.push_back(s);
+      continue;
+    }
     const PartState<double>&first = part_of(j.first.body), &second = part_of(j.second.body);
     Sliding s{k, sign_of(second.speed - first.speed), {0, 0}};
     if (j.type != JointType::revolute) {
@@ -53,10 +61,10 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
 // Friction of given size, as loads on both bodies.
 void friction_load(const LinkageJoint& j, const Sliding& s, const Vec<double>& point, double size,
                    std::vector<AppliedLoad>& loads) {
-  if (j.type == JointType::revolute) {
+  if (j.type == JointType::revolute || j.type == JointType::gear) {
     const double torque = -size * s.sense;
     loads.push_back({j.second.body, point, {0, 0}, torque});
-    loads.push_back({j.first.body, point, {0, 0}, -torque});
+    loads.push_back({j.type == JointType::gear ? j.carrier : j.first.body, point, {0, 0}, -torque});
   } else {
     const Vec<double> force = (-size * s.sense) * s.along;
     loads.push_back({j.second.body, point, force, 0});
@@ -114,7 +122,7 @@ class Frictions {
       r.force = r.force + z[i] * unit_[i][joint].force;
       r.moment += z[i] * unit_[i][joint].moment;
     }
-    return friction_size(l_.joints[joint], r, sliding_[k].along);
+    return friction_size(l_.joints[joint], r, sliding_[k].along, sliding_[k].sense);
   }
   double largest(const std::vector<double>& z) const {
     double out = measure_;

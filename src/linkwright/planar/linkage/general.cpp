@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/linkage/detail/joint_rows.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 
 namespace linkwright::planar {
 
@@ -33,6 +35,11 @@ struct GeneralGroupMemory {
 };
 
 namespace {
+
+// The equation of a pair at the present places; its derivatives do not depend on the turns of the parts.
+PairRow row_now(const PlanPair& pair, const LinkageMotion& motion) {
+  return pair_row(pair, motion.parts, [&](int part) { return angle_of(motion.parts[at(part)].direction); });
+}
 
 // Fills the rows of the Jacobian; columns of the angles are divided by `size`, those of angle rows too, so
 // that all entries are of the same order.
@@ -59,6 +66,17 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
     for_angles(gear, [&](int part, double share) {
       if (m.column[at(part)] >= 0) m.jacobian(row, m.column[at(part)] + 2) += share;
     });
+    ++row;
+  }
+  for (const PlanPair& pair : g.pairs) {
+    const PairRow r = row_now(pair, motion);
+    for (const PairShare& s : r.shares) {
+      const int c = m.column[at(s.part)];
+      if (c < 0) continue;
+      m.jacobian(row, c) += s.force.x;
+      m.jacobian(row, c + 1) += s.force.y;
+      m.jacobian(row, c + 2) += s.moment / plan.size;
+    }
     ++row;
   }
 }
@@ -142,6 +160,15 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     }
     for (const PlanGear& gear : g.gears)
       m.residual[row++] = angle_residual(gear.angle, gear.part, inputs, motion.parts) * plan.size;
+    for (const PlanPair& pair : g.pairs) {
+      const PairRow r = pair_row(pair, motion.parts, [&](int part) {
+        return pair_angle(plan, inputs, motion.parts, motion.loop_angles, part);
+      });
+      m.residual[row++] = less_turns(r, [&](int part) {
+        const auto& turned = plan.turned[at(part)];
+        return m.column[at(part)] >= 0 && !(turned && turned->shares.empty());
+      });
+    }
     largest = m.residual.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) break;
     if (!(small_step && largest > rounding && largest < 0.1 * last)) factorise(plan, g, motion, m);
@@ -204,6 +231,13 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
     });
     m.residual[row++] = -known * plan.size;
   }
+  for (const PlanPair& pair : g.pairs) {
+    double known = 0;
+    for (const PairShare& s : row_now(pair, motion).shares)
+      if (m.column[at(s.part)] < 0)
+        known += dot(s.force, motion.parts[at(s.part)].velocity) + s.moment * motion.parts[at(s.part)].speed;
+    m.residual[row++] = -known;
+  }
   m.solution = m.factors.solve(m.residual);
   for (int p : g.parts) {
     const int c = m.column[at(p)];
@@ -251,6 +285,15 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
     });
     m.residual[row++] = -known * plan.size;
   }
+  for (const PlanPair& pair : g.pairs) {
+    const PairRow r = row_now(pair, motion);
+    double known = r.remainder;
+    for (const PairShare& s : r.shares)
+      if (m.column[at(s.part)] < 0)
+        known += dot(s.force, motion.parts[at(s.part)].acceleration) +
+                 s.moment * motion.parts[at(s.part)].angular_acceleration;
+    m.residual[row++] = -known;
+  }
   m.solution = m.factors.solve(m.residual);
   for (int p : g.parts) {
     const int c = m.column[at(p)];
@@ -278,6 +321,41 @@ JointReaction mesh_force(const GearMesh& mesh, const LinkageMotion& motion, doub
   return out;
 }
 
+// The load of a strand that pulls its second wheel back with `tension`. It acts on the first one along the
+// same line.
+JointReaction strand_force(const StrandPair& strand, const LinkageMotion& motion, double tension) {
+  const StrandLine line = strand_line(strand, motion.parts);
+  return {line.second, -tension * line.along, 0, tension, 0};
+}
+// The load of wheels that are not circular, which turns the second one with `torque`; their radii change.
+JointReaction curve_force(const CurvePair& pair, const LinkageMotion& motion, double torque, double ratio) {
+  if (!pair.mesh || std::abs(1 - ratio) < tolerance::feasibility)
+    return {motion.parts[at(pair.second)].origin, {0, 0}, torque, nan, nan};
+  GearMesh mesh = *pair.mesh;
+  const double distance = mesh.second_radius;
+  mesh.first_radius = -ratio / (1 - ratio) * distance;
+  mesh.second_radius = distance / (1 - ratio);
+  return mesh_force(mesh, motion, torque);
+}
+// The load of a pair on its second part: teeth, or a strand.
+JointReaction pair_force(const PlanPair& pair, const LinkageMotion& motion, double multiplier) {
+  if (const auto* curve = std::get_if<CurvePair>(&pair.kind)) {
+    const PairRow row = row_now(pair, motion);
+    return curve_force(*curve, motion, multiplier * curve->scale, -row.shares[0].turning / curve->scale);
+  }
+  if (const auto* strand = std::get_if<StrandPair>(&pair.kind))
+    return strand_force(*strand, motion, multiplier);
+  const RackPair& rack = std::get<RackPair>(pair.kind);
+  const Vec<double> along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction),
+                    left = perpendicular(along);
+  JointReaction out;
+  out.point = point_on(motion.parts[at(rack.pinion.part)], rack.pinion.at) - rack.radius * left;
+  out.tangential = -multiplier;
+  out.separating = std::abs(multiplier) * rack.tangent;
+  out.force = out.tangential * along + (rack.radius > 0 ? -out.separating : out.separating) * left;
+  return out;
+}
+
 // The multipliers of all equations, from what the parts of the group need.
 void solve_multipliers(const Group& g, double size, std::span<const Wrench<double>> needed,
                        GeneralGroupMemory& m) {
@@ -299,21 +377,48 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
   solve_multipliers(g, plan.size, needed, m);
   // The torques of the gears are right already. Forces of teeth do the same work as these torques in every
   // motion, so that they change only the forces of the pins.
-  const Index first_gear = m.solution.size() - static_cast<Index>(g.gears.size());
+  const Index first_pair = m.solution.size() - static_cast<Index>(g.pairs.size());
+  const Index first_gear = first_pair - static_cast<Index>(g.gears.size());
   bool teeth = false;
+  const auto press = [&](const JointReaction& load, int first, int second) {
+    for (const auto& [part, side] : {std::pair{second, 1.0}, {first, -1.0}})
+      needed[at(part)] = needed[at(part)] - shifted(Wrench<double>{side * load.force, 0},
+                                                    load.point - motion.parts[at(part)].origin);
+    teeth = true;
+  };
   for (std::size_t k = 0; k < g.gears.size(); ++k) {
     const PlanGear& gear = g.gears[k];
     const double torque = m.solution[first_gear + static_cast<Index>(k)] * plan.size;
     gears[k] = {motion.parts[at(gear.part)].origin, {0, 0}, torque, nan, nan};
-    if (!gear.mesh) continue;
-    teeth = true;
-    gears[k] = mesh_force(*gear.mesh, motion, torque);
-    for (const auto& [part, side] : {std::pair{gear.mesh->second.part, 1.0}, {gear.mesh->first.part, -1.0}}) {
-      Wrench<double>& n = needed[at(part)];
-      n = n -
-          shifted(Wrench<double>{side * gears[k].force, 0}, gears[k].point - motion.parts[at(part)].origin);
+    if (gear.strand >= 0) {
+      const StrandPair& run = plan.strands[at(gear.strand)].run;
+      gears[k] = strand_force(run, motion, -torque / run.second_radius);
+      press(gears[k], run.first.part, run.second.part);
+    } else if (gear.mesh) {
+      gears[k] = mesh_force(*gear.mesh, motion, torque);
+      press(gears[k], gear.mesh->first.part, gear.mesh->second.part);
+    } else {
+      continue;
     }
     for_angles(gear, [&](int part, double share) { needed[at(part)].moment += share * torque; });
+  }
+  // A pair carries its own force already, but for what presses pinion and rack apart.
+  for (std::size_t k = 0; k < g.pairs.size(); ++k) {
+    JointReaction& load = gears[g.gears.size() + k];
+    const double multiplier = m.solution[first_pair + static_cast<Index>(k)];
+    load = pair_force(g.pairs[k], motion, multiplier);
+    if (const auto* curve = std::get_if<CurvePair>(&g.pairs[k].kind)) {
+      if (std::isnan(load.tangential)) continue;
+      press(load, curve->mesh->first.part, curve->mesh->second.part);
+      for (const PairShare& s : row_now(g.pairs[k], motion).shares)
+        needed[at(s.part)].moment += s.moment * multiplier;
+    }
+    if (!std::holds_alternative<RackPair>(g.pairs[k].kind) || !(load.separating > 0)) continue;
+    const RackPair& rack = std::get<RackPair>(g.pairs[k].kind);
+    JointReaction apart = load;
+    const Vec<double> along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction);
+    apart.force = load.force - load.tangential * along;
+    press(apart, rack.pinion.part, rack.rack.part);
   }
   if (teeth) solve_multipliers(g, plan.size, needed, m);
   Index row = 0;
@@ -343,6 +448,14 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
       if (m.column[at(part)] < 0)
         needed[at(part)].moment -= share * m.solution[first_gear + static_cast<Index>(k)] * plan.size;
     });
+  for (std::size_t k = 0; k < g.pairs.size(); ++k) {
+    const double multiplier = m.solution[first_pair + static_cast<Index>(k)];
+    for (const PairShare& s : row_now(g.pairs[k], motion).shares)
+      if (m.column[at(s.part)] < 0) {
+        needed[at(s.part)].force = needed[at(s.part)].force - multiplier * s.force;
+        needed[at(s.part)].moment -= multiplier * s.moment;
+      }
+  }
 }
 
 }  // namespace linkwright::planar

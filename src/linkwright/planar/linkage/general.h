@@ -31,7 +31,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& group, std::span
 
 /// Joint wrenches of the group, of the part before on the part after, about the point of the part after; the
 /// torques or forces of drives inside (NaN where a joint has none); and the loads of the gears, whose teeth
-/// press where their mesh is known. `needed` as for dyad_forces.
+/// press where their mesh is known, and behind them of racks and strands. `needed` as for dyad_forces.
 void general_forces(const LinkagePlan& plan, const Group& group, const LinkageMotion& motion,
                     GeneralGroupMemory& memory, std::span<Wrench<double>> needed,
                     std::span<Wrench<double>> joints, std::span<double> drives,

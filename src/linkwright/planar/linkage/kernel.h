@@ -269,6 +269,7 @@ double mode_side(const Group& g, Point point, Direction direction) {
   const auto beside = [&](const PlanJoint& pin) { return cross(b - a, point(pin.before) - a); };
   return by_kind(
       g, [](const Driver&) { return 0.0; }, [](const GearTrain&) { return 0.0; },
+      [](const Follower&) { return 0.0; },
       [&](const Dyad& dyad) {
         switch (dyad.type) {
           case DyadType::rrr:

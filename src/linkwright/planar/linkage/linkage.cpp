@@ -24,6 +24,7 @@ class Checker {
     names();
     for (const LinkageBody& b : l_.bodies) body(b);
     for (const LinkageJoint& j : l_.joints) joint(j);
+    for (const Belt& b : l_.belts) belt(b);
     drives();
     loads();
     if (!finite(l_.gravity)) error("environment.gravity", "is not finite", {});
@@ -60,6 +61,7 @@ class Checker {
     twice(l_.torsion_springs, "torsion_spring");
     twice(l_.forces, "force");
     twice(l_.torques, "torque");
+    twice(l_.belts, "belt");
     for (const LinkageBody& b : l_.bodies) twice(b.points, ("body." + b.name + ".point").c_str());
   }
   void body(const LinkageBody& b) {
@@ -79,7 +81,7 @@ class Checker {
   }
   void joint(const LinkageJoint& j) {
     const std::string key = "joint." + j.name;
-    const bool gear = j.type == JointType::gear;
+    const bool gear = j.type == JointType::gear, rack = j.type == JointType::rack;
     if (gear ? !has_body(j.first.body) || !has_body(j.second.body) || !has_body(j.carrier)
              : !has(j.first) || !has(j.second)) {
       error(key, "refers to a body or point that does not exist", {});
@@ -92,15 +94,71 @@ class Checker {
     if (!(j.friction >= 0 && j.pin_radius >= 0 && j.guide_length >= 0 &&
           std::isfinite(j.friction + j.pin_radius + j.guide_length)))
       error(key, "friction, pin radius and guide length must be finite and not negative", {});
-    else if (j.friction > 0 && (gear || j.type == JointType::fixed))
+    else if (j.friction > 0 && (gear || rack || j.type == JointType::fixed))
       error(key, fmt::format("a {} joint has no friction", words_[static_cast<std::size_t>(j.type)]), {});
     else if (j.friction > 0 && j.type == JointType::revolute && j.pin_radius == 0)
       error(key, "has friction but no pin radius: its torque would be zero", "give the radius of the pin");
-    if (gear && !(j.pressure_angle >= 0 && j.pressure_angle < 1.5))
+    if (rack && !(std::isfinite(j.radius) && j.radius != 0))
+      error(key, fmt::format("its pinion has the radius {}", j.radius),
+            "give the distance of its centre from the pitch line, negative to the right of its direction");
+    if ((gear || rack) && !(j.pressure_angle >= 0 && j.pressure_angle < 1.5))
       error(key, fmt::format("a pressure angle of {} rad is none of teeth", j.pressure_angle),
             "write 20 deg, as most gears have, or 0 for the tangential force alone");
+    if (j.type == JointType::screw)
+      error(key, "a screw of a model is a prismatic joint with its thread", "set its type to prismatic");
+    if (j.screw) screw(key, *j.screw);
+    if (gear && !(j.efficiency > 0 && j.efficiency <= 1))
+      error(key, fmt::format("an efficiency of {}", j.efficiency),
+            "it is more than 0, up to 1 without losses");
+    if (!gear && j.efficiency != 1) error(key, "only a gear has an efficiency", "leave it out");
+    if (gear && j.curve) ratio_curve(key, *j.curve);
     if (gear && j.ratio == 0)
       error(key, "its ratio is 0", "a gear at rest is a `fixed` joint to its carrier");
+  }
+  void screw(const std::string& key, const Screw& s) {
+    if (!(s.lead > 0 && std::isfinite(s.lead)))
+      error(key, fmt::format("the lead of its screw is {}", s.lead), "give the displacement for a turn");
+    if (!(s.friction >= 0 && s.pitch_diameter >= 0 && s.spindle_inertia >= 0 && s.flank_angle >= 0 &&
+          s.flank_angle < pi && std::isfinite(s.friction + s.pitch_diameter + s.spindle_inertia)))
+      error(key, "friction, diameter, flank angle and inertia of its screw must be finite and not negative",
+            {});
+    else if (s.friction > 0 && s.pitch_diameter == 0)
+      error(key, "its screw has friction but no pitch diameter: its torque would be that of none",
+            "give the pitch diameter of the thread");
+  }
+  void ratio_curve(const std::string& key, const RatioCurve& curve) {
+    const std::size_t n = curve.first.size();
+    if (n < 3 || curve.second.size() != n)
+      return error(key, fmt::format("its ratio curve has {} and {} angles", n, curve.second.size()),
+                   "give at least three, and as many of both");
+    for (std::size_t i = 0; i < n; ++i)
+      if (!std::isfinite(curve.first[i] + curve.second[i]))
+        return error(key, "its ratio curve holds numbers that are not finite", {});
+    const double sense = curve.second.back() - curve.second.front();
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      if (!(curve.first[i] < curve.first[i + 1] && sense * (curve.second[i + 1] - curve.second[i]) > 0))
+        return error(key, fmt::format("its ratio curve turns back behind row {}", i + 1),
+                     "the first angles rise, the second ones all rise or all fall");
+    if (curve.first.back() - curve.first.front() > full_turn * (1 + 1e-9))
+      error(key, "its ratio curve is longer than a turn of the first wheel", "give one turn, or a sector");
+  }
+  void belt(const Belt& b) {
+    const std::string key = "belt." + b.name;
+    if (b.wheels.size() < 2)
+      error(key, fmt::format("belt '{}' has {} wheels", b.name, b.wheels.size()), "it runs over two or more");
+    for (const BeltWheel& wheel : b.wheels) {
+      if (!has(wheel.centre)) error(key, "refers to a body or point that does not exist", {});
+      if (!(wheel.radius >= 0 && std::isfinite(wheel.radius)) || std::abs(wheel.side) != 1)
+        error(key, "the radii of its wheels must be finite and not negative", {});
+    }
+    const auto point = [](const BeltWheel& wheel) { return wheel.radius == 0; };
+    if (b.closed && std::any_of(b.wheels.begin(), b.wheels.end(), point))
+      error(key, fmt::format("closed belt '{}' has a wheel of radius 0", b.name),
+            "give every wheel its radius, or write closed = false for a rope");
+    if (b.carrier >= 0 && !has_body(b.carrier))
+      error(key, "refers to a body or point that does not exist", {});
+    if (b.tension && !(*b.tension >= 0 && std::isfinite(*b.tension)))
+      error(key, "its tension must be finite and not negative", {});
   }
   void drives() {
     std::set<int> seen;
@@ -204,8 +262,8 @@ class Checker {
   }
   const std::string& name(int body) const { return l_.bodies[static_cast<std::size_t>(body)].name; }
 
-  static constexpr std::array<std::string_view, 5> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
-                                                          "gear"};
+  static constexpr std::array<std::string_view, 7> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
+                                                          "gear",     "rack",      "screw"};
   const Linkage& l_;
   Diagnostics found_;
 };
@@ -236,6 +294,14 @@ double size_of(const Linkage& linkage) {
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) size = std::max(size, std::abs(points[i] - points[k]));
   return size > 0 ? size : 1;
+}
+
+std::string first_rolling_pair(const Linkage& linkage) {
+  for (const LinkageJoint& j : linkage.joints) {
+    if (j.type == JointType::rack) return fmt::format("rack '{}'", j.name);
+    if (j.type == JointType::gear && j.curve) return fmt::format("gear '{}' with a ratio curve", j.name);
+  }
+  return linkage.belts.empty() ? std::string() : fmt::format("belt '{}'", linkage.belts[0].name);
 }
 
 Diagnostics check(const Linkage& linkage) { return Checker(linkage).run(); }

@@ -54,20 +54,47 @@ enum class JointType {
   prismatic,    ///< the second body slides along a line of the first, without turning against it
   pin_in_slot,  ///< a point of the second body lies on a line of the first
   fixed,        ///< the second body is welded to the first
-  gear          ///< the second body turns `ratio` times as fast as the first, both seen from the carrier
+  gear,         ///< the second body turns `ratio` times as fast as the first, both seen from the carrier
+  rack,         ///< the first body, a pinion, rolls on a line of the second
+  screw         ///< of files: a prismatic joint with LinkageJoint::screw
 };
-constexpr std::array<EnumName<JointType>, 5> names(JointType) {
+constexpr std::array<EnumName<JointType>, 7> names(JointType) {
   return {{{JointType::revolute, "revolute", "the two points coincide"},
            {JointType::prismatic, "prismatic", "the second body slides along a line of the first"},
            {JointType::pin_in_slot, "pin_in_slot", "a point of the second body lies on a line of the first"},
            {JointType::fixed, "fixed", "the second body is welded to the first"},
-           {JointType::gear, "gear", "the second body turns `ratio` times as fast as the first"}}};
+           {JointType::gear, "gear", "the second body turns `ratio` times as fast as the first"},
+           {JointType::rack, "rack", "the first body is a pinion on the rack of the second"},
+           {JointType::screw, "screw", "a slide that a spindle with a thread drives"}}};
 }
+
+/// True for the joints whose force is that of teeth.
+///
+/// @param type the type of a joint
+/// @returns true for gears and racks
+constexpr bool has_teeth(JointType type) { return type == JointType::gear || type == JointType::rack; }
 
 /// A point of a body, by index.
 struct BodyPoint {
   int body = 0;   ///< index into Linkage::bodies
   int point = 0;  ///< index into the points of that body
+};
+
+/// The angles of two wheels that are not circular, both seen from their carrier: a smooth curve through the
+/// rows gives the second by the first.
+struct RatioCurve {
+  std::vector<double> first;   ///< rising, over one turn, after which the curve repeats, or a sector (rad)
+  std::vector<double> second;  ///< rising or falling, as many (rad)
+};
+
+/// The screw that drives a slide. Its spindle turns by 2 pi for each lead of the displacement.
+struct Screw {
+  double lead = 0;             ///< displacement by turn, m, > 0
+  double pitch_diameter = 0;   ///< m, > 0 where there is friction
+  double friction = 0;         ///< coefficient on the flanks, >= 0
+  double flank_angle = 0;      ///< whole angle between the flanks, rad, 0 to less than pi
+  double spindle_inertia = 0;  ///< kg m2, >= 0
+  bool left_hand = false;      ///< a positive turn moves the nut backward
 };
 
 /// A joint between two bodies. Its coordinate is what a drive prescribes: of a revolute joint the angle of
@@ -87,10 +114,22 @@ struct LinkageJoint {
   /// not used. Negative ratio: external teeth.
   double ratio = 1;
   double phase = 0;  ///< rad
-  int carrier = 0;   ///< body that carries both axes
-  /// gear: pressure angle of its teeth (rad), 0 to less than 1.5. Radii follow from the distance of the two
-  /// pins on the carrier and the ratio.
+  /// gear of wheels that are not circular, instead of `ratio`: (second - carrier) = curve(first - carrier) +
+  /// phase
+  std::optional<RatioCurve> curve = {};
+  /// gear: share of the rolling power, seen from the carrier, that the driven wheel gets, more than 0 up to 1
+  double efficiency = 1;
+  int carrier = 0;  ///< body that carries both axes
+  /// rack: distance of the centre of the pinion, `first`, from the pitch line, which runs through `second` in
+  /// the direction `slide_second` (m): positive where the centre lies to the left of that direction. The
+  /// pinion is turned by `phase` against the body of the rack where its centre is beside `second`.
+  double radius = 0;
+  /// gear, rack: pressure angle of the teeth (rad), 0 to less than 1.5. Radii of a gear follow from the
+  /// distance of the two pins on the carrier and the ratio.
   double pressure_angle = pi / 9;
+  /// prismatic: the screw that drives it. The drive prescribes the displacement; the motion of the spindle
+  /// and its torque follow.
+  std::optional<Screw> screw = {};
   /// Coefficient of Coulomb friction, >= 0: of a pin, coefficient times pin radius times force; of a slide or
   /// slot, coefficient times normal force, which a guide of length > 0 takes as two forces at its ends.
   double friction = 0;
@@ -220,6 +259,26 @@ struct BodyTorque {
   LoadFactor factor;  ///< factor of the torque
 };
 
+/// A wheel of a belt, or an end of a rope.
+struct BeltWheel {
+  BodyPoint centre;   ///< centre of the wheel on the body that turns with it
+  double radius = 0;  ///< m, 0 for the end of a rope
+  double side = 1;    ///< +1: the wheel lies to the left of the running belt, -1: to the right
+};
+
+/// A belt, chain or rope that does not stretch or slip, over wheels in the order in which it runs.
+struct Belt {
+  std::string name;               ///< unique among the belts
+  std::vector<BeltWheel> wheels;  ///< two or more
+  bool closed = true;             ///< it runs back to the first wheel; a rope does not
+  /// The mean tension of the strands of a closed belt (N). Nothing: strands have the differences of their
+  /// tensions about a mean of 0.
+  std::optional<double> tension = {};
+  /// Body on which the centres of all wheels of a closed belt have a pin. Their distances then stay, and the
+  /// belt is a gear. -1: every strand keeps its own equation.
+  int carrier = -1;
+};
+
 /// Any planar linkage: plain data. bodies[0] is the ground. Make indices with `body_index` and `point_index`.
 struct Linkage {
   std::vector<LinkageBody> bodies;   ///< the ground first
@@ -231,6 +290,7 @@ struct Linkage {
   std::vector<TorsionSpring> torsion_springs;  ///< torsion springs
   std::vector<PointForce> forces;              ///< forces on points
   std::vector<BodyTorque> torques;             ///< torques on bodies
+  std::vector<Belt> belts;                     ///< belts, chains and ropes
   std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
   std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)
 };
@@ -262,6 +322,18 @@ int joint_index(const Linkage& linkage, std::string_view name);
 /// @returns the largest distance between two points that joints or slides use on one body, or between joint
 ///   points of the ground (m); 1 if there is none
 double size_of(const Linkage& linkage);
+
+/// The first rack, belt or gear of wheels that are not circular, for computations that do not take them.
+///
+/// @param linkage the linkage
+/// @returns its kind and name, as "rack 'teeth'"; empty if there is none
+std::string first_rolling_pair(const Linkage& linkage);
+
+/// True if a joint loses power: by friction, or by the efficiency of a gear.
+///
+/// @param joint the joint
+/// @returns true if it does
+inline bool loses_power(const LinkageJoint& joint) { return joint.friction > 0 || joint.efficiency < 1; }
 
 /// Checks the description by itself: indices, names given twice, numbers that are not finite, negative
 /// masses, links of no length, springs between a body and itself, tables that do not rise. Keys of the

@@ -8,6 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/triangle.h"
 #include "linkwright/planar/loop_gap.h"
@@ -104,6 +105,33 @@ void train_acceleration(const Group& g, const GearTrain& train, std::span<const 
   }
 }
 
+// A part on one joint, whose angle or displacement its pair determines by an equation that is linear in it.
+void place_follower(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                    LinkageMotion& motion) {
+  const PlanJoint& j = g.joints[0];
+  const PlanPair& pair = g.pairs[0];
+  const PartState<double>& base = motion.parts[at(j.before.part)];
+  PartState<double>& part = motion.parts[at(g.parts[0])];
+  for (const int p : parts_of(pair))
+    if (p != g.parts[0] && !(plan.turned[at(p)] && plan.turned[at(p)]->shares.empty()))
+      counted_angle(motion, p);
+  const Vec<double> pin = point_on(base, j.before.at), along = rotate(base.direction, j.before.direction);
+  part.direction = j.slide ? rotate(along, conjugate(j.after.direction)) : Vec<double>{1, 0};
+  part.origin = pin - rotate(part.direction, j.after.at);
+  const PairRow row = pair_row(pair, motion.parts, [&](int p) {
+    if (p == g.parts[0] && !j.slide) return 0.0;
+    return pair_angle(plan, inputs, motion.parts, motion.loop_angles, p);
+  });
+  const PairShare& share = *std::find_if(row.shares.begin(), row.shares.end(),
+                                         [&](const PairShare& s) { return s.part == g.parts[0]; });
+  if (j.slide) {
+    part.origin = part.origin - (row.residual / dot(share.force, along)) * along;
+  } else {
+    part.direction = unit(-row.residual / share.turning);
+    part.origin = pin - rotate(part.direction, j.after.at);
+  }
+}
+
 void require_inputs(const LinkagePlan& plan, std::span<const InputMotion> inputs) {
   LINKWRIGHT_REQUIRE(inputs.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
                      inputs.size());
@@ -192,6 +220,11 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
           place_train(g, train, inputs, motion);
           return Status::done;
         },
+        [&](const Follower&) {
+          place_follower(plan, g, inputs, motion);
+          // One step of Newton's method makes the matrix for the rates.
+          return place_general(plan, g, inputs, motion, *motion.general[k]);
+        },
         [&](const Dyad& dyad) {
           for_dyad(dyad.type, [&](auto type) { place_dyad(type, g, dyad, motion.modes[k], parts, state); });
           if ((motion.gap = gap_of(g, dyad, motion, state)) > 0) return Status::no_assembly;
@@ -242,6 +275,7 @@ void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs
     by_kind(
         g, [&](const Driver&) { drive_velocity(g, inputs[at(g.joints[0].input)].rate, motion.parts.data()); },
         [&](const GearTrain& train) { train_velocity(g, train, inputs, motion); },
+        [&](const Follower&) { by_matrix(); },
         [&](const Dyad& dyad) {
           for_dyad(dyad.type,
                    [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
@@ -261,6 +295,7 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
           drive_acceleration(g, i.rate, i.acceleration, motion.parts.data());
         },
         [&](const GearTrain& train) { train_acceleration(g, train, inputs, motion); },
+        [&](const Follower&) { by_matrix(); },
         [&](const Dyad& dyad) {
           for_dyad(dyad.type,
                    [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });

@@ -36,9 +36,11 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
 int mobility(const Linkage& linkage) {
   int freedoms = 3 * (static_cast<int>(linkage.bodies.size()) - 1);
   for (const LinkageJoint& j : linkage.joints)
-    freedoms -= j.type == JointType::fixed                                      ? 3
-                : j.type == JointType::pin_in_slot || j.type == JointType::gear ? 1
-                                                                                : 2;
+    freedoms -= j.type == JointType::fixed                                        ? 3
+                : j.type == JointType::revolute || j.type == JointType::prismatic ? 2
+                                                                                  : 1;
+  for (const Belt& b : linkage.belts)
+    freedoms -= static_cast<int>(b.wheels.size()) - (b.closed && b.carrier < 0 ? 0 : 1);
   return freedoms;
 }
 

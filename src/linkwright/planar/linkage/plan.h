@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/math/spline.h"
 #include "linkwright/planar/linkage/linkage.h"
 #include "linkwright/planar/plane.h"
 
@@ -88,6 +89,48 @@ struct PlanGear {
   DrivenAngle angle;  ///< phase of the parts, and the shares of first wheel (the ratio) and carrier
   /// Nothing where the radii are not known: the gear then passes a torque alone (LinkagePlan::torque_gears).
   std::optional<GearMesh> mesh = {};
+  int strand = -1;  ///< of a belt: index into LinkagePlan::strands; `joint` is then -1
+};
+
+/// A pinion that rolls on a rack.
+struct RackPair {
+  PartPoint pinion,   ///< centre of the pinion
+      rack;           ///< point and direction of the pitch line
+  double radius = 0;  ///< m, positive where the centre lies to the left of the pitch line's direction
+  double phase =
+      0;  ///< angle of the pinion's part from that of the rack with the centre beside the point, rad
+  double tangent = 0;  ///< tangent of the pressure angle
+};
+
+/// A strand of a belt or rope between two wheels. Radii have the sign of the side on which the wheel lies:
+/// plus to the left of the running belt.
+struct StrandPair {
+  PartPoint first,          ///< centre of the wheel that the strand leaves
+      second;               ///< centre of the wheel that it runs on to
+  double first_radius = 0,  ///< m
+      second_radius = 0;    ///< m
+  double constant = 0;      ///< what angles, directions and length of the strand sum up to, m
+  double reference = 0;     ///< direction of the strand in the drawing, rad: turns are counted from there
+};
+
+/// Two wheels that are not circular: the angle of the second from the carrier, plus its offset, is a curve of
+/// that of the first.
+struct CurvePair {
+  int first = 0, second = 0, carrier = 0;  ///< parts
+  double first_offset = 0;                 ///< rad
+  double second_offset = 0;                ///< rad
+  math::PiecewisePolynomial curve;         ///< rad
+  bool around = false;  ///< the curve covers a turn of the first wheel and repeats; else it is a sector
+  /// The mesh, whose radii are those of a ratio of 0: the second one is the distance of the centres.
+  std::optional<GearMesh> mesh = {};
+  double scale = 1;  ///< length (m) by which the equation is multiplied
+};
+
+/// A pair that gives one equation between parts, other than a gear of constant ratio.
+struct PlanPair {
+  int joint = -1;   ///< index in the linkage, -1 of a strand
+  int strand = -1;  ///< index into LinkagePlan::strands, -1 of a joint
+  std::variant<RackPair, StrandPair, CurvePair> kind;
 };
 
 /// Parts on pins, each of a part that is placed before it, whose angles follow from gears and drives.
@@ -96,6 +139,11 @@ struct GearTrain {
 };
 /// @returns the properties of a train of gears
 constexpr GroupTraits traits_of(const GearTrain&) { return {.name = "gear", .has_matrix = true}; }
+
+/// A part on one pin or slide that a pair moves: a pinion on a rack, a rack, a wheel that a strand turns.
+struct Follower {};
+/// @returns the properties of a follower
+constexpr GroupTraits traits_of(const Follower&) { return {.name = "follower", .has_matrix = true}; }
 
 /// A link between two joints of a closed form, and what that needs of it.
 struct PlanLink {
@@ -174,19 +222,20 @@ constexpr GroupTraits traits_of(const GeneralGroup&) {
 /// One step of the solution.
 struct Group {
   /// Kind of the group, with the constants of its formulas.
-  std::variant<Driver, GearTrain, Dyad, Triangle, GeneralGroup> kind;
+  std::variant<Driver, GearTrain, Follower, Dyad, Triangle, GeneralGroup> kind;
   std::string name;        ///< "coupler + rocker"
   std::vector<int> parts;  ///< parts that this group places; in the order of the chain, if it is one
   /// One of a driver, one a part of a train; in the order of the chain, if the group is one.
   std::vector<PlanJoint> joints;
   std::vector<PlanGear> gears;  ///< of a train and of a general group
+  std::vector<PlanPair> pairs;  ///< of a follower and of a general group
   /// Sign of the assembly mode that the model names or its start poses show; +1 where there is none.
   double mode = 1;
   bool mode_given = false;  ///< the model names the mode
 
   /// The group as one of a kind.
   ///
-  /// @tparam Kind Driver, GearTrain, Dyad, Triangle or GeneralGroup
+  /// @tparam Kind Driver, GearTrain, Follower, Dyad, Triangle or GeneralGroup
   /// @returns the kind with its constants, or null if the group is of another kind
   template <class Kind>
   const Kind* as() const {
@@ -255,6 +304,14 @@ struct SharedPin {
   std::vector<std::vector<double>> share;
 };
 
+/// A strand of a belt. The last one of a closed belt on a carrier has no equation of its own.
+struct PlanStrand {
+  int belt = 0;               ///< index in the linkage
+  int first = 0, second = 0;  ///< bodies of its wheels
+  bool preloaded = false;     ///< its belt is closed and on a carrier, so that its mean tension is given
+  StrandPair run;             ///< its wheels
+};
+
 /// A linkage made ready: parts (rigid clusters of bodies; part 0 is the ground), and the groups in order.
 struct LinkagePlan {
   std::vector<BodyOnPart> bodies;  ///< one a body
@@ -269,6 +326,7 @@ struct LinkagePlan {
   std::vector<SharedPin> shared_pins;              ///< pins whose pairs differ from those of the model
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<int> redundant_gears;                ///< joints that repeat what other gears say
+  std::vector<PlanStrand> strands;                 ///< those of all belts, in their order
   std::vector<bool> rotary;                        ///< one an input: whether its joint turns
   double size = 1;                                 ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
@@ -294,7 +352,7 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
                                   std::size_t parts);
 
 /// Degrees of freedom by count (Chebyshev-Gruebler): 3 a moving body, less 3 a weld, 2 a pin or slide, 1 a
-/// pin in a slot or a gear.
+/// pin in a slot, a gear, a rack or a strand, but for the last strand of a closed belt on a carrier.
 ///
 /// @param linkage the linkage
 /// @returns the count; redundant joints make it less than the freedoms

@@ -55,7 +55,7 @@ AngleRelation empty_relation(const PlanDraft& d) {
   return {std::vector<Fraction>(d.parts()), std::vector<Fraction>(d.linkage.driven.size())};
 }
 AngleRelation relation_of(const PlanDraft& d, const PartGear& gear) {
-  const Fraction ratio = fraction_of(d.model(gear.joint).ratio);
+  const Fraction ratio = fraction_of(gear.ratio);
   AngleRelation out = empty_relation(d);
   out.parts[at(gear.second)] += 1;
   out.parts[at(gear.first)] -= ratio;
@@ -155,10 +155,9 @@ DrivenAngle angle_of_part(int part, const AngleRelation& relation) {
 }
 
 void name_ratio(PlanDraft& d, const PartGear& gear) {
-  const LinkageJoint& j = d.model(gear.joint);
-  d.error("joint." + j.name,
+  d.error(gear.key,
           fmt::format("the ratio {} is none of wheels with up to {} teeth, which a gear in a loop needs",
-                      j.ratio, most_teeth),
+                      gear.ratio, most_teeth),
           "write the ratio with all its digits, or teeth");
 }
 
@@ -298,9 +297,9 @@ bool find_train(PlanDraft& d) {
 }
 
 PlanGear gear_of_group(PlanDraft& d, const PartGear& gear, bool in_loop) {
-  const LinkageJoint& j = d.model(gear.joint);
   PlanGear out{.joint = gear.joint, .part = gear.second, .angle = {.angle = gear.phase}};
-  out.angle.shares = {{gear.first, j.ratio}, {gear.carrier, 1 - j.ratio}};
+  out.strand = gear.strand;
+  out.angle.shares = {{gear.first, gear.ratio}, {gear.carrier, 1 - gear.ratio}};
   out.angle.turns = turns_of(out.angle.shares);
   if (in_loop && out.angle.turns == 0) name_ratio(d, gear);
   return out;
@@ -309,21 +308,24 @@ PlanGear gear_of_group(PlanDraft& d, const PartGear& gear, bool in_loop) {
 void check_left_gears(PlanDraft& d) {
   AngleSystem system = system_of(d, [](const PartGear& gear) { return gear.used; });
   for (const PartGear& gear : d.gears) {
-    const LinkageJoint& j = d.model(gear.joint);
+    const auto body = [&](int which) { return d.body_name(gear.bodies[at(which)]); };
     // A gear between parts without a place is not to blame: these parts are named.
     if (gear.used || !d.known[at(gear.first)] || !d.known[at(gear.second)] || !d.known[at(gear.carrier)])
       continue;
     AngleRelation rest = relation_of(d, gear);
-    const std::string key = "joint." + j.name;
+    const std::string& key = gear.key;
     if (!system.add(rest) && rest.turns_nothing()) {
       const double apart = math::wrap_angle(rest.angle);
-      if (std::abs(apart) <= 1e-9)
+      if (std::abs(apart) <= 1e-9 && gear.joint >= 0)
         d.plan().redundant_gears.push_back(gear.joint);
+      else if (std::abs(apart) <= 1e-9)
+        d.error(key, fmt::format("belt '{}' repeats what gears and other belts say", gear.name),
+                "leave it out: its tension is not determined without stiffness");
       else
         d.error(
             key,
             fmt::format("the other gears turn '{}' to an angle that is {:.6g} deg less than this one says",
-                        d.body_name(j.second.body), math::degrees(apart)),
+                        body(1), math::degrees(apart)),
             "change its phase by as much, or leave the gear out");
       continue;
     }
@@ -332,19 +334,18 @@ void check_left_gears(PlanDraft& d) {
     for (const PartGear& other : d.gears)
       if (other.carrier == gear.carrier) {
         ++gears;
-        wheels.insert(
-            {d.body_name(d.model(other.joint).first.body), d.body_name(d.model(other.joint).second.body)});
+        wheels.insert({d.body_name(other.bodies[0]), d.body_name(other.bodies[1])});
       }
     if (gears < 2)
       d.error(key,
               fmt::format("a redundant constraint: '{}' and '{}' are placed without the gear already",
-                          d.body_name(j.first.body), d.body_name(j.second.body)),
+                          body(0), body(1)),
               "leave the gear or a drive out");
     else
       d.error(key,
               fmt::format("wheels {} with carrier '{}' cannot turn: {} gears for {} angles",
-                          fmt::join(wheels, ", "), d.body_name(j.carrier), gears, gears - 1),
-              fmt::format("leave out '{}' or a drive", j.name));
+                          fmt::join(wheels, ", "), body(2), gears, gears - 1),
+              fmt::format("leave out '{}' or a drive", gear.name));
   }
 }
 

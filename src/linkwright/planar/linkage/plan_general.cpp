@@ -15,10 +15,15 @@ bool linked(const PlanDraft& d, int part, const std::vector<bool>& chosen) {
                        return !joint.used && ((joint.first.part == part && chosen[at(joint.second.part)]) ||
                                               (joint.second.part == part && chosen[at(joint.first.part)]));
                      }) ||
-         std::any_of(d.gears.begin(), d.gears.end(), [&](const PartGear& gear) {
-           const auto parts = {gear.first, gear.second, gear.carrier};
-           return !gear.used && std::find(parts.begin(), parts.end(), part) != parts.end() &&
-                  std::any_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)]; });
+         std::any_of(d.gears.begin(), d.gears.end(),
+                     [&](const PartGear& gear) {
+                       const auto parts = {gear.first, gear.second, gear.carrier};
+                       return !gear.used && std::find(parts.begin(), parts.end(), part) != parts.end() &&
+                              std::any_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)]; });
+                     }) ||
+         std::any_of(d.pairs.begin(), d.pairs.end(), [&](const PartPair& pair) {
+           return !pair.used && std::find(pair.parts.begin(), pair.parts.end(), part) != pair.parts.end() &&
+                  std::any_of(pair.parts.begin(), pair.parts.end(), [&](int p) { return chosen[at(p)]; });
          });
 }
 // Smallest connected set of unknown parts with as many equations as unknowns, grown from its lowest part.
@@ -49,6 +54,11 @@ void add_general_group(PlanDraft& d, std::vector<int> set, const std::vector<boo
     g.gears.push_back(gear_of_group(d, gear, true));
     gear.used = true;
   }
+  for (PartPair& pair : d.pairs) {
+    if (!holds_chosen(d, pair, chosen)) continue;
+    g.pairs.push_back(pair.pair);
+    pair.used = true;
+  }
   std::vector<math::Pose>& start = std::get<GeneralGroup>(g.kind).start;
   for (int p : set)
     if (d.start[at(p)]) start.push_back(*d.start[at(p)]);
@@ -70,11 +80,19 @@ bool holds_chosen(const PlanDraft& d, const PartGear& gear, const std::vector<bo
          std::all_of(parts.begin(), parts.end(), [&](int p) { return chosen[at(p)] || d.known[at(p)]; });
 }
 
+bool holds_chosen(const PlanDraft& d, const PartPair& pair, const std::vector<bool>& chosen) {
+  return !pair.used &&
+         std::any_of(pair.parts.begin(), pair.parts.end(), [&](int p) { return chosen[at(p)]; }) &&
+         std::all_of(pair.parts.begin(), pair.parts.end(),
+                     [&](int p) { return chosen[at(p)] || d.known[at(p)]; });
+}
+
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen) {
   int count = 0;
   for (const PartJoint& joint : d.joints)
     if (holds_chosen(d, joint, chosen)) count += joint.input >= 0 ? 3 : 2;
   for (const PartGear& gear : d.gears) count += holds_chosen(d, gear, chosen);
+  for (const PartPair& pair : d.pairs) count += holds_chosen(d, pair, chosen);
   return count;
 }
 
@@ -111,8 +129,9 @@ void merge_groups(PlanDraft& d) {
   d.plan().groups.clear();
   d.joints = d.written;
   for (PartGear& gear : d.gears)
-    gear.used = std::find(d.plan().redundant_gears.begin(), d.plan().redundant_gears.end(), gear.joint) !=
-                d.plan().redundant_gears.end();
+    gear.used = gear.joint >= 0 && std::find(d.plan().redundant_gears.begin(), d.plan().redundant_gears.end(),
+                                             gear.joint) != d.plan().redundant_gears.end();
+  for (PartPair& pair : d.pairs) pair.used = false;
   d.plan().shared_pins.clear();
   std::vector<bool> chosen(d.parts(), true);
   chosen[0] = false;

@@ -154,8 +154,8 @@ void find_groups(PlanDraft& d) {
   d.angles.assign(d.parts(), std::nullopt);
   d.angles[0] = DrivenAngle{0, std::vector<double>(d.linkage.driven.size(), 0.0)};
   d.written = d.joints;
-  while (find_driver(d) || find_train(d) || find_dyad(d) || pair_otherwise(d) || find_triangle(d) ||
-         find_general_group(d)) {
+  while (find_driver(d) || find_train(d) || find_follower(d) || find_dyad(d) || pair_otherwise(d) ||
+         find_triangle(d) || find_general_group(d)) {
   }
   find_shared_pins(d);
 }

@@ -87,18 +87,6 @@ void weld_bodies(PlanDraft& d) {
   }
 }
 
-PartPoint on_part(const PlanDraft& d, const BodyPoint& p, double slide) {
-  const BodyOnPart& b = d.plan().bodies[at(p.body)];
-  return {b.part, b.origin + rotate(b.turn, point_of_body(d, p)), rotate(b.turn, unit(slide))};
-}
-
-// Gears couple the frames of bodies; parts may be turned against them.
-double gear_phase(const PlanDraft& d, const LinkageJoint& j) {
-  const auto offset = [&](int body) { return angle_of(d.plan().bodies[at(body)].turn); };
-  const double carrier = offset(j.carrier);
-  return j.phase - (offset(j.second.body) - carrier) + j.ratio * (offset(j.first.body) - carrier);
-}
-
 void join_parts(PlanDraft& d) {
   for (int k = 0; k < static_cast<int>(d.linkage.joints.size()); ++k) {
     const LinkageJoint& j = d.model(k);
@@ -106,9 +94,24 @@ void join_parts(PlanDraft& d) {
     const auto driven = std::find(d.linkage.driven.begin(), d.linkage.driven.end(), k);
     const int input =
         driven == d.linkage.driven.end() ? -1 : static_cast<int>(driven - d.linkage.driven.begin());
+    if (j.type == JointType::gear && j.curve) {
+      add_curve(d, k);
+      continue;
+    }
     if (j.type == JointType::gear) {
-      d.gears.push_back({k, d.plan().bodies[at(j.first.body)].part, d.plan().bodies[at(j.second.body)].part,
-                         d.plan().bodies[at(j.carrier)].part, gear_phase(d, j)});
+      d.gears.push_back({k,
+                         d.plan().bodies[at(j.first.body)].part,
+                         d.plan().bodies[at(j.second.body)].part,
+                         d.plan().bodies[at(j.carrier)].part,
+                         gear_phase(d, j),
+                         j.ratio,
+                         {j.first.body, j.second.body, j.carrier},
+                         "joint." + j.name,
+                         j.name});
+      continue;
+    }
+    if (j.type == JointType::rack) {
+      add_rack(d, k);
       continue;
     }
     // The direction of a pin is the x axis of its body, from which a drive counts.
@@ -140,6 +143,7 @@ void join_parts(PlanDraft& d) {
     d.joints.push_back({first, {block, {0, 0}, {1, 0}}, true, -1, -1});
     d.joints.push_back({{block, {0, 0}, {1, 0}}, second, false, k, -1});
   }
+  add_belts(d);
   for (int k : d.linkage.driven) d.plan().rotary.push_back(d.model(k).type == JointType::revolute);
 }
 
@@ -152,6 +156,18 @@ void find_masses(PlanDraft& d) {
 }
 
 }  // namespace
+
+PartPoint on_part(const PlanDraft& d, const BodyPoint& p, double direction) {
+  const BodyOnPart& b = d.plan().bodies[at(p.body)];
+  return {b.part, b.origin + rotate(b.turn, point_of_body(d, p)), rotate(b.turn, unit(direction))};
+}
+
+// Gears couple the frames of bodies; parts may be turned against them.
+double gear_phase(const PlanDraft& d, const LinkageJoint& j) {
+  const auto offset = [&](int body) { return angle_of(d.plan().bodies[at(body)].turn); };
+  const double carrier = offset(j.carrier);
+  return j.phase - (offset(j.second.body) - carrier) + j.ratio * (offset(j.first.body) - carrier);
+}
 
 void find_parts(PlanDraft& d) {
   weld_bodies(d);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
@@ -168,29 +169,35 @@ void find_meshes(PlanDraft& d) {
   constexpr double same_axis = 10 * tolerance::closure;  // in sizes of the linkage
   const std::vector<LinksAtPin> pins = pins_of(d, d.written, true);
   const auto at_pin = [](const LinksAtPin& pin, int part) { return pin.links[at(pin.place_of(part))]; };
-  const auto find = [&](PlanGear& gear) {
-    const LinkageJoint& j = d.model(gear.joint);
+  const auto find = [&](auto& gear, int joint) {
+    const LinkageJoint& j = d.model(joint);
     const auto torque_alone = [&](const std::string& why) {
       d.plan().torque_gears.push_back(fmt::format("'{}': {}", j.name, why));
     };
-    const int first = d.plan().bodies[at(j.first.body)].part, carrier = d.plan().bodies[at(j.carrier)].part;
-    const LinksAtPin *a = axis_of(pins, first, carrier), *b = axis_of(pins, gear.part, carrier);
+    const int first = d.plan().bodies[at(j.first.body)].part,
+              second = d.plan().bodies[at(j.second.body)].part, carrier = d.plan().bodies[at(j.carrier)].part;
+    const double ratio = j.curve ? 0 : j.ratio;
+    const LinksAtPin *a = axis_of(pins, first, carrier), *b = axis_of(pins, second, carrier);
     if (!a || !b)
       return torque_alone(fmt::format("'{}' has no single pin on '{}'",
                                       d.body_name(a ? j.second.body : j.first.body), d.body_name(j.carrier)));
     const double distance = norm(at_pin(*b, carrier).at - at_pin(*a, carrier).at);
     if (!(distance > same_axis * d.plan().size)) return torque_alone("both wheels turn about one axis");
-    if (std::abs(1 - j.ratio) < tolerance::feasibility)
+    if (std::abs(1 - ratio) < tolerance::feasibility)
       return torque_alone(
           "a ratio of 1 is that of no two wheels that mesh; a belt has it, or an idler between them");
     gear.mesh = {.first = at_pin(*a, first),
-                 .second = at_pin(*b, gear.part),
-                 .first_radius = -j.ratio / (1 - j.ratio) * distance,
-                 .second_radius = distance / (1 - j.ratio),
+                 .second = at_pin(*b, second),
+                 .first_radius = -ratio / (1 - ratio) * distance,
+                 .second_radius = distance / (1 - ratio),
                  .tangent = std::tan(j.pressure_angle)};
   };
   for (Group& g : d.plan().groups)
-    for (PlanGear& gear : g.gears) find(gear);
+    for (PlanGear& gear : g.gears)
+      if (gear.joint >= 0) find(gear, gear.joint);
+  for (Group& g : d.plan().groups)
+    for (PlanPair& pair : g.pairs)
+      if (auto* curve = std::get_if<CurvePair>(&pair.kind)) find(*curve, pair.joint);
 }
 
 }  // namespace linkwright::planar

@@ -64,6 +64,9 @@ void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
           if (here == component[i]) held = held || d.known[at(there)], join(there);
       for (const PartGear& gear : d.gears)
         if (gear.first == component[i] || gear.second == component[i]) join(gear.first), join(gear.second);
+      for (const PartPair& pair : d.pairs)
+        if (std::find(pair.parts.begin(), pair.parts.end(), component[i]) != pair.parts.end())
+          for (const int p : pair.parts) join(p);
     }
     std::sort(component.begin(), component.end());
     std::vector<bool> chosen(d.parts(), false);
@@ -126,6 +129,7 @@ void find_problems(PlanDraft& d) {
               "leave the joint out, or one of the links beside it");
   }
   check_left_gears(d);
+  check_left_pairs(d);
   if (const std::vector<int> unknown = unknown_parts(d); !unknown.empty()) name_loose_parts(d, unknown);
 }
 

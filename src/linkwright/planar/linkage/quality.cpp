@@ -133,10 +133,11 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
                      linkage.joints.size());
   const LinkageJoint& j = linkage.joints[at(joint)];
   if (j.type == JointType::fixed) return {};
-  const int base = j.type == JointType::gear ? j.carrier : j.first.body;
-  const PartState<double> s =
-      relative_motion(body_state(plan, motion, base), body_state(plan, motion, j.second.body));
-  if (j.type == JointType::revolute || j.type == JointType::gear)
+  const bool rack = j.type == JointType::rack;
+  const int base = j.type == JointType::gear ? j.carrier : rack ? j.second.body : j.first.body;
+  const PartState<double> s = relative_motion(body_state(plan, motion, base),
+                                              body_state(plan, motion, rack ? j.first.body : j.second.body));
+  if (j.type == JointType::revolute || j.type == JointType::gear || rack)
     return {angle_of(s.direction), s.speed, s.angular_acceleration};
   const auto point = [&](const BodyPoint& p) {
     return vec(linkage.bodies[at(p.body)].points[at(p.point)].at);
@@ -144,6 +145,17 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
   const Vec<double> there = point_on(s, point(j.second)), along = unit(j.slide_first);
   return {dot(along, there - point(j.first)), dot(along, velocity_at(s, there)),
           dot(along, acceleration_at(s, there))};
+}
+
+double off_pitch_line(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                      int joint) {
+  const LinkageJoint& j = linkage.joints[at(joint)];
+  LINKWRIGHT_REQUIRE(j.type == JointType::rack, "joint '{}' is not a rack", j.name);
+  const auto place = [&](const BodyPoint& p) {
+    return point_motion(plan, motion, p.body, linkage.bodies[at(p.body)].points[at(p.point)].at).position;
+  };
+  const Vec<double> along = rotate(body_state(plan, motion, j.second.body).direction, unit(j.slide_second));
+  return cross(along, place(j.first) - place(j.second)) - j.radius;
 }
 
 Advantage advantage(const Linkage& linkage, const LinkagePlan& plan, int input, int joint,

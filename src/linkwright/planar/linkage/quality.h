@@ -51,6 +51,17 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
 /// Motion of the body as it looks from the frame of the reference.
 PartState<double> relative_motion(const PartState<double>& reference, const PartState<double>& body);
 
+/// The change of the distance between the centre of a pinion and the pitch line of its rack, which should be
+/// the radius of the pinion.
+///
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion
+/// @param joint index of the rack
+/// @returns distance to the left of the pitch line less the radius (m)
+double off_pitch_line(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                      int joint);
+
 /// Ratios between an input and a joint at a position, the other inputs at rest, without friction, mass and
 /// springs.
 struct Advantage {

@@ -6,6 +6,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/kernel.h"
@@ -94,13 +95,30 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
     Wrench<double>& n = f.needed[at(part)];
     n = n - shifted(Wrench<double>{load.force, load.torque}, load.point - motion.parts[at(part)].origin);
   }
+  for (const PlanStrand& strand : plan.strands) {
+    if (!strand.preloaded) continue;
+    const StrandLine line = strand_line(strand.run, motion.parts);
+    const Vec<double> pull = f.preload[at(strand.belt)] * line.along;
+    const auto take = [&](int part, const Vec<double>& force, const Vec<double>& point) {
+      Wrench<double>& n = f.needed[at(part)];
+      n = n - shifted(Wrench<double>{force, 0}, point - motion.parts[at(part)].origin);
+    };
+    take(strand.run.first.part, pull, line.first);
+    take(strand.run.second.part, -pull, line.second);
+  }
   for (std::size_t k = plan.groups.size(); k-- > 0;) {
     const Group& g = plan.groups[k];
     const PlanJoint& j = g.joints[0];
     const auto by_matrix = [&] {
       const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
       general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives, f.group_gears);
-      for (std::size_t i = 0; i < g.gears.size(); ++i) f.joints[at(g.gears[i].joint)] = f.group_gears[i];
+      const auto keep = [&](int joint, int strand, const JointReaction& load) {
+        (joint >= 0 ? f.joints[at(joint)] : f.strands[at(strand)]) = load;
+      };
+      for (std::size_t i = 0; i < g.gears.size(); ++i)
+        keep(g.gears[i].joint, g.gears[i].strand, f.group_gears[i]);
+      for (std::size_t i = 0; i < g.pairs.size(); ++i)
+        keep(g.pairs[i].joint, g.pairs[i].strand, f.group_gears[g.gears.size() + i]);
       for (std::size_t i = 0; i < g.joints.size(); ++i) {
         const PlanJoint& here = g.joints[i];
         report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
@@ -114,7 +132,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
           report(j, motion, w, point_on(motion.parts[at(j.after.part)], j.after.at), f);
           f.drives[at(j.input)] = along_drive(j, motion, w);
         },
-        [&](const GearTrain&) { by_matrix(); },
+        [&](const GearTrain&) { by_matrix(); }, [&](const Follower&) { by_matrix(); },
         [&](const Dyad& dyad) {
           const GroupState<double>& s = motion.groups[k];
           for_dyad(dyad.type, [&](auto type) {
@@ -125,6 +143,32 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
         [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
   divide_shared_pins(plan, f);
+}
+
+// The strands of a belt whose mean tension is given: those without equation take the mean of the others with
+// the opposite sign, and the preload is what is then missing.
+bool find_preloads(const Linkage& l, const LinkagePlan& plan, LinkageForces& f) {
+  bool any = false;
+  for (std::size_t b = 0; b < l.belts.size(); ++b) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t s = 0; s < plan.strands.size(); ++s)
+      if (plan.strands[s].preloaded && plan.strands[s].belt == static_cast<int>(b))
+        sum += f.strands[s].tangential, ++count;
+    if (count == 0) continue;
+    any = true;
+    f.preload[b] = l.belts[b].tension.value_or(0) - sum / count;
+  }
+  return any;
+}
+void add_preloads(const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
+  for (std::size_t s = 0; s < plan.strands.size(); ++s) {
+    const PlanStrand& strand = plan.strands[s];
+    if (!strand.preloaded) continue;
+    const StrandLine line = strand_line(strand.run, motion.parts);
+    const double tension = f.strands[s].tangential + f.preload[at(strand.belt)];
+    f.strands[s] = {line.second, -tension * line.along, 0, tension, 0};
+  }
 }
 
 // A weld carries what the bodies on the side of its second body need beyond their other joints and loads.
@@ -152,7 +196,7 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
     const LinkageJoint& j = l.joints[k];
     const JointReaction& r = f.joints[k];
     if (j.type == JointType::fixed || std::isnan(r.moment)) continue;
-    if (j.type == JointType::gear && std::isfinite(r.tangential)) {
+    if (j.type == JointType::rack || (j.type == JointType::gear && std::isfinite(r.tangential))) {
       take(j.second.body, {r.force, 0}, r.point);
       take(j.first.body, {-r.force, 0}, r.point);
     } else if (j.type == JointType::gear) {
@@ -163,6 +207,11 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
       take(j.second.body, {r.force, r.moment}, r.point);
       take(j.first.body, {-r.force, -r.moment}, r.point);
     }
+  }
+  for (std::size_t s = 0; s < plan.strands.size(); ++s) {
+    const JointReaction& r = f.strands[s];
+    take(plan.strands[s].second, {r.force, 0}, r.point);
+    take(plan.strands[s].first, {-r.force, 0}, r.point);
   }
   for (std::size_t k = 0; k < l.joints.size(); ++k) {
     const LinkageJoint& weld = l.joints[k];
@@ -228,6 +277,7 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
 
 void nothing(LinkageForces& f) {
   for (JointReaction& r : f.joints) r = {{nan, nan}, {nan, nan}, nan};
+  for (JointReaction& r : f.strands) r = {{nan, nan}, {nan, nan}, nan, nan, nan};
   std::fill(f.drives.begin(), f.drives.end(), nan);
   f.shaking_force = {nan, nan};
   f.shaking_moment = f.shaking_moment_with_drive = nan;
@@ -282,27 +332,31 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   std::size_t most = 3;
   std::size_t gears = 0;
   for (const Group& g : plan.groups)
-    most = std::max(most, g.joints.size()), gears = std::max(gears, g.gears.size());
+    most = std::max(most, g.joints.size()), gears = std::max(gears, g.gears.size() + g.pairs.size());
   for (const SharedPin& pin : plan.shared_pins) most = std::max(most, pin.joints.size());
   f.group_joints.resize(most);
   f.group_drives.resize(most);
   f.group_gears.resize(gears);
   for (const int j : plan.redundant_gears) f.joints[at(j)] = {{nan, nan}, {0, 0}, nan, nan, nan};
+  f.strands.assign(plan.strands.size(), {});
+  f.preload.assign(l.belts.size(), 0.0);
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);
   applied_loads(l, plan, motion, time, input, f.loads);
   const auto balance = [&] {
     pass(plan, l, motion, f);
+    if (find_preloads(l, plan, f)) pass(plan, l, motion, f);
     if (!answer) return;
     answer(f.drives);
     pass(plan, l, motion, f);
   };
   balance();
-  if (std::any_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) { return j.friction > 0; })) {
+  if (std::any_of(l.joints.begin(), l.joints.end(), loses_power)) {
     f.status = settle_friction(l, plan, motion, balance, f);
     if (f.status != Status::done) return nothing(f);
   }
+  add_preloads(plan, motion, f);
   f.shaking_force = -f.needed[0].force;
   f.shaking_moment_with_drive = -f.needed[0].moment - cross(vec(l.moment_centre), f.shaking_force);
   f.shaking_moment = f.shaking_moment_with_drive;

@@ -19,9 +19,10 @@ struct JointReaction {
   Vec<double> force{0, 0};  ///< N, global
   double moment = 0;        ///< N m, about `point`
   /// gear: force across the line of centres on its second body (N), positive to the left of the line from the
-  /// first centre to the second; NaN where the mesh is not known.
+  /// first centre to the second; NaN where the mesh is not known. rack: force along the pitch line on the
+  /// rack.
   double tangential = 0,
-         separating = 0;  ///< gear: force that presses the wheels apart (N); NaN likewise
+         separating = 0;  ///< gear, rack: force that presses the wheels apart (N); NaN likewise
 };
 
 /// A load on a body: a force at a point of the global frame and a torque.
@@ -36,6 +37,9 @@ struct AppliedLoad {
 struct LinkageForces {
   Status status = Status::done;       ///< status of the motion; self_locking when friction blocks it
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
+  /// One a strand of the plan: `tangential` is its tension (N), negative where it would have to push; the
+  /// force is that on the second wheel, and acts on the first one along the same line.
+  std::vector<JointReaction> strands;
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
   std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
   /// Force of the mechanism, and of bodies welded to the ground, on the ground (N), weight included.
@@ -53,7 +57,8 @@ struct LinkageForces {
   std::vector<Wrench<double>> needed,      ///< memory: what the parts need
       group_joints;                        ///< memory: forces in the joints of a group
   std::vector<double> group_drives;        ///< memory: drives of a group
-  std::vector<JointReaction> group_gears;  ///< memory: gears of a group
+  std::vector<JointReaction> group_gears;  ///< memory: gears, racks and strands of a group
+  std::vector<double> preload;             ///< memory: tension that all strands of a belt have in common
 };
 
 /// Forces of springs, dampers, forces and torques at the present motion, appended to `loads` in this order,

@@ -7,6 +7,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/triangle.h"
 
 namespace linkwright::planar {
@@ -79,7 +80,8 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
     return no_limit;
   };
   return by_kind(
-      g, [](const Driver&) { return no_limit; }, [](const GearTrain&) { return no_limit; }, dyad_closure,
+      g, [](const Driver&) { return no_limit; }, [](const GearTrain&) { return no_limit; },
+      [](const Follower&) { return no_limit; }, dyad_closure,
       [&](const Triangle& triangle) -> Closure {
         const InputMotion& drive = inputs_[at(g.joints[1].input)];
         const DrivenSide side = driven_side(g, drive.value);
@@ -185,6 +187,12 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
 bool periodic(const LinkagePlan& plan, int input) {
   if (!plan.rotary[at(input)]) return false;
   return std::all_of(plan.groups.begin(), plan.groups.end(), [&](const Group& g) {
+    // A pinion that the input turns on and on moves its rack on.
+    for (const PlanPair& pair : g.pairs)
+      for (const int part : parts_of(pair))
+        if (const auto& turned = plan.turned[at(part)];
+            part != 0 && turned && turned->shares.empty() && turned->gains[at(input)] != 0)
+          return false;
     const GearTrain* train = g.as<GearTrain>();
     return !train || std::all_of(train->angles.begin(), train->angles.end(), [&](const DrivenAngle& a) {
       return a.turns == 1 && std::abs(a.gains[at(input)] - std::round(a.gains[at(input)])) < 1e-12;

@@ -57,6 +57,8 @@ class Coordinates {
     for (const LinkageJoint& j : l.joints)
       LINKWRIGHT_REQUIRE(j.friction == 0, "joint '{}' has friction, which all coordinates do not take",
                          j.name);
+    LINKWRIGHT_REQUIRE(first_rolling_pair(l).empty(), "all coordinates do not take {}",
+                       first_rolling_pair(l));
     column_.assign(plan.parts.size(), -1);
     for (const BodyOnPart& b : plan.bodies)
       if (b.part != 0 && column_[at(b.part)] < 0) {

@@ -13,6 +13,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/curve.h"
 #include "linkwright/planar/linkage/detail/joint_rows.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 
 namespace linkwright::planar {
 
@@ -43,6 +44,8 @@ class CurveEquations {
         needs(gear.part);
         for (const AngleShare& s : gear.angle.shares) needs(s.part);
       }
+      for (const PlanPair& pair : plan.groups[k].pairs)
+        for (const int p : parts_of(pair)) needs(p);
     }
     column_.assign(plan.parts.size(), -1);
     for (std::size_t k = 0; k < takes.size(); ++k) {
@@ -109,6 +112,7 @@ class CurveEquations {
           turn(train->angles[i], g.parts[i], y, row++, derivatives);
       else
         for (const PlanGear& gear : g.gears) turn(gear.angle, gear.part, y, row++, derivatives);
+      for (const PlanPair& pair : g.pairs) hold(pair, y, row++, derivatives);
     }
   }
 
@@ -268,6 +272,31 @@ class CurveEquations {
     for (const AngleShare& s : angle.shares) add(s.part, -s.share);
     for (std::size_t i = 0; i < angle.gains.size(); ++i)
       jacobian_(row, n_) -= angle.gains[i] * line_.direction[i] / unit_;
+  }
+
+  // A rack or strand. Angles that the inputs alone give take no part in the derivatives by the angle.
+  void hold(const PlanPair& pair, const CurveNode& y, Eigen::Index row, bool derivatives) {
+    const auto by_inputs = [&](int part) -> const DrivenAngle* {
+      const auto& turned = plan_.turned[part_index(part)];
+      return turned && turned->shares.empty() ? &*turned : nullptr;
+    };
+    const PairRow r =
+        pair_row(pair, y.parts, [&](int part) { return pair_angle(plan_, inputs_, y.parts, {}, part); });
+    residual_[row] = less_turns(r, [&](int part) { return !by_inputs(part); }) / plan_.size;
+    if (!derivatives) return;
+    for (const PairShare& s : r.shares) {
+      double turning = s.moment;
+      if (const DrivenAngle* angle = by_inputs(s.part)) {
+        turning -= s.turning;
+        for (std::size_t i = 0; i < angle->gains.size(); ++i)
+          jacobian_(row, n_) += s.turning / plan_.size * angle->gains[i] * line_.direction[i] / unit_;
+      }
+      const int c = column_[part_index(s.part)];
+      if (c < 0) continue;
+      jacobian_(row, c) += s.force.x;
+      jacobian_(row, c + 1) += s.force.y;
+      jacobian_(row, c + 2) += turning / plan_.size;
+    }
   }
 
   const LinkagePlan& plan_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,7 +24,16 @@ struct PartJoint {
 };
 struct PartGear {
   int joint = 0, first = 0, second = 0, carrier = 0;  // parts
-  double phase = 0;
+  double phase = 0, ratio = 1;
+  std::array<int, 3> bodies{};  // first, second, carrier
+  std::string key, name;        // "joint.teeth", "teeth"
+  int strand = -1;              // of a belt: index into LinkagePlan::strands
+  bool used = false;
+};
+struct PartPair {
+  PlanPair pair;
+  std::vector<int> parts;
+  std::string key, name;
   bool used = false;
 };
 
@@ -34,6 +44,7 @@ struct PlanDraft {
   std::vector<PartJoint> joints;
   std::vector<PartJoint> written;  // the joints before pins of several links were paired otherwise
   std::vector<PartGear> gears;
+  std::vector<PartPair> pairs;
   // One a part.
   std::vector<std::optional<math::Pose>> start;    // poses in which the model shows the parts
   std::vector<bool> known;                         // placed by the groups so far
@@ -53,6 +64,8 @@ struct PlanDraft {
 
 // plan_parts.cpp: the parts, their masses, and the joints and gears between them.
 void find_parts(PlanDraft& d);
+PartPoint on_part(const PlanDraft& d, const BodyPoint& p, double direction);
+double gear_phase(const PlanDraft& d, const LinkageJoint& j);
 
 // plan_groups.cpp: the groups in order, as far as parts can be placed.
 void find_groups(PlanDraft& d);
@@ -64,6 +77,14 @@ void place_group(PlanDraft& d, Group group);
 bool find_train(PlanDraft& d);
 PlanGear gear_of_group(PlanDraft& d, const PartGear& gear, bool in_loop);
 void check_left_gears(PlanDraft& d);
+
+// plan_pairs.cpp: racks and strands between parts; a part on one joint that such a pair moves; and pairs that
+// are left over.
+void add_rack(PlanDraft& d, int joint);
+void add_curve(PlanDraft& d, int joint);
+void add_belts(PlanDraft& d);
+bool find_follower(PlanDraft& d);
+void check_left_pairs(PlanDraft& d);
 
 // plan_pins.cpp: pairs the links of a pin of several so that another one can be placed or a dyad closes;
 // false where no other pairs would help. `find_shared_pins` says at the end what the pairs of the model
@@ -83,6 +104,7 @@ std::vector<int> unknown_parts(const PlanDraft& d);
 // True if a joint or gear not used yet connects parts inside `chosen`, or one of them with known parts.
 bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen);
 bool holds_chosen(const PlanDraft& d, const PartGear& gear, const std::vector<bool>& chosen);
+bool holds_chosen(const PlanDraft& d, const PartPair& pair, const std::vector<bool>& chosen);
 // Equations of these joints and gears.
 int equations_of(const PlanDraft& d, const std::vector<bool>& chosen);
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/motion.h"
+
+// The equation of a rack or of a strand, once for positions, rates, accelerations and forces.
+namespace linkwright::planar {
+
+// The share of a part in the equation: its rate is the sum over the parts of force times velocity and moment
+// times angular speed, of the origins of the parts. A unit of the multiplier puts this force and moment on
+// the part.
+struct PairShare {
+  int part = 0;
+  Vec<double> force{0, 0};
+  double moment = 0;   // about the origin of the part, m
+  double turning = 0;  // part of it that the angle of the part alone gives: its radius with sign, m
+  double around = 0;   // change of the residual for a turn of the part, over 2 pi, m
+};
+struct PairRow {
+  double residual = 0;   // m
+  double remainder = 0;  // second derivative of the equation without the accelerations of the parts, m/s2
+  std::array<PairShare, 3> shares;  // those that are not used are of the ground
+};
+
+// A strand between its wheels, straight.
+struct StrandLine {
+  Vec<double> along;          // unit vector in the direction in which the belt runs
+  Vec<double> first, second;  // points where it leaves the one wheel and meets the other
+  double length = 0;          // NaN where the wheels overlap
+};
+inline StrandLine strand_line(const Vec<double>& first, double first_radius, const Vec<double>& second,
+                              double second_radius) {
+  const Vec<double> way = second - first;
+  const double apart = norm(way), step = second_radius - first_radius;
+  StrandLine out;
+  out.length = std::sqrt(apart * apart - step * step);
+  const Vec<double> towards = (1 / apart) * way;
+  out.along = rotate(towards, Vec<double>{out.length / apart, -step / apart});
+  out.first = first - first_radius * perpendicular(out.along);
+  out.second = second - second_radius * perpendicular(out.along);
+  return out;
+}
+inline StrandLine strand_line(const StrandPair& s, const std::vector<PartState<double>>& parts) {
+  return strand_line(point_on(parts[static_cast<std::size_t>(s.first.part)], s.first.at), s.first_radius,
+                     point_on(parts[static_cast<std::size_t>(s.second.part)], s.second.at), s.second_radius);
+}
+
+// Angles of parts with their turns where these are known: by the inputs alone, or counted from the last
+// position; else in (-pi, pi].
+inline double pair_angle(const LinkagePlan& plan, std::span<const InputMotion> inputs,
+                         const std::vector<PartState<double>>& parts, std::span<const double> counted,
+                         int part) {
+  const auto p = static_cast<std::size_t>(part);
+  const double now = angle_of(parts[p].direction);
+  if (const auto& turned = plan.turned[p]; turned && turned->shares.empty()) {
+    double angle = turned->angle;
+    for (std::size_t i = 0; i < turned->gains.size(); ++i) angle += turned->gains[i] * inputs[i].value;
+    return angle;
+  }
+  if (p < counted.size() && !std::isnan(counted[p]))
+    return now + full_turn * std::round((counted[p] - now) / full_turn);
+  return now;
+}
+
+// The equation at the present places and speeds. `angle` gives the angle of a part.
+template <class Angle>
+PairRow pair_row(const RackPair& rack, const std::vector<PartState<double>>& parts, const Angle& angle) {
+  const PartState<double>&pinion = parts[static_cast<std::size_t>(rack.pinion.part)],
+        &base = parts[static_cast<std::size_t>(rack.rack.part)];
+  const Vec<double> along = rotate(base.direction, rack.rack.direction), left = perpendicular(along);
+  const Vec<double> centre = point_on(pinion, rack.pinion.at);
+  const Vec<double> arm = centre - pinion.origin, base_arm = centre - base.origin;
+  const Vec<double> slip = velocity_at(pinion, centre) - velocity_at(base, centre);
+  PairRow out;
+  out.residual = dot(along, centre - point_on(base, rack.rack.at)) +
+                 rack.radius * (angle(rack.pinion.part) - angle(rack.rack.part) - rack.phase);
+  out.remainder = base.speed * base.speed * dot(along, base_arm) -
+                  pinion.speed * pinion.speed * dot(along, arm) + 2 * base.speed * dot(left, slip);
+  out.shares = {
+      PairShare{rack.pinion.part, along, cross(arm, along) + rack.radius, rack.radius, rack.radius},
+      PairShare{rack.rack.part, -along, -cross(base_arm, along) - rack.radius, -rack.radius, rack.radius}};
+  return out;
+}
+template <class Angle>
+PairRow pair_row(const StrandPair& s, const std::vector<PartState<double>>& parts, const Angle& angle) {
+  const PartState<double>&a = parts[static_cast<std::size_t>(s.first.part)],
+        &b = parts[static_cast<std::size_t>(s.second.part)];
+  const StrandLine line = strand_line(s, parts);
+  const Vec<double> first = point_on(a, s.first.at), second = point_on(b, s.second.at), way = second - first;
+  const double apart = norm(way), step = s.second_radius - s.first_radius;
+  const Vec<double> towards = (1 / apart) * way;
+  const Vec<double> slip = velocity_at(b, second) - velocity_at(a, first);
+  const double turning = cross(towards, slip) / apart, parting = dot(towards, slip);
+  const double direction = s.reference + math::wrap_angle(angle_of(line.along) - s.reference);
+  PairRow out;
+  out.residual = step * direction - s.second_radius * angle(s.second.part) +
+                 s.first_radius * angle(s.first.part) - line.length - s.constant;
+  out.remainder = b.speed * b.speed * dot(line.along, second - b.origin) -
+                  a.speed * a.speed * dot(line.along, first - a.origin) -
+                  2 * step * parting * turning / apart - line.length * turning * turning -
+                  step * step * parting * parting / (line.length * apart * apart);
+  out.shares = {PairShare{s.first.part, line.along, cross(line.first - a.origin, line.along), s.first_radius,
+                          s.first_radius},
+                PairShare{s.second.part, -line.along, -cross(line.second - b.origin, line.along),
+                          -s.second_radius, s.second_radius}};
+  return out;
+}
+// The angle of the second wheel by that of the first, with three derivatives; NaN beyond a sector.
+inline std::array<double, 4> ratio_at(const CurvePair& c, double angle) {
+  const double first = c.curve.knots.front(), last = c.curve.knots.back();
+  if (!c.around) {
+    if (!(angle >= first - 1e-9 && angle <= last + 1e-9)) return {nan, nan, nan, nan};
+    return math::evaluate(c.curve, angle);
+  }
+  const double turns = std::floor((angle - first) / full_turn);
+  std::array<double, 4> out = math::evaluate(c.curve, angle - turns * full_turn);
+  // The curve grows by whole turns.
+  const double growth = math::evaluate(c.curve, last)[0] - math::evaluate(c.curve, first)[0];
+  out[0] += turns * growth;
+  return out;
+}
+template <class Angle>
+PairRow pair_row(const CurvePair& c, const std::vector<PartState<double>>& parts, const Angle& angle) {
+  const auto speed = [&](int part) { return parts[static_cast<std::size_t>(part)].speed; };
+  // A wheel whose turns are not counted is taken into the sector.
+  double seen = angle(c.first) - angle(c.carrier) + c.first_offset;
+  if (!c.around) {
+    const double middle = (c.curve.knots.front() + c.curve.knots.back()) / 2;
+    seen -= full_turn * std::round((seen - middle) / full_turn);
+  }
+  const auto [value, slope, bend, unused] = ratio_at(c, seen);
+  const double relative = speed(c.first) - speed(c.carrier);
+  PairRow out;
+  out.residual = c.scale * (angle(c.second) - angle(c.carrier) + c.second_offset - value);
+  out.remainder = -c.scale * bend * relative * relative;
+  const auto share = [&](int part, double ratio) {
+    return PairShare{part, {0, 0}, c.scale * ratio, c.scale * ratio, c.scale};
+  };
+  out.shares = {share(c.first, -slope), share(c.second, 1), share(c.carrier, slope - 1)};
+  return out;
+}
+template <class Angle>
+PairRow pair_row(const PlanPair& pair, const std::vector<PartState<double>>& parts, const Angle& angle) {
+  return std::visit([&](const auto& kind) { return pair_row(kind, parts, angle); }, pair.kind);
+}
+
+// The parts of a pair; the ground where there are only two.
+inline std::array<int, 3> parts_of(const PlanPair& pair) {
+  if (const auto* rack = std::get_if<RackPair>(&pair.kind)) return {rack->pinion.part, rack->rack.part, 0};
+  if (const auto* curve = std::get_if<CurvePair>(&pair.kind))
+    return {curve->first, curve->second, curve->carrier};
+  const auto& strand = std::get<StrandPair>(pair.kind);
+  return {strand.first.part, strand.second.part, 0};
+}
+
+// The least size of a residual (m) by whole turns of one of the parts that `loose` says.
+template <class Loose>
+double less_turns(const PairRow& row, const Loose& loose) {
+  double around = 0;
+  for (const PairShare& s : row.shares)
+    if (loose(s.part)) around = std::max(around, std::abs(s.around));
+  return around > 0 ? around * math::wrap_angle(row.residual / around) : row.residual;
+}
+
+}  // namespace linkwright::planar
