@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "support/message.h"
+#include "support/study_text.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -39,6 +40,31 @@ TEST(HardPointList, ReadsListsAsSuspensionProgramsPrintThem) {
   EXPECT_EQ(points[2], (HardPoint{"tie_rod_inner", {0.095, 0.33, 0.21}}));
   EXPECT_EQ(points[3], (HardPoint{"wheel_centre_static", {0.0005, 0.72, 0.3}}));
   EXPECT_EQ(read("a,1,2,3\nb , 4, 5, 6\n", PointUnit::m)[1], (HardPoint{"b", {4, 5, 6}}));
+}
+
+TEST(HardPointList, ReadsTheHardPointsOfPropertyFiles) {
+  const std::string file =
+      "$---------------------------------------------------------------------MDI_HEADER\n"
+      "[MDI_HEADER]\nFILE_VERSION = 4.0\n"
+      "[UNITS]\nLENGTH = 'inch'\nANGLE = 'degrees'\n"
+      "$-------------------------------------------------------------HARDPOINT\n[HARDPOINT]\n"
+      "{hardpoint_name   symmetry   x_value   y_value   z_value}\n"
+      " 'lca_front'        'left/right'  -200.0   -400.0   150.0\n"
+      " \"rack_house\"       'single'  10  0  2e2\r\n"
+      " 'battery'          'right'  1.0  2.0  3.0\n"
+      "[PARAMETER]\n{parameter_name symmetry type value}\n 'camber_angle' 'left/right' 'real' -1.0\n";
+  const auto points = read(test::replaced(file, "'inch'", "'mm'"), PointUnit::m);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[0], (HardPoint{"lca_front", {-0.2, -0.4, 0.15}}));
+  EXPECT_EQ(points[1], (HardPoint{"rack_house", {0.01, 0, 0.2}}));
+  EXPECT_EQ(points[2], (HardPoint{"battery_right", {0.001, 0.002, 0.003}}));
+  EXPECT_NEAR(read(file)[0].at.y, -400 * 0.0254, 1e-12);
+  EXPECT_THAT(
+      problems_of(test::replaced(file, "'single'", "'centre'")),
+      HasSubstr(
+          "points.txt:11:1: error: rack_house: is no row of hard points; write 'name' 'left/right' x y z"));
+  EXPECT_THAT(problems_of(test::replaced(file, "'inch'", "'ell'")),
+              HasSubstr("'ell' is no unit of length that is known"));
 }
 
 TEST(HardPointList, ReadsCsvWithTheUnitsOfItsColumns) {

@@ -543,11 +543,88 @@ void read_heading(int line, std::span<const Word> words, ListCollector& collect,
                     "give such a list as CSV with the columns name,x_mm,y_mm,z_m");
 }
 
+/// The next line of a text without blanks at its ends, which it loses.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return without_blanks(line);
+}
+
+/// The name of a section of a property file, as in [HARDPOINT], in small letters; empty for other lines.
+std::string section_of(std::string_view line) {
+  if (line.size() < 3 || line.front() != '[' || line.back() != ']') return {};
+  const std::string_view inner = line.substr(1, line.size() - 2);
+  if (std::any_of(inner.begin(), inner.end(),
+                  [](char c) { return !(std::isalpha(static_cast<unsigned char>(c)) || c == '_'); }))
+    return {};
+  return plain_name(inner);
+}
+
+/// The text of a word in quotes, which the line loses; empty for others.
+std::string_view take_quoted(std::string_view& line) {
+  line = without_blanks(line);
+  if (line.empty() || (line.front() != '\'' && line.front() != '"')) return {};
+  const std::size_t end = line.find(line.front(), 1);
+  if (end == line.npos) return {};
+  const std::string_view out = line.substr(1, end - 1);
+  line.remove_prefix(end + 1);
+  return out;
+}
+
+/// The table of hard points of a property file: rows of a name, its symmetry, x, y and z, and the unit of
+/// length. A point of both sides is given for the left one; one of the right side alone is called so.
+std::optional<std::vector<HardPoint>> read_property_table(std::string_view text, const std::string& file,
+                                                          const Unit* unit, Diagnostics& diagnostics) {
+  ListCollector collect(file, diagnostics);
+  std::string section;
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = take_line(rest);
+    if (const std::string begun = section_of(line); !begun.empty()) section = begun;
+    if (section != "units" || !plain_name(line).starts_with("length")) continue;
+    line.remove_prefix(std::min(line.find('=') + 1, line.size()));
+    const std::string_view word = take_quoted(line);
+    const std::string plain = plain_name(word);
+    if (const Unit* found = unit_of(plain == "meter" ? "m" : plain))
+      unit = found;
+    else
+      collect.problem(0, "units", fmt::format("'{}' is no unit of length that is known", word),
+                      "write LENGTH = 'mm'");
+  }
+  section.clear();
+  for (int number = 1; !text.empty(); ++number) {
+    std::string_view line = take_line(text);
+    if (const std::string begun = section_of(line); !begun.empty()) {
+      section = begun;
+      continue;
+    }
+    if (section != "hardpoint" || line.empty() || begins_comment(line) || line.front() == '{') continue;
+    const std::string_view name = take_quoted(line), symmetry = take_quoted(line);
+    const std::string side = plain_name(symmetry);
+    const Line read = read_line("point " + std::string(line));
+    if (name.empty() || !read.point ||
+        !(side == "left_right" || side == "left" || side == "right" || side == "single")) {
+      collect.problem(number, plain_name(name), "is no row of hard points",
+                      "write 'name' 'left/right' x y z; the symmetry is left/right, left, right or single");
+      continue;
+    }
+    std::array<double, 3> at{};
+    for (std::size_t i = 0; i < 3; ++i)
+      at[i] = (read.at[i].unit ? read.at[i].unit : unit)->to_si(*read.at[i].number);
+    collect.add(number, side == "right" ? std::string(name) + " right" : std::string(name),
+                {at[0], at[1], at[2]});
+  }
+  return collect.finish();
+}
+
 }  // namespace
 
 std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, const std::string& file,
                                                        PointUnit given, Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  for (std::string_view rest = text; !rest.empty();)
+    if (section_of(take_line(rest)) == "hardpoint")
+      return read_property_table(text, file, find_unit(Dimension::length, name_of(given)), diagnostics);
   const Unit* unit = find_unit(Dimension::length, name_of(given));
   ListCollector collect(file, diagnostics);
   const std::string_view whole = text;

@@ -12,7 +12,8 @@
 /// Lists of hard points as drawings, spreadsheets and other programs write them.
 namespace linkwright::suspension {
 
-/// Reads a list of points, in the list's own frame but in metres. The first line distinguishes two forms:
+/// Reads a list of points, in the list's own frame but in metres. The first line distinguishes two of its
+/// forms:
 /// - columns with the headings name, x, y and z in any order, separated by commas, semicolons or tabs. Units
 ///   are in the headings (x_mm, X [mm]), in a row of their own below them, or are `unit`; columns with
 ///   other headings are ignored;
@@ -21,6 +22,9 @@ namespace linkwright::suspension {
 ///   follow the coordinates, as words or as a comment (`[1 2 3]; % tie rod`). Units may follow the numbers.
 ///   Commas are decimal points where something else separates. Comments begin with # $ ! % or //; lines
 ///   without digits are headings.
+/// A property file with a section [HARDPOINT] is read by its rows 'name' 'symmetry' x y z, with the unit of
+/// length of its section [UNITS]; other sections are passed over. A point of both sides (left/right) is that
+/// of the left one; the name of a point of the right side alone ends with right.
 /// Names are made plain: "Lower wishbone, front pivot" becomes lower_wishbone_front_pivot.
 /// A line with numbers that is not read is a warning where it cannot be a point (`mass 24.5`), and an error
 /// where it may be one. Problems are appended with their line under the name `file`; nothing is returned if
