@@ -59,10 +59,9 @@ TEST(HardPointList, ReadsTheHardPointsOfPropertyFiles) {
   EXPECT_EQ(points[1], (HardPoint{"rack_house", {0.01, 0, 0.2}}));
   EXPECT_EQ(points[2], (HardPoint{"battery_right", {0.001, 0.002, 0.003}}));
   EXPECT_NEAR(read(file)[0].at.y, -400 * 0.0254, 1e-12);
-  EXPECT_THAT(
-      problems_of(test::replaced(file, "'single'", "'centre'")),
-      HasSubstr(
-          "points.txt:11:1: error: rack_house: is no row of hard points; write 'name' 'left/right' x y z"));
+  EXPECT_THAT(problems_of(test::replaced(file, "'single'", "'centre'")),
+              HasSubstr("points.txt:11:1: error: rack_house: is not a row of hard points; write 'name' "
+                        "'left/right' x y z"));
   EXPECT_THAT(problems_of(test::replaced(file, "'inch'", "'ell'")),
               HasSubstr("'ell' is no unit of length that is known"));
 }

@@ -588,7 +588,7 @@ std::optional<std::vector<HardPoint>> read_property_table(std::string_view text,
     if (const Unit* found = unit_of(plain == "meter" ? "m" : plain))
       unit = found;
     else
-      collect.problem(0, "units", fmt::format("'{}' is no unit of length that is known", word),
+      collect.problem(0, "units", fmt::format("'{}' is not a known unit of length", word),
                       "write LENGTH = 'mm'");
   }
   section.clear();
@@ -604,7 +604,7 @@ std::optional<std::vector<HardPoint>> read_property_table(std::string_view text,
     const Line read = read_line("point " + std::string(line));
     if (name.empty() || !read.point ||
         !(side == "left_right" || side == "left" || side == "right" || side == "single")) {
-      collect.problem(number, plain_name(name), "is no row of hard points",
+      collect.problem(number, plain_name(name), "is not a row of hard points",
                       "write 'name' 'left/right' x y z; the symmetry is left/right, left, right or single");
       continue;
     }
