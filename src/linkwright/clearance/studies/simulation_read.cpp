@@ -366,6 +366,9 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     for (study::ObjectReader& table : document.tables("clearance")) table.members();
     return prepared;
   }
+  if (const std::string pair = planar::first_rolling_pair(description->linkage); !pair.empty())
+    document.error("mechanism", fmt::format("joints with clearance do not go with {}", pair),
+                   "join the wheels by a gear");
   Value::Array drives, clearances;
   s.drives = planar::read_input_drives(document, *description, drives);
   planar::write_linkage(*description, prepared.canonical);

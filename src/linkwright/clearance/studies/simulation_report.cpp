@@ -302,8 +302,7 @@ class SimulationReporter {
       if (s_.plan.rotary[k])
         drives.push_back(identifier(planar::input_joint(s_.linkage, k).name) + "_drive_torque_N_m");
     for (const planar::LinkageJoint& j : s_.linkage.joints)
-      if (j.type != planar::JointType::gear && reactions.size() < 6)
-        reactions.push_back(identifier(j.name) + "_N");
+      if (!planar::has_teeth(j.type) && reactions.size() < 6) reactions.push_back(identifier(j.name) + "_N");
     against_ideal("torque", "Drive torque (pale: without clearance)", drives);
     against_ideal("reactions", "Joint forces (pale: without clearance)", reactions);
     diagrams({.table = "spectrum", .x = "frequency_Hz", .logarithmic_y = true})(

@@ -195,7 +195,7 @@ void read_watch(study::ObjectReader& document, ToleranceStudy& s, Value& canonic
     });
   for (const std::string& name : form.forces)
     add("forces", name, s.outputs.forces, [&](int j) {
-      const bool has_one = l.joints[at(j)].type != planar::JointType::gear;
+      const bool has_one = !planar::has_teeth(l.joints[at(j)].type);
       if (!has_one)
         table->error("forces", fmt::format("joint '{}' is a gear: its force is not reported", name));
       return has_one;
@@ -319,6 +319,9 @@ study::Prepared prepare_tolerance(study::ObjectReader& document, const study::Co
     return prepared;
   }
   s.motion = std::move(*motion);
+  if (const std::string pair = planar::first_rolling_pair(s.motion.linkage); !pair.empty())
+    document.error("mechanism", fmt::format("tolerances do not go with {}", pair),
+                   "join the wheels by a gear");
   if (document.has("quality"))
     document.error("quality", "belongs to the analysis of planar.linkage",
                    "leave it out, or take mechanism.type = \"planar.linkage\"");

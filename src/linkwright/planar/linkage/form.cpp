@@ -341,7 +341,7 @@ Belt belt_of(const BeltForm& f, Names& names) {
       names.problem("wheels", fmt::format("belt '{}' has teeth but no pitch", f.name),
                     "give the pitch of the chain, or radii");
     else if (w.teeth)
-      wheel.radius = *f.pitch / (2 * std::sin(pi / *w.teeth));
+      wheel.radius = *w.teeth * *f.pitch / full_turn;  // a turn moves as many links as the wheel has teeth
     belt.wheels.push_back(wheel);
   }
   if (belt.wheels.size() < 2)

@@ -31,6 +31,18 @@ void measure(const PlanDraft& d, StrandPair& run) {
   run.constant = pair_row(run, parts, [&](int part) { return d.start[at(part)]->angle; }).residual;
 }
 
+template <class Kind>
+void add_pair(PlanDraft& d, int joint, int strand, const Kind& kind, std::vector<int> parts, std::string key,
+              std::string name) {
+  PartPair& added = d.pairs.emplace_back();
+  added.pair.joint = joint;
+  added.pair.strand = strand;
+  added.pair.kind.emplace<Kind>(kind);
+  added.parts = std::move(parts);
+  added.key = std::move(key);
+  added.name = std::move(name);
+}
+
 void add_strand(PlanDraft& d, int belt, int from, bool has_equation) {
   const Belt& b = d.linkage.belts[at(belt)];
   const BeltWheel &first = b.wheels[at(from)], &second = b.wheels[at(from + 1) % b.wheels.size()];
@@ -66,7 +78,7 @@ void add_strand(PlanDraft& d, int belt, int from, bool has_equation) {
     if (std::isnan(run.constant))
       d.error(key, fmt::format("wheels of belt '{}' overlap", b.name),
               "move them apart; crossed belts need more than the sum of both radii");
-    d.pairs.push_back({{-1, number, run}, {run.first.part, run.second.part}, key, b.name});
+    add_pair(d, -1, number, run, {run.first.part, run.second.part}, key, b.name);
   }
   d.plan().strands.push_back(std::move(strand));
 }
@@ -104,7 +116,7 @@ void add_rack(PlanDraft& d, int joint) {
   // The phase is between bodies; parts may be turned against them.
   rack.phase +=
       angle_of(d.plan().bodies[at(j.second.body)].turn) - angle_of(d.plan().bodies[at(j.first.body)].turn);
-  d.pairs.push_back({{joint, -1, rack}, {rack.pinion.part, rack.rack.part}, "joint." + j.name, j.name});
+  add_pair(d, joint, -1, rack, {rack.pinion.part, rack.rack.part}, "joint." + j.name, j.name);
 }
 
 namespace {
@@ -155,7 +167,7 @@ void add_curve(PlanDraft& d, int joint) {
     return d.error(key, "a smooth curve through the rows of its ratio curve turns back between them",
                    "give more rows where the ratio changes fast");
   pair.curve = std::move(*curve);
-  d.pairs.push_back({{joint, -1, pair}, {pair.first, pair.second, pair.carrier}, key, j.name});
+  add_pair(d, joint, -1, pair, {pair.first, pair.second, pair.carrier}, key, j.name);
 }
 
 void add_belts(PlanDraft& d) {

@@ -124,7 +124,7 @@ class ElasticReporter {
     beside_rigid("torque", "Drive torque, pale: rigid linkage", torques);
     beside_rigid("drive-force", "Drive force, pale: rigid linkage", drive_forces);
     for (const LinkageJoint& j : l.joints)
-      if (j.type != JointType::gear && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
+      if (!has_teeth(j.type) && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
     beside_rigid("reactions", "Joint forces, pale: rigid linkage", sizes);
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
     plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});

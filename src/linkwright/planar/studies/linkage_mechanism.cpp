@@ -220,12 +220,14 @@ bool read_form(study::ObjectReader& mechanism, Linkage& l) {
   l = linkage_of(form, problems);
   for (const FormProblem& p : problems) {
     auto entries = mechanism.tables(p.list);
-    if (p.index < entries.size())
+    if (p.warning && p.index < entries.size())
+      entries[p.index].warning(p.key, to_string(p.message), to_string(p.hint));
+    else if (p.index < entries.size())
       entries[p.index].error(p.key, to_string(p.message), to_string(p.hint));
     else
       mechanism.error(p.list, to_string(p.message), to_string(p.hint));
   }
-  return problems.empty();
+  return std::all_of(problems.begin(), problems.end(), [](const FormProblem& p) { return p.warning; });
 }
 
 /// Reads the drives; a sample or a shorthand brings its own, which the file may repeat in any order.

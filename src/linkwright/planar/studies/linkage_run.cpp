@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -15,10 +16,14 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/belt_run.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/limits.h"
+#include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/linkage_scene.h"
@@ -163,7 +168,14 @@ class Runner {
       if (!traits.closes_loop || !traits.closed_form) continue;
       if (transmission_.least(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r)) weakest_ = g;
     }
+    for (std::size_t j = 0; j < s_.linkage.joints.size(); ++j)
+      if (s_.linkage.joints[j].type == JointType::rack) {
+        racks_.resize(s_.linkage.joints.size());
+        racks_[j].largest(off_pitch_line(s_.linkage, s_.plan, motion, static_cast<int>(j)), r);
+      }
     if (!dynamic) return;
+    strands_.resize(forces.strands.size());
+    for (std::size_t k = 0; k < strands_.size(); ++k) strands_[k].least(forces.strands[k].tangential, r);
     drives_.resize(s_.plan.inputs());
     for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].largest(forces.drives[k], r);
     joints_.resize(forces.joints.size());
@@ -214,7 +226,7 @@ class Runner {
     if (q.reactions) {
       std::vector<std::string> sizes;
       for (const LinkageJoint& j : s_.linkage.joints)
-        if (j.type != JointType::gear) sizes.push_back(identifier(j.name) + "_N");
+        if (!has_teeth(j.type)) sizes.push_back(identifier(j.name) + "_N");
       plot("reactions", "Joint forces", sizes);
     }
     if (q.shaking) {
@@ -228,7 +240,7 @@ class Runner {
     if (q.reactions && linked) {
       std::vector<std::string> pairs;
       for (const LinkageJoint& j : s_.linkage.joints)
-        if (j.type != JointType::gear) {
+        if (!has_teeth(j.type)) {
           pairs.push_back(identifier(j.name) + "_x_N");
           pairs.push_back(identifier(j.name) + "_y_N");
         }
@@ -305,6 +317,16 @@ class Runner {
                          input_joint(s_.linkage, k).name),
              say("{} at {}", study::torque_or_force(drives_[k].value, s_.plan.rotary[k], 5),
                  where(drives_[k].row)));
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
+      if (const auto& screw = input_joint(s_.linkage, k).screw; screw && screw->friction > 0) {
+        const ScrewThread thread = thread_of(*screw);
+        fact(fmt::format("efficiency of {}", input_joint(s_.linkage, k).name),
+             say("{} against the load; margin of self-locking {}{}", plain_number(thread.efficiency, 4),
+                 plain_number(thread.margin, 4),
+                 thread.margin > 1 ? "" : ": the load turns the spindle back"));
+      }
+    for (const Belt& belt : s_.linkage.belts)
+      if (!statuses_.empty() && statuses_[0] == Status::done) fact_of_belt(belt, fact);
     facts_of_turn(fact);
     if (s_.quantities.dynamic()) report_assumed_masses(s_.linkage, result_);
     if (s_.quantities.reactions && strongest() < joints_.size())
@@ -323,6 +345,49 @@ class Runner {
            say("within {} of the largest power", plain_number(std::abs(balance_.value / power_.value), 2)));
   }
 
+  // The length of a belt and its wraps in the first position.
+  void fact_of_belt(const Belt& belt, const study::AddFact& fact) const {
+    std::vector<std::complex<double>> centres;
+    std::vector<double> radii;
+    for (const BeltWheel& wheel : belt.wheels) {
+      const PartState<double>& body = recorded_.front().bodies[at(wheel.centre.body)];
+      centres.push_back(number(
+          point_on(body, vec(s_.linkage.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at))));
+      radii.push_back(wheel.side * wheel.radius);
+    }
+    const BeltRun run = belt_run(centres, radii, belt.closed);
+    Sentence wraps;
+    for (std::size_t i = 0; i < belt.wheels.size(); ++i)
+      if (belt.wheels[i].radius > 0)
+        wraps +=
+            (wraps.empty() ? "" : ", ") +
+            say("{} {}", s_.linkage.bodies[at(belt.wheels[i].centre.body)].name, degrees_of(run.wraps[i], 5));
+    fact(fmt::format("length of {}", belt.name),
+         say("{}, wraps {}", s_.units.measured(run.length, Dimension::length), wraps));
+    const bool spread = belt.closed && belt.carrier >= 0 && !belt.tension;
+    if (s_.quantities.reactions && spread)
+      fact(fmt::format("tension of {}", belt.name),
+           "not given: strands have its differences about a mean of 0");
+  }
+
+  // The least tension of each belt; a rope cannot push, nor can a belt.
+  void slack_strands(const study::AddWarning& warn) const {
+    for (std::size_t k = 0; k < strands_.size(); ++k) {
+      const PlanStrand& strand = s_.plan.strands[k];
+      const Belt& belt = s_.linkage.belts[at(strand.belt)];
+      if (!strands_[k].any() || !(strands_[k].value < 0) || (strand.preloaded && !belt.tension)) continue;
+      const Sentence what =
+          say("strand {}-{} of '{}' becomes slack at {}", s_.linkage.bodies[at(strand.first)].name,
+              s_.linkage.bodies[at(strand.second)].name, belt.name, where(strands_[k].row));
+      if (strand.preloaded)
+        warn(say("{}: it needs a tension of {}, and has {}", what,
+                 newtons(*belt.tension - strands_[k].value, 5), newtons(*belt.tension, 5)),
+             "raise tension_N");
+      else
+        warn(say("{}: it would have to push with {}", what, newtons(-strands_[k].value, 5)),
+             "load it so that it pulls, or use a link");
+    }
+  }
   // Facts of one drive over whole turns of its joint: mean square of the torque, and its work, which is 0 at
   // constant speed without friction and losses.
   void facts_of_turn(const study::AddFact& fact) const {
@@ -353,6 +418,14 @@ class Runner {
 
   void warnings() {
     const study::AddWarning warn{result_.diagnostics};
+    for (std::size_t j = 0; j < racks_.size(); ++j)
+      if (racks_[j].any() && std::abs(racks_[j].value) > 1e-9 * s_.plan.size)
+        warn(say("the centre of the pinion of '{}' leaves its distance from the pitch line by {}, the most "
+                 "at {}",
+                 s_.linkage.joints[j].name, s_.units.measured(std::abs(racks_[j].value), Dimension::length),
+                 where(racks_[j].row)),
+             "guide the rack parallel to its direction");
+    slack_strands(warn);
     if (s_.quantities.reactions && !s_.plan.torque_gears.empty())
       warn(fmt::format("joint forces leave out the forces of the teeth of {}",
                        fmt::join(s_.plan.torque_gears, ", of ")),
@@ -516,7 +589,7 @@ class Runner {
   Status interruption_ = Status::done;
   Failures failures_;
   study::Extreme nearest_, closure_, transmission_, shaking_, power_, balance_;
-  std::vector<study::Extreme> drives_, joints_;
+  std::vector<study::Extreme> drives_, joints_, racks_, strands_;
   std::size_t weakest_ = 0;
   int nearest_group_ = -1;
   std::vector<double> modes_;

@@ -8,10 +8,12 @@
 #include <complex>
 #include <functional>
 #include <string_view>
+#include <tuple>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/open_pose.h"
 
@@ -65,6 +67,8 @@ class Artist {
     points();
     bodies();
     joints();
+    wheels();
+    belts();
     springs();
     masses();
     gaps();
@@ -151,12 +155,62 @@ class Artist {
         guide(j);
       } else if (j.type == JointType::prismatic && (!moves(j.first.body) || !moves(j.second.body))) {
         guide(j);
+      } else if (j.type == JointType::rack) {
+        circle(j.name + " pinion", j.first.body, l_.bodies[at(j.first.body)].points[at(j.first.point)].at,
+               std::abs(j.radius));
+        guide(j);
       }
+    }
+  }
+  // The pitch circle of a wheel, or the way of a belt over it.
+  void circle(std::string name, int body, std::complex<double> centre, double radius) {
+    const int middle = add_point("", body, centre);
+    scene_.circles.push_back({std::move(name), middle, add_point("", body, centre + radius)});
+  }
+  // The pitch circles of gears, as far as their wheels have pins that show the radii.
+  void wheels() {
+    for (const Group& g : plan_.groups)
+      for (const PlanGear& gear : g.gears) {
+        if (!gear.mesh) continue;
+        const LinkageJoint& j = l_.joints[at(gear.joint)];
+        for (const auto& [body, wheel, radius] :
+             {std::tuple{j.first.body, &gear.mesh->first, gear.mesh->first_radius},
+              std::tuple{j.second.body, &gear.mesh->second, gear.mesh->second_radius}}) {
+          const BodyOnPart& on = plan_.bodies[at(body)];
+          circle(fmt::format("{} of {}", j.name, l_.bodies[at(body)].name), body,
+                 number(rotate_inverse(on.turn, wheel->at - on.origin)), std::abs(radius));
+        }
+      }
+  }
+  // The wheels of belts, and their strands from wheel to wheel.
+  void belts() {
+    for (const Belt& belt : l_.belts)
+      for (const BeltWheel& wheel : belt.wheels)
+        if (wheel.radius > 0)
+          circle(fmt::format("{} on {}", belt.name, l_.bodies[at(wheel.centre.body)].name), wheel.centre.body,
+                 l_.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at, wheel.radius);
+    std::vector<int> wheel(l_.belts.size(), 0);
+    for (const PlanStrand& strand : plan_.strands) {
+      const Belt& belt = l_.belts[at(strand.belt)];
+      const std::size_t from = at(wheel[at(strand.belt)]++), to = (from + 1) % belt.wheels.size();
+      const auto line = [&belt, from, to, this](const LinkageRecord& r) {
+        const auto centre = [&](const BeltWheel& w) {
+          return point_on(r.bodies[at(w.centre.body)],
+                          vec(l_.bodies[at(w.centre.body)].points[at(w.centre.point)].at));
+        };
+        const BeltWheel &a = belt.wheels[from], &b = belt.wheels[to];
+        return strand_line(centre(a), a.side * a.radius, centre(b), b.side * b.radius);
+      };
+      const int moving = moves(strand.first) ? strand.first : strand.second;
+      const int a = add_point("", moving, [&](const LinkageRecord&r) { return line(r).first; }),
+                b = add_point("", moving, [&](const LinkageRecord&r) { return line(r).second; });
+      scene_.bodies.push_back({belt.name, {a, b}, Style::guide});
     }
   }
   // The line of a slide, as long as what runs on it needs.
   void guide(const LinkageJoint& j) {
-    const bool on_first = !moves(j.first.body) || j.type == JointType::pin_in_slot;
+    const bool on_first =
+        j.type != JointType::rack && (!moves(j.first.body) || j.type == JointType::pin_in_slot);
     const BodyPoint &base = on_first ? j.first : j.second, &runner = on_first ? j.second : j.first;
     const std::complex<double> start = l_.bodies[at(base.body)].points[at(base.point)].at;
     const Vec<double> along = unit(on_first ? j.slide_first : j.slide_second);
@@ -176,7 +230,8 @@ class Artist {
     const double margin = 0.08 * plan_.size;
     const auto end = [&](double way) { return add_point("", base.body, start + number(way * along)); };
     const int a = end(low - margin), b = end(high + margin);
-    scene_.bodies.push_back({j.name + " guide", {a, b}, Style::guide});
+    scene_.bodies.push_back(
+        {j.name + (j.type == JointType::rack ? " pitch line" : " guide"), {a, b}, Style::guide});
   }
 
   void springs() {
@@ -365,7 +420,7 @@ class Artist {
     if (!any) return;
     for (std::size_t j = 0; j < l_.joints.size(); ++j) {
       const LinkageJoint& joint = l_.joints[j];
-      if (joint.type == JointType::gear) continue;
+      if (has_teeth(joint.type)) continue;
       study::Scene::Vector v{
           .name = fmt::format("force at {}, {} on {}", joint.name, l_.bodies[at(joint.first.body)].name,
                               l_.bodies[at(joint.second.body)].name),

@@ -238,6 +238,11 @@ class Maker {
         why_ = fmt::format("joint '{}' has friction, which is not linear in the masses", j.name);
         return false;
       }
+    for (const LinkageJoint& j : study->linkage.joints)
+      if (j.efficiency < 1) {
+        why_ = fmt::format("gear '{}' has losses, which are not linear in the masses", j.name);
+        return false;
+      }
     Linkage l = study->linkage;
     const Value* mass = s_.designed.tables.find("mechanism")->find("mass");
     std::vector<int> bodies;
@@ -280,6 +285,12 @@ class Maker {
       }
     }
     PlanResult planned = plan_linkage(l);
+    for (const LinkageJoint& j : l.joints)
+      if (j.type == JointType::rack && j.pressure_angle > 0) {
+        why_ =
+            fmt::format("rack '{}' has a pressure angle, whose forces are not linear in the masses", j.name);
+        return false;
+      }
     for (const Group& g : planned.plan.groups)
       for (const PlanGear& gear : g.gears)
         if (gear.mesh && gear.mesh->tangent > 0) {
@@ -287,6 +298,12 @@ class Maker {
                              l.joints[static_cast<std::size_t>(gear.joint)].name);
           return false;
         }
+    for (const LinkageJoint& j : l.joints)
+      if (j.curve && j.pressure_angle > 0) {
+        why_ =
+            fmt::format("gear '{}' has a pressure angle, whose forces are not linear in the masses", j.name);
+        return false;
+      }
     const LinkageRows rows = rows_of(*study);
     std::vector<InputMotion> inputs;
     for (const auto& row : rows.inputs) inputs.insert(inputs.end(), row.begin(), row.end());

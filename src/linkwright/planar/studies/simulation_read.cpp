@@ -198,6 +198,18 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
         document.error("simulation",
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");
+  for (const LinkageJoint& j : description->linkage.joints)
+    if (j.efficiency < 1)
+      document.error("simulation",
+                     fmt::format("gear '{}' has an efficiency, which a simulation does not take", j.name),
+                     "leave it out; the analysis of planar.linkage takes it");
+  const std::string pair = first_rolling_pair(description->linkage);
+  if (!pair.empty() && s.route == SimulationRoute::all_coordinates)
+    document.error("simulation", fmt::format("all_coordinates do not take {}", pair),
+                   "route = \"free_joints\" does");
+  if (!pair.empty() && elastic)
+    document.error("elastic", fmt::format("a linkage with flexible bodies does not take {}", pair),
+                   "leave the flexible bodies out, or join the wheels by a gear");
   Value::Array drives, beams;
   s.drives = read_input_drives(document, *description, drives);
   s.elastic = read_elastic(document, description->linkage, beams);

@@ -114,7 +114,7 @@ class SimulationRunner {
     for (std::size_t k = 0; k < s_.plan.inputs() && forces.size() < 6; ++k)
       if (!s_.plan.rotary[k]) forces.push_back(identifier(input_joint(l, k).name) + "_drive_force_N");
     for (const LinkageJoint& j : l.joints)
-      if (j.type != JointType::gear && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
+      if (!has_teeth(j.type) && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
     for (const LinkageColumn& c : columns_)
       if (c.angle && angles.size() < 8) angles.push_back(c.key);
     for (const BodyPoint& t : s_.traces) {
