@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -187,6 +191,76 @@ TEST(LinkageForm, NamesWhatIsWrongWithGears) {
               ElementsAre("joint.3.carrier: both 'arm' and 'frame' carry the wheels; name one as `carrier`",
                           "joint.4.carrier: both 'arm' and 'frame' carry the wheels; name one as "
                           "`carrier`"));
+}
+
+// Three pulleys of 50 mm on the frame, at the corners of a triangle that are listed counter-clockwise.
+LinkageForm pulleys_form() {
+  LinkageForm form;
+  const Place centres[] = {{0, 0}, {0.4, 0}, {0, 0.3}};
+  form.bodies.push_back({.name = "frame"});
+  BeltForm belt{.name = "belt", .length = 1.2 + full_turn * 0.05};
+  for (int i = 0; i < 3; ++i) {
+    const std::string point(1, static_cast<char>('A' + i)), name = "pulley " + point;
+    form.bodies[0].points.emplace_back(point, centres[i]);
+    form.bodies.push_back({.name = name, .points = {{point, Place{0, 0}}}});
+    form.joints.push_back({.name = point, .first = "frame." + point, .second = name + "." + point});
+    belt.wheels.push_back({name + "." + point, 0.05, BeltSide::inside, {}});
+  }
+  form.belts.push_back(std::move(belt));
+  return form;
+}
+TEST(LinkageForm, BeltsRunRoundTheirWheelsInEitherOrder) {
+  for (const bool backwards : {false, true}) {
+    LinkageForm form = pulleys_form();
+    if (backwards) std::reverse(form.belts[0].wheels.begin(), form.belts[0].wheels.end());
+    EXPECT_THAT(form_problems(form), IsEmpty());
+    std::vector<FormProblem> problems;
+    const Linkage l = linkage_of(form, problems);
+    ASSERT_EQ(l.belts.size(), 1u);
+    EXPECT_EQ(l.belts[0].carrier, 0);
+    for (const BeltWheel& wheel : l.belts[0].wheels) EXPECT_EQ(wheel.side, backwards ? -1 : 1);
+  }
+  LinkageForm form = pulleys_form();
+  form.belts[0].length = 1.5;
+  EXPECT_THAT(
+      form_problems(form),
+      ElementsAre("belt.0.length_mm: belt 'belt' is 1514.159 mm long over its wheels, not 1500 mm; move a "
+                  "wheel, or leave the length out"));
+}
+
+// A pinion on the frame and a rack beneath it.
+LinkageForm rack_form() {
+  LinkageForm form;
+  form.bodies = {{.name = "frame", .points = {{"O", Place{0, 0}}, {"L", Place{0.1, -0.03}}}},
+                 {.name = "pinion", .points = {{"O", Place{0, 0}}}},
+                 {.name = "bar", .points = {{"L", Place{0.1, -0.03}}}}};
+  form.joints = {{.name = "O", .first = "frame.O", .second = "pinion.O"},
+                 {.name = "way", .type = JointType::prismatic, .first = "frame.L", .second = "bar.L"},
+                 {.name = "teeth", .type = JointType::rack, .first = "pinion.O", .second = "bar.L"}};
+  form.drawn = true;
+  return form;
+}
+TEST(LinkageForm, RacksHaveTheRadiusOfTheirDrawing) {
+  LinkageForm form = rack_form();
+  std::vector<FormProblem> problems;
+  const LinkageJoint rack = linkage_of(form, problems).joints[2];
+  EXPECT_TRUE(problems.empty());
+  EXPECT_NEAR(rack.radius, 0.03, 1e-16);
+  // The pinion stands as it is drawn, 100 mm before the point of the rack.
+  EXPECT_NEAR(rack.phase, -0.1 / 0.03, 1e-14);
+  form.joints[2].direction = pi;
+  EXPECT_NEAR(linkage_of(form, problems).joints[2].radius, -0.03, 1e-16);
+  form.joints[2].radius = 0.025;
+  EXPECT_THAT(
+      form_problems(form),
+      ElementsAre("joint.2.radius_mm: the pinion of rack 'teeth' has a radius of 25 mm and is drawn 30 mm "
+                  "from the pitch line; move the point of the rack or the pinion, or leave the radius out"));
+  form.drawn = false;
+  form.joints[2].radius.reset();
+  EXPECT_THAT(
+      form_problems(form),
+      ElementsAre("joint.2.radius_mm: the pinion of rack 'teeth' has no radius; give it, negative where the "
+                  "centre lies to the right of the direction of the rack"));
 }
 
 }  // namespace

@@ -116,10 +116,12 @@ struct StrandPair {
 /// Two wheels that are not circular: the angle of the second from the carrier, plus its offset, is a curve of
 /// that of the first.
 struct CurvePair {
-  int first = 0, second = 0, carrier = 0;  ///< parts
-  double first_offset = 0;                 ///< rad
-  double second_offset = 0;                ///< rad
-  math::PiecewisePolynomial curve;         ///< rad
+  int first = 0,                    ///< part of the first wheel
+      second = 0,                   ///< part of the second wheel
+      carrier = 0;                  ///< part that carries both
+  double first_offset = 0;          ///< rad
+  double second_offset = 0;         ///< rad
+  math::PiecewisePolynomial curve;  ///< rad
   bool around = false;  ///< the curve covers a turn of the first wheel and repeats; else it is a sector
   /// The mesh, whose radii are those of a ratio of 0: the second one is the distance of the centres.
   std::optional<GearMesh> mesh = {};
@@ -128,9 +130,9 @@ struct CurvePair {
 
 /// A pair that gives one equation between parts, other than a gear of constant ratio.
 struct PlanPair {
-  int joint = -1;   ///< index in the linkage, -1 of a strand
-  int strand = -1;  ///< index into LinkagePlan::strands, -1 of a joint
-  std::variant<RackPair, StrandPair, CurvePair> kind;
+  int joint = -1;                                      ///< index in the linkage, -1 of a strand
+  int strand = -1;                                     ///< index into LinkagePlan::strands, -1 of a joint
+  std::variant<RackPair, StrandPair, CurvePair> kind;  ///< the pair with its dimensions
 };
 
 /// Parts on pins, each of a part that is placed before it, whose angles follow from gears and drives.
@@ -306,10 +308,11 @@ struct SharedPin {
 
 /// A strand of a belt. The last one of a closed belt on a carrier has no equation of its own.
 struct PlanStrand {
-  int belt = 0;               ///< index in the linkage
-  int first = 0, second = 0;  ///< bodies of its wheels
-  bool preloaded = false;     ///< its belt is closed and on a carrier, so that its mean tension is given
-  StrandPair run;             ///< its wheels
+  int belt = 0;            ///< index in the linkage
+  int first = 0,           ///< body of the wheel that it leaves
+      second = 0;          ///< body of the wheel that it runs on to
+  bool preloaded = false;  ///< its belt is closed and on a carrier, so that its mean tension is given
+  StrandPair run;          ///< its wheels
 };
 
 /// A linkage made ready: parts (rigid clusters of bodies; part 0 is the ground), and the groups in order.
