@@ -38,6 +38,13 @@ class Draw(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "body_angles"):
             linkwright.draw_study(points, body_angles=[0, 1])
 
+    def test_the_drive_of_an_open_stroke_may_rock(self):
+        stroke = [[0, 0], [0.008, 0.03], [0.03, 0.052], [0.06, 0.06], [0.2, 0.06], [0.4, 0.06]]
+        result = linkwright.draw(stroke, crank_turns=False, evaluations=20_000, most_links=4)
+        self.assertGreater(result.tables["machines"]["drive_from_rad"].size, 0)
+        with self.assertRaisesRegex(linkwright.StudyError, "the stroke is closed"):
+            linkwright.draw(superellipse, closed=True, crank_turns=False)
+
     def test_says_what_is_wrong(self):
         with self.assertRaisesRegex(ValueError, r"array \(n, 2\).*\(3,\)"):
             linkwright.draw([1.0, 2.0, 3.0])
