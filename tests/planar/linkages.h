@@ -26,6 +26,20 @@ inline LinkagePlan planned(const Linkage& l, PlanRoute route = PlanRoute::along_
   return std::move(r.plan);
 }
 
+/// Leaves the bodies without mass, in no gravity.
+inline void without_mass(Linkage& l) {
+  l.gravity = 0;
+  for (std::size_t b = 1; b < l.bodies.size(); ++b)
+    if (!l.bodies[b].mass) l.bodies[b].mass = BodyMass{};
+}
+
+/// What keeps a linkage from being planned, without the word error.
+inline std::vector<std::string> planning_problems(const Linkage& l) {
+  std::vector<std::string> out;
+  for (const Diagnostic& d : plan_linkage(l).problems) out.push_back(to_string(d).substr(7));
+  return out;
+}
+
 /// Inputs of a sample at a share of its way, all moving towards the end with the speed of the first.
 inline std::vector<InputMotion> inputs_at(const LinkageSample& s, double share, double speed,
                                           double acceleration = 0) {

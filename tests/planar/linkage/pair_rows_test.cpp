@@ -18,19 +18,9 @@ namespace {
 using namespace linkwright::planar::test;
 using testing::ElementsAre;
 
-const Value& machine(const char* id) { return at(published_case("planar-machines.json", id), "computed"); }
+const Value& computed(const char* id) { return at(published_case("planar-machines.json", id), "computed"); }
 double angle_in(const Linkage& l, const LinkagePlan& p, const LinkageMotion& m, const char* body) {
   return angle_of(body_state(p, m, body_index(l, body)).direction);
-}
-void without_mass(Linkage& l) {
-  l.gravity = 0;
-  for (std::size_t b = 1; b < l.bodies.size(); ++b)
-    if (!l.bodies[b].mass) l.bodies[b].mass = BodyMass{};
-}
-std::vector<std::string> problems_of(const Linkage& l) {
-  std::vector<std::string> out;
-  for (const Diagnostic& d : plan_linkage(l).problems) out.push_back(to_string(d).substr(7));
-  return out;
 }
 void add_block(Linkage& l, const std::string& name, const char* point) {
   add_body(l, name, {{point, {0, 0}}});
@@ -93,7 +83,7 @@ TEST(PairRows, AStrokeDoublerMovesItsRackTwiceAsFar) {
   EXPECT_TRUE(p.closed_form());
   LinkageMotion m(p);
   double pinion = 0, from = 0;
-  for (const Value& row : at(machine("rack-stroke-doubler"), "rows").as_array()) {
+  for (const Value& row : at(computed("rack-stroke-doubler"), "rows").as_array()) {
     const std::vector<double> v = numbers(row);
     solve_motion(p, std::vector<InputMotion>{{math::radians(v[0]), 1, 0}}, m);
     ASSERT_EQ(m.status, Status::done);
@@ -185,13 +175,13 @@ TEST(PairRows, RacksThatDoNothingAreNamed) {
   Linkage l = driven_rack();
   add_drive(l, "way");
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("joint.teeth: a redundant constraint: 'pinion' and 'bar' are placed without the rack "
                   "already; leave the rack or a drive out"));
   l = driven_rack();
   l.joints.back().radius = 0;
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("joint.teeth: its pinion has the radius 0; give the distance of its centre from the "
                   "pitch line, negative to the right of its direction"));
 }
@@ -218,7 +208,7 @@ Linkage belt_on_arm(double radius) {
   return l;
 }
 TEST(PairRows, BeltsOnAnArmTurnItsHead) {
-  const Value& wanted = machine("belt-on-arm");
+  const Value& wanted = computed("belt-on-arm");
   const auto head = [&](double radius, bool tip) {
     const Linkage l = belt_on_arm(radius);
     const LinkagePlan p = planned(l);
@@ -248,7 +238,7 @@ Linkage two_pulleys(double tension) {
   return l;
 }
 TEST(PairRows, StrandsOfABeltShareItsTension) {
-  const Value& wanted = machine("belt-tensions");
+  const Value& wanted = computed("belt-tensions");
   Linkage l = two_pulleys(100);
   without_mass(l);
   // The belt turns the second wheel with -1.5 N m where the first one is driven with 3 N m.
@@ -349,23 +339,23 @@ TEST(PairRows, BeltsThatCannotBeAreNamed) {
   l.belts.push_back(belt_over(l, nullptr, {"motor.Q", "wheel.A"}, {0.05, 0.05}));
   add_drive(l, "O");
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("belt.belt: belt 'belt' cannot stay tight: no body holds both 'motor.Q' and 'wheel.A', "
                   "whose distance changes; join both wheels to one body by pins, add an idler on a "
                   "spring, or write a rope"));
   l.belts[0].closed = false;
   l.belts[0].wheels[0].radius = 0.5;
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("belt.belt: wheels of belt 'belt' overlap; move them apart; crossed belts need more "
                   "than the sum of both radii"));
   l.bodies[1].start.reset();
-  EXPECT_THAT(problems_of(l),
+  EXPECT_THAT(planning_problems(l),
               ElementsAre("belt.belt: wheels of belt 'belt' overlap; move them apart; crossed "
                           "belts need more than the sum of both radii"));
   l.bodies[2].start.reset();
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("belt.belt: the length of 'belt' is not known; draw the linkage (drawn = true), or give "
                   "the bodies of its wheels a start"));
 }
@@ -399,7 +389,7 @@ TEST(PairRows, EllipticalWheelsHaveTheirRatio) {
   const LinkagePlan p = planned(l), q = planned(fine);
   EXPECT_TRUE(p.closed_form());
   LinkageMotion m(p), n(q);
-  for (const Value& row : at(machine("gear-elliptical"), "rows").as_array()) {
+  for (const Value& row : at(computed("gear-elliptical"), "rows").as_array()) {
     const std::vector<double> v = numbers(row);
     for (const int turns : {0, 1, -7}) {
       const std::vector<InputMotion> in{{math::radians(v[0]) + turns * full_turn, 1, 0}};
@@ -454,13 +444,13 @@ TEST(PairRows, CurvesAgreeWithDifferencesAndWithAllAtOnce) {
 TEST(PairRows, CurvesThatCannotBeAreNamed) {
   Linkage l = elliptical_wheels(12);
   l.joints[2].curve->second[3] = 0;
-  EXPECT_THAT(problems_of(l),
+  EXPECT_THAT(planning_problems(l),
               ElementsAre("joint.ellipses: its ratio curve turns back behind row 3; the first "
                           "angles rise, the second ones all rise or all fall"));
   l = elliptical_wheels(12);
   l.joints[2].curve->second.back() -= 1;
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("joint.ellipses: 'second' turns by -1.15915 turns for one of 'first': the wheels do not "
                   "come back; a curve over a whole turn ends a whole number of turns on"));
 }

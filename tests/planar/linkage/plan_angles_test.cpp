@@ -24,16 +24,6 @@ const Value& machine(const char* id) { return published_case("planar-machines.js
 double speed_of(const Linkage& l, const LinkagePlan& p, const LinkageMotion& m, const char* body) {
   return body_state(p, m, body_index(l, body)).speed;
 }
-void without_mass(Linkage& l) {
-  l.gravity = 0;
-  for (std::size_t b = 1; b < l.bodies.size(); ++b)
-    if (!l.bodies[b].mass) l.bodies[b].mass = BodyMass{};
-}
-std::vector<std::string> problems_of(const Linkage& l) {
-  std::vector<std::string> out;
-  for (const Diagnostic& d : plan_linkage(l).problems) out.push_back(to_string(d).substr(7));
-  return out;
-}
 
 // A sun, planets on an arm, and a ring: sun, ring and arm on one axis. `fixed` is welded to the ground.
 Linkage epicyclic(double sun, double planet, double ring, double module, const std::string& fixed,
@@ -265,14 +255,14 @@ TEST(PlanAngles, GearsThatRepeatOthersCarryNothing) {
 
   l.joints[index(p.redundant_gears[0])].phase = 0.1;
   EXPECT_THAT(
-      problems_of(l),
+      planning_problems(l),
       ElementsAre("joint.planet 2 and ring: the other gears turn 'ring' to an angle that is 5.72958 deg less "
                   "than this one says; change its phase by as much, or leave the gear out"));
 }
 TEST(PlanAngles, TrainsThatLockAreNamed) {
   Linkage l = epicyclic(20, 30, 80, 0.002, "ring", {"sun"});
   add_gear(l, "belt", "sun", "ring", -2, 0, "arm");
-  EXPECT_THAT(problems_of(l),
+  EXPECT_THAT(planning_problems(l),
               ElementsAre("joint.planet and ring: wheels planet, ring, sun with carrier 'arm' "
                           "cannot turn: 3 gears for 2 angles; leave out 'planet and ring' or a drive"));
 }

@@ -92,7 +92,8 @@ TEST(CountedTurns, AnAnalysisTwistsTheSpringAsFarAsItsJoint) {
   text += "[sweep]\n[[sweep.input]]\nfrom_deg = 0\nto_deg = 900\nsamples = 5\n";  // 0, 225, 450, 675, 900
   const study::Result r = run_text(text);
   const std::vector<double>& torque = table(r, "sweep").find("O_drive_torque_N_m")->values;
-  for (int i = 0; i < 5; ++i) EXPECT_NEAR(torque[at(i)], 2 * math::radians(225) * i, 1e-12);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(torque[static_cast<std::size_t>(i)], 2 * math::radians(225) * i, 1e-12);
   EXPECT_NEAR(torque[1], 7.854, 5e-4);
   EXPECT_NEAR(table(r, "sweep").find("disc_angle_rad")->values[4], math::radians(900), 1e-12);
 }
@@ -122,14 +123,14 @@ TEST(CountedTurns, ALoadOverWholeTurnsRepeats) {
   const std::string turn = "[0, 1.5707963, 3.1415927, 4.712389, 6.2831853]", factor = "[0, 1, 2, 3, 0]";
   const study::Result r = run_text(loaded(turn, factor));
   const std::vector<double>& torque = table(r, "sweep").find("O_drive_torque_N_m")->values;
-  for (int i = 0; i < 21; ++i) EXPECT_NEAR(torque[at(i)], -(i % 4), 1e-6) << i;
+  for (int i = 0; i < 21; ++i) EXPECT_NEAR(torque[static_cast<std::size_t>(i)], -(i % 4), 1e-6) << i;
   // Over two turns, as of a four-stroke engine.
   const study::Result two =
       run_text(loaded("[0, 3.1415926536, 6.2831853072, 9.4247779608, 12.5663706144]", factor));
   const std::vector<double>& slow = table(two, "sweep").find("O_drive_torque_N_m")->values;
   for (int i = 0; i < 21; ++i) {
     const int phase = (i + 4) % 8;  // -360 deg is the middle of the table
-    EXPECT_NEAR(slow[at(i)], phase == 7 ? -1.5 : -phase / 2.0, 1e-6) << i;
+    EXPECT_NEAR(slow[static_cast<std::size_t>(i)], phase == 7 ? -1.5 : -phase / 2.0, 1e-6) << i;
   }
   // Part of a turn is held at its ends unless it is told to repeat; nothing repeats that is told not to.
   const study::Result held = run_text(loaded("[0, 1.5707963267948966]", "[0, 1]"));

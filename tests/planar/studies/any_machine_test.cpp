@@ -363,7 +363,9 @@ TEST(AnyPathStudies, RefineMachinesWhoseDriveRocks) {
              &before = machines->find("size_before_m")->values;
   EXPECT_GT(*std::max_element(refined.begin(), refined.end()), 0);
   for (std::size_t i = 0; i < refined.size(); ++i)
-    if (refined[i] == 1) EXPECT_LT(size[i], before[i]);
+    if (refined[i] == 1) {
+      EXPECT_LT(size[i], before[i]);
+    }
   for (const double angle : machines->find("least_pair_angle_rad")->values) EXPECT_GE(angle, 20 * pi / 180);
 }
 
