@@ -11,6 +11,7 @@
 #include "linkwright/planar/studies/any_machine_refine.h"
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/path_points.h"
+#include "linkwright/planar/type_synthesis/quick_return.h"
 #include "linkwright/planar/type_synthesis/search.h"
 #include "linkwright/study/kind.h"
 
@@ -105,6 +106,7 @@ struct AnyFunctionTarget : FunctionTarget {
   /// What the unit of output_range says, where it is known.
   std::optional<bool> slides;
   std::optional<double> angle, travel, size;
+  std::optional<double> time_ratio;
   std::vector<DwellForm> dwells;
 };
 template <class Visitor>
@@ -119,6 +121,12 @@ void fields(Visitor&& visit, AnyFunctionTarget& t) {
   if (t.slides.value_or(true))
     visit(field::length("output_range", "travel of a slider over the range instead, likewise"), t.travel);
   visit(field::entry("fit", "how the function is met"), t.fit);
+  visit(field::entry(
+            "time_ratio",
+            "time of the slow stroke over that of the quick one, 1 or more, instead of a function: the "
+            "output goes through its range and back once a turn, as it likes in between")
+            .between(1, 100),
+        t.time_ratio);
   visit(
       field::entry("dwell",
                    "parts of the crank rotation, counted from its beginning, over which the output rests at "
@@ -219,9 +227,10 @@ struct AnyStudy {
   AnyMotionLimits limits;
   AnyOptimiser optimiser;
   AnyRefinementStudy refinement;
-  Stroke drawn;                ///< the stroke, or the places of the poses
-  std::vector<double> angles;  ///< of the body at the poses (rad); none: a stroke
-  FunctionStudy function;      ///< the function, for such studies
+  Stroke drawn;                             ///< the stroke, or the places of the poses
+  std::vector<double> angles;               ///< of the body at the poses (rad); none: a stroke
+  FunctionStudy function;                   ///< the function, for such studies
+  std::optional<QuickReturn> quick_return;  ///< instead of a function
   FunctionFit fit = FunctionFit::least_squares;
   std::vector<Dwell> dwells;
   std::optional<MotionTarget> motion;  ///< what machines are fitted to; missing where problems were reported
@@ -243,5 +252,7 @@ TypeSearchAnswer search_machines(const AnyStudy& study, const MachineLimits& lim
 
 study::Result run_any_study(const AnyStudy& study, const study::Common& common, RunContext& context);
 study::Result run_any_function_study(const AnyStudy& study, const study::Common& common, RunContext& context);
+study::Result run_any_quick_return_study(const AnyStudy& study, const study::Common& common,
+                                         RunContext& context);
 
 }  // namespace linkwright::planar

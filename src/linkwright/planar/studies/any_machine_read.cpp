@@ -181,6 +181,28 @@ std::vector<Dwell> read_dwells(study::ObjectReader& target, const study::Common&
   return out;
 }
 
+/// The strokes of an output that returns quickly, whose motion in between is free.
+void read_quick_return(study::ObjectReader& target, const AnyFunctionTarget& form, AnyStudy& s) {
+  if (form.function || form.table || !form.dwells.empty()) {
+    target.error("time_ratio", "the target has both a time ratio and a function, or a dwell",
+                 "keep one of them: between its dead centres the output moves as it likes");
+    return;
+  }
+  if (std::abs(std::abs(form.input_range) - 2 * pi) > 1e-9) {
+    target.error("input_range", "the output reciprocates once in a whole turn of the crank",
+                 "write input_range_deg = 360, or -360 for the other sense");
+    return;
+  }
+  const bool slider = form.travel.has_value();
+  s.function.problem.slider = slider;
+  s.quick_return = QuickReturn{.output = slider ? MachineOutput::slide : MachineOutput::angle,
+                               .time_ratio = *form.time_ratio,
+                               .range = slider ? *form.travel : *form.angle,
+                               .clockwise = form.input_range < 0,
+                               .size = form.size.value_or(0.1)};
+  s.motion = quick_return_target(*s.quick_return);
+}
+
 /// Reads the target of a function.
 void read_function_target(study::ObjectReader& target, const study::Common& common, AnyFunctionTarget& form,
                           AnyStudy& s) {
@@ -218,6 +240,7 @@ void read_function_target(study::ObjectReader& target, const study::Common& comm
     target.error("output_range", "the output does not move", "write a range other than 0");
     return;
   }
+  if (form.time_ratio) return read_quick_return(target, form, s);
   set_function(target, f);
   if (!f.problem.output) return;
   if (const double ends = f.problem.output(1);
@@ -341,13 +364,17 @@ study::Kind any_kind(const char* target, const char* target_summary,
     if (!s.limits.longest_length && !s.limits.longest) s.limits.longest = 10;
     if (!s.optimiser.seconds && !s.optimiser.evaluations) s.optimiser.seconds = 10;
     study::Prepared prepared;
+    // The rows of a quick return can be met exactly: a refinement needs a little room.
+    if (double& share = s.refinement.refinement.error_share; s.quick_return) share = std::max(share, 1e-4);
     prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
     prepared.canonical["target"] = study::write_fields(form);
     prepared.canonical["limits"] = study::write_fields(static_cast<const Limits&>(s.limits));
     prepared.canonical["optimiser"] = study::write_fields(s.optimiser);
     write_refinement(s.refinement, prepared.canonical);
     prepared.run = [s, common](RunContext& context) {
-      return function ? run_any_function_study(s, common, context) : run_any_study(s, common, context);
+      return s.quick_return ? run_any_quick_return_study(s, common, context)
+             : function     ? run_any_function_study(s, common, context)
+                            : run_any_study(s, common, context);
     };
     return prepared;
   };

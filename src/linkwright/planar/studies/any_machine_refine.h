@@ -105,9 +105,12 @@ void fields(Visitor&& visit, AnyFunctionRefinement& r) {
                    "root mean square, as fit says")
           .between(0, 100),
       r.error_growth);
-  visit(field::entry("error_share", "part of the output's range by which it may grow where that is more")
-            .between(0, 1),
-        r.error_share);
+  visit(
+      field::entry("error_share",
+                   "part of the output's range by which it may grow where that is more; of a quick return at "
+                   "least 1e-4")
+          .between(0, 1),
+      r.error_share);
   visit(
       field::length("length_tolerance",
                     "of every length and coordinate, for tolerance_90: three standard deviations; default: a "

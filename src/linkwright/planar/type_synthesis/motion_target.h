@@ -42,6 +42,8 @@ struct MotionTarget {
   bool dense = true;        ///< the samples follow the stroke, between them a curve stays near it
   double angle_length = 0;  ///< an error of a radian counts as this length
   double tolerance = 0;     ///< distances up to this count as none
+  /// Errors up to this count as none where many machines have none: of these the pair angle decides.
+  double met = 0;
 
   /// Places are compared, not angles alone.
   bool placed() const { return output != MachineOutput::angle; }

@@ -22,7 +22,8 @@ constexpr std::size_t limit_minima = 16;  // minima of the pair angle over the t
 constexpr double margin =
     0.05 * pi / 180;  // the polish keeps this much more of the pair angle than it promises
 constexpr double nearly_kept = 4e-4, far_from_kept = 0.05;  // what a polish may miss of its limits
-constexpr double open_rest = 0.02;                          // an open stroke leaves this much of a turn (rad)
+constexpr double spare_where_met = 0.01;  // error after a stage that is small where many machines have none
+constexpr double open_rest = 0.02;        // an open stroke leaves this much of a turn (rad)
 
 using Samples = std::array<double, samples>;
 
@@ -494,7 +495,7 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
   Memory& m = *memory_;
   m.phase = 0;
   // Within the tolerance no machine is better than another by its error.
-  const double spare = 0.3 * m.target.tolerance;
+  const double spare = m.target.met > 0 ? spare_where_met : 0.3 * m.target.tolerance;
   if (!(m.descend(machine, 1, 25) <= 1.6 * best + spare)) return false;
   if (!(m.descend(machine, 4, 40) <= 1.15 * best + spare)) return false;
   m.descend(machine, 30, 80);

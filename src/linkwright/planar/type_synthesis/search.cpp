@@ -330,6 +330,8 @@ class TypeSearch {
     if (placed && (!polished || fitter.polish(t.machine, t.best))) {
       t.measures = fitter.measure(t.machine);
       t.accepted = std::isfinite(t.measures.error);
+      if (t.measures.error <= target_.met)
+        t.measures.error = target_.met * (1 - t.measures.min_pair_angle / (pi / 2));
       t.inside = t.measures.defect == MachineDefect::none;
     }
     t.curves = fitter.curves() - before + (t.kind == TrialKind::pool ? 1 : 0);  // and that of its placing
