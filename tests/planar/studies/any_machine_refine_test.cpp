@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -13,6 +15,8 @@
 #include "linkwright/study/design.h"
 #include "linkwright/study/study.h"
 #include "planar/studies.h"
+#include "support/memory_checkpoint.h"
+#include "support/resumed.h"
 
 namespace linkwright::planar {
 namespace {
@@ -116,6 +120,48 @@ TEST(RefinedMachines, AreTheSameForEveryNumberOfThreads) {
   ASSERT_EQ(one.solutions.size(), two.solutions.size());
   for (std::size_t i = 0; i < one.solutions.size(); ++i)
     EXPECT_EQ(one.solutions[i].objectives, two.solutions[i].objectives);
+}
+
+/// Calls something when the first machines have been refined.
+void when_refining(RunContext& context, const std::function<void()>& act) {
+  context.set_progress([act](const Progress& progress) {
+    if (progress.stage == "refinement") act();
+  });
+}
+
+// The search goes on from what was kept, and the refinement begins again.
+TEST(RefinedMachines, ContinueFromACheckpoint) {
+  std::string messages;
+  const auto study = test::prepare(refined_path(), messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext plain;
+  const study::Result whole = study::run_study(*study, plain);
+  linkwright::test::MemoryCheckpoint kept;
+  RunContext stopped;
+  stopped.set_checkpoint(&kept);
+  when_refining(stopped, [&] { stopped.cancel(); });
+  const study::Result part = study::run_study(*study, stopped);
+  EXPECT_EQ(part.status, Status::cancelled);
+  EXPECT_FALSE(part.solutions.empty());
+  RunContext resumed;
+  resumed.set_checkpoint(&kept);
+  EXPECT_EQ(linkwright::test::all_of(study::run_study(*study, resumed)), linkwright::test::all_of(whole));
+}
+
+// What a deadline leaves unrefined stays in the list as it was found.
+TEST(RefinedMachines, StayAsFoundAtTheDeadline) {
+  std::string messages;
+  const auto study = test::prepare(refined_path(), messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext context;
+  when_refining(context, [&] { context.set_time_limit(std::chrono::duration<double>(0)); });
+  const study::Result result = study::run_study(*study, context);
+  EXPECT_EQ(result.status, Status::deadline);
+  const Table* machines = result.table("machines");
+  ASSERT_TRUE(machines);
+  const auto& aim = machines->find("refined_for")->values;
+  EXPECT_GT(std::count(aim.begin(), aim.end(), 0.0), 0);
+  EXPECT_EQ(aim.size(), result.solutions.size());
 }
 
 TEST(RefinedMachines, LeadBodiesThroughPoses) {

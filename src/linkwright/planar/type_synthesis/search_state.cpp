@@ -98,6 +98,7 @@ template <class Visit>
 void counts(FamilyState& f, Visit&& visit) {
   visit("polished", f.report.polished), visit("hops", f.report.hops), visit("grown", f.report.grown);
   visit("curves", f.report.curves), visit("best_at", f.report.best_at);
+  visit("atlas_entries", f.report.atlas_entries);
 }
 
 Value saved_family(FamilyState f) {
