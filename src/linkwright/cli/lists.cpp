@@ -99,21 +99,24 @@ constexpr std::array concepts{
             "a pair of gears is a joint of type \"gear\" in analysis/planar.linkage and "
             "simulation/planar.linkage, "
             "with the ratio of its pitch circles; teeth are not modelled"},
-    Concept{"rack pinion rackandpinion",
-            "the steering rack of a suspension is moved_by = \"rack\" of a link, with [sweep.rack] "
-            "(analysis/suspension.corner). A rack with its pinion in a linkage is not modelled; nearest: a "
-            "slide and a "
-            "crank with drives of their own"},
-    Concept{"belt chain",
-            "belts and chains are not modelled. Nearest: a joint of type \"gear\" with a negative ratio "
-            "(analysis/planar.linkage). Kinematic chains are listed by enumeration/planar.chain"},
+    Concept{
+        "rack pinion rackandpinion",
+        "a rack with its pinion is a joint of type \"rack\" in analysis/planar.linkage. The steering rack of "
+        "a suspension is moved_by = \"rack\" of a link, with [sweep.rack] (analysis/suspension.corner)"},
+    Concept{
+        "belt belts chain pulley pulleys",
+        "belts and chains are [[mechanism.belt]] of analysis/planar.linkage. Kinematic chains are listed by "
+        "enumeration/planar.chain"},
+    Concept{"screw spindle leadscrew",
+            "a screw that drives a slide is a joint of type \"screw\" in analysis/planar.linkage"},
     Concept{"cylinder actuator ram hydraulic",
             "a cylinder is two bodies with a joint of type \"prismatic\" that is driven "
             "(analysis/planar.linkage)"},
-    Concept{
-        "rope ropes cable pulley pulleys winch tendon",
-        "ropes and pulleys are not modelled. Nearest: the force of the rope, or its torque on the drum "
-        "([[mechanism.force]], [[mechanism.torque]]), as in the examples level-luffing-crane and pump-jack"},
+    Concept{"rope ropes cable winch tendon",
+            "a rope that does not stretch is [[mechanism.belt]] with closed = false "
+            "(analysis/planar.linkage); where "
+            "its force alone matters, [[mechanism.force]] and [[mechanism.torque]] do, as in the examples "
+            "level-luffing-crane and pump-jack"},
     Concept{
         "drawer drawers telescope",
         "what is drawn out is a joint of type \"prismatic\", one for each stage (analysis/planar.linkage)"},
