@@ -63,7 +63,7 @@ TEST(HardPointList, ReadsTheHardPointsOfPropertyFiles) {
               HasSubstr("points.txt:11:1: error: rack_house: is not a row of hard points; write 'name' "
                         "'left/right' x y z"));
   EXPECT_THAT(problems_of(test::replaced(file, "'inch'", "'ell'")),
-              HasSubstr("'ell' is no unit of length that is known"));
+              HasSubstr("'ell' is not a known unit of length"));
 }
 
 TEST(HardPointList, ReadsCsvWithTheUnitsOfItsColumns) {
