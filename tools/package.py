@@ -199,7 +199,7 @@ def tarball(build, out, work, bundled, bill):
                                 "--format=gnu", "-c", name], stdout=subprocess.PIPE)
         # Machine code is packed closer when jumps are written as places; every xz unpacks it.
         filters = ["--x86"] if output("uname", "-m") == "x86_64" else []
-        subprocess.run(["xz", *filters, "--lzma2=preset=9e,lc=4", "-T1", "-c"], stdin=tar.stdout, stdout=stream, check=True)
+        subprocess.run(["xz", *filters, "--lzma2=preset=9e,lc=4,depth=5000", "-T1", "-c"], stdin=tar.stdout, stdout=stream, check=True)
         tar.stdout.close()
         if tar.wait():
             sys.exit("tar failed")
