@@ -62,6 +62,8 @@ TEST(HardPointList, ReadsTheHardPointsOfPropertyFiles) {
   EXPECT_THAT(problems_of(test::replaced(file, "'single'", "'centre'")),
               HasSubstr("points.txt:11:1: error: rack_house: is not a row of hard points; write 'name' "
                         "'left/right' x y z"));
+  EXPECT_THAT(problems_of(test::replaced(file, "10  0  2e2", "10  0  2e2  7")),
+              HasSubstr("rack_house: is not a row of hard points"));
   EXPECT_THAT(problems_of(test::replaced(file, "'inch'", "'ell'")),
               HasSubstr("'ell' is not a known unit of length"));
 }

@@ -220,6 +220,51 @@ TEST(Springs, HeaveSpringByItsEnergy) {
               1e-5 * std::abs(by_roll));
 }
 
+/// The corner of the other side as `[other_wheel]`.
+std::string other_wheel() {
+  std::string text = test::pushrod_text(Side::right);
+  text.erase(text.find("[sweep.travel]"));
+  text.erase(0, text.find("[mechanism]"));
+  for (std::size_t at = 0; (at = text.find("[mechanism", at)) != std::string::npos;)
+    text.replace(at, 10, "[other_wheel.mechanism"), at += 22;
+  return text;
+}
+
+TEST(Springs, TheOtherWheelMayBeGiven) {
+  const std::string opposite = "[axle.opposite]\nvalues_mm = [-10, 10]\n";
+  const study::Result mirrored = run_text(pushrod_study + opposite),
+                      given = run_text(pushrod_study + opposite + other_wheel()),
+                      softer = run_text(
+                          pushrod_study + opposite +
+                          replaced(other_wheel(), "stiffness_N_per_mm = 35", "stiffness_N_per_mm = 30"));
+  const auto at = [](const study::Result& r, const std::string& key, std::size_t row) {
+    return r.table("opposite")->find(key)->values.at(row);
+  };
+  for (const Column& c : mirrored.table("opposite")->columns)
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(at(given, c.key, i), c.values[i], 1e-9 * (1 + std::abs(c.values[i]))) << c.key;
+  EXPECT_EQ(at(softer, "left_wheel_force_N", 0), at(given, "left_wheel_force_N", 0));
+  EXPECT_GT(std::abs(at(softer, "right_wheel_force_N", 0) - at(given, "right_wheel_force_N", 0)), 10);
+  EXPECT_EQ(test::fact(softer, "roll rate of the springs"), "no fact");  // of a symmetric axle
+}
+
+TEST(Springs, PartsBetweenTheWheelsAreTheSameForBoth) {
+  const std::string bar = "stiffness_N_m_per_rad = 1200";
+  EXPECT_THAT(
+      problems_of(pushrod_study + replaced(other_wheel(), bar, "stiffness_N_m_per_rad = 1300")),
+      HasSubstr(
+          "other_wheel.mechanism: the anti-roll bar has another stiffness than at the first wheel; it is one "
+          "bar: give the same stiffness for both wheels"));
+  const std::string heave =
+      "heave_spring]\nmoving_mm = [15, 190, 500]\nattached_to = \"rocker\"\n"
+      "stiffness_N_per_mm = 60\n";
+  const std::string sprung =
+      replaced(pushrod_study, "[mechanism.damper]", "[mechanism." + heave + "[mechanism.damper]");
+  EXPECT_THAT(problems_of(sprung + other_wheel()),
+              HasSubstr("other_wheel.mechanism: the heave spring has an end at one wheel alone; give "
+                        "[mechanism.heave_spring] for both wheels"));
+}
+
 TEST(Springs, TogglesEndTheTravelAndAreReported) {
   const study::Result result =
       run_text(replaced(pushrod_study, "values_mm = [-30, -15, 0, 15, 30]", "values_mm = [-100, 0]"));

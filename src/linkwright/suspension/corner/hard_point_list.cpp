@@ -602,7 +602,7 @@ std::optional<std::vector<HardPoint>> read_property_table(std::string_view text,
     const std::string_view name = take_quoted(line), symmetry = take_quoted(line);
     const std::string side = plain_name(symmetry);
     const Line read = read_line("point " + std::string(line));
-    if (name.empty() || !read.point ||
+    if (name.empty() || !read.point || !read.number_in_name.empty() ||
         !(side == "left_right" || side == "left" || side == "right" || side == "single")) {
       collect.problem(number, plain_name(name), "is not a row of hard points",
                       "write 'name' 'left/right' x y z; the symmetry is left/right, left, right or single");

@@ -172,14 +172,28 @@ void fields(Visitor&& visit, CharacteristicForm& c) {
   visit(field::force("force", "at these compressions"), c.force);
 }
 
-struct CornerSpringForm {
-  std::optional<PointsForm> body, moving;
-  std::vector<std::string> points;
-  std::string attached_to = "carrier", body_attached_to = "body";
+/// The force of a spring.
+struct SpringLawForm {
   std::optional<double> stiffness;
   double preload = 0;
   std::optional<double> free_length;
   std::optional<CharacteristicForm> curve;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SpringLawForm& s) {
+  visit(field::stiffness("stiffness", "of the spring, for wheel rates and compliance").not_negative(),
+        s.stiffness);
+  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
+  visit(field::length("free_length", "its length without force, instead of the preload").between(1e-3, 1e3),
+        s.free_length);
+  visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
+}
+
+struct CornerSpringForm {
+  std::optional<PointsForm> body, moving;
+  std::vector<std::string> points;
+  std::string attached_to = "carrier", body_attached_to = "body";
+  SpringLawForm law;
 };
 template <class Visitor>
 void fields(Visitor&& visit, CornerSpringForm& s) {
@@ -189,12 +203,7 @@ void fields(Visitor&& visit, CornerSpringForm& s) {
   visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker"), s.attached_to);
   visit(field::entry("body_attached_to", "part that holds its first end, if that is not the body"),
         s.body_attached_to);
-  visit(field::stiffness("stiffness", "of the spring, for wheel rates and compliance").not_negative(),
-        s.stiffness);
-  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
-  visit(field::length("free_length", "its length without force, instead of the preload").between(1e-3, 1e3),
-        s.free_length);
-  visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
+  fields(visit, s.law);
 }
 
 /// Between both wheels: its other end is the counterpart of the moving one.
@@ -202,10 +211,7 @@ struct HeaveSpringForm {
   std::optional<PointsForm> moving;
   std::vector<std::string> points;
   std::string attached_to;
-  std::optional<double> stiffness;
-  double preload = 0;
-  std::optional<double> free_length;
-  std::optional<CharacteristicForm> curve;
+  SpringLawForm law;
 };
 template <class Visitor>
 void fields(Visitor&& visit, HeaveSpringForm& s) {
@@ -214,11 +220,7 @@ void fields(Visitor&& visit, HeaveSpringForm& s) {
   visit(field::entry("points", "name of a hard point instead"), s.points);
   visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker").required(),
         s.attached_to);
-  visit(field::stiffness("stiffness", "of the spring").not_negative(), s.stiffness);
-  visit(field::force("preload", "force with which it pushes its ends apart at the reference"), s.preload);
-  visit(field::length("free_length", "its length without force, instead of the preload").between(1e-3, 1e3),
-        s.free_length);
-  visit(field::entry("curve", "its force over its compression, instead of the stiffness"), s.curve);
+  fields(visit, s.law);
 }
 
 struct DamperForm {

@@ -54,7 +54,7 @@ class Reader {
     if (on->kind == PartKind::link) out.link = on->index;
     if (on->kind == PartKind::rocker) out.rocker = on->index;
     out_.suspension.spring = out;
-    out_.spring = law(*table, s, norm(out.moving - out.body));
+    out_.spring = law(*table, s.law, norm(out.moving - out.body));
   }
 
   void heave_spring() {
@@ -76,11 +76,9 @@ class Reader {
     if (std::abs(moving->y) < 1e-6)
       return table->error("moving", "lies in the middle of the vehicle: both ends are the same point",
                           "give the end on the side of this wheel");
-    if (!h.stiffness && !h.curve)
+    if (!h.law.stiffness && !h.law.curve)
       return table->error("stiffness", "is missing", "write stiffness_N_per_mm, or a curve");
-    const CornerSpringForm same{
-        .stiffness = h.stiffness, .preload = h.preload, .free_length = h.free_length, .curve = h.curve};
-    const auto known = law(*table, same, 2 * std::abs(moving->y));
+    const auto known = law(*table, h.law, 2 * std::abs(moving->y));
     if (!known) return;
     out_.springs.heave_spring = HeaveSpringDescription{out_.suspension.elements.size(), *known};
     out_.suspension.elements.push_back({.name = "heave_spring",
@@ -304,7 +302,7 @@ class Reader {
   }
 
   /// The law of a spring whose length as drawn is known; nothing if it has none or a problem.
-  std::optional<SpringLaw> law(study::ObjectReader& table, const CornerSpringForm& s, double length) {
+  std::optional<SpringLaw> law(study::ObjectReader& table, const SpringLawForm& s, double length) {
     const bool preload = table.has(field::force("preload"));
     if (s.stiffness && s.curve)
       return refused(table, "curve", "the spring has a stiffness already", "keep stiffness or curve");
@@ -356,6 +354,19 @@ PointsForm points_of(std::initializer_list<Vec3> at) {
 
 CharacteristicForm written(const ForceCurve& curve) {
   return {.compression = curve.compression, .force = curve.force};
+}
+
+/// The law of a spring of this length as drawn (m).
+SpringLawForm written(const SpringLaw& law, double length) {
+  SpringLawForm out;
+  if (law.curve) {
+    out.curve = written(*law.curve);
+    out.free_length = length + law.start;
+  } else {
+    out.stiffness = law.stiffness;
+    out.preload = law.preload;
+  }
+  return out;
 }
 
 std::optional<StopForm> written(const std::optional<StopDescription>& stop) {
@@ -419,13 +430,7 @@ void write_spring_parts(const CornerDescription& d, CornerForm& form) {
                                    .moving = points_of({g.spring->moving}),
                                    .attached_to = name(moving_part(*g.spring)),
                                    .body_attached_to = name(g.spring->body_part)};
-  if (g.spring && d.spring && d.spring->curve) {
-    form.spring->curve = written(*d.spring->curve);
-    form.spring->free_length = norm(g.spring->moving - g.spring->body) + d.spring->start;
-  } else if (g.spring && d.spring) {
-    form.spring->stiffness = d.spring->stiffness;
-    form.spring->preload = d.spring->preload;
-  }
+  if (g.spring && d.spring) form.spring->law = written(*d.spring, norm(g.spring->moving - g.spring->body));
   if (const auto& damper = d.springs.damper) {
     form.damper = DamperForm{.damping = damper->damping};
     if (damper->element) {
@@ -440,13 +445,7 @@ void write_spring_parts(const CornerDescription& d, CornerForm& form) {
     const CornerElement& element = g.elements.at(heave->element);
     form.heave_spring =
         HeaveSpringForm{.moving = points_of({element.second.at}), .attached_to = name(element.second.part)};
-    if (heave->law.curve) {
-      form.heave_spring->curve = written(*heave->law.curve);
-      form.heave_spring->free_length = 2 * std::abs(element.second.at.y) + heave->law.start;
-    } else {
-      form.heave_spring->stiffness = heave->law.stiffness;
-      form.heave_spring->preload = heave->law.preload;
-    }
+    form.heave_spring->law = written(heave->law, 2 * std::abs(element.second.at.y));
   }
   if (const auto& torsion = d.springs.torsion_bar)
     form.torsion_bar = TorsionBarForm{name(*g.elements.at(torsion->element).turn), torsion->law.stiffness,

@@ -92,7 +92,11 @@ std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document,
   else if (one->springs.heave_spring.has_value() != other->springs.heave_spring.has_value())
     table->error("mechanism", "the heave spring has an end at one wheel alone",
                  "give [mechanism.heave_spring] for both wheels");
-  else if (bar && bar->stiffness != other_bar->stiffness)
+  else if (one->springs.heave_spring)
+    table->warning("mechanism",
+                   "the table sweep takes the other end of the heave spring as the mirror image of this one",
+                   "[axle.opposite] takes both wheels as they are");
+  if (bar && other_bar && bar->stiffness != other_bar->stiffness)
     table->error("mechanism", "the anti-roll bar has another stiffness than at the first wheel",
                  "it is one bar: give the same stiffness for both wheels");
   return other;
