@@ -64,7 +64,6 @@ REASONS = {
     "planar/two_link_arm": SAMPLE,
     "planar/two_link_motion": SAMPLE,
     "planar/with_counterweights": LIBRARY,
-    "suspension/axle_compliance": LIBRARY,
     "suspension/basic_structures": SAMPLE,
     "suspension/design_parameters": LIBRARY,
     "suspension/elastic_rods": LIBRARY,

@@ -365,5 +365,112 @@ TEST(Compliance, Contract) {
               ::testing::StartsWith("solve_compliance: the preload needs a spring"));
 }
 
+// The sample with rubber whose joints at the body have characteristics along their axes: a cubic, or a
+// straight line.
+CornerElasticity with_curves(const Suspension& suspension, double cubic) {
+  CornerElasticity out = rubber(suspension);
+  for (LinkElasticity& link : out.links)
+    for (JointStiffness& joint : link.body) {
+      ForceCurve curve;
+      for (int i = -40; i <= 40; ++i) {
+        const double x = 2e-5 * i;
+        curve.compression.push_back(x);
+        curve.force.push_back(joint.translation[0] * x + cubic * x * x * x);
+      }
+      joint.curves[0] = curve;
+    }
+  return out;
+}
+
+TEST(LoadedCompliance, OfStraightCharacteristicsIsLinear) {
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const CornerPosition position = solve(suspension, 0.03, 0.005);
+  const WheelLoad load{{-2000, 3000, 500}, {40, -900, 120}};
+  for (const Support support : {Support::spring, Support::contact_held, Support::wheel_centre_held}) {
+    const Compliance linear =
+        solve_compliance(suspension, position.place, 0.005, rubber(suspension), support);
+    const LoadedCompliance loaded =
+        solve_loaded(suspension, position.place, 0.005, with_curves(suspension, 0), support, load);
+    ASSERT_EQ(loaded.compliance.status, Status::done) << loaded.compliance.reason;
+    const ElasticResponse expected = respond(linear, load);
+    EXPECT_NEAR(loaded.response.toe, expected.toe, 1e-10 * std::abs(expected.toe));
+    EXPECT_NEAR(norm(loaded.response.shift - expected.shift), 0, 1e-10 * norm(expected.shift));
+    for (std::size_t i = 0; i < expected.joints.size(); ++i)
+      EXPECT_NEAR(norm(loaded.response.joints[i].force - expected.joints[i].force), 0, 1e-6);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(loaded.compliance.at_centre[i][i], linear.at_centre[i][i],
+                  1e-9 * linear.at_centre[i][i] + 1e-20);
+  }
+}
+
+// With progressive bushings: forces balance on the carrier, the tangent is the derivative of the response,
+// and the loaded point yields less than in proportion.
+TEST(LoadedCompliance, FollowsProgressiveCharacteristics) {
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const CornerPosition position = solve(suspension, -0.02, 0);
+  const CornerElasticity curved = with_curves(suspension, 2e15);
+  const WheelLoad load{{-3000, 4000, 0}, {100, -500, 80}};
+  const auto at = [&](double share) {
+    return solve_loaded(suspension, position.place, 0, curved, Support::wheel_centre_held,
+                        {share * load.force, share * load.moment});
+  };
+  const LoadedCompliance half = at(0.5), whole = at(1);
+  ASSERT_EQ(whole.compliance.status, Status::done) << whole.compliance.reason;
+  const auto work = [&](const ElasticResponse& r) {
+    return dot(load.force, r.shift) + dot(load.moment, r.turn);
+  };
+  EXPECT_LT(work(whole.response), 1.9 * work(half.response));
+
+  Vec3 force = load.force, moment = load.moment;
+  force.z += whole.response.height_force;
+  for (const JointForce& joint : whole.response.joints)
+    if (joint.at_carrier) {
+      force += joint.force;
+      moment += joint.moment + cross(joint.point - position.place.carrier.centre, joint.force);
+    }
+  EXPECT_NEAR(norm(force), 0, 1e-6);
+  EXPECT_NEAR(norm(moment), 0, 1e-6);
+
+  constexpr double step = 1e-4;
+  const ElasticResponse slope = respond(whole.compliance, load);
+  const ElasticResponse before = at(1 - step).response, after = at(1 + step).response;
+  EXPECT_NEAR((after.toe - before.toe) / (2 * step), slope.toe, 1e-6 * std::abs(slope.toe));
+  EXPECT_NEAR(norm(1 / (2 * step) * (after.shift - before.shift) - slope.shift), 0, 1e-6 * norm(slope.shift));
+}
+
+// A stop in rubber: nearly free, then a thousand times as stiff. The least of the energy is found all the
+// same.
+TEST(LoadedCompliance, SettlesAtAStopInRubber) {
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  CornerElasticity elasticity = rubber(suspension);
+  for (LinkElasticity& link : elasticity.links)
+    for (JointStiffness& joint : link.body)
+      joint.curves[1] = ForceCurve{{-0.002, -0.001, 0.001, 0.002}, {-1e5, -100, 100, 1e5}};
+  const CornerPosition position = solve(suspension, 0, 0);
+  for (const double size : {10.0, 1e3, 1e4, 3e4}) {
+    const LoadedCompliance loaded = solve_loaded(suspension, position.place, 0, elasticity,
+                                                 Support::contact_held, {{-size, size, 0}, {}});
+    ASSERT_EQ(loaded.compliance.status, Status::done) << loaded.compliance.reason;
+    EXPECT_LT(norm(loaded.response.shift), 0.05);
+    EXPECT_TRUE(std::isfinite(loaded.response.toe));
+  }
+}
+
+TEST(Elasticity, RefusesCharacteristicsThatAreNoBushing) {
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  const auto problem_of = [&](ForceCurve curve) {
+    CornerElasticity elasticity = rubber(suspension);
+    elasticity.links[0].body[0].curves[0] = std::move(curve);
+    const Diagnostics found = check(suspension, elasticity);
+    return found.empty() ? std::string() : to_string(found[0]);
+  };
+  EXPECT_EQ(problem_of({{-0.001, 0, 0.001}, {-100, 0, 100}}), "");
+  EXPECT_THAT(problem_of({{-0.001, 0, 0.001}, {-100, 0, -50}}),
+              ::testing::HasSubstr("the force falls from 0 to"));
+  EXPECT_THAT(problem_of({{0.001, 0.002}, {0, 100}}), ::testing::HasSubstr("it leaves out displacement 0"));
+  EXPECT_THAT(problem_of({{-0.001, 0.001}, {0, 100}}),
+              ::testing::HasSubstr("its force without displacement is 50 N"));
+}
+
 }  // namespace
 }  // namespace linkwright::suspension

@@ -72,6 +72,74 @@ TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
       EXPECT_NEAR(matrix.columns[j].values[i], matrix.columns[i].values[j], 1e-15);
 }
 
+TEST(ComplianceStudy, GoesOverTravelAndRack) {
+  std::string text = compliance_study("support = \"contact_held\"\n" + rods());
+  text = replaced(text, "values_mm = [0]", "values_mm = [-30, 0, 30]\n[sweep.rack]\nvalues_mm = [0, 10]");
+  const study::Result result = run_text(text);
+  ASSERT_EQ(result.status, Status::done);
+  const Table& grid = table(result, "compliance_over_travel");
+  ASSERT_EQ(grid.rows(), 6U);
+  const Table& reference = table(result, "compliance");
+  const auto column = [&](const char* key) { return grid.find(key)->values; };
+  EXPECT_EQ(column("travel_m"), (std::vector<double>{-0.03, 0, 0.03, -0.03, 0, 0.03}));
+  EXPECT_EQ(column("rack_m"), (std::vector<double>{0, 0, 0, 0.01, 0.01, 0.01}));
+  EXPECT_NEAR(column("lateral_steer_deg_per_kN")[1],
+              named(reference, "lateral force steer, toe (deg/kN)", "value"), 1e-12);
+  EXPECT_NEAR(column("aligning_camber_deg_per_100_N_m")[1],
+              named(reference, "aligning torque camber (deg/100 N m)", "value"), 1e-12);
+  EXPECT_GT(std::abs(column("lateral_steer_deg_per_kN")[0] - column("lateral_steer_deg_per_kN")[2]), 1e-6);
+}
+
+TEST(ComplianceStudy, CarriesThePreloadOfTheSpringOverTravel) {
+  std::string text = compliance_study("preload_N = 4000\n" + rods(), "stiffness_N_per_mm = 30\n");
+  const study::Result result = run_text(replaced(text, "values_mm = [0]", "values_mm = [-30, 0, 30]"));
+  ASSERT_EQ(result.status, Status::done);
+  const Table& grid = table(result, "compliance_over_travel");
+  EXPECT_NEAR(grid.find("lateral_camber_deg_per_kN")->values[1],
+              named(table(result, "compliance"), "lateral force camber (deg/kN)", "value"), 1e-12);
+}
+
+TEST(ComplianceStudy, JoinsBothWheelsByTheirRack) {
+  const auto run = [](const std::string& axle) {
+    return run_text(compliance_study("support = \"contact_held\"\n" + rods() + "[compliance.axle]\n" + axle));
+  };
+  const study::Result held = run(""), soft = run("rack_stiffness_N_per_mm = 2000\n");
+  const Table& matrix = table(soft, "axle_compliance_matrix");
+  ASSERT_EQ(matrix.columns.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t j = 0; j < 12; ++j)
+      EXPECT_NEAR(matrix.columns[j].values[i], matrix.columns[i].values[j], 1e-15);
+  // With the rack held each wheel is alone.
+  EXPECT_NEAR(named(table(held, "axle_compliance"), "lateral, parallel", "left_toe_rad") * 180 / M_PI,
+              named(table(held, "compliance"), "lateral force steer, toe (deg/kN)", "value"), 1e-12);
+  EXPECT_EQ(named(table(held, "axle_compliance"), "lateral, parallel", "rack_m"), 0);
+  // Opposing lateral forces are a mirror image: the rack keeps its place and the axle does not steer.
+  EXPECT_NEAR(named(table(soft, "axle_compliance"), "lateral, opposing", "steer_rad"), 0, 1e-15);
+  EXPECT_NEAR(named(table(soft, "axle_compliance"), "lateral, opposing", "rack_m"), 0, 1e-15);
+  EXPECT_GT(std::abs(named(table(soft, "axle_compliance"), "lateral, parallel", "rack_m")), 1e-6);
+}
+
+TEST(ComplianceStudy, FollowsCharacteristicsOverTheLoad) {
+  const std::string joint = "[[compliance.joint]]\nlink = \"lower front rod\"\nend = \"body\"\n",
+                    load = "[[compliance.load]]\nname = \"bend\"\nforce_N = [0, -4000, 0]\nsteps = 4\n";
+  const std::string curve =
+      "radial_N_per_mm = 9000\naxial_curve = { displacement_mm = [0, 0.2, 0.5], force_N = [0, 1000, 9000] "
+      "}\n";
+  const study::Result result =
+      run_text(compliance_study("support = \"contact_held\"\n" + joint + curve + load));
+  ASSERT_EQ(result.status, Status::done);
+  const Table& over = table(result, "over_load-1");
+  ASSERT_EQ(over.rows(), 5U);
+  EXPECT_EQ(over.find("share")->values, (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(over.find("toe_rad")->values.back(), named(table(result, "loads"), "bend", "toe_rad"));
+  const auto& camber = over.find("camber_rad")->values;
+  EXPECT_EQ(camber[0], 0);
+  EXPECT_LT(std::abs(camber[4]), 3.9 * std::abs(camber[1]));  // progressive
+  const auto& slope = over.find("lateral_camber_deg_per_kN")->values;
+  EXPECT_NEAR(slope[0], named(table(result, "compliance"), "lateral force camber (deg/kN)", "value"), 1e-12);
+  EXPECT_LT(std::abs(slope[4]), 0.7 * std::abs(slope[0]));
+}
+
 TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   const std::string good = compliance_study(rods());
   EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),
@@ -84,6 +152,15 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   EXPECT_THAT(problems_of(compliance_study(
                   "[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
               HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
+  const std::string bushing =
+      "[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\nradial_N_per_mm = 1\n";
+  EXPECT_THAT(problems_of(compliance_study(
+                  bushing + "axial_curve = { displacement_mm = [0, 1, 2], force_N = [0, 5, 4] }\n")),
+              HasSubstr("the force falls from 5 to 4 N"));
+  EXPECT_THAT(
+      problems_of(compliance_study(bushing + "axial_N_per_mm = 1\naxial_curve = { displacement_mm = "
+                                             "[0, 1], force_N = [0, 5] }\n")),
+      HasSubstr("compliance.joint[0].axial_curve: stands beside the axial stiffness; leave one of them"));
   const std::string wishbone =
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-US\"\n"
       "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";

@@ -120,6 +120,12 @@ class Saddle {
     return out;
   }
 
+  /// Twice the elastic energy of a motion of the bodies; after `factor`.
+  double work(const VectorXd& motion) const {
+    const int n = of_.displacements();
+    return scale_ * motion.head(n).dot(matrix_.topLeftCorner(n, n) * motion.head(n));
+  }
+
   int size() const { return size_; }
   int height() const { return height_; }
 
@@ -227,6 +233,19 @@ double tension(const ElasticAssembly& of, const ElasticBar& bar, const Solution&
                              : bar.stiffness * elongation(bar_row(of, bar), bar.first, bar.second, x);
 }
 
+/// Displacement of the second body against the first one, in the axes of the joint.
+double relative(const ElasticAssembly& of, const ElasticJoint& joint, int component, const Solution& x) {
+  return elongation(joint_row(of, joint, component), joint.first, joint.second, x);
+}
+
+/// The force of a characteristic, more than at the displacement from which the motion counts.
+SpringForce beyond_offset(const ElasticJoint& joint, int component, double relative) {
+  const ForceCurve& curve = *joint.stiffness.curves[component];
+  SpringForce out = force_of(curve, joint.offset[component] + relative);
+  out.force -= force_of(curve, joint.offset[component]).force;
+  return out;
+}
+
 /// Force and moment on the second body.
 std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
                                 double rack) {
@@ -243,6 +262,8 @@ std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& j
       for (int j = 0; j < 6; ++j) force -= (*joint.stiffness.matrix)[i][j] * relative[j];
     else if (joint.multiplier[i] >= 0)
       force = -x(joint.multiplier[i]);
+    else if (joint.stiffness.curves[i])
+      force = -beyond_offset(joint, i, relative[i]).force;
     else
       force = -(i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) * relative[i];
     out[i / 3] += force * joint.axes.row[i % 3];
@@ -329,69 +350,183 @@ Matrix6 plain(const Block& from) {
   return out;
 }
 
-}  // namespace
+/// Component of a joint that has a characteristic.
+struct CurvedComponent {
+  ElasticJoint* joint = nullptr;
+  int component = 0;
 
-Compliance solve_compliance(const Suspension& suspension, const CornerPlace& place, double rack,
-                            const CornerElasticity& elasticity, Support support,
-                            const std::optional<PointLoad>& preload) {
-  for (const Diagnostics& problems : {check(suspension), check(suspension, elasticity)})
-    LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
-                       to_string(problems.front()));
-  const bool by_spring = support == Support::spring || support == Support::spring_held;
-  LINKWRIGHT_REQUIRE(suspension.spring || !by_spring, "the support is '{}', and the suspension has no spring",
-                     name_of(support));
-  LINKWRIGHT_REQUIRE(!suspension.spring || acts_directly(*suspension.spring) || !(by_spring || preload),
-                     "the spring acts through a rocker, which the elastic joints do not hold");
-  LINKWRIGHT_REQUIRE(suspension.spring || !preload, "the preload needs a spring that carries it");
+  double& stiffness() const { return joint->stiffness.component(component); }
+};
 
-  Compliance out{.support = support, .side = suspension.side, .centre = place.carrier.centre};
-  out.angles = wheel_angles(suspension.side, suspension.wheel, place.carrier.rotation);
-  const Vec3 to_contact = contact_offset(suspension.side, suspension.wheel.tyre_diameter, out.angles);
-  out.contact = out.centre + to_contact;
-  ElasticAssembly assembly = assemble(suspension, place, rack, elasticity);
-  if (support == Support::contact_held) assembly.height_arm = to_contact;
-  const auto fail = [&](std::string reason) {
-    out.status = Status::singular;
-    out.reason = std::move(reason);
-    return out;
-  };
+std::vector<CurvedComponent> curved_components(ElasticAssembly& of) {
+  std::vector<CurvedComponent> out;
+  for (ElasticJoint& joint : of.joints)
+    for (int i = 0; i < 6; ++i)
+      if (joint.stiffness.curves[i]) out.push_back({&joint, i});
+  return out;
+}
 
-  VectorXd loaded;
-  std::string reason;
-  std::vector<JointForce> held;
-  if (preload) {
-    Saddle still(assembly, Support::spring_held);
-    if (!still.factor(reason)) return fail(std::move(reason));
-    const WheelLoad load = load_at(out.centre, preload->point, preload->force);
-    MatrixXd right = MatrixXd::Zero(still.size(), 1);
+/// Takes the slopes of the characteristics at a solution for stiffnesses, from which further motion counts.
+void count_from(ElasticAssembly& of, const Solution& x) {
+  for (const CurvedComponent& c : curved_components(of)) {
+    const double moved = relative(of, *c.joint, c.component, x);
+    c.stiffness() = beyond_offset(*c.joint, c.component, moved).stiffness;
+    c.joint->offset[c.component] += moved;
+  }
+}
+
+/// From here on the joints are linear.
+void forget_curves(ElasticAssembly& of) {
+  for (const CurvedComponent& c : curved_components(of)) c.joint->stiffness.curves[c.component].reset();
+}
+
+constexpr int most_iterations = 60;
+
+/// The motion by a load on the carrier: Newton's method with steps that never pass the least of the energy,
+/// which is convex, for characteristics ascend. Without characteristics it is one linear solution.
+///
+/// @param saddle makes the equations with the stiffnesses that the joints have now
+/// @returns displacements and multipliers; nothing when singular, with the reason, or not converged
+template <class MakeSaddle>
+std::optional<VectorXd> motion_by(ElasticAssembly& of, const WheelLoad& load, MakeSaddle&& saddle,
+                                  std::string& reason) {
+  const std::vector<CurvedComponent> curved = curved_components(of);
+  VectorXd x;
+  std::vector<double> at(curved.size(), 0), to(curved.size(), 0);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Saddle equations = saddle();
+    if (!equations.factor(reason)) return {};
+    MatrixXd right = MatrixXd::Zero(equations.size(), 1);
     right.topRows(3) = eigen(load.force);
     right.block<3, 1>(3, 0) = eigen(load.moment);
-    loaded = still.solve(right);
-    for (const ElasticJoint& joint : assembly.joints) {
-      const auto [force, moment] = joint_force(assembly, joint, loaded, 0);
-      held.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      const CurvedComponent& c = curved[i];
+      const double excess = c.stiffness() * at[i] - beyond_offset(*c.joint, c.component, at[i]).force;
+      const Row12 row = joint_row(of, *c.joint, c.component);
+      if (c.joint->first != ground) right.block<6, 1>(6 * c.joint->first, 0) += excess * row.head<6>();
+      right.block<6, 1>(6 * c.joint->second, 0) += excess * row.tail<6>();
+    }
+    const VectorXd next = equations.solve(right);
+    if (curved.empty()) return next;
+    if (x.size() == 0) x = VectorXd::Zero(next.size());
+    for (std::size_t i = 0; i < curved.size(); ++i)
+      to[i] = relative(of, *curved[i].joint, curved[i].component, next);
+    const VectorXd step = next - x;
+    const double slope = -equations.work(step);
+    // Slope of the energy along the step, at a share of it.
+    const auto slope_at = [&](double share) {
+      double out = (1 - share) * slope;
+      for (std::size_t i = 0; i < curved.size(); ++i) {
+        const CurvedComponent& c = curved[i];
+        const double along = to[i] - at[i];
+        out += along * (beyond_offset(*c.joint, c.component, at[i] + share * along).force -
+                        beyond_offset(*c.joint, c.component, at[i]).force - share * c.stiffness() * along);
+      }
+      return out;
+    };
+    double share = 1;
+    for (double low = 0, high = 1; slope_at(share) > -0.5 * slope && high - low > 1e-6;
+         share = (low + high) / 2)
+      (slope_at(share) > 0 ? high : low) = share;
+    x += share * step;
+    double change = 0, size = 0;
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      change = std::max(change, std::abs(to[i] - at[i]));
+      at[i] += share * (to[i] - at[i]);
+      size = std::max(size, std::abs(at[i]));
+      curved[i].stiffness() = beyond_offset(*curved[i].joint, curved[i].component, at[i]).stiffness;
+    }
+    if (share == 1 && change <= 1e-12 * size + 1e-18) {
+      x.tail(next.size() - of.displacements()) = next.tail(next.size() - of.displacements());
+      return x;
     }
   }
-  // The geometric stiffness is that of the first solution, whose multipliers are numbered with the spring
-  // held.
-  ElasticAssembly preloaded = assembly;
-  Saddle saddle(assembly, support);
-  if (preload) add_geometric(preloaded, loaded, *preload, saddle);
-  if (!saddle.factor(reason)) return fail(std::move(reason));
+  reason = fmt::format("the characteristics of the joints do not settle in {} steps", most_iterations);
+  return {};
+}
+
+/// A suspension at a position, loaded by its preload.
+struct AtRest {
+  Compliance compliance;     ///< of the place; without an answer, or with the reason why there is none
+  ElasticAssembly assembly;  ///< with stiffnesses at the preload
+  std::vector<JointForce> held;
+  ElasticAssembly preloaded;  ///< its multipliers are numbered with the spring held
+  VectorXd loaded;            ///< by the preload
+
+  Saddle saddle(const std::optional<PointLoad>& preload) {
+    Saddle out(assembly, compliance.support);
+    if (preload) add_geometric(preloaded, loaded, *preload, out);
+    return out;
+  }
+};
+
+/// Empty, or why there is no answer to ask for.
+std::string problem_of(const Suspension& suspension, const CornerElasticity& elasticity, Support support,
+                       bool preload) {
+  for (const Diagnostics& problems : {check(suspension), check(suspension, elasticity)})
+    if (!problems.empty())
+      return fmt::format("{} problems, the first: {}", problems.size(), to_string(problems.front()));
+  const bool by_spring = support == Support::spring || support == Support::spring_held;
+  if (!suspension.spring && by_spring)
+    return fmt::format("the support is '{}', and the suspension has no spring", name_of(support));
+  if (!suspension.spring && preload) return "the preload needs a spring that carries it";
+  if (suspension.spring && !acts_directly(*suspension.spring) && (by_spring || preload))
+    return "the spring acts through a rocker, which the elastic joints do not hold";
+  return {};
+}
+
+AtRest at_rest(const Suspension& suspension, const CornerPlace& place, double rack,
+               const CornerElasticity& elasticity, Support support, const std::optional<PointLoad>& preload) {
+  AtRest out{.compliance = {.support = support, .side = suspension.side, .centre = place.carrier.centre},
+             .assembly = assemble(suspension, place, rack, elasticity)};
+  Compliance& at = out.compliance;
+  at.angles = wheel_angles(suspension.side, suspension.wheel, place.carrier.rotation);
+  const Vec3 to_contact = contact_offset(suspension.side, suspension.wheel.tyre_diameter, at.angles);
+  at.contact = at.centre + to_contact;
+  if (support == Support::contact_held) out.assembly.height_arm = to_contact;
+  if (!preload) return out;
+  const auto found = motion_by(
+      out.assembly, load_at(at.centre, preload->point, preload->force),
+      [&] { return Saddle(out.assembly, Support::spring_held); }, at.reason);
+  if (!found) {
+    at.status = Status::singular;
+    return out;
+  }
+  out.loaded = *found;
+  for (const ElasticJoint& joint : out.assembly.joints) {
+    const auto [force, moment] = joint_force(out.assembly, joint, out.loaded, 0);
+    out.held.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
+  }
+  out.preloaded = out.assembly;
+  count_from(out.assembly, out.loaded);
+  return out;
+}
+
+/// The answer to small loads with the stiffnesses that the joints have now.
+Compliance linear_answer(AtRest& rest, const std::optional<PointLoad>& preload) {
+  Compliance out = rest.compliance;
+  ElasticAssembly& assembly = rest.assembly;
+  forget_curves(assembly);
+  Saddle saddle = rest.saddle(preload);
+  if (!saddle.factor(out.reason)) {
+    out.status = Status::singular;
+    return out;
+  }
   const MatrixXd right = right_sides(assembly, saddle), x = saddle.solve(right);
 
   Block centre = x.topLeftCorner<6, 6>();
   centre = 0.5 * (centre + centre.transpose()).eval();
   Block shifted = Block::Identity();
-  shifted.topRightCorner<3, 3>() = -skew(to_contact);
+  shifted.topRightCorner<3, 3>() = -skew(out.contact - out.centre);
   out.at_centre = plain(centre);
   out.at_contact = plain(shifted * centre * shifted.transpose());
   for (int i = 0; i < 6; ++i) out.by_rack[i] = x(i, 6);
 
+  const Suspension& suspension = *assembly.suspension;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const ElasticJoint& joint = assembly.joints[i];
     JointTransfer& transfer = out.joints.emplace_back();
-    transfer.joint = preload ? held[i] : JointForce{joint.link, joint.at_carrier, joint.point, {}, {}};
+    transfer.joint = preload ? rest.held[i] : JointForce{joint.link, joint.at_carrier, joint.point, {}, {}};
     for (int load = 0; load < 7; ++load) {
       const auto [force, moment] = joint_force(assembly, joint, x.col(load), load == 6 ? 1 : 0);
       const std::array<double, 6> all{force.x, force.y, force.z, moment.x, moment.y, moment.z};
@@ -402,6 +537,7 @@ Compliance solve_compliance(const Suspension& suspension, const CornerPlace& pla
     }
   }
   constexpr double none = nan;
+  const bool by_spring = out.support == Support::spring || out.support == Support::spring_held;
   out.couplers.resize(assembly.couplers.size());
   for (int load = 0; load < 7; ++load) {
     for (std::size_t i = 0; i < assembly.couplers.size(); ++i)
@@ -409,6 +545,57 @@ Compliance solve_compliance(const Suspension& suspension, const CornerPlace& pla
     out.spring[load] = by_spring ? -tension(assembly, *assembly.spring, x.col(load)) : none;
     out.height[load] = saddle.height() >= 0 ? -x(saddle.height(), load) : none;
   }
+  return out;
+}
+
+/// Motion of the carrier in the terms of a wheel.
+ElasticResponse response_of(const Compliance& at, const Vec3& shift, const Vec3& turn) {
+  ElasticResponse out{.shift = shift, .turn = turn};
+  out.contact_shift = out.shift + cross(out.turn, at.contact - at.centre);
+  const WheelAngles change = angle_rates(at.side, at.angles, out.turn);
+  out.toe = change.toe;
+  out.camber = change.camber;
+  return out;
+}
+
+}  // namespace
+
+Compliance solve_compliance(const Suspension& suspension, const CornerPlace& place, double rack,
+                            const CornerElasticity& elasticity, Support support,
+                            const std::optional<PointLoad>& preload) {
+  const std::string problem = problem_of(suspension, elasticity, support, preload.has_value());
+  LINKWRIGHT_REQUIRE(problem.empty(), "{}", problem);
+  AtRest rest = at_rest(suspension, place, rack, elasticity, support, preload);
+  return rest.compliance.status == Status::done ? linear_answer(rest, preload) : rest.compliance;
+}
+
+LoadedCompliance solve_loaded(const Suspension& suspension, const CornerPlace& place, double rack,
+                              const CornerElasticity& elasticity, Support support, const WheelLoad& load,
+                              const std::optional<PointLoad>& preload) {
+  const std::string problem = problem_of(suspension, elasticity, support, preload.has_value());
+  LINKWRIGHT_REQUIRE(problem.empty(), "{}", problem);
+  AtRest rest = at_rest(suspension, place, rack, elasticity, support, preload);
+  LoadedCompliance out{.response = {}, .compliance = rest.compliance};
+  if (out.compliance.status != Status::done) return out;
+  const auto x = motion_by(
+      rest.assembly, load, [&] { return rest.saddle(preload); }, out.compliance.reason);
+  if (!x) {
+    out.compliance.status = Status::singular;
+    return out;
+  }
+  ElasticAssembly& assembly = rest.assembly;
+  out.response = response_of(rest.compliance, {(*x)(0), (*x)(1), (*x)(2)}, {(*x)(3), (*x)(4), (*x)(5)});
+  for (const ElasticJoint& joint : assembly.joints) {
+    const auto [force, moment] = joint_force(assembly, joint, *x, 0);
+    out.response.joints.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
+  }
+  for (const ElasticBar& bar : assembly.couplers) out.response.couplers.push_back(tension(assembly, bar, *x));
+  const bool by_spring = support == Support::spring || support == Support::spring_held;
+  out.response.spring_force = by_spring ? -tension(assembly, *assembly.spring, *x) : nan;
+  const int height = rest.saddle(preload).height();
+  out.response.height_force = height >= 0 ? -(*x)(height) : nan;
+  count_from(assembly, *x);
+  out.compliance = linear_answer(rest, preload);
   return out;
 }
 
@@ -427,11 +614,8 @@ ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, dou
     moved[i] = compliance.by_rack[i] * rack;
     for (int j = 0; j < 6; ++j) moved[i] += compliance.at_centre[i][j] * by[j];
   }
-  ElasticResponse out{.shift = {moved[0], moved[1], moved[2]}, .turn = {moved[3], moved[4], moved[5]}};
-  out.contact_shift = out.shift + cross(out.turn, compliance.contact - compliance.centre);
-  const WheelAngles change = angle_rates(compliance.side, compliance.angles, out.turn);
-  out.toe = change.toe;
-  out.camber = change.camber;
+  ElasticResponse out =
+      response_of(compliance, {moved[0], moved[1], moved[2]}, {moved[3], moved[4], moved[5]});
   out.spring_force = sum(compliance.spring);
   out.height_force = sum(compliance.height);
   for (const JointTransfer& transfer : compliance.joints) {

@@ -11,9 +11,9 @@
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/wheel.h"
 
-/// Elasto-kinematics: how a wheel moves under load because the joints of its links yield. Linear, about a
-/// position of the rigid suspension: small motions of the carrier and of every link as rigid bodies, joints
-/// with six stiffnesses each, rigid ones exact (Lagrange multipliers).
+/// Elasto-kinematics: how a wheel moves under load because the joints of its links yield. Small motions of
+/// the carrier and of every link as rigid bodies about a position of the rigid suspension; joints with six
+/// stiffnesses or characteristics each, rigid ones exact (Lagrange multipliers).
 namespace linkwright::suspension {
 
 /// The part that carries the wheel's load. Figures differ grossly with it, so it belongs to every result:
@@ -105,5 +105,20 @@ struct ElasticResponse {
   std::vector<double> couplers;  ///< N, more tension
 };
 ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, double rack = 0);
+
+/// A load that is not small for the characteristics of the joints.
+struct LoadedCompliance {
+  ElasticResponse response;  ///< changes by the load, from the position without it (and with the preload)
+  Compliance compliance;     ///< the answer to small further loads; its status is that of both
+};
+
+/// Equilibrium under a load, by Newton's method: motions are small, characteristics are followed.
+///
+/// @param load at the wheel centre, in addition to the preload
+/// @returns response and compliance; without characteristics those of `respond` and `solve_compliance`
+/// @throws ContractError as `solve_compliance`
+LoadedCompliance solve_loaded(const Suspension& suspension, const CornerPlace& place, double rack,
+                              const CornerElasticity& elasticity, Support support, const WheelLoad& load,
+                              const std::optional<PointLoad>& preload = std::nullopt);
 
 }  // namespace linkwright::suspension

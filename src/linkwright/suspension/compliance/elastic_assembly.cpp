@@ -87,6 +87,9 @@ class Builder {
                            .point = point,
                            .axes = axes_of(stiffness, standard, rotation),
                            .stiffness = stiffness};
+        for (int i = 0; i < 6; ++i)
+          if (const auto& curve = stiffness.curves[i])
+            joint.stiffness.component(i) = force_of(*curve, 0).stiffness;
         of_.joints.push_back(joint);
       };
       if (given.size() == 2) {

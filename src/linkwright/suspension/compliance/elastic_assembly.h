@@ -25,6 +25,8 @@ struct ElasticJoint {
   Mat3 axes;  ///< its rows
   JointStiffness stiffness;
   std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< multipliers of rigid components; -1 = none
+  /// Displacement on the characteristics from which motion counts (m, rad).
+  std::array<double, 6> offset{};
 };
 
 /// Something that acts along a line: a spring, a coupler. Elongation = motion of the second end against the

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
@@ -11,6 +12,19 @@ namespace linkwright::suspension {
 namespace {
 
 bool usable(double stiffness) { return stiffness >= 0; }  // NaN is not
+
+/// Empty, or why a characteristic is none of a bushing.
+std::string problem_of_bushing(const ForceCurve& curve) {
+  if (std::string why = problem(curve); !why.empty()) return why;
+  for (std::size_t i = curve.force.size() - 1; i > 0; --i)  // the positive side first, as people write it
+    if (!(curve.force[i] > curve.force[i - 1]))
+      return fmt::format("the force falls from {} to {} N", curve.force[i - 1], curve.force[i]);
+  const double most = std::max(std::abs(curve.force.front()), std::abs(curve.force.back()));
+  if (curve.compression.front() > 0 || curve.compression.back() < 0) return "it leaves out displacement 0";
+  const double at_rest = force_of(curve, 0).force;
+  return std::abs(at_rest) <= 1e-9 * most ? ""
+                                          : fmt::format("its force without displacement is {} N", at_rest);
+}
 
 void check_joints(const std::string& key, const char* where, const std::vector<JointStiffness>& joints,
                   int points, Diagnostics& found) {
@@ -27,6 +41,14 @@ void check_joints(const std::string& key, const char* where, const std::vector<J
     return add(fmt::format("a joint at the {}, where it has no point", where),
                "its joint is the one at the body");
   for (const JointStiffness& joint : joints) {
+    for (const auto& curve : joint.curves) {
+      if (!curve) continue;
+      const std::string why =
+          joint.matrix ? "it stands beside a stiffness matrix" : problem_of_bushing(*curve);
+      if (!why.empty())
+        return add(fmt::format("a characteristic at the {}: {}", where, why),
+                   "its force ascends with the displacement and is 0 without one");
+    }
     if (joint.matrix) {
       const Matrix6& k = *joint.matrix;
       for (int i = 0; i < 6; ++i)

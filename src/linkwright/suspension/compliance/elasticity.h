@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/suspension/compliance/spring_law.h"
 #include "linkwright/suspension/corner/suspension.h"
 
 /// Stiffness of the joints of a wheel suspension. Links are rigid; what is elastic lies in their joints.
@@ -33,6 +34,12 @@ struct JointStiffness {
   /// Full stiffness in these axes (translations, then rotations) instead of the numbers above:
   /// symmetric, positive semidefinite.
   std::optional<Matrix6> matrix;
+  /// Force (N) over displacement (m), or moment (N m) over rotation (rad), in place of a number above: zero
+  /// without displacement, ascending. Not with a matrix.
+  std::array<std::optional<ForceCurve>, 6> curves;
+
+  /// The number of a component: translations, then rotations.
+  double& component(int i) { return i < 3 ? translation[i] : rotation[i - 3]; }
 };
 
 /// A rubber bushing with the same stiffness all round its axis.
@@ -59,7 +66,8 @@ CornerElasticity elastic_rods(const Suspension& suspension, const std::vector<do
 /// An ideal joint: 'R' hinge, 'S' ball joint, 'P' slide along its first axis.
 JointStiffness ideal_joint(char letter);
 
-/// Checks the stiffnesses for this suspension: counts, negative numbers, matrices that are not symmetric.
+/// Checks the stiffnesses for this suspension: counts, negative numbers, matrices that are not symmetric,
+/// characteristics that descend or begin with a force.
 /// Keys are "link.<name>", "coupler.<name>" and "spring".
 Diagnostics check(const Suspension& suspension, const CornerElasticity& elasticity);
 

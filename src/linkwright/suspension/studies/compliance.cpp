@@ -9,8 +9,10 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/remarks.h"
+#include "linkwright/suspension/compliance/spring_law.h"
 #include "linkwright/suspension/compliance/statics.h"
 #include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/studies/axle.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -23,12 +25,28 @@ int link_index(const Suspension& suspension, const std::string& name) {
 
 bool is_rod(LinkType type) { return type == LinkType::US || type == LinkType::SS; }
 
+/// A curve that begins at 0 is continued by its image.
+ForceCurve curve_of(const BushingCurveForm& form) {
+  ForceCurve out{form.displacement, form.force};
+  if (out.compression.empty() || out.force.size() != out.compression.size() || out.compression[0] != 0 ||
+      out.force[0] != 0)
+    return out;
+  for (std::size_t i = 1; i < form.force.size(); ++i) {
+    out.compression.insert(out.compression.begin(), -form.displacement[i]);
+    out.force.insert(out.force.begin(), -form.force[i]);
+  }
+  return out;
+}
+
 JointStiffness stiffness_of(const JointForm& j) {
   if (j.stiffness)
     return j.end ? ball_joint(*j.stiffness) : JointStiffness{.translation = {*j.stiffness, rigid, rigid}};
   const auto axis = j.axis.value_or(std::array<double, 3>{});
-  return bushing(j.axial.value_or(0), j.radial.value_or(0), j.torsional, j.conical,
-                 {axis[0], axis[1], axis[2]});
+  JointStiffness out =
+      bushing(j.axial.value_or(0), j.radial.value_or(0), j.torsional, j.conical, {axis[0], axis[1], axis[2]});
+  if (j.axial_curve) out.curves[0] = curve_of(*j.axial_curve);
+  if (j.radial_curve) out.curves[1] = out.curves[2] = curve_of(*j.radial_curve);
+  return out;
 }
 
 CornerElasticity elasticity_of(const CornerDescription& description, const ComplianceForm& form) {
@@ -63,48 +81,74 @@ std::vector<std::string> joint_names(const Suspension& suspension, const std::ve
   return out;
 }
 
-/// A coefficient for people.
-struct Line {
-  const char* name;
+/// A coefficient in the unit that chassis engineers read.
+struct Coefficient {
+  const char* key;    ///< of its column
+  const char* label;  ///< with the unit
   double value;
 };
 
-std::vector<Line> lines(const ComplianceCoefficients& c) {
+std::vector<Coefficient> coefficients(const ComplianceCoefficients& c) {
   const double force = math::degrees(per_kilonewton), moment = math::degrees(per_100_newton_metres),
                shift = 1e3 * per_kilonewton;
   return {
-      {"lateral force steer, toe (deg/kN)", c.lateral_steer * force},
-      {"lateral force camber (deg/kN)", c.lateral_camber * force},
-      {"lateral compliance at the contact (mm/kN)", c.lateral_at_contact * shift},
-      {"lateral compliance at the wheel centre (mm/kN)", c.lateral_at_centre * shift},
-      {"longitudinal compliance at the contact, outboard brake (mm/kN)", c.longitudinal_at_contact * shift},
-      {"longitudinal compliance at the wheel centre (mm/kN)", c.longitudinal_at_centre * shift},
-      {"longitudinal force steer at the wheel centre, toe (deg/kN)", c.longitudinal_steer * force},
-      {"brake steer, outboard brake, toe (deg/kN)", c.brake_outboard_steer * force},
-      {"brake steer, inboard brake, toe (deg/kN)", c.brake_inboard_steer * force},
-      {"brake camber, outboard brake (deg/kN)", c.brake_outboard_camber * force},
-      {"brake camber, inboard brake (deg/kN)", c.brake_inboard_camber * force},
-      {"brake wind-up, outboard brake (deg/kN)", c.brake_wind_up * force},
-      {"drive steer, inboard drive, toe (deg/kN)", c.drive_steer * force},
-      {"drive camber, inboard drive (deg/kN)", c.drive_camber * force},
-      {"aligning torque steer, toe (deg/100 N m)", c.aligning_steer * moment},
-      {"aligning torque camber (deg/100 N m)", c.aligning_camber * moment},
-      {"overturning torque camber (deg/100 N m)", c.overturning_camber * moment},
-      {"vertical compliance at the contact (mm/kN)", c.vertical_at_contact * shift},
-      {"stiffness at the wheel centre along x (N/mm)", c.centre_stiffness.x / 1e3},
-      {"stiffness at the wheel centre along y (N/mm)", c.centre_stiffness.y / 1e3},
-      {"stiffness at the wheel centre along z (N/mm)", c.centre_stiffness.z / 1e3}};
+      {"lateral_steer_deg_per_kN", "lateral force steer, toe (deg/kN)", c.lateral_steer * force},
+      {"lateral_camber_deg_per_kN", "lateral force camber (deg/kN)", c.lateral_camber * force},
+      {"lateral_at_contact_mm_per_kN", "lateral compliance at the contact (mm/kN)",
+       c.lateral_at_contact * shift},
+      {"lateral_at_centre_mm_per_kN", "lateral compliance at the wheel centre (mm/kN)",
+       c.lateral_at_centre * shift},
+      {"longitudinal_at_contact_mm_per_kN", "longitudinal compliance at the contact, outboard brake (mm/kN)",
+       c.longitudinal_at_contact * shift},
+      {"longitudinal_at_centre_mm_per_kN", "longitudinal compliance at the wheel centre (mm/kN)",
+       c.longitudinal_at_centre * shift},
+      {"longitudinal_steer_deg_per_kN", "longitudinal force steer at the wheel centre, toe (deg/kN)",
+       c.longitudinal_steer * force},
+      {"brake_outboard_steer_deg_per_kN", "brake steer, outboard brake, toe (deg/kN)",
+       c.brake_outboard_steer * force},
+      {"brake_inboard_steer_deg_per_kN", "brake steer, inboard brake, toe (deg/kN)",
+       c.brake_inboard_steer * force},
+      {"brake_outboard_camber_deg_per_kN", "brake camber, outboard brake (deg/kN)",
+       c.brake_outboard_camber * force},
+      {"brake_inboard_camber_deg_per_kN", "brake camber, inboard brake (deg/kN)",
+       c.brake_inboard_camber * force},
+      {"brake_wind_up_deg_per_kN", "brake wind-up, outboard brake (deg/kN)", c.brake_wind_up * force},
+      {"drive_steer_deg_per_kN", "drive steer, inboard drive, toe (deg/kN)", c.drive_steer * force},
+      {"drive_camber_deg_per_kN", "drive camber, inboard drive (deg/kN)", c.drive_camber * force},
+      {"aligning_steer_deg_per_100_N_m", "aligning torque steer, toe (deg/100 N m)",
+       c.aligning_steer * moment},
+      {"aligning_camber_deg_per_100_N_m", "aligning torque camber (deg/100 N m)", c.aligning_camber * moment},
+      {"overturning_camber_deg_per_100_N_m", "overturning torque camber (deg/100 N m)",
+       c.overturning_camber * moment},
+      {"vertical_at_contact_mm_per_kN", "vertical compliance at the contact (mm/kN)",
+       c.vertical_at_contact * shift},
+      {"stiffness_x_N_per_mm", "stiffness at the wheel centre along x (N/mm)", c.centre_stiffness.x / 1e3},
+      {"stiffness_y_N_per_mm", "stiffness at the wheel centre along y (N/mm)", c.centre_stiffness.y / 1e3},
+      {"stiffness_z_N_per_mm", "stiffness at the wheel centre along z (N/mm)", c.centre_stiffness.z / 1e3}};
 }
 
 Table coefficients_table(const Compliance& compliance) {
   Table table{.name = "compliance"};
   std::vector<double> values;
-  for (const Line& line : lines(compliance_coefficients(compliance))) {
-    table.names.emplace_back(line.name);
-    values.push_back(line.value);
+  for (const Coefficient& c : coefficients(compliance_coefficients(compliance))) {
+    table.names.emplace_back(c.label);
+    values.push_back(c.value);
   }
   table.add("value", "value, in the unit of its name", std::move(values));
   return table;
+}
+
+/// Columns of all coefficients, a row for each compliance; NaN where it has no answer.
+void add_coefficients(Table& table, const std::vector<Compliance>& rows) {
+  const std::vector<Coefficient> all = coefficients({});
+  std::vector<std::vector<double>> values(all.size());
+  for (const Compliance& row : rows) {
+    const bool done = row.status == Status::done;
+    const std::vector<Coefficient> now =
+        done ? coefficients(compliance_coefficients(row)) : std::vector<Coefficient>();
+    for (std::size_t i = 0; i < all.size(); ++i) values[i].push_back(done ? now[i].value : nan);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) table.add(all[i].key, all[i].label, std::move(values[i]));
 }
 
 Table matrix_table(const Compliance& compliance) {
@@ -152,36 +196,42 @@ WheelLoad load_of(const Compliance& compliance, const LoadForm& l) {
                  {l.force[0], l.force[1], l.force[2]}, {l.moment[0], l.moment[1], l.moment[2]});
 }
 
-Table loads_table(const Compliance& compliance, const std::vector<LoadForm>& loads) {
-  Table table{.name = "loads"};
-  std::array<std::vector<double>, 9> c;
-  for (const LoadForm& l : loads) {
-    table.names.push_back(l.name);
-    const ElasticResponse r = respond(compliance, load_of(compliance, l));
-    const std::array<double, 9> row{r.toe,         r.camber,          r.shift.x,         r.shift.y,
-                                    r.shift.z,     r.contact_shift.x, r.contact_shift.y, r.contact_shift.z,
-                                    r.spring_force};
-    for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(row[i]);
+/// What a study needs to load its suspension at the reference.
+struct LoadedCorner {
+  const CornerDescription& description;
+  const ComplianceForm& form;
+  CornerPlace place;
+  CornerElasticity elasticity;
+  std::optional<PointLoad> preload;
+  Compliance compliance;  ///< without a load
+
+  LoadedCompliance under(const WheelLoad& load) const {
+    return solve_loaded(description.suspension, place, 0, elasticity, *form.support, load, preload);
   }
-  constexpr std::array<std::pair<const char*, const char*>, 9> keys{
-      {{"toe_rad", "change of toe (rad)"},
-       {"camber_rad", "change of camber (rad)"},
-       {"centre_x_m", "shift of the wheel centre x (m)"},
-       {"centre_y_m", "shift of the wheel centre y (m)"},
-       {"centre_z_m", "shift of the wheel centre z (m)"},
-       {"contact_x_m", "shift of the contact x (m)"},
-       {"contact_y_m", "shift of the contact y (m)"},
-       {"contact_z_m", "shift of the contact z (m)"},
-       {"spring_N", "more compression of the spring (N)"}}};
-  for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
-  return table;
+};
+
+/// Columns of what loads do to a wheel.
+void add_responses(Table& table, const std::vector<ElasticResponse>& rows) {
+  const auto add = [&](const char* key, const char* label, auto&& value) {
+    std::vector<double> column;
+    for (const ElasticResponse& r : rows) column.push_back(value(r));
+    table.add(key, label, std::move(column));
+  };
+  add("toe_rad", "change of toe (rad)", [](const auto& r) { return r.toe; });
+  add("camber_rad", "change of camber (rad)", [](const auto& r) { return r.camber; });
+  add("centre_x_m", "shift of the wheel centre x (m)", [](const auto& r) { return r.shift.x; });
+  add("centre_y_m", "shift of the wheel centre y (m)", [](const auto& r) { return r.shift.y; });
+  add("centre_z_m", "shift of the wheel centre z (m)", [](const auto& r) { return r.shift.z; });
+  add("contact_x_m", "shift of the contact x (m)", [](const auto& r) { return r.contact_shift.x; });
+  add("contact_y_m", "shift of the contact y (m)", [](const auto& r) { return r.contact_shift.y; });
+  add("contact_z_m", "shift of the contact z (m)", [](const auto& r) { return r.contact_shift.z; });
+  add("spring_N", "more compression of the spring (N)", [](const auto& r) { return r.spring_force; });
 }
 
-/// Forces in the joints (x, y, z in the vehicle's frame) for the given loads: one table a load.
-Table load_forces_table(const Suspension& suspension, const Compliance& compliance, const LoadForm& l,
+/// Forces in the joints (x, y, z in the vehicle's frame) by a load.
+Table load_forces_table(const Suspension& suspension, const ElasticResponse& r, const LoadForm& l,
                         std::size_t number) {
   Table table{.name = fmt::format("load_forces-{}", number)};
-  const ElasticResponse r = respond(compliance, load_of(compliance, l));
   table.names = joint_names(suspension, r.joints, [](const JointForce& j) { return j; });
   std::array<std::vector<double>, 4> c;
   for (const JointForce& j : r.joints) {
@@ -195,6 +245,207 @@ Table load_forces_table(const Suspension& suspension, const Compliance& complian
   table.add("z_N", fmt::format("{}: force z (N)", l.name), c[2]);
   table.add("size_N", fmt::format("{}: size (N)", l.name), c[3]);
   return table;
+}
+
+void add_loads(study::Result& result, const LoadedCorner& corner) {
+  const std::vector<LoadForm>& loads = corner.form.loads;
+  if (loads.empty()) return;
+  const study::AddWarning warn{result.diagnostics};
+  Table table{.name = "loads"};
+  std::vector<ElasticResponse> responses;
+  std::vector<Table> forces;
+  for (const LoadForm& l : loads) {
+    const LoadedCompliance loaded = corner.under(load_of(corner.compliance, l));
+    if (loaded.compliance.status != Status::done) {
+      warn("compliance.load", fmt::format("'{}': {}", l.name, loaded.compliance.reason), {});
+      continue;
+    }
+    table.names.push_back(l.name);
+    responses.push_back(loaded.response);
+    forces.push_back(load_forces_table(corner.description.suspension, loaded.response, l, forces.size() + 1));
+  }
+  add_responses(table, responses);
+  result.tables.push_back(std::move(table));
+  result.tables.insert(result.tables.end(), forces.begin(), forces.end());
+}
+
+/// Shares of a load, with the coefficients of small further loads.
+void add_over_load(study::Result& result, const LoadedCorner& corner, const LoadForm& l, std::size_t number,
+                   const RunContext& context) {
+  const WheelLoad load = load_of(corner.compliance, l);
+  Table table{.name = fmt::format("over_load-{}", number)};
+  std::vector<double> shares;
+  std::vector<ElasticResponse> responses;
+  std::vector<Compliance> rows;
+  for (int i = 0; i <= *l.steps && !context.interrupted(); ++i) {
+    const double share = static_cast<double>(i) / *l.steps;
+    LoadedCompliance loaded = corner.under({share * load.force, share * load.moment});
+    if (loaded.compliance.status != Status::done) break;  // told with the whole load
+    shares.push_back(share);
+    responses.push_back(std::move(loaded.response));
+    rows.push_back(std::move(loaded.compliance));
+  }
+  table.add("share", fmt::format("share of the load '{}'", l.name), std::move(shares));
+  add_responses(table, responses);
+  add_coefficients(table, rows);
+  result.tables.push_back(std::move(table));
+  const std::string id = fmt::format("over-load-{}", number);
+  study::AddPlot{result, {.table = fmt::format("over_load-{}", number), .x = "share"}}(
+      id, fmt::format("Toe and camber by the load '{}'", l.name), {"toe_rad", "camber_rad"});
+}
+
+/// The preload where the spring has another length: its force over its share of a load at the contact.
+class PreloadOverTravel {
+ public:
+  PreloadOverTravel(const LoadedCorner& corner, double reference_length)
+      : corner_(corner), length_(reference_length) {
+    if (corner.preload)
+      force_ = spring_share(corner.place, 0, corner.preload->point) * corner.preload->force.z;
+  }
+
+  std::optional<PointLoad> at(const CornerPosition& position, const WheelParameters& wheel) const {
+    if (!corner_.preload) return {};
+    const SpringLaw& law = *corner_.description.spring;
+    const double force = force_ + force_of(law, length_ - wheel.spring_length).force - force_of(law, 0).force;
+    const Vec3 contact = position.place.carrier.centre +
+                         contact_offset(corner_.compliance.side,
+                                        corner_.description.suspension.wheel.tyre_diameter, wheel.angles);
+    const double share = spring_share(position.place, position.input.rack, contact);
+    return PointLoad{contact, {0, 0, force / share}};
+  }
+
+ private:
+  /// Force of the held spring by an upward newton at the contact.
+  double spring_share(const CornerPlace& place, double rack, const Vec3& contact) const {
+    const Compliance held = solve_compliance(corner_.description.suspension, place, rack, corner_.elasticity,
+                                             Support::spring_held);
+    return held.status == Status::done ? respond(held, load_at(held.centre, contact, {0, 0, 1})).spring_force
+                                       : nan;
+  }
+
+  const LoadedCorner& corner_;
+  double length_ = 0, force_ = 0;
+};
+
+void add_over_travel(study::Result& result, const LoadedCorner& corner, const SweptCorner& swept,
+                     double spring_length, const RunContext& context) {
+  const std::size_t count = swept.travels.size() * swept.racks.size();
+  if (count < 2) return;
+  const PreloadOverTravel preload{corner, spring_length};
+  Table table{.name = "compliance_over_travel"};
+  std::vector<double> travels, racks;
+  std::vector<Compliance> rows;
+  for (std::size_t i = 0; i < count && !context.interrupted(); ++i) {
+    const CornerPosition& position = swept.positions[i];
+    travels.push_back(swept.travels[i % swept.travels.size()]);
+    racks.push_back(swept.racks[i / swept.travels.size()]);
+    Compliance row{.status = position.status};
+    if (position.status == Status::done)
+      row = solve_compliance(corner.description.suspension, position.place, position.input.rack,
+                             corner.elasticity, *corner.form.support, preload.at(position, swept.wheels[i]));
+    rows.push_back(std::move(row));
+  }
+  table.add("travel_m", "travel (m)", std::move(travels));
+  table.add("rack_m", "rack (m)", std::move(racks));
+  add_coefficients(table, rows);
+  if (std::any_of(rows.begin(), rows.end(), [](const Compliance& c) { return c.status != Status::done; }))
+    for (const Compliance& row : rows) table.status.emplace_back(to_string(row.status));
+  result.tables.push_back(std::move(table));
+  const study::AddPlot plot{
+      result,
+      {.table = "compliance_over_travel", .x = "travel_m", .group = swept.racks.size() > 1 ? "rack_m" : ""}};
+  plot("lateral-steer", "Lateral force steer over travel", {"lateral_steer_deg_per_kN"});
+  plot("lateral-camber", "Lateral force camber over travel", {"lateral_camber_deg_per_kN"});
+  plot("brake-steer", "Brake steer over travel", {"brake_outboard_steer_deg_per_kN"});
+  plot("aligning-steer", "Aligning torque steer over travel", {"aligning_steer_deg_per_100_N_m"});
+}
+
+/// Standard cases on both wheels (1 kN or 100 N m each).
+Table axle_cases_table(const AxleCompliance& axle) {
+  Table table{.name = "axle_compliance"};
+  std::array<std::vector<double>, 7> c;
+  for (const LoadCase load : told_cases)
+    for (const Pairing pairing : {Pairing::parallel, Pairing::opposing}) {
+      table.names.push_back(fmt::format("{}, {}", name_of(load), name_of(pairing)));
+      const double size = load == LoadCase::aligning_torque ? per_100_newton_metres : per_kilonewton;
+      const AxleResponse r = respond(axle, load, pairing);
+      const std::array<double, 7> row{r.steer,     r.toe_difference, r.left.toe, r.left.camber,
+                                      r.right.toe, r.right.camber,   r.rack};
+      for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(size * row[i]);
+    }
+  constexpr std::array<std::pair<const char*, const char*>, 7> keys{
+      {{"steer_rad", "mean steer angle, to the left (rad)"},
+       {"toe_difference_rad", "toe of the left wheel less that of the right one (rad)"},
+       {"left_toe_rad", "left wheel: change of toe (rad)"},
+       {"left_camber_rad", "left wheel: change of camber (rad)"},
+       {"right_toe_rad", "right wheel: change of toe (rad)"},
+       {"right_camber_rad", "right wheel: change of camber (rad)"},
+       {"rack_m", "shift of the rack, to the left (m)"}}};
+  for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
+  return table;
+}
+
+Table axle_matrix_table(const AxleCompliance& axle) {
+  Table table{.name = "axle_compliance_matrix"};
+  constexpr std::array<const char*, 6> shifts{"shift x (m)",        "shift y (m)",
+                                              "shift z (m)",        "turn about x (rad)",
+                                              "turn about y (rad)", "turn about z (rad)"};
+  constexpr std::array<const char*, 6> loads{"force_x",  "force_y",  "force_z",
+                                             "moment_x", "moment_y", "moment_z"};
+  constexpr std::array<const char*, 6> said{"force x (1 N)",          "force y (1 N)",
+                                            "force z (1 N)",          "moment about x (1 N m)",
+                                            "moment about y (1 N m)", "moment about z (1 N m)"};
+  for (const char* wheel : {"left", "right"})
+    for (const char* shift : shifts) table.names.push_back(fmt::format("{}: {}", wheel, shift));
+  for (std::size_t j = 0; j < 12; ++j) {
+    const char* wheel = j < 6 ? "left" : "right";
+    std::vector<double> column;
+    for (std::size_t i = 0; i < 12; ++i) column.push_back(axle.at_centres[i][j]);
+    table.add(fmt::format("by_{}_{}", wheel, loads[j % 6]), fmt::format("by {} {}", wheel, said[j % 6]),
+              std::move(column));
+  }
+  return table;
+}
+
+/// The same joints at the other wheel.
+ComplianceForm mirrored(ComplianceForm form) {
+  for (JointForm& j : form.joints)
+    if (j.axis) (*j.axis)[1] = -(*j.axis)[1];
+  return form;
+}
+
+/// Nothing, with a remark, where a wheel has no reference position, no such link or no answer.
+std::optional<Compliance> compliance_of_wheel(study::Result& result, const CornerDescription& wheel,
+                                              const ComplianceForm& form) {
+  const study::AddWarning warn{result.diagnostics};
+  for (const JointForm& j : form.joints)
+    if (link_index(wheel.suspension, j.link) < 0) {
+      warn("compliance.axle", fmt::format("the other wheel has no link '{}'", j.link),
+           "give the links of both wheels the same names");
+      return {};
+    }
+  const CornerPlan plan = prepare_suspension(wheel.suspension);
+  const CornerPosition reference = reference_position(plan);
+  if (reference.status != Status::done) return {};
+  std::optional<PointLoad> preload;
+  if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
+  Compliance out = solve_compliance(wheel.suspension, reference.place, 0, elasticity_of(wheel, form),
+                                    *form.support, preload);
+  if (out.status == Status::done) return out;
+  warn("compliance.axle", "no compliance of the other wheel: " + out.reason, {});
+  return {};
+}
+
+void add_axle_compliance(study::Result& result, const CornerDescription& description,
+                         const std::optional<CornerDescription>& other_wheel, const ComplianceForm& form) {
+  const AxleDescription both = axle_of(description, other_wheel);
+  const bool is_left = description.suspension.side == Side::left;
+  const auto left = compliance_of_wheel(result, both.left, is_left ? form : mirrored(form));
+  const auto right = compliance_of_wheel(result, both.right, is_left ? mirrored(form) : form);
+  if (!left || !right) return;
+  const AxleCompliance axle = axle_compliance(*left, *right, form.axle->rack_stiffness.value_or(rigid));
+  result.tables.push_back(axle_cases_table(axle));
+  result.tables.push_back(axle_matrix_table(axle));
 }
 
 }  // namespace
@@ -226,11 +477,18 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     if (!j.end && !j.stiffness && is_rod(type))
       wrong("stiffness", "is missing",
             "write stiffness_N_per_mm, or end and axial_N_per_mm, radial_N_per_mm");
-    if (j.end && j.stiffness.has_value() == (j.axial.has_value() || j.radial.has_value()))
+    const bool axial = j.axial || j.axial_curve, radial = j.radial || j.radial_curve;
+    if (j.axial && j.axial_curve)
+      wrong("axial_curve", "stands beside the axial stiffness", "leave one of them");
+    if (j.radial && j.radial_curve)
+      wrong("radial_curve", "stands beside the radial stiffness", "leave one of them");
+    if (!j.end && (j.axial_curve || j.radial_curve))
+      wrong("end", "is missing: a bushing is at one end of its link", "write end = \"body\" or \"carrier\"");
+    if (j.end && j.stiffness.has_value() == (axial || radial))
       wrong("stiffness", j.stiffness ? "of a ball joint and those of a bushing are both given" : "is missing",
             "give stiffness_N_per_mm for a ball joint, or axial_N_per_mm and radial_N_per_mm for a bushing");
-    if (j.end && !j.stiffness && j.axial.has_value() != j.radial.has_value())
-      wrong(j.axial ? "radial" : "axial", "is missing", "a bushing has both");
+    if (j.end && !j.stiffness && axial != radial)
+      wrong(axial ? "radial" : "axial", "is missing", "a bushing has both");
   }
   if (!form.support)
     form.support =
@@ -262,7 +520,9 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     table->error("joint", to_string(d.message), to_string(d.hint));
 }
 
-void add_compliance(study::Result& result, const CornerDescription& description, const ComplianceForm& form) {
+void add_compliance(study::Result& result, const CornerDescription& description,
+                    const std::optional<CornerDescription>& other_wheel, const ComplianceForm& form,
+                    const SweptCorner& swept, const RunContext& context) {
   const Suspension& suspension = description.suspension;
   const CornerPlan plan = prepare_suspension(suspension);
   const CornerPosition reference = reference_position(plan);
@@ -272,16 +532,20 @@ void add_compliance(study::Result& result, const CornerDescription& description,
                 "see the remarks on positions");
   std::optional<PointLoad> preload;
   if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
-  const Compliance c = solve_compliance(suspension, reference.place, 0, elasticity_of(description, form),
-                                        *form.support, preload);
+  LoadedCorner corner{description, form, reference.place, elasticity_of(description, form), preload, {}};
+  corner.compliance =
+      solve_compliance(suspension, reference.place, 0, corner.elasticity, *form.support, preload);
+  const Compliance& c = corner.compliance;
   if (c.status != Status::done)
     return warn("compliance", "no compliance: " + c.reason, "are all freedoms of the links held once?");
   result.tables.push_back(coefficients_table(c));
   result.tables.push_back(matrix_table(c));
   result.tables.push_back(forces_table(suspension, c));
-  if (!form.loads.empty()) result.tables.push_back(loads_table(c, form.loads));
+  add_loads(result, corner);
   for (std::size_t i = 0; i < form.loads.size(); ++i)
-    result.tables.push_back(load_forces_table(suspension, c, form.loads[i], i + 1));
+    if (form.loads[i].steps) add_over_load(result, corner, form.loads[i], i + 1, context);
+  add_over_travel(result, corner, swept, wheel_parameters(plan, reference).spring_length, context);
+  if (form.axle) add_axle_compliance(result, description, other_wheel, form);
   const ComplianceCoefficients k = compliance_coefficients(c);
   const std::string held = fmt::format(" ({})", name_of(c.support));
   const auto fact = [&](std::string label, const Unit& unit, double value) {

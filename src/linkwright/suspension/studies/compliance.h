@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "linkwright/suspension/compliance/coefficients.h"
 #include "linkwright/suspension/compliance/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/wheel/parameters.h"
 
 // The table `[compliance]`: loads and elastic joints in an analysis of a wheel suspension.
 namespace linkwright::suspension {
@@ -19,6 +21,18 @@ namespace linkwright::suspension {
 enum class LinkEnd { body, carrier };
 constexpr std::array<EnumName<LinkEnd>, 2> names(LinkEnd) {
   return {{{LinkEnd::body, "body"}, {LinkEnd::carrier, "carrier"}}};
+}
+
+/// The force of a bushing over its displacement.
+struct BushingCurveForm {
+  std::vector<double> displacement, force;
+};
+template <class Visitor>
+void fields(Visitor&& visit, BushingCurveForm& c) {
+  visit(field::length("displacement", "ascending; from 0: it is the same both ways").required(),
+        c.displacement);
+  visit(field::force("force", "at these displacements, ascending, 0 without displacement").required(),
+        c.force);
 }
 
 /// `[[compliance.joint]]`: a bushing, a ball joint (only `stiffness`), or both joints of a rod in series
@@ -29,6 +43,7 @@ struct JointForm {
   std::optional<double> stiffness;  ///< N/m
   std::optional<double> axial, radial;
   double torsional = 0, conical = 0;
+  std::optional<BushingCurveForm> axial_curve, radial_curve;
   std::optional<std::array<double, 3>> axis;
 };
 template <class Visitor>
@@ -45,6 +60,10 @@ void fields(Visitor&& visit, JointForm& j) {
   visit(stiffness("radial", "of a bushing, across its axis", Dimension::stiffness), j.radial);
   visit(stiffness("torsional", "of a bushing, about its axis", Dimension::stiffness_angular), j.torsional);
   visit(stiffness("conical", "of a bushing, about axes across", Dimension::stiffness_angular), j.conical);
+  visit(field::entry("axial_curve", "its force along its axis, instead of the axial stiffness"),
+        j.axial_curve);
+  visit(field::entry("radial_curve", "its force in each of two directions across, instead of the stiffness"),
+        j.radial_curve);
   visit(field::entry("axis",
                      "of a bushing, of any length; default: the hinge of the link, or the line of a rod")
             .between(-1e6, 1e6),
@@ -60,6 +79,7 @@ struct LoadForm {
   std::string name;
   LoadPlace at = LoadPlace::contact;
   std::array<double, 3> force{}, moment{};
+  std::optional<int> steps;
 };
 template <class Visitor>
 void fields(Visitor&& visit, LoadForm& l) {
@@ -67,6 +87,19 @@ void fields(Visitor&& visit, LoadForm& l) {
   visit(field::entry("at", "where the force acts on the carrier"), l.at);
   visit(field::force("force", "in the vehicle's frame: forward, left, up"), l.force);
   visit(field::torque("moment", "about its axes"), l.moment);
+  visit(field::entry("steps", "table over shares of the load, from none to all of it in so many steps")
+            .between(1, 1000),
+        l.steps);
+}
+
+/// `[compliance.axle]`: both wheels, joined by their rack.
+struct ComplianceAxleForm {
+  std::optional<double> rack_stiffness;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ComplianceAxleForm& a) {
+  visit(field::stiffness("rack_stiffness", "of the rack against the body; default: held").between(1, 1e15),
+        a.rack_stiffness);
 }
 
 struct ComplianceForm {
@@ -74,6 +107,7 @@ struct ComplianceForm {
   std::optional<double> preload;
   std::vector<JointForm> joints;
   std::vector<LoadForm> loads;
+  std::optional<ComplianceAxleForm> axle;
 };
 template <class Visitor>
 void fields(Visitor&& visit, ComplianceForm& c) {
@@ -88,15 +122,25 @@ void fields(Visitor&& visit, ComplianceForm& c) {
         c.preload);
   visit(field::entry("joint", "elastic joints; all others are rigid"), c.joints);
   visit(field::entry("load", "loads in addition to the standard cases"), c.loads);
+  visit(field::entry("axle", "both wheels with their rack, at the reference"), c.axle);
 }
 
 /// Checks what was read against the suspension; problems go to the reader.
 void check_compliance(study::ObjectReader& document, ComplianceForm& compliance,
                       const CornerDescription& description);
 
-/// The tables `compliance` (coefficients), `compliance_matrix`, `joint_forces` (by load case) and `loads`, at
-/// the reference position.
+/// Positions of a sweep, [rack * travels + travel].
+struct SweptCorner {
+  std::span<const double> travels, racks;  ///< m
+  std::span<const CornerPosition> positions;
+  std::span<const WheelParameters> wheels;
+};
+
+/// The tables `compliance` (coefficients), `compliance_matrix`, `joint_forces` (by load case) and `loads` at
+/// the reference position, `over_load-n` of loads with steps, `compliance_over_travel` of the positions that
+/// the sweep has, and of both wheels `axle_compliance` and `axle_compliance_matrix`.
 void add_compliance(study::Result& result, const CornerDescription& description,
-                    const ComplianceForm& compliance);
+                    const std::optional<CornerDescription>& other_wheel, const ComplianceForm& compliance,
+                    const SweptCorner& swept, const RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -437,7 +437,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
   if (s.sensitivity) add_sensitivity(result, s.description.suspension, *s.sensitivity, inputs);
   if (s.tolerances) add_tolerances(result, s.description.suspension, *s.tolerances, inputs, context);
-  if (s.compliance) add_compliance(result, s.description, *s.compliance);
+  if (s.compliance)
+    add_compliance(
+        result, s.description, s.other_wheel, *s.compliance,
+        {s.travels, std::span(s.racks).first(grid.racks), grid.solved.positions, grid.solved.wheels},
+        context);
   if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
   const study::AddWarning warn{result.diagnostics};
