@@ -34,9 +34,13 @@ void ObjectReader::problem(const Found& found, std::string message, std::string 
 }
 
 void ObjectReader::know(const Field& field) {
+  const Dimension dimension = key_dimension(field);
+  const auto same = [=](Dimension known) {
+    return known == dimension || known == Dimension::none || dimension == Dimension::none;
+  };
   for (const auto& known : record_->known)
-    if (known.base == field.key) return;
-  record_->known.push_back({std::string(field.key), key_dimension(field)});
+    if (known.base == field.key && same(known.dimension)) return;
+  record_->known.push_back({std::string(field.key), dimension});
 }
 
 const Value::Member* ObjectReader::member_of(const Field& field) const {
@@ -68,10 +72,11 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
                "keep one of them");
       first = first ? first : &member;
     } else if (dimension != Dimension::none) {
-      // A key that another field answers to is that field's.
+      // A key that another field answers to is that field's, of the same name with another unit as well.
       const auto others = [&] {
         return std::any_of(record_->known.begin(), record_->known.end(), [&](const auto& known) {
-          return known.base != field.key && names_field(member.key, known.base, known.dimension);
+          return (known.base != field.key || known.dimension != dimension) &&
+                 names_field(member.key, known.base, known.dimension);
         });
       };
       if (member.key == field.key && !others()) {

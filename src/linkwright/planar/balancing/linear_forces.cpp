@@ -224,6 +224,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
   bare.torsion_springs.clear();
   bare.forces.clear();
   bare.torques.clear();
+  bare.struts.clear();
 
   std::vector<std::string> names;
   for (const LinkageJoint& j : linkage.joints) {

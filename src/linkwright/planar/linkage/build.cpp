@@ -89,6 +89,7 @@ std::vector<std::complex<double>> outline_points(const Linkage& linkage, int bod
   if (!one_place()) return out;
   for (const LinearSpring& s : linkage.springs) add(s.first), add(s.second);
   for (const PointForce& f : linkage.forces) add(f.point);
+  for (const Strut& s : linkage.struts) add(s.first), add(s.second);
   if (!one_place()) return out;
   for (const LinkagePoint& p : points) out.push_back(p.at);
   return out;

@@ -14,6 +14,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/screw.h"
+#include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
 std::string group_key(std::string name) {
@@ -262,6 +263,35 @@ void add_spindle_columns(std::vector<LinkageColumn>& out, const Screw& screw, co
   });
 }
 
+void add_strut_columns(std::vector<LinkageColumn>& out, const Linkage& l, const LinkagePlan& plan,
+                       const LinkageQuantities& q) {
+  using Needs = LinkageColumn::Needs;
+  for (const Strut& s : l.struts) {
+    const auto add = [&](bool wanted, const char* key, Dimension dimension, Needs needs, auto value) {
+      if (!wanted) return;
+      add_column(out, {identifier(s.name) + "_" + key, s.name + " " + key, dimension},
+                 [&l, &plan, &s, value](const LinkageInstant& i) {
+                   return value(i, span_of(l, plan, *i.motion, s.first, s.second));
+                 });
+      out.back().needs = needs;
+    };
+    add(q.position, "length", Dimension::length, Needs::pose,
+        [](const LinkageInstant&, const Span& span) { return span.length; });
+    add(q.rates, "speed", Dimension::speed, Needs::motion,
+        [](const LinkageInstant&, const Span& span) { return span.rate; });
+    const bool turns = !plan.rotary.empty() && plan.rotary[0];
+    add(q.drive, "force", Dimension::force, Needs::motion,
+        [&s, turns](const LinkageInstant& i, const Span& span) {
+          const double input = i.inputs.empty() ? 0 : i.inputs[0].value;
+          return beyond_stroke(s, span.length) ? nan : push_of(s, span, turns, i.time, input);
+        });
+    add(q.power && stores_energy(s), "energy", Dimension::energy, Needs::motion,
+        [&s](const LinkageInstant&, const Span& span) {
+          return beyond_stroke(s, span.length) ? nan : stored_energy(s, span.length);
+        });
+  }
+}
+
 }  // namespace
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
@@ -336,6 +366,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
                      return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));
                    });
   if (q.power) add_columns(out, column_rows::powers, "", "", forces);
+  add_strut_columns(out, l, plan, q);
   add_column(out, {"closure_residual", "closure residual", Dimension::length},
              [](const LinkageInstant& i) { return i.motion->closure_residual; });
   return out;

@@ -7,6 +7,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
 namespace {
@@ -73,6 +74,8 @@ double potential_energy(const Linkage& l, const LinkagePlan& plan, const Linkage
     const double angle = twists[k] - l.torsion_springs[k].free_angle;
     sum += l.torsion_springs[k].stiffness * angle * angle / 2;
   }
+  for (const Strut& s : l.struts)
+    if (stores_energy(s)) sum += stored_energy(s, span_of(l, plan, motion, s.first, s.second).length);
   return sum;
 }
 
@@ -87,6 +90,11 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
   for (const TorsionSpring& s : l.torsion_springs) {
     const Springy now = state_of(l, plan, motion, s);
     sum += s.stiffness * now.stretch * now.rate;
+  }
+  for (const Strut& s : l.struts) {
+    if (!stores_energy(s)) continue;
+    const Span span = span_of(l, plan, motion, s.first, s.second);
+    sum -= push_of(s, span, false, 0, 0) * span.rate;  // neither time nor input matter
   }
   return sum;
 }
@@ -115,7 +123,8 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
                           [](const LinkageJoint& j) { return j.friction > 0; });
   const auto damped = [](const auto& s) { return s.damping != 0; };
   damped_ = std::any_of(linkage.springs.begin(), linkage.springs.end(), damped) ||
-            std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped);
+            std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped) ||
+            !linkage.struts.empty();
   lasting_ = friction_ || damped_ || !linkage.forces.empty() || !linkage.torques.empty();
   unit_.resize(free.size());
   bias_.resize(free.size());
@@ -274,6 +283,7 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
   power = 0;
   solve_position(plan_, inputs, motion);
   if (motion.status != Status::done) return failed(motion.status);
+  if (strut_beyond_stroke(linkage_, plan_, motion)) return failed(Status::limit_reached);
   if (!elimination_) unit_velocities(inputs);
   if (!elimination_ && plan_.inputs() == 1)
     scale_velocities(inputs[0].rate);

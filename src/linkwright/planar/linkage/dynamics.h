@@ -12,8 +12,8 @@ namespace linkwright::planar {
 
 /// Energy of motion, J. After solve_velocity.
 double kinetic_energy(const LinkagePlan& plan, const LinkageMotion& motion);
-/// Energy of weight and springs, J: zero for masses at the global origin and springs at their free lengths
-/// and angles.
+/// Energy of weight, springs and struts, J: zero for masses at the global origin and springs at their free
+/// lengths and angles; of struts see stored_energy.
 double potential_energy(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion);
 /// The same with other twists of the torsion springs (rad, one a spring) than those of the motion.
 double potential_energy(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
@@ -53,7 +53,8 @@ class LinkageDynamics {
   /// prescribed ones. Loads that depend on an input take the first one, free or not.
   ///
   /// Returns done; the status of the position when it is not done (accelerations are NaN); singular when a
-  /// free input moves no mass; self_locking when friction jams the linkage (see settle_friction).
+  /// free input moves no mass; self_locking when friction jams the linkage (see settle_friction);
+  /// limit_reached when a gas spring is beyond its stroke.
   Status solve(double time, std::span<InputMotion> inputs);
 
   /// Positions and velocities of the last `solve`; set `motion.modes` to change assembly modes. Accelerations

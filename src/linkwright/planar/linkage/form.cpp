@@ -374,6 +374,127 @@ void complete_belt(const Linkage& l, const BeltForm& f, bool drawn, Belt& belt, 
   check_run(f, belt, centres, names);
 }
 
+// The length of a spring without force, from its pull in the drawn position or where its bodies start.
+double free_length_of(const Linkage& l, const SpringForm& f, Names& names) {
+  const auto place_at_start = [&](const BodyPoint& p) -> std::optional<std::complex<double>> {
+    const std::optional<math::Pose>& start = l.bodies[static_cast<std::size_t>(p.body)].start;
+    if (p.body == 0) return pin_place(l, p);
+    if (!start) return std::nullopt;
+    return std::complex<double>(start->x, start->y) + std::polar(1.0, start->angle) * pin_place(l, p);
+  };
+  const auto first = place_at_start(l.springs.back().first), second = place_at_start(l.springs.back().second);
+  if (f.free_length != 0) {
+    names.problem("preload_N", fmt::format("spring '{}' has a preload and a free length", f.name),
+                  "leave one");
+  } else if (f.stiffness == 0) {
+    names.problem("preload_N", fmt::format("spring '{}' has a preload but no stiffness", f.name),
+                  "give the stiffness, or a strut with a constant force");
+  } else if (!first || !second) {
+    names.problem("preload_N",
+                  fmt::format("the length at which spring '{}' has its preload is not known", f.name),
+                  "draw the linkage (drawn = true), give its bodies a start, or write free_length_mm");
+  } else {
+    const double length = std::abs(*second - *first), free = length - *f.preload / f.stiffness;
+    if (free >= 0) return free;
+    names.problem("preload_N",
+                  fmt::format("spring '{}' is {:.6g} mm long there and cannot pull with {:.6g} N: its free "
+                              "length would be {:.6g} mm",
+                              f.name, length * 1e3, *f.preload, free * 1e3),
+                  fmt::format("pull with {:.6g} N at most, or take a stiffer spring", f.stiffness * length));
+  }
+  return 0;
+}
+
+// The table of a strut, whose argument has the unit of what it goes by.
+LoadFactor table_of(const StrutForm& f, Names& names) {
+  struct Argument {
+    const std::optional<std::vector<double>>& values;
+    const char* key;
+    bool fits;
+  };
+  using enum LoadArgument;
+  const Argument all[] = {{f.lengths, "argument_mm", f.against == length || f.against == input},
+                          {f.times, "argument_s", f.against == time},
+                          {f.speeds, "argument_mm_per_s", f.against == speed},
+                          {f.angles, "argument_deg", f.against == input}};
+  LoadFactor table{f.against, {}, f.force_table.value_or(std::vector<double>()), f.period};
+  const std::string against(name_of(f.against));
+  if (f.against == x || f.against == y) {
+    names.problem("against", fmt::format("strut '{}' goes by {}, but has two points", f.name, against),
+                  "let it go by length, speed, time or input");
+    return table;
+  }
+  if (!f.force_table)
+    names.problem("against", fmt::format("strut '{}' goes by {} but has no table", f.name, against),
+                  "write force_table_N with the force at each argument");
+  std::string fitting;
+  bool given = false;
+  for (const Argument& a : all) {
+    if (a.fits) fitting = fitting.empty() ? a.key : fitting + " or " + a.key;
+    if (!a.values) continue;
+    if (!a.fits)
+      names.problem("argument",
+                    fmt::format("strut '{}' goes by {}, which is not in {}", f.name, against, a.key), "");
+    given = true;
+    table.argument = *a.values;
+  }
+  if (!given)
+    names.problem("against", fmt::format("the table of strut '{}' has no arguments", f.name),
+                  "write them as " + fitting);
+  return table;
+}
+
+Strut strut_of(const StrutForm& f, Names& names) {
+  Strut s{.name = f.name, .first = names.point("first", f.first), .second = names.point("second", f.second)};
+  const int laws = (f.force ? 1 : 0) + (f.gas ? 1 : 0) + (f.cylinder ? 1 : 0) +
+                   (f.force_table || f.against != LoadArgument::constant ? 1 : 0);
+  if (laws != 1)
+    names.problem("name", fmt::format("strut '{}' has {}", f.name, laws == 0 ? "no force" : "several forces"),
+                  "give one of force_N, force_table_N, gas and cylinder");
+  s.force = f.force.value_or(1);
+  if (f.against != LoadArgument::constant)
+    s.factor = table_of(f, names);
+  else if (f.force_table)
+    names.problem("against",
+                  fmt::format("strut '{}' has a table, but it is not said what it goes by", f.name),
+                  "write against = \"length\", \"speed\", \"time\" or \"input\"");
+  if (f.gas) {
+    if (!f.gas->extended_force || !f.gas->extended_length)
+      names.problem("gas",
+                    fmt::format("gas spring '{}' has no extended {}", f.name,
+                                f.gas->extended_force ? "length" : "force"),
+                    "write extended_N and extended_mm, its force and length when it is extended");
+    s.gas = GasSpring{f.gas->extended_force.value_or(1), f.gas->extended_length.value_or(1), f.gas->stroke,
+                      f.gas->progression};
+  }
+  if (f.cylinder)
+    s.cylinder = Cylinder{f.cylinder->bore, f.cylinder->rod, f.cylinder->pressure, f.cylinder->back_pressure};
+  return s;
+}
+
+StrutForm form_of(const Strut& s, std::string first, std::string second, bool rotary) {
+  StrutForm f{.name = s.name, .first = std::move(first), .second = std::move(second)};
+  if (s.gas) {
+    f.gas = GasSpringForm{s.gas->extended_force, s.gas->extended_length, s.gas->stroke, s.gas->progression};
+  } else if (s.cylinder) {
+    f.cylinder =
+        CylinderForm{s.cylinder->bore, s.cylinder->rod, s.cylinder->pressure, s.cylinder->back_pressure};
+  } else if (s.factor.against == LoadArgument::constant) {
+    f.force = s.force;
+  } else {
+    f.against = s.factor.against;
+    f.period = s.factor.period;
+    f.force_table = s.factor.factor;
+    for (double& force : *f.force_table) force *= s.force;
+    const bool angle = f.against == LoadArgument::input && rotary;
+    (f.against == LoadArgument::time    ? f.times
+     : f.against == LoadArgument::speed ? f.speeds
+     : angle                            ? f.angles
+                                        : f.lengths) = s.factor.argument;
+  }
+  return f;
+}
+
 }  // namespace
 
 Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) {
@@ -458,6 +579,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     names.at("spring", i);
     l.springs.push_back({s.name, names.point("first", s.first), names.point("second", s.second), s.stiffness,
                          s.free_length, s.damping});
+    if (s.preload && problems.empty()) l.springs.back().free_length = free_length_of(l, s, names);
   }
   for (std::size_t i = 0; i < form.torsion_springs.size(); ++i) {
     const TorsionSpringForm& s = form.torsion_springs[i];
@@ -476,6 +598,10 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     names.at("torque", i);
     l.torques.push_back(
         {t.name, names.body("body", t.body), names.body("from", t.from), t.torque, factor_of(t.factor)});
+  }
+  for (std::size_t i = 0; i < form.struts.size(); ++i) {
+    names.at("strut", i);
+    l.struts.push_back(strut_of(form.struts[i], names));
   }
   for (std::size_t b = 0; b < form.bodies.size(); ++b) complete_mass(l, b, form.bodies[b]);
   return l;
@@ -522,7 +648,8 @@ LinkageForm form_of(const Linkage& l) {
   }
   for (const DyadMode& m : l.modes) form.assembly.push_back({{body(m.first), body(m.second)}, m.mode});
   for (const LinearSpring& s : l.springs)
-    form.springs.push_back({s.name, point(s.first), point(s.second), s.stiffness, s.free_length, s.damping});
+    form.springs.push_back(
+        {s.name, point(s.first), point(s.second), s.stiffness, s.free_length, s.damping, {}});
   for (const TorsionSpring& s : l.torsion_springs)
     form.torsion_springs.push_back(
         {s.name, body(s.first), body(s.second), s.stiffness, s.free_angle, s.damping});
@@ -537,6 +664,9 @@ LinkageForm form_of(const Linkage& l) {
     if (b.carrier >= 0) f.carrier = body(b.carrier);
     form.belts.push_back(std::move(f));
   }
+  const bool rotary =
+      !l.driven.empty() && l.joints[static_cast<std::size_t>(l.driven[0])].type == JointType::revolute;
+  for (const Strut& s : l.struts) form.struts.push_back(form_of(s, point(s.first), point(s.second), rotary));
   return form;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -106,6 +107,7 @@ struct AssemblyForm {
 struct SpringForm {
   std::string name, first, second;
   double stiffness = 0, free_length = 0, damping = 0;
+  std::optional<double> preload;
 };
 struct TorsionSpringForm {
   std::string name, first, second;
@@ -127,6 +129,24 @@ struct TorqueForm {
   double torque = 0;
   FactorForm factor;
 };
+struct GasSpringForm {
+  std::optional<double> extended_force, extended_length;
+  double stroke = 0, progression = 1;
+};
+struct CylinderForm {
+  double bore = 0, rod = 0, pressure = 0, back_pressure = 0;
+};
+struct StrutForm {
+  std::string name, first, second;
+  std::optional<double> force;
+  LoadArgument against = LoadArgument::constant;
+  std::optional<std::vector<double>> lengths, times, speeds,
+      angles;  ///< arguments of the table, by their unit
+  std::optional<std::vector<double>> force_table;
+  std::optional<double> period;
+  std::optional<GasSpringForm> gas;
+  std::optional<CylinderForm> cylinder;
+};
 struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
   /// frames coincide with it there, and the drawing gives the assembly modes.
@@ -140,6 +160,7 @@ struct LinkageForm {
   std::vector<ForceForm> forces;
   std::vector<TorqueForm> torques;
   std::vector<BeltForm> belts;
+  std::vector<StrutForm> struts;
 };
 
 /// A problem of one entry of a form: list "joint", its index, the key in it.
@@ -314,6 +335,10 @@ void fields(Visitor&& visit, SpringForm& s) {
   visit(field::stiffness("stiffness", "stiffness").not_negative(), s.stiffness);
   visit(field::length("free_length", "length without force").not_negative(), s.free_length);
   visit(field::damping("damping", "of a damper beside it").not_negative(), s.damping);
+  visit(field::force("preload",
+                     "pull of the spring in the drawn position, or where the bodies start, instead of "
+                     "`free_length`; negative where it pushes"),
+        s.preload);
 }
 template <class Visitor>
 void fields(Visitor&& visit, TorsionSpringForm& s) {
@@ -351,6 +376,63 @@ void fields(Visitor&& visit, TorqueForm& t) {
   visit(field::torque("torque", "counter-clockwise positive").required(), t.torque);
   fields(visit, t.factor);
 }
+/// Says to readers that a key stands for several quantities, which its unit tells apart.
+template <class Visitor>
+void told_apart_by_unit(Visitor& visit, std::initializer_list<Field> fields) {
+  if constexpr (requires(const Field& f) { visit.has(f); })
+    for (const Field& f : fields) static_cast<void>(visit.has(f));
+}
+template <class Visitor>
+void fields(Visitor&& visit, GasSpringForm& g) {
+  constexpr Field force = field::force("extended", "force when it is extended").positive(),
+                  length = field::length("extended", "length from eye to eye when it is extended").positive();
+  told_apart_by_unit(visit, {force, length});
+  visit(force, g.extended_force);
+  visit(length, g.extended_length);
+  visit(field::length("stroke", "by which it can become shorter").positive().required(), g.stroke);
+  visit(field::entry("progression", "force at the end of the stroke as a multiple of the extended one")
+            .between(1, 100),
+        g.progression);
+}
+template <class Visitor>
+void fields(Visitor&& visit, CylinderForm& c) {
+  visit(field::length("bore", "diameter of its bore").positive().required(), c.bore);
+  visit(field::length("rod", "diameter of its rod").not_negative(), c.rod);
+  visit(field::pressure("pressure", "pressure on the side of the bore, above that of the air").required(),
+        c.pressure);
+  visit(field::pressure("back_pressure", "pressure on the side of the rod, above that of the air"),
+        c.back_pressure);
+}
+template <class Visitor>
+void fields(Visitor&& visit, StrutForm& s) {
+  visit(field::entry("name", "its name; columns use it").required(), s.name);
+  visit(field::entry("first", "point at one end, \"body.point\"").required(), s.first);
+  visit(field::entry("second", "point at the other end").required(), s.second);
+  visit(field::force("force", "constant force, positive where it pushes the points apart"), s.force);
+  visit(field::entry("against", "what a table of forces depends on: length, speed, time or input"),
+        s.against);
+  constexpr Field lengths = field::length("argument",
+                                          "rising lengths of the strut, or displacements of the "
+                                          "first driven joint"),
+                  times = field::time("argument", "rising times"),
+                  speeds = field::speed("argument", "rising speeds at which the strut becomes longer"),
+                  angles = field::angle("argument", "rising angles of the first driven joint");
+  told_apart_by_unit(visit, {lengths, times, speeds, angles});
+  visit(lengths, s.lengths);
+  visit(times, s.times);
+  visit(speeds, s.speeds);
+  visit(angles, s.angles);
+  visit(field::force("force_table", "force at each of them, straight lines between"), s.force_table);
+  visit(
+      field::entry("period",
+                   "table over time or the input: change of the argument in SI units after which it repeats, "
+                   "0 = never")
+          .not_negative(),
+      s.period);
+  visit(field::entry("gas", "gas spring, instead of a force or a table"), s.gas);
+  visit(field::entry("cylinder", "cylinder with constant pressures, instead of a force or a table"),
+        s.cylinder);
+}
 template <class Visitor>
 void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("drawn", "points are given in one drawn position, in the global frame"), l.drawn);
@@ -364,6 +446,7 @@ void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("force", "forces on points"), l.forces);
   visit(field::entry("torque", "torques on bodies"), l.torques);
   visit(field::entry("belt", "belts, chains and ropes"), l.belts);
+  visit(field::entry("strut", "forces between two points: gas springs, cylinders, tables"), l.struts);
 }
 
 }  // namespace linkwright::planar

@@ -61,6 +61,7 @@ class Checker {
     twice(l_.torsion_springs, "torsion_spring");
     twice(l_.forces, "force");
     twice(l_.torques, "torque");
+    twice(l_.struts, "strut");
     twice(l_.belts, "belt");
     for (const LinkageBody& b : l_.bodies) twice(b.points, ("body." + b.name + ".point").c_str());
   }
@@ -220,6 +221,9 @@ class Checker {
       if (!finite(f.force)) error("force." + f.name, "is not finite", {});
       if (f.factor.against == LoadArgument::speed)
         error("force." + f.name, "a force turns nothing: its table cannot go by speed", "give a torque");
+      if (f.factor.against == LoadArgument::length)
+        error("force." + f.name, "a force on one point has no length: its table cannot go by it",
+              "give a strut, between two points");
       factor("force." + f.name, f.factor);
     }
     for (const BodyTorque& t : l_.torques) {
@@ -231,7 +235,45 @@ class Checker {
       if (!std::isfinite(t.torque)) error(key, "is not finite", {});
       if (t.factor.against == LoadArgument::x || t.factor.against == LoadArgument::y)
         error(key, "a torque has no point: its table cannot go by x or y", "use input or time");
+      if (t.factor.against == LoadArgument::length)
+        error(key, "a torque has no length: its table cannot go by it", "use input or time");
       factor(key, t.factor);
+    }
+    for (const Strut& s : l_.struts) strut(s);
+  }
+  void strut(const Strut& s) {
+    const std::string key = "strut." + s.name;
+    if (!has(s.first) || !has(s.second))
+      error(key, "refers to a body or point that does not exist", {});
+    else if (s.first.body == s.second.body)
+      error(key, fmt::format("both ends are on body '{}'", name(s.first.body)), "it would do nothing");
+    if (!std::isfinite(s.force)) error(key, "is not finite", {});
+    if (s.factor.against == LoadArgument::x || s.factor.against == LoadArgument::y)
+      error(key, "a strut has two points: its table cannot go by x or y", "use length, speed, input or time");
+    factor(key, s.factor);
+    if (s.factor.against == LoadArgument::length && s.factor.period.value_or(0) != 0)
+      error(key, "its table goes by length, which does not repeat", "leave the period out");
+    if (s.gas) {
+      const GasSpring& g = *s.gas;
+      if (!(g.extended_force > 0 && g.stroke > 0 && g.progression >= 1 &&
+            std::isfinite(g.extended_force + g.extended_length + g.progression)))
+        error(key, "force, stroke and progression of its gas spring must be finite, positive and 1 at least",
+              {});
+      else if (!(g.stroke < g.extended_length))
+        error(key,
+              fmt::format("its stroke of {:.6g} mm is as long as its extended length of {:.6g} mm",
+                          g.stroke * 1e3, g.extended_length * 1e3),
+              "the extended length is measured from eye to eye");
+    }
+    if (s.cylinder) {
+      const Cylinder& c = *s.cylinder;
+      if (!(c.bore > 0 && c.rod >= 0 && std::isfinite(c.bore + c.pressure + c.back_pressure)))
+        error(key, "diameters and pressures of its cylinder must be finite, and the bore positive", {});
+      else if (!(c.rod < c.bore))
+        error(key,
+              fmt::format("its rod of {:.6g} mm does not fit into its bore of {:.6g} mm", c.rod * 1e3,
+                          c.bore * 1e3),
+              "the rod is thinner than the bore");
     }
   }
   // Two pins of a body in one place make a link without length, unless other joints of the body lie apart.
@@ -327,6 +369,7 @@ std::vector<std::string> loads_held(const Linkage& l, bool turns, double low, do
   };
   std::for_each(l.forces.begin(), l.forces.end(), look);
   std::for_each(l.torques.begin(), l.torques.end(), look);
+  std::for_each(l.struts.begin(), l.struts.end(), look);
   return out;
 }
 

@@ -192,23 +192,28 @@ struct TorsionSpring {
   double damping = 0;     ///< N m s/rad, >= 0
 };
 
-/// The argument of a force or torque.
+/// The argument of a force, torque or strut.
 enum class LoadArgument {
   constant,  ///< nothing: the factor is 1
   input,     ///< coordinate of the first joint with a drive (rad or m)
   time,      ///< time (s)
   x,         ///< x of the point, global (m)
   y,         ///< y of the point, global (m)
-  speed      ///< of a torque: angular speed of its body against the body it comes from (rad/s), as of a motor
+  /// of a torque: angular speed of its body against the body it comes from (rad/s), as of a motor; of a
+  /// strut: speed at which it becomes longer (m/s)
+  speed,
+  length  ///< of a strut: distance of its ends (m)
 };
-constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
+constexpr std::array<EnumName<LoadArgument>, 7> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
            {LoadArgument::input, "input", "the coordinate of the first joint with a drive"},
            {LoadArgument::time, "time", "the time"},
            {LoadArgument::x, "x", "x of the point, global"},
            {LoadArgument::y, "y", "y of the point, global"},
            {LoadArgument::speed, "speed",
-            "of a torque: angular speed of its body against the body it comes from, as of a motor"}}};
+            "of a torque: angular speed of its body against the body it comes from, as of a motor; of a "
+            "strut: speed at which it becomes longer"},
+           {LoadArgument::length, "length", "of a strut: distance of its ends"}}};
 }
 
 /// The strength of a load: a factor that is 1, or interpolated linearly in a table and held at its ends, or
@@ -228,10 +233,18 @@ struct LoadFactor {
 /// @param turns true if the first input turns
 /// @returns the change of the argument after which the table repeats; 0 if it never does
 double period_of(const LoadFactor& factor, bool turns);
+
+/// The factor of a load.
+///
+/// @param factor the factor, not that of a constant load
+/// @param argument value of the quantity that its table depends on
+/// @param turns true if the first input turns
+/// @returns the factor there
+double factor_at(const LoadFactor& factor, double argument, bool turns);
 struct Linkage;
 
-/// Names of the forces and torques whose tables depend on the first input and hold an end value somewhere in
-/// an interval of it.
+/// Names of the forces, torques and struts whose tables depend on the first input and hold an end value
+/// somewhere in an interval of it.
 ///
 /// @param linkage the linkage with its forces and torques
 /// @param turns true if the first input turns
@@ -257,6 +270,35 @@ struct BodyTorque {
   int from = 0;       ///< index of the body that exerts it
   double torque = 0;  ///< N m, counter-clockwise positive
   LoadFactor factor;  ///< factor of the torque
+};
+
+/// A gas spring: its force rises linearly as it becomes shorter.
+struct GasSpring {
+  double extended_force = 0;   ///< N, at the extended length, > 0
+  double extended_length = 0;  ///< m, of the distance of its ends, > stroke
+  double stroke = 0;           ///< m, by which it can become shorter, > 0
+  double progression = 1;      ///< force at the end of the stroke as a multiple of the extended one, >= 1
+};
+
+/// A cylinder with constant pressures: pushes with pressure times the area of its bore, less back pressure
+/// times the area about its rod.
+struct Cylinder {
+  double bore = 0;           ///< m, > rod
+  double rod = 0;            ///< m, >= 0
+  double pressure = 0;       ///< Pa, on the side of the bore
+  double back_pressure = 0;  ///< Pa, on the side of the rod
+};
+
+/// A force between two points along the line through them, positive where it pushes them apart. strut.h has
+/// its law.
+struct Strut {
+  std::string name;                       ///< unique among the struts
+  BodyPoint first,                        ///< one end
+      second;                             ///< the other end, on another body
+  double force = 0;                       ///< N, at factor 1, of a strut without gas and cylinder
+  LoadFactor factor;                      ///< factor of the force
+  std::optional<GasSpring> gas = {};      ///< law of a gas spring instead
+  std::optional<Cylinder> cylinder = {};  ///< law of a cylinder instead
 };
 
 /// A wheel of a belt, or an end of a rope.
@@ -290,6 +332,7 @@ struct Linkage {
   std::vector<TorsionSpring> torsion_springs;  ///< torsion springs
   std::vector<PointForce> forces;              ///< forces on points
   std::vector<BodyTorque> torques;             ///< torques on bodies
+  std::vector<Strut> struts;                   ///< forces between two points
   std::vector<Belt> belts;                     ///< belts, chains and ropes
   std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
   std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)

@@ -10,9 +10,9 @@
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
-namespace {
 
 double factor_at(const LoadFactor& f, double argument, bool turns) {
   if (const double period = period_of(f, turns); period > 0)
@@ -24,6 +24,9 @@ double factor_at(const LoadFactor& f, double argument, bool turns) {
   const double share = (argument - f.argument[i - 1]) / (f.argument[i] - f.argument[i - 1]);
   return f.factor[i - 1] + share * (f.factor[i] - f.factor[i - 1]);
 }
+
+namespace {
+
 double strength(const LoadFactor& f, bool turns, double time, double input, const Vec<double>& point,
                 double speed) {
   switch (f.against) {
@@ -39,6 +42,8 @@ double strength(const LoadFactor& f, bool turns, double time, double input, cons
       return factor_at(f, point.y, turns);
     case LoadArgument::speed:
       return factor_at(f, speed, turns);
+    case LoadArgument::length:
+      break;  // of struts
   }
   return 1;
 }
@@ -320,6 +325,12 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
     loads.push_back({t.body, part_of(plan, motion, t.body).origin, {0, 0}, torque});
     loads.push_back({t.from, part_of(plan, motion, t.from).origin, {0, 0}, -torque});
   }
+  for (const Strut& s : l.struts) {
+    const Span span = span_of(l, plan, motion, s.first, s.second);
+    const double push = push_of(s, span, turns, time, input);
+    loads.push_back({s.first.body, span.first, -push * span.along, 0});
+    loads.push_back({s.second.body, span.second, push * span.along, 0});
+  }
 }
 
 void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
@@ -343,6 +354,10 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);
+  if (strut_beyond_stroke(l, plan, motion)) {
+    f.status = Status::limit_reached;
+    return nothing(f);
+  }
   applied_loads(l, plan, motion, time, input, f.loads);
   const auto balance = [&] {
     pass(plan, l, motion, f);

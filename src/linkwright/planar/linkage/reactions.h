@@ -35,13 +35,15 @@ struct AppliedLoad {
 
 /// Joint forces of a linkage at one instant; use one again and again.
 struct LinkageForces {
-  Status status = Status::done;       ///< status of the motion; self_locking when friction blocks it
+  /// Status of the motion; self_locking when friction blocks it; limit_reached when a gas spring is beyond
+  /// its stroke.
+  Status status = Status::done;
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
   /// One a strand of the plan: `tangential` is its tension (N), negative where it would have to push; the
   /// force is that on the second wheel, and acts on the first one along the same line.
   std::vector<JointReaction> strands;
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
-  std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
+  std::vector<AppliedLoad> loads;  ///< springs, loads, struts, friction as they acted; no weight
   /// Force of the mechanism, and of bodies welded to the ground, on the ground (N), weight included.
   Vec<double> shaking_force{0, 0};
   /// Moment on the ground about Linkage::moment_centre (N m), with everything that acts on it.
@@ -61,8 +63,8 @@ struct LinkageForces {
   std::vector<double> preload;             ///< memory: tension that all strands of a belt have in common
 };
 
-/// Forces of springs, dampers, forces and torques at the present motion, appended to `loads` in this order,
-/// two for each spring and torque.
+/// Forces of springs, dampers, forces, torques and struts at the present motion, appended to `loads` in this
+/// order, two for each spring, torque and strut.
 ///
 /// @param linkage the linkage
 /// @param plan its plan

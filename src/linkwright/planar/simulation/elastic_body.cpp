@@ -254,6 +254,10 @@ class Builder {
       move(s.second);
     }
     for (PointForce& f : out.forces) move(f.point);
+    for (Strut& s : out.struts) {
+      move(s.first);
+      move(s.second);
+    }
     for (std::size_t k = 0; k < rigid_.torsion_springs.size(); ++k)
       move(out.torsion_springs[k].first, out.torsion_springs[k].second,
            "torsion spring '" + out.torsion_springs[k].name + "'");

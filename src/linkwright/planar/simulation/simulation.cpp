@@ -145,6 +145,8 @@ double Simulation::work_tolerance() const {
   double scale = start_kinetic_;
   for (const PartMass& m : plan_.masses) scale += m.mass * std::abs(l_.gravity) * plan_.size;
   for (const LinearSpring& s : l_.springs) scale += s.stiffness * plan_.size * plan_.size / 100;
+  for (const Strut& s : l_.struts)
+    if (s.gas) scale += s.gas->extended_force * s.gas->stroke;
   return scale > 0 ? options_.relative_tolerance * scale : 1e30;
 }
 
@@ -448,6 +450,7 @@ std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive
     }
   for (const PointForce& f : linkage.forces) corners(f.factor);
   for (const BodyTorque& t : linkage.torques) corners(t.factor);
+  for (const Strut& s : linkage.struts) corners(s.factor);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;

@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/strut.h"
 #include "linkwright/planar/simulation/detail/simulation_run.h"
 
 // The end of a simulation, and the words for it.
@@ -27,6 +28,9 @@ Sentence place(const Linkage& l, const LinkagePlan& plan, std::size_t input, dou
 Sentence Simulation::start_message(Status status) const {
   if (dynamics_.motion.failed_group >= 0)
     return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
+  if (const Strut* strut = strut_beyond_stroke(l_, plan_, dynamics_.motion))
+    return "the start does not work: " +
+           stroke_text(*strut, span_of(l_, plan_, dynamics_.motion, strut->first, strut->second).length);
   if (status == Status::singular)
     return "a free joint moves no mass, so its motion does not follow from the forces";
   if (status == Status::self_locking)
@@ -79,12 +83,28 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
       report_.message = say("friction locks the linkage at {}: {}", where, jams);
     else if (report_.group >= 0)
       limit(where);
+    else if (const Sentence stroke = end_of_stroke(); !stroke.empty())
+      report_.message = say("the motion ends at {}: {}", where, stroke);
     else
       report_.message = say("the motion cannot be followed beyond {}", where);
   } else if (ode.status != Status::done) {
     report_.status = ode.status;
     report_.message = say("ended at {}: {}", seconds(ode.t, 6), ode.message);
   }
+}
+
+Sentence Simulation::end_of_stroke() {
+  constexpr double near = 1e-3;  // of the stroke: the last step ends before its end
+  solve_position(plan_, inputs_, dynamics_.motion);
+  if (dynamics_.motion.status != Status::done) return {};
+  for (const Strut& s : l_.struts) {
+    if (!s.gas) continue;
+    const double length = span_of(l_, plan_, dynamics_.motion, s.first, s.second).length,
+                 left = s.gas->extended_length - length, slack = near * s.gas->stroke;
+    if (left < slack) return say("gas spring '{}' is extended", s.name);
+    if (left > s.gas->stroke - slack) return say("gas spring '{}' is at the end of its stroke", s.name);
+  }
+  return {};
 }
 
 void Simulation::limit(const Sentence& where) {

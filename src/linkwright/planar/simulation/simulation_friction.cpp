@@ -130,7 +130,8 @@ bool Simulation::may_be_freed(double t) const {
     return f.against == LoadArgument::time && (period_of(f, false) > 0 || t < f.argument.back());
   };
   return !laws_.empty() || std::any_of(l_.forces.begin(), l_.forces.end(), changes) ||
-         std::any_of(l_.torques.begin(), l_.torques.end(), changes);
+         std::any_of(l_.torques.begin(), l_.torques.end(), changes) ||
+         std::any_of(l_.struts.begin(), l_.struts.end(), changes);
 }
 
 math::OdeAction Simulation::come_to_rest(double t, std::span<double> y) {

@@ -32,9 +32,10 @@ void require(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSe
       "start {}, mean speed {}, fluctuation {}, {} samples", s.start, s.mean_speed, s.fluctuation, s.samples);
   const auto by_time = [](const auto& load) { return load.factor.against == LoadArgument::time; };
   LINKWRIGHT_REQUIRE(std::none_of(l.forces.begin(), l.forces.end(), by_time) &&
-                         std::none_of(l.torques.begin(), l.torques.end(), by_time),
+                         std::none_of(l.torques.begin(), l.torques.end(), by_time) &&
+                         std::none_of(l.struts.begin(), l.struts.end(), by_time),
                      "{} loads, one of which goes by time: a cycle has none",
-                     l.forces.size() + l.torques.size());
+                     l.forces.size() + l.torques.size() + l.struts.size());
 }
 
 // Turns after which all loads that go by the input repeat; 0 when there are none up to so many.
@@ -48,7 +49,8 @@ int turns_of_cycle(const Linkage& l) {
   };
   for (int turns = 1; turns <= max_turns; ++turns)
     if (std::all_of(l.forces.begin(), l.forces.end(), [&](const auto& f) { return repeats(f, turns); }) &&
-        std::all_of(l.torques.begin(), l.torques.end(), [&](const auto& t) { return repeats(t, turns); }))
+        std::all_of(l.torques.begin(), l.torques.end(), [&](const auto& t) { return repeats(t, turns); }) &&
+        std::all_of(l.struts.begin(), l.struts.end(), [&](const auto& s) { return repeats(s, turns); }))
       return turns;
   return 0;
 }

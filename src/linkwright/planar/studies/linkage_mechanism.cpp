@@ -351,8 +351,18 @@ bool require_masses(study::ObjectReader& document, LinkageType type, const Linka
   return false;
 }
 
+namespace {
+// The mechanism as a study writes it, without struts where it has none.
+Value form_value(const Linkage& linkage) {
+  Value form = study::write_fields(form_of(linkage));
+  if (linkage.struts.empty())
+    std::erase_if(form.as_object(), [](const Value::Member& m) { return m.key == "strut"; });
+  return form;
+}
+}  // namespace
+
 void write_linkage(const LinkageDescription& d, Value& canonical) {
-  canonical["mechanism"] = d.shorthand.is_null() ? study::write_fields(form_of(d.linkage)) : d.shorthand;
+  canonical["mechanism"] = d.shorthand.is_null() ? form_value(d.linkage) : d.shorthand;
   LinkageEnvironment environment;
   environment.gravity = std::abs(d.linkage.gravity);
   if (environment.gravity > 0) environment.direction = std::arg(d.linkage.gravity);
@@ -402,7 +412,7 @@ Value motion_study(const Linkage& linkage, bool rotary, std::span<const double> 
                    std::string_view point) {
   Value out;
   out["mechanism"]["type"] = "planar.linkage";
-  Value form = study::write_fields(form_of(linkage));
+  Value form = form_value(linkage);
   for (Value::Member& member : form.as_object()) out["mechanism"][member.key] = std::move(member.value);
   const std::string joint = linkage.joints[static_cast<std::size_t>(linkage.driven[0])].name;
   LinkageDrive drive{.rate = rotary ? 2 * pi : std::abs(inputs.back() - inputs.front())};

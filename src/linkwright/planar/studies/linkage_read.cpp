@@ -106,7 +106,8 @@ bool leave_out_forces(study::ObjectReader& document, LinkageType type, const Lin
   const Linkage& l = described.linkage;
   const auto massive = [](const LinkageBody& body) { return body.mass.has_value(); };
   if (described.plan.has_masses || std::any_of(l.bodies.begin(), l.bodies.end(), massive) ||
-      !l.springs.empty() || !l.torsion_springs.empty() || !l.forces.empty() || !l.torques.empty())
+      !l.springs.empty() || !l.torsion_springs.empty() || !l.forces.empty() || !l.torques.empty() ||
+      !l.struts.empty())
     return require_masses(document, type, described.plan, true);
   std::string left_out = "forces and torques";
   std::string give = type == LinkageType::linkage ? "mass_kg of every body" : "[mechanism.mass]";

@@ -25,6 +25,7 @@
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
+#include "linkwright/planar/linkage/strut.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/extremes.h"
@@ -162,6 +163,12 @@ class Runner {
       nearest_group_ = motion.failed_group;
     if (!passed_.back()) failures_.add(statuses_.back(), motion, r);
     if (motion.status != Status::done || passed_.back()) return;
+    if (!strut_beyond_ && statuses_.back() == Status::limit_reached) {
+      strut_beyond_ = strut_beyond_stroke(s_.linkage, s_.plan, motion);
+      if (strut_beyond_)
+        strut_length_ =
+            span_of(s_.linkage, s_.plan, motion, strut_beyond_->first, strut_beyond_->second).length;
+    }
     closure_.largest(motion.closure_residual, r);
     for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
       const GroupTraits traits = traits_of(s_.plan.groups[g]);
@@ -458,6 +465,9 @@ class Runner {
         warn(
             say("{} lock by friction: no force of the drive, however large, keeps the linkage moving", place),
             "less friction, or a position farther from the dead point, frees it");
+      else if (s == Status::limit_reached && strut_beyond_)
+        warn(say("{} are beyond a stroke: {}", place, stroke_text(*strut_beyond_, strut_length_)),
+             "end the sweep there, or take a longer gas spring");
       else
         warn(say("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
@@ -590,6 +600,8 @@ class Runner {
   Failures failures_;
   study::Extreme nearest_, closure_, transmission_, shaking_, power_, balance_;
   std::vector<study::Extreme> drives_, joints_, racks_, strands_;
+  const Strut* strut_beyond_ = nullptr;  // the first gas spring beyond its stroke
+  double strut_length_ = 0;              // its length there, m
   std::size_t weakest_ = 0;
   int nearest_group_ = -1;
   std::vector<double> modes_;

@@ -238,6 +238,9 @@ class Artist {
     for (const LinearSpring& s : l_.springs)
       scene_.bodies.push_back(
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
+    for (const Strut& s : l_.struts)
+      scene_.bodies.push_back(
+          {s.name, {point(s.first), point(s.second)}, s.cylinder ? Style::damper : Style::spring});
   }
 
   int point_named(int body, std::string_view name) const {

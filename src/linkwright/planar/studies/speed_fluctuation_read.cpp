@@ -53,6 +53,7 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
   };
   by_time("force", l.forces);
   by_time("torque", l.torques);
+  by_time("strut", l.struts);
   Value drive;
   if (!l.driven.empty()) drive["joint"] = input_joint(l, 0).name;
   write_linkage(*description, prepared.canonical);

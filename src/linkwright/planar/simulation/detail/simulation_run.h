@@ -156,6 +156,8 @@ class Simulation {
 
   void finish(const math::OdeReport& ode, std::span<const double> y);
   void limit(const Sentence& where);
+  // The gas spring at whose stroke the motion ends; empty if there is none.
+  Sentence end_of_stroke();
   Sentence stands() const;
 
   const Linkage& l_;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "linkwright/core/sentence.h"
+#include "linkwright/planar/linkage/motion.h"
+
+/// @file
+/// The laws of struts: forces between two points. A spring is one with a law of its own, see LinearSpring.
+namespace linkwright::planar {
+
+/// The line between two points of a linkage.
+struct Span {
+  Vec<double> first{0, 0},  ///< one end, global, m
+      second{0, 0};         ///< the other end, global, m
+  Vec<double> along{0, 0};  ///< unit vector from the first end to the second; zero where they coincide
+  double length = 0;        ///< m
+  double rate = 0;          ///< speed at which it becomes longer, m/s; after solve_velocity
+};
+
+/// The line between two points of bodies at the present motion.
+///
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion
+/// @param first one end
+/// @param second the other end
+/// @returns the line
+Span span_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+             const BodyPoint& first, const BodyPoint& second);
+
+/// The force of a strut.
+///
+/// @param strut the strut
+/// @param span the line between its ends
+/// @param turns true if the first input turns
+/// @param time time (s)
+/// @param input value of the first input (rad or m)
+/// @returns force (N), positive where it pushes its ends apart; that of a gas spring beyond its stroke goes
+/// on
+///   linearly
+double push_of(const Strut& strut, const Span& span, bool turns, double time, double input);
+
+/// True if the force of a strut depends on its length alone, so that it stores energy.
+///
+/// @param strut the strut
+/// @returns true if it stores energy
+bool stores_energy(const Strut& strut);
+
+/// Energy that a strut stores.
+///
+/// @param strut the strut
+/// @param length distance of its ends (m)
+/// @returns energy (J): zero at the extended length of a gas spring, at the first length of a table, and at
+/// no
+///   length for a constant force; zero of a strut that stores none
+double stored_energy(const Strut& strut, double length);
+
+/// True if a strut is a gas spring that is shorter or longer than its stroke allows.
+///
+/// @param strut the strut
+/// @param length distance of its ends (m)
+/// @returns true if it cannot have that length
+bool beyond_stroke(const Strut& strut, double length);
+
+/// The first gas spring that is beyond its stroke.
+///
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion
+/// @returns the strut, which the linkage owns; null if there is none
+const Strut* strut_beyond_stroke(const Linkage& linkage, const LinkagePlan& plan,
+                                 const LinkageMotion& motion);
+
+/// The length at which a gas spring would be beyond its stroke, for messages: "gas spring 's' would be 270 mm
+/// long; it goes from 276 to 356 mm".
+///
+/// @param strut the gas spring
+/// @param length distance of its ends (m)
+/// @returns the sentence
+Sentence stroke_text(const Strut& strut, double length);
+
+}  // namespace linkwright::planar
