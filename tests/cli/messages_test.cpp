@@ -61,7 +61,7 @@ std::vector<Row> keys_and_values() {
        {},
        "s.toml:3:10: error: kind: is 'analyse', must be one of: synthesis, enumeration, analysis, "
        "simulation, "
-       "speed_fluctuation, balancing, sweep; did you mean 'analysis'?\n"},
+       "speed_fluctuation, balancing, rest, sweep; did you mean 'analysis'?\n"},
       {"type fourbar",
        four_bar,
        {{"\"planar.four_bar\"", "\"fourbar\""}},

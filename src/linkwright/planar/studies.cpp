@@ -9,6 +9,7 @@
 #include "linkwright/planar/studies/function.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/poses.h"
+#include "linkwright/planar/studies/rest.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
@@ -42,6 +43,7 @@ std::vector<study::Kind> studies() {
                                     slider_crank_speed_fluctuation_kind(),
                                     serial_arm_kind()};
   for (study::Kind& kind : balancing_kinds()) kinds.push_back(std::move(kind));
+  kinds.push_back(rest_kind());
   return kinds;
 }
 

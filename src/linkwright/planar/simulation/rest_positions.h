@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/planar/linkage/limits.h"
+
+namespace linkwright::planar {
+
+/// The behaviour of a linkage in a rest position after a small displacement.
+enum class RestKind {
+  stable,    ///< it returns: the stiffness is positive
+  unstable,  ///< it leaves: the stiffness is negative
+  marginal,  ///< the force touches zero without changing its sign: it leaves to one side
+  at_end     ///< the force presses it outwards against the end of the range, or of the stroke of a gas spring
+};
+constexpr std::array<EnumName<RestKind>, 4> names(RestKind) {
+  return {{{RestKind::stable, "stable"},
+           {RestKind::unstable, "unstable"},
+           {RestKind::marginal, "marginal"},
+           {RestKind::at_end, "at_end"}}};
+}
+
+/// A rest position of a linkage with one free input.
+struct RestPosition {
+  RestKind kind = RestKind::stable;  ///< its stability
+  double value = 0;                  ///< of the free input, rad or m
+  double force = 0;                  ///< generalised force there, N m or N: zero but for that at an end
+  double stiffness = 0;              ///< -dQ/dq, N m/rad or N/m; NaN at an end
+  double mass = 0;                   ///< reduced to the input, kg m2 or kg
+  double damping = 0;                ///< N m s/rad or N s/m
+  double potential = 0;              ///< of weight, springs and struts, J
+  std::size_t range = 0;             ///< index into RestPositions::ranges
+
+  /// Natural frequency without damping.
+  ///
+  /// @returns frequency (Hz); NaN where it is not stable or moves no mass
+  double frequency() const;
+  /// Damping as a share of that with which it just does not swing.
+  ///
+  /// @returns ratio; NaN where there is no frequency
+  double damping_ratio() const;
+};
+
+/// A range of the free input in which the linkage assembles, with the forces along it.
+struct RestRange {
+  double from = 0, to = 0;        ///< rad or m
+  bool full_turn = false;         ///< closes on itself
+  bool stop_below = false,        ///< the linkage cannot go beyond `from`: end of the range or of a stroke
+      stop_above = false;         ///< the same of `to`
+  bool dead_below = false,        ///< a dead point of the input ends it at `from`
+      dead_above = false;         ///< the same of `to`
+  bool balanced = false;          ///< the forces vanish everywhere: it rests anywhere
+  std::vector<double> modes;      ///< signs, one a group
+  std::vector<double> value;      ///< samples of the input, rad or m
+  std::vector<double> force;      ///< generalised force there, N m or N
+  std::vector<double> potential;  ///< energy of weight, springs and struts there, J
+};
+
+/// The rest positions of a linkage.
+struct RestPositions {
+  Status status = Status::done;         ///< no_assembly: nowhere; cancelled, deadline: what is known so far
+  std::vector<RestRange> ranges;        ///< ranges in the modes that were asked for
+  std::vector<RestPosition> positions;  ///< by range, then by value
+};
+
+/// The choices of a search for rest positions.
+struct RestSearch {
+  std::vector<double> inputs;  ///< values of all inputs: those that are held stay there (rad or m)
+  std::size_t free = 0;        ///< index of the free input
+  /// Range of the free input (rad or m); nothing: all of it, a turn or four sizes of the linkage to each side
+  std::optional<std::array<double, 2>> range = {};
+  int samples = 720;       ///< samples of each range, 16 at least
+  bool all_modes = false;  ///< ranges of all assembly modes; else those of the plan
+};
+
+/// All rest positions of a linkage with one free input: zeros of the generalised force Q(q) of weight,
+/// springs, struts and loads at rest, on every range in which the linkage assembles. Zeros with a change of
+/// sign are found to rounding; those without where the least |Q| is below 1e-9 of its largest value in the
+/// range. At ends of a range that is given, and at the ends of the stroke of a gas spring, the linkage rests
+/// where Q presses outwards. Friction is left out.
+///
+/// @param linkage the linkage, with masses and loads that do not depend on time
+/// @param plan its plan; with groups without closed form only for linkages with one input
+/// @param search the choices
+/// @param context cancellation and deadline; null: none
+/// @returns ranges and rest positions
+/// @throws ContractError if a body has no mass, or the choices do not fit the plan
+RestPositions rest_positions(const Linkage& linkage, const LinkagePlan& plan, const RestSearch& search,
+                             const RunContext* context = nullptr);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "linkwright/planar/simulation/rest_positions.h"
+#include "linkwright/planar/studies/linkage.h"
+
+// The rest positions of a linkage: what their file holds, how it is read, run and reported.
+namespace linkwright::planar {
+
+struct RestStudy {
+  Linkage linkage;
+  LinkagePlan plan;
+  RestSearch search;
+  std::vector<BodyPoint> traces;
+};
+
+/// "rest" of "planar.linkage".
+study::Kind rest_kind();
+
+/// Rest positions, their stability and frequencies, and the force along the free input.
+study::Result run_rest(const RestStudy& study, RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/simulation/rest_positions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/build.h"
+#include "planar/linkages.h"
+#include "support/published.h"
+
+namespace linkwright::planar {
+namespace {
+
+using namespace linkwright::planar::test;
+
+const Value& published_rows(const char* id) {
+  return at(published_case("planar-machines.json", id), "computed.rows");
+}
+
+// A uniform rod on the ground, with a place on it for a spring.
+Linkage rod(double length, double mass) {
+  Linkage l = grounded({{"O", 0}, {"S", {0, 1.2}}});
+  l.bodies.push_back({.name = "rod", .points = {{"O", 0}, {"A", length}}});
+  l.joints.push_back({.name = "O", .first = {0, 0}, .second = {1, 0}});
+  l.bodies[1].mass = BodyMass{mass, mass * length * length / 12, length / 2};
+  l.driven = {0};
+  return l;
+}
+
+void expect_rows(const RestPositions& found, const Value& rows, double frequency_tolerance) {
+  ASSERT_EQ(found.positions.size(), rows.as_array().size());
+  for (std::size_t i = 0; i < found.positions.size(); ++i) {
+    const Value::Array& row = rows.as_array()[i].as_array();
+    const RestPosition& p = found.positions[i];
+    EXPECT_NEAR(math::degrees(p.value), row[0].as_number(), 1e-7);
+    EXPECT_NEAR(p.stiffness, row[1].as_number(), 1e-6);
+    EXPECT_EQ(p.kind, row[1].as_number() > 0 ? RestKind::stable : RestKind::unstable);
+    if (row.back().is_number()) {
+      EXPECT_NEAR(p.frequency(), row.back().as_number(), frequency_tolerance);
+    } else {
+      EXPECT_TRUE(std::isnan(p.frequency()));
+    }
+  }
+}
+
+TEST(RestPositions, RodWithASpringHasThePublishedFour) {
+  Linkage l = rod(1, 5);
+  l.springs.push_back({"spring", {0, 1}, {1, 1}, 200, 0.3, 0});
+  const LinkagePlan plan = planned(l);
+  const RestPositions found = rest_positions(l, plan, {.inputs = {0}});
+  ASSERT_EQ(found.status, Status::done);
+  ASSERT_EQ(found.ranges.size(), 1u);
+  EXPECT_TRUE(found.ranges[0].full_turn);
+  expect_rows(found, published_rows("rest-rod-with-spring"), 1e-9);
+}
+
+TEST(RestPositions, FourBarHasThePublishedTwo) {
+  Linkage l = grounded({{"O", 0}, {"C", 0.4}, {"S", {0.05, 0.3}}});
+  const double lengths[] = {0.15, 0.35, 0.3}, masses[] = {0.6, 1.4, 1.2};
+  const char* names[] = {"crank", "coupler", "rocker"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double a = lengths[i];
+    l.bodies.push_back({.name = names[i], .points = {{"A", 0}, {"B", a}, {"M", a / 2}}});
+    l.bodies.back().mass = BodyMass{masses[i], masses[i] * a * a / 12, a / 2};
+  }
+  l.joints.push_back({.name = "O", .first = {0, 0}, .second = {1, 0}});
+  l.joints.push_back({.name = "A", .first = {1, 1}, .second = {2, 0}});
+  l.joints.push_back({.name = "B", .first = {2, 1}, .second = {3, 1}});
+  l.joints.push_back({.name = "C", .first = {0, 1}, .second = {3, 0}});
+  l.driven = {0};
+  // The open branch has B to the left of the line from A to C.
+  set_mode(l, "coupler", "rocker", AssemblyMode::plus);
+  l.springs.push_back({"spring", {0, 2}, {2, 2}, 300, 0.22, 0});
+  const LinkagePlan plan = planned(l);
+  const RestPositions found = rest_positions(l, plan, {.inputs = {0}});
+  expect_rows(found, published_rows("rest-four-bar"), 1e-6);
+  const std::vector<double> first =
+      numbers(Value(Value::Array(published_rows("rest-four-bar").as_array()[0].as_array().begin(),
+                                 published_rows("rest-four-bar").as_array()[0].as_array().begin() + 3)));
+  EXPECT_NEAR(found.positions[0].mass, first[2], 1e-9);
+  // The other mode has ranges and positions of its own.
+  const RestPositions all = rest_positions(l, plan, {.inputs = {0}, .all_modes = true});
+  EXPECT_EQ(all.ranges.size(), 2u);
+  EXPECT_GT(all.positions.size(), found.positions.size());
+}
+
+TEST(RestPositions, GearedPendulumsHaveThePublishedTwo) {
+  Linkage l = grounded({{"A", 0}, {"B", 1}});
+  l.bodies.push_back({.name = "a", .points = {{"A", 0}}});
+  l.bodies.push_back({.name = "b", .points = {{"B", 0}}});
+  l.bodies[1].mass = BodyMass{2, 0.01, 0.15};
+  l.bodies[2].mass = BodyMass{1.2, 0.004, 0.1};
+  l.joints.push_back({.name = "A", .first = {0, 0}, .second = {1, 0}});
+  l.joints.push_back({.name = "B", .first = {0, 1}, .second = {2, 0}});
+  l.joints.push_back({.name = "gear",
+                      .type = JointType::gear,
+                      .first = {1, 0},
+                      .second = {2, 0},
+                      .ratio = -2,
+                      .phase = 0.4});
+  l.driven = {0};
+  const RestPositions found = rest_positions(l, planned(l), {.inputs = {0}});
+  expect_rows(found, published_rows("rest-geared-pendulums"), 1e-9);
+}
+
+TEST(RestPositions, BonnetRestsWhereItsGasSpringCarriesIt) {
+  const Value& bonnet = published_case("planar-machines.json", "bonnet-gas-spring");
+  Linkage l = grounded({{"O", 0}, {"P", {0.02, -0.06}}});
+  l.bodies.push_back({.name = "bonnet", .points = {{"O", 0}, {"Q", {0.3, -0.06}}}});
+  l.bodies[1].mass = BodyMass{15, 2, std::polar(0.62, 8 * pi / 180)};
+  l.joints.push_back({.name = "O", .first = {0, 0}, .second = {1, 0}});
+  l.driven = {0};
+  l.struts.push_back(
+      {.name = "lift", .first = {0, 1}, .second = {1, 1}, .gas = GasSpring{900, 0.356, 0.08, 1.35}});
+  const LinkagePlan plan = planned(l);
+  const RestPositions found = rest_positions(l, plan, {.inputs = {0}, .range = {{0, 75 * pi / 180}}});
+  ASSERT_EQ(found.positions.size(), 3u);
+  EXPECT_NEAR(math::degrees(found.positions[1].value), numbers(at(bonnet, "computed.rest_positions_deg"))[0],
+              1e-8);
+  EXPECT_EQ(found.positions[1].kind, RestKind::unstable);
+  // Pressed shut and pressed open, at the ends of the range.
+  for (const std::size_t i : {0u, 2u}) EXPECT_EQ(found.positions[i].kind, RestKind::at_end);
+  EXPECT_NEAR(found.positions[0].force, number_at(bonnet, "computed.torque_at_0_N_m"), 1e-9);
+  EXPECT_NEAR(found.positions[2].force, number_at(bonnet, "computed.torque_at_75_N_m"), 1e-9);
+  // Without a range the strokes of the gas spring end it; one of the pieces holds that of the car.
+  const RestPositions whole = rest_positions(l, plan, {.inputs = {0}});
+  ASSERT_EQ(whole.status, Status::done);
+  for (const RestRange& range : whole.ranges) {
+    EXPECT_TRUE(range.stop_below || range.dead_below || range.full_turn || range.from == -pi);
+    for (const double end : {range.value.front(), range.value.back()}) {
+      const double length =
+          std::abs(std::polar(1.0, end) * std::complex(0.3, -0.06) - std::complex(0.02, -0.06));
+      EXPECT_TRUE(length > 0.276 - 1e-9 && length < 0.356 + 1e-9) << length;
+    }
+  }
+}
+
+// A spring of zero free length with k a b = m g l balances an arm at every angle (Carwardine).
+TEST(RestPositions, BalancedArmRestsAnywhere) {
+  const Value& arm = published_case("planar-machines.json", "counterbalance-arm");
+  const double mass = number_at(arm, "inputs.mass_kg"), where = number_at(arm, "inputs.at_m");
+  Linkage l = grounded({{"O", 0}, {"S", {0, number_at(arm, "inputs.anchor_above_pivot_m")}}});
+  l.bodies.push_back({.name = "arm", .points = {{"O", 0}, {"A", number_at(arm, "inputs.eye_on_arm_m")}}});
+  l.bodies[1].mass = BodyMass{mass, 0, where};
+  l.joints.push_back({.name = "O", .first = {0, 0}, .second = {1, 0}});
+  l.driven = {0};
+  l.springs.push_back(
+      {"spring", {0, 1}, {1, 1}, number_at(arm, "computed.zero_free_length_stiffness_N_per_m"), 0, 0});
+  const RestPositions found = rest_positions(l, planned(l), {.inputs = {0}});
+  ASSERT_EQ(found.ranges.size(), 1u);
+  EXPECT_TRUE(found.ranges[0].balanced);
+  EXPECT_TRUE(found.positions.empty());
+}
+
+// A torque that just carries a level rod: it touches zero there, and the rod falls to one side alone.
+TEST(RestPositions, ForceThatTouchesZeroIsMarginal) {
+  Linkage l = rod(1, 2);
+  l.torques.push_back({.name = "lift", .body = 1, .from = 0, .torque = 2 * 9.81 * 0.5});
+  const RestPositions found = rest_positions(l, planned(l), {.inputs = {0}, .range = {{-1, 1.3}}});
+  ASSERT_EQ(found.positions.size(), 2u);
+  EXPECT_EQ(found.positions[0].kind, RestKind::marginal);
+  EXPECT_NEAR(found.positions[0].value, 0, 1e-6);
+  EXPECT_EQ(found.positions[1].kind, RestKind::at_end);
+}
+
+// A hanging rod with a damper at a distance r from its hinge: c r^2 over 2 sqrt(k m) of the rotation.
+TEST(RestPositions, DampersGiveTheDampingRatio) {
+  Linkage l = rod(1, 3);
+  l.bodies[0].points.push_back({"D", {1, -0.4}});
+  l.bodies[1].points.push_back({"D", 0.4});
+  l.springs.push_back({"damper", {0, 2}, {1, 2}, 0, 0, 7});
+  const RestPositions found = rest_positions(l, planned(l), {.inputs = {0}});
+  ASSERT_EQ(found.positions.size(), 2u);
+  const RestPosition& p = found.positions[0];
+  const double stiffness = 3 * 9.81 * 0.5, inertia = 3 * (1 / 12.0 + 0.25), damping = 7 * 0.4 * 0.4;
+  EXPECT_NEAR(p.value, -pi / 2, 1e-12);
+  EXPECT_NEAR(p.damping, damping, 1e-9);
+  EXPECT_NEAR(p.damping_ratio(), damping / (2 * std::sqrt(stiffness * inertia)), 1e-9);
+  EXPECT_NEAR(p.frequency(), std::sqrt(stiffness / inertia) / (2 * pi), 1e-9);
+}
+
+}  // namespace
+}  // namespace linkwright::planar
