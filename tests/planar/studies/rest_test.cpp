@@ -45,8 +45,22 @@ TEST(RestStudy, OtherJointsAreHeld) {
   ASSERT_EQ(result.status, Status::done);
   EXPECT_GE(result.tables[0].rows(), 1u);
   EXPECT_THAT(problems_of(replaced(two_arms(), "free  = true", "")), HasSubstr("no joint is free to move"));
-  EXPECT_THAT(problems_of(replaced(two_arms(), "start_deg = -90.0", "free = true")),
-              HasSubstr("2 joints are free, and rest positions are found for one"));
+}
+
+TEST(RestStudy, SeveralFreeJointsAreSearchedFromAGrid) {
+  std::string text = replaced(two_arms(), "start_deg = -90.0", "free = true");
+  EXPECT_THAT(problems_of(text), HasSubstr("it is for one free joint, and 2 are free"));
+  text = replaced(replaced(text, "from_deg = -80.0", "starts = 10"), "to_deg   = 80.0", "");
+  const study::Result result = run_text(text);
+  ASSERT_EQ(result.status, Status::done);
+  EXPECT_THAT(fact(result, "search"), HasSubstr("100 starts"));
+  const std::vector<double>& stable = column(result, "rest", "stable");
+  ASSERT_GE(stable.size(), 4u);
+  EXPECT_EQ(column(result, "rest", "vibration_2_frequency_Hz").size(), stable.size());
+  EXPECT_THAT(to_string(result.headline), HasSubstr("rest positions"));
+  EXPECT_THAT(problems_of(replaced(text, "starts = 10", "starts = 2000")), HasSubstr("at most 1000"));
+  EXPECT_THAT(problems_of(replaced(template_text(), "from_deg = -80.0", "from_deg = -80.0\nstarts = 9")),
+              HasSubstr("they are for several free joints"));
 }
 
 TEST(RestStudy, WrongInputIsNamed) {

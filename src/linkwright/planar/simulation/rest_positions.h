@@ -17,13 +17,15 @@ enum class RestKind {
   stable,    ///< it returns: the stiffness is positive
   unstable,  ///< it leaves: the stiffness is negative
   marginal,  ///< the force touches zero without changing its sign: it leaves to one side
-  at_end     ///< the force presses it outwards against the end of the range, or of the stroke of a gas spring
+  at_end,    ///< the force presses it outwards against the end of the range, or of the stroke of a gas spring
+  flutter    ///< of several free inputs: small motions swing and grow
 };
-constexpr std::array<EnumName<RestKind>, 4> names(RestKind) {
+constexpr std::array<EnumName<RestKind>, 5> names(RestKind) {
   return {{{RestKind::stable, "stable"},
            {RestKind::unstable, "unstable"},
            {RestKind::marginal, "marginal"},
-           {RestKind::at_end, "at_end"}}};
+           {RestKind::at_end, "at_end"},
+           {RestKind::flutter, "flutter"}}};
 }
 
 /// A rest position of a linkage with one free input.

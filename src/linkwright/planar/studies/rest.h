@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "linkwright/planar/simulation/rest_configurations.h"
 #include "linkwright/planar/simulation/rest_positions.h"
 #include "linkwright/planar/studies/linkage.h"
 
@@ -12,7 +14,8 @@ namespace linkwright::planar {
 struct RestStudy {
   Linkage linkage;
   LinkagePlan plan;
-  RestSearch search;
+  RestSearch search;             ///< of one free joint
+  std::optional<RestGrid> grid;  ///< of several free joints, instead
   std::vector<BodyPoint> traces;
 };
 
@@ -21,5 +24,7 @@ study::Kind rest_kind();
 
 /// Rest positions, their stability and frequencies, and the force along the free input.
 study::Result run_rest(const RestStudy& study, RunContext& context);
+/// The same of several free joints.
+study::Result run_rest_configurations(const RestStudy& study, RunContext& context);
 
 }  // namespace linkwright::planar

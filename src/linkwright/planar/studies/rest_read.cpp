@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +41,7 @@ void joint_fields(Visitor&& visit, bool rotary, RestDrive& d) {
 struct RestTable {
   std::optional<double> from, to;
   int samples = 720;
+  std::optional<int> starts;
   RestModes modes = RestModes::drawn;
 };
 template <class Visitor>
@@ -49,6 +51,9 @@ void joint_fields(Visitor&& visit, bool rotary, RestTable& r) {
   visit(field::entry("samples", "of the range, between which changes of sign are looked for")
             .between(16, 100000),
         r.samples);
+  visit(field::entry("starts", "several free joints: starts of Newton's method along each of them")
+            .between(2, 1000),
+        r.starts);
   visit(field::entry("modes", "assembly modes in which it is looked for rest positions"), r.modes);
 }
 
@@ -82,23 +87,43 @@ void refuse_loads_over_time(study::ObjectReader& document, const Linkage& l) {
   refuse("strut", l.struts);
 }
 
-std::optional<RestSearch> search_of(study::ObjectReader& document, const LinkageDescription& d,
-                                    Value& canonical_drives, Value& canonical_rest) {
+// The range and the modes of a search with one free joint.
+void take_range(study::ObjectReader& rest, const RestTable& table, RestSearch& search) {
+  if (table.from.has_value() != table.to.has_value())
+    rest.error(table.from ? "from" : "to", "the range has one end alone",
+               "give both ends, or leave both out for the whole range");
+  else if (table.from && !(*table.from < *table.to))
+    rest.error("to", "the range ends before it begins", "give `from` below `to`");
+  else if (table.from)
+    search.range = {*table.from, *table.to};
+  if (table.starts)
+    rest.error("starts", "they are for several free joints, and one is free", "leave the key out");
+  search.samples = table.samples;
+  search.all_modes = table.modes == RestModes::all;
+}
+
+// The choices of a search with several free joints.
+void take_grid(study::ObjectReader& rest, const RestTable& table, RestGrid& grid) {
+  for (const char* key : {"from", "to", "samples", "modes"})
+    if (rest.has(key))
+      rest.error(key, fmt::format("it is for one free joint, and {} are free", grid.free.size()),
+                 "leave the key out; `starts` is for several");
+  grid.starts = table.starts.value_or(0);
+  if (std::pow(std::max(grid.starts, 1), static_cast<double>(grid.free.size())) > 1e6)
+    rest.error("starts",
+               fmt::format("{} starts along each of {} joints are more than a million", grid.starts,
+                           grid.free.size()),
+               "take fewer");
+}
+
+// What the file asks for; nothing where it is none.
+bool read_search(study::ObjectReader& document, const LinkageDescription& d, RestStudy& s, Value& canonical) {
   const std::vector<RestDrive> drives = read_rest_drives(document, d);
-  const auto count =
-      std::count_if(drives.begin(), drives.end(), [](const RestDrive& drive) { return drive.free; });
-  if (count != 1) {
-    document.error("drive",
-                   count == 0
-                       ? "no joint is free to move"
-                       : fmt::format("{} joints are free, and rest positions are found for one", count),
-                   "write free = true in one [[drive]], and where the other joints are held in theirs");
-    return std::nullopt;
-  }
-  RestSearch search;
+  RestGrid grid;
+  Value::Array written_drives;
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    search.inputs.push_back(drives[i].value);
-    if (drives[i].free) search.free = i;
+    grid.inputs.push_back(drives[i].value);
+    if (drives[i].free) grid.free.push_back(i);
     Value drive;
     drive["joint"] = input_joint(d.linkage, i).name;
     study::ObjectWriter writer(drive);
@@ -107,25 +132,37 @@ std::optional<RestSearch> search_of(study::ObjectReader& document, const Linkage
       writer(free_joint_field, written.free);
     else
       joint_fields(writer, d.plan.rotary[i], written);
-    canonical_drives.push_back(std::move(drive));
+    written_drives.push_back(std::move(drive));
   }
-  const bool rotary = d.plan.rotary[search.free];
+  if (grid.free.empty()) {
+    document.error("drive", "no joint is free to move",
+                   "write free = true in a [[drive]], and where the other joints are held in theirs");
+    return false;
+  }
   RestTable table;
+  s.search.inputs = grid.inputs, s.search.free = grid.free.front();
+  const bool single = grid.free.size() == 1, rotary = d.plan.rotary[s.search.free];
   if (auto rest = document.table("rest")) {
     joint_fields(*rest, rotary, table);
-    if (table.from.has_value() != table.to.has_value())
-      rest->error(table.from ? "from" : "to", "the range has one end alone",
-                  "give both ends, or leave both out for the whole range");
-    else if (table.from && !(*table.from < *table.to))
-      rest->error("to", "the range ends before it begins", "give `from` below `to`");
-    else if (table.from)
-      search.range = {*table.from, *table.to};
+    if (single)
+      take_range(*rest, table, s.search);
+    else
+      take_grid(*rest, table, grid);
   }
-  study::ObjectWriter writer(canonical_rest);
-  joint_fields(writer, rotary, table);
-  search.samples = table.samples;
-  search.all_modes = table.modes == RestModes::all;
-  return search;
+  if (!d.plan.closed_form() && d.plan.inputs() != 1)
+    document.error("mechanism",
+                   "rest positions of groups without closed form are found for linkages with one input",
+                   "weld the joints that are held (type = \"fixed\")");
+  canonical["drive"] = Value(std::move(written_drives));
+  Value written = Value::object();
+  study::ObjectWriter writer(written);
+  if (single)
+    joint_fields(writer, rotary, table);
+  else
+    writer(field::entry("starts"), table.starts);
+  canonical["rest"] = std::move(written);
+  if (!single) s.grid = std::move(grid);
+  return true;
 }
 
 study::Prepared prepare_rest(study::ObjectReader& document, const study::Common& common) {
@@ -136,20 +173,20 @@ study::Prepared prepare_rest(study::ObjectReader& document, const study::Common&
     for (study::ObjectReader& drive : drive_tables(document)) drive.members();
     return prepared;
   }
-  Value drives = Value(Value::Array{}), rest = Value::object();
-  std::optional<RestSearch> search = search_of(document, *description, drives, rest);
+  RestStudy s;
+  Value canonical;
+  const bool good = read_search(document, *description, s, canonical);
   refuse_loads_over_time(document, description->linkage);
-  if (!search) return prepared;
-  if (!description->plan.closed_form() && description->plan.inputs() != 1)
-    document.error("mechanism",
-                   "rest positions of groups without closed form are found for linkages with one input",
-                   "weld the joints that are held (type = \"fixed\")");
+  if (!good) return prepared;
   write_linkage(*description, prepared.canonical);
-  prepared.canonical["drive"] = std::move(drives);
-  prepared.canonical["rest"] = std::move(rest);
-  RestStudy s{std::move(description->linkage), std::move(description->plan), std::move(*search),
-              std::move(description->traces)};
-  prepared.run = [s = std::move(s)](RunContext& context) { return run_rest(s, context); };
+  prepared.canonical["drive"] = std::move(canonical["drive"]);
+  prepared.canonical["rest"] = std::move(canonical["rest"]);
+  s.linkage = std::move(description->linkage);
+  s.plan = std::move(description->plan);
+  s.traces = std::move(description->traces);
+  prepared.run = [s = std::move(s)](RunContext& context) {
+    return s.grid ? run_rest_configurations(s, context) : run_rest(s, context);
+  };
   return prepared;
 }
 
@@ -168,7 +205,7 @@ study::Kind rest_kind() {
     drive(field::entry("joint", "joint whose coordinate it is"), std::string());
     drive(free_joint_field, false);
     describe_joint_fields<RestDrive>(drive);
-    describe_drives(document, "the joint that is free, and those that are held", std::move(drive));
+    describe_drives(document, "joints that are free, and those that are held", std::move(drive));
     study::SchemaWriter rest;
     describe_joint_fields<RestTable>(rest);
     document.property(field::entry("rest", "range in which rest positions are looked for"),

@@ -155,6 +155,7 @@ class RestReport {
       case RestKind::marginal:
         return "marginal: the force touches zero there and has the same sign on both sides";
       case RestKind::at_end:
+      case RestKind::flutter:
         break;
     }
     return say("pressed with {} against the end of the range", force_text(std::abs(p.force)));
