@@ -65,6 +65,11 @@ struct LinkageQuality {
   bool assembly_modes = false;   ///< table of all assembly modes at the first row
 };
 
+/// `[holding]`: what holds the linkage at rest with friction.
+struct LinkageHolding {
+  std::optional<std::size_t> load;  ///< index of the force that is unknown; nothing: the drive is
+};
+
 /// A study of a linkage as read.
 struct LinkageStudy {
   Linkage linkage;
@@ -75,6 +80,7 @@ struct LinkageStudy {
   CircuitRows circuits = CircuitRows::reached;            ///< likewise
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
+  std::optional<LinkageHolding> holding;
   LinkageQuantities quantities;
   std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
   study::DisplayUnits units;                 ///< units of its messages

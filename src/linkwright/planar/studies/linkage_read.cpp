@@ -13,6 +13,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_holding.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
@@ -280,6 +281,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   if (!description) {
     if (sweep) sweep->members();
     if (auto quality = document.table("quality")) quality->members();
+    if (auto holding = document.table("holding")) holding->members();
     for (study::ObjectReader& drive : drive_tables(document)) drive.members();
     return std::nullopt;
   }
@@ -321,10 +323,13 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     read_drives(document, l, type, true, s, drives);
   }
   read_quality(document, l, s.quality);
+  Value canonical_holding;
+  s.holding = read_holding(document, l, description->plan, canonical ? &canonical_holding : nullptr);
   if (canonical) say_what_is_not_known(document, description->plan, common.output.quantities, s.quality);
   if (canonical) {
     write_linkage(*description, *canonical);
     if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
+    if (s.holding) (*canonical)["holding"] = std::move(canonical_holding);
     // A four-bar names no drive where nothing depends on its speed; joints of other linkages say which are
     // driven.
     if (type != LinkageType::four_bar || s.quantities.rates || s.quantities.dynamic() ||
@@ -386,6 +391,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   describe_linkage_motion(document, type, true);
   document.property(field::entry("quality", "what is computed beyond the table"),
                     study::schema_fields<LinkageQuality>());
+  describe_holding(document);
 }
 
 study::Kind kind_of(LinkageType type) {

@@ -12,6 +12,7 @@
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
+#include "linkwright/planar/studies/linkage_holding.h"
 
 namespace linkwright::planar {
 namespace {
@@ -33,6 +34,7 @@ std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::nothing;
   for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
     out.push_back(std::move(c));
+  if (s.holding) add_holding_columns(s, out);
   return out;
 }
 

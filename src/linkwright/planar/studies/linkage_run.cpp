@@ -26,6 +26,7 @@
 #include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/linkage/strut.h"
+#include "linkwright/planar/studies/linkage_holding.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/extremes.h"
@@ -95,6 +96,7 @@ class Runner {
     if (s_.plan.inputs() == 1 && !over_time()) add_quality(s_, branch_, result_);
     plots();
     facts();
+    if (s_.holding) add_holding_facts(s_, result_);
     warnings();
     headline();
     return std::move(result_);
