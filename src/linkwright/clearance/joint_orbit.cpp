@@ -78,6 +78,8 @@ std::string load_against_time(const planar::Linkage& linkage) {
     if (f.factor.against == planar::LoadArgument::time) return f.name;
   for (const planar::BodyTorque& m : linkage.torques)
     if (m.factor.against == planar::LoadArgument::time) return m.name;
+  for (const planar::Strut& s : linkage.struts)
+    if (s.factor.against == planar::LoadArgument::time) return s.name;
   return {};
 }
 
