@@ -16,6 +16,7 @@
 #include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
 #include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/cam/programme.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/four_bar/cognates.h"
 #include "linkwright/planar/four_bar/four_bar.h"
