@@ -62,6 +62,13 @@ TEST(CamLaws, HaveThePublishedValues) {
               number_at(laws, "modified_sine.jerk_at_the_middle"), 1e-12 * 24);
 }
 
+TEST(CamLaws, ModifiedTrapezoidHasConstantPartsOfAQuarter) {
+  for (const double x : {0.126, 0.374, 0.626, 0.874})
+    EXPECT_EQ(normalised_motion(CamLaw::modified_trapezoid, x).jerk, 0) << x;
+  for (const double x : {0.124, 0.376, 0.624, 0.876})
+    EXPECT_NE(normalised_motion(CamLaw::modified_trapezoid, x).jerk, 0) << x;
+}
+
 // A second route: differences of each derivative give the next one.
 TEST(CamLaws, DerivativesAreThoseOfTheValues) {
   for (const CamLaw law : moving_laws) {
