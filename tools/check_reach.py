@@ -52,7 +52,6 @@ REASONS = {
     "planar/arm_problem": LIBRARY,
     "planar/four_bar_sweep_kernel_name": KERNEL,
     "planar/kernel_name": KERNEL,
-    "planar/mode_text": LIBRARY,
     "planar/pair_machines": LIBRARY,
     "planar/path_curvature": LIBRARY,
     "planar/pole_geometry": LIBRARY,
