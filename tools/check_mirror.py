@@ -57,6 +57,8 @@ NO_TEST = {
     "python/rows.h": "plain data; tested from Python in python/arrays_test.py",
     "python/study_source.h": "studies of Python, tested from there in python/studies_test.py",
     "python/values.h": "what crosses the border to Python, tested from there in python/studies_test.py",
+    "serve/connection.h": "part of the server; its times and limits are tested in server_test.cpp",
+    "serve/listener.h": "part of the server; its threads and refusals are tested in server_test.cpp",
     "serve/page.h": "the bytes of a page, asked for in server_test.cpp and opened by web/tests/workbench.mjs",
     "report/detail/canvas.h": "part of svg, tested in svg_test.cpp",
     "report/detail/svg_arrows.h": "part of svg, tested in svg_test.cpp",

@@ -9,7 +9,7 @@ set -eu
 packages="g++ cmake ninja-build ccache
 libfmt-dev libeigen3-dev libtbb-dev librandom123-dev libxsimd-dev libtomlplusplus-dev
 nlohmann-json3-dev libcli11-dev libexpected-dev libsundials-dev libnlopt-dev libnlopt-cxx-dev
-libpagmo-dev libboost1.74-dev zlib1g-dev libcpp-httplib-dev pkgconf
+libpagmo-dev libboost1.74-dev zlib1g-dev pkgconf
 nodejs npm"
 case "${1:-}" in
   run) ;;

@@ -4,7 +4,6 @@
 #include <arpa/inet.h>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
-#include <httplib.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -19,7 +18,9 @@
 #include <thread>
 
 #include "linkwright/serve/page.h"
+#include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
+#include "tests/serve/client.h"
 #include "tests/serve/long_study.h"
 
 namespace linkwright::serve {
@@ -46,14 +47,10 @@ class ServerTest : public ::testing::Test {
     if (!server_) GTEST_SKIP() << "built without the pages of the viewer";
   }
 
-  httplib::Client client() const {
-    httplib::Client client("127.0.0.1", server_->port());
-    client.set_read_timeout(60);
-    return client;
-  }
-  httplib::Headers token() const { return {{"Authorization", "Bearer " + server_->token()}}; }
-  httplib::Headers with(const char* header, const std::string& value) const {
-    httplib::Headers headers = token();
+  test::Client client() const { return test::Client(server_->port()); }
+  test::Headers token() const { return {{"Authorization", "Bearer " + server_->token()}}; }
+  test::Headers with(const char* header, const std::string& value) const {
+    test::Headers headers = token();
     headers.emplace(header, value);
     return headers;
   }
@@ -96,7 +93,7 @@ class ServerTest : public ::testing::Test {
   std::string bearer() const { return "Authorization: Bearer " + server_->token() + "\r\n"; }
   void expect_alive() const {
     auto answer = client().Get("/study", token());
-    ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+    ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 200);
   }
 
@@ -108,9 +105,11 @@ TEST_F(ServerTest, ThePageIsForEverybodyAndSaysWhatItMayDo) {
   auto answer = client().Get("/");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200);
-  EXPECT_THAT(answer->body, StartsWith("<!doctype html>"));
-  EXPECT_THAT(answer->body, HasSubstr("script-src 'sha256-"));
-  EXPECT_EQ(answer->body.find(server_->token()), std::string::npos);
+  EXPECT_EQ(answer->get_header_value("Content-Encoding"), "gzip");
+  const std::string page = test::unpacked(answer->body);
+  EXPECT_THAT(page, StartsWith("<!doctype html>"));
+  EXPECT_THAT(page, HasSubstr("script-src 'sha256-"));
+  EXPECT_EQ(page.find(server_->token()), std::string::npos);
   EXPECT_EQ(answer->get_header_value("Content-Type"), "text/html; charset=utf-8");
   EXPECT_EQ(answer->get_header_value("X-Content-Type-Options"), "nosniff");
   EXPECT_EQ(answer->get_header_value("Cache-Control"), "no-store");
@@ -132,7 +131,7 @@ TEST_F(ServerTest, AllElseNeedsTheToken) {
   EXPECT_EQ(client().Post("/cancel", "a.1", "text/plain")->status, 401);
   EXPECT_EQ(client().Put("/study", "", "text/plain")->status, 401);
   EXPECT_EQ(client().Options("/run")->status, 401);
-  httplib::Headers twice = token();
+  test::Headers twice = token();
   twice.emplace("Authorization", "Bearer " + server_->token());
   EXPECT_EQ(client().Get("/study", twice)->status, 401);
   EXPECT_EQ(client().Get("/study", token())->status, 200);
@@ -166,7 +165,7 @@ TEST_F(ServerTest, HostAndOriginAreItsOwn) {
 }
 
 TEST_F(ServerTest, IsAtTheOtherLoopbackTooWhereThereIsOne) {
-  httplib::Client client("::1", server_->port());
+  const test::Client client(server_->port(), true);
   const auto answer = client.Get("/study", token());
   if (!answer) GTEST_SKIP() << "this machine has no ::1";
   EXPECT_EQ(answer->status, 200);
@@ -175,7 +174,7 @@ TEST_F(ServerTest, IsAtTheOtherLoopbackTooWhereThereIsOne) {
 TEST_F(ServerTest, BodiesHaveALengthAndALimit) {
   EXPECT_THAT(exchange(head("POST /run", bearer() + "Content-Length: 16777217\r\n")), HasSubstr(" 413 "));
   EXPECT_THAT(exchange(head("POST /run", bearer() + "Content-Length: 99999999999999999999999\r\n")),
-              HasSubstr(" 413 "));
+              HasSubstr(" 400 "));
   EXPECT_THAT(exchange(head("POST /run", bearer() + "Content-Length: -1\r\n")), HasSubstr(" 400 "));
   EXPECT_THAT(exchange(head("POST /run", bearer())), HasSubstr(" 411 "));
   EXPECT_THAT(exchange(head("POST /run", bearer() + "Content-Length: 1\r\nContent-Length: 2\r\n") + "{}"),
@@ -187,11 +186,11 @@ TEST_F(ServerTest, BodiesHaveALengthAndALimit) {
       exchange(head("POST /run", bearer() + "Content-Length: 2\r\nContent-Encoding: gzip\r\n") + "{}"),
       HasSubstr(" 415 "));
   auto answer = client().Post("/run", token(), std::string(largest_body + 1, ' '), "text/plain");
-  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+  ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 413);
   EXPECT_EQ(answer->body, "the body is larger than 16 MB");
   answer = client().Post("/run", token(), std::string(largest_body, ' '), "text/plain");
-  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+  ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 400);
 }
 
@@ -248,14 +247,14 @@ TEST_F(ServerTest, RunsOfPagesThatAreGoneEnd) {
     return client().Post("/run", token(), run_body("more.1", "schema = 1"), "text/plain");
   };
   auto answer = more();
-  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+  ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 503);
   for (const int socket : open) ::close(socket);
   for (int wait = 0; wait < 3000 && answer && answer->status == 503; ++wait) {
     std::this_thread::sleep_for(20ms);
     answer = more();
   }
-  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+  ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200);
 }
 
@@ -284,8 +283,8 @@ TEST_F(ServerTest, TheFileIsReadAndSavedUnlessSomebodyElseHasChangedIt) {
 TEST_F(ServerTest, WithoutAStudyThereIsNoneToOpenOrToSave) {
   std::string problem;
   const auto bare = Server::start({}, problem);
-  httplib::Client client("127.0.0.1", bare->port());
-  httplib::Headers headers = {{"Authorization", "Bearer " + bare->token()}, {"If-Match", "\"\""}};
+  const test::Client client(bare->port());
+  test::Headers headers = {{"Authorization", "Bearer " + bare->token()}, {"If-Match", "\"\""}};
   EXPECT_EQ(client.Get("/study", headers)->status, 204);
   EXPECT_EQ(client.Put("/study", headers, "x", "text/plain")->status, 404);
 }
@@ -308,8 +307,7 @@ TEST_F(ServerTest, HeadsHaveAnEnd) {
   std::string many;
   while (many.size() < (std::size_t{4} << 20)) many += "a: b\r\n";
   EXPECT_EQ(exchange(head("GET /", many)).find("200"), std::string::npos);
-  EXPECT_THAT(exchange("GET /" + std::string(100000, 'x') + " HTTP/1.1\r\n\r\n"),
-              AnyOf("", HasSubstr(" 414 "), HasSubstr(" 403 ")));
+  EXPECT_THAT(exchange("GET /" + std::string(100000, 'x') + " HTTP/1.1\r\n\r\n"), HasSubstr(" 400 "));
   std::string ranges = "Range: bytes=0-0";
   while (ranges.size() < 8000) ranges += ",0-";
   EXPECT_LT(exchange(head("GET /", ranges + "\r\n")).size(), 2 * workbench_page().size());

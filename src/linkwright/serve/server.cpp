@@ -2,29 +2,36 @@
 #include "linkwright/serve/server.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
-#include <algorithm>
-#include <atomic>
+#include <array>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/chunk_encode.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <condition_variable>
+#include <cstdint>
 #include <cstring>
-#include <deque>
 #include <exception>
-#include <functional>
-#include <mutex>
+#include <filesystem>
+#include <limits>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "linkwright/app/view.h"
 #include "linkwright/core/platform/sockets.h"
+#include "linkwright/serve/connection.h"
 #include "linkwright/serve/guard.h"
 #include "linkwright/serve/jobs.h"
+#include "linkwright/serve/listener.h"
 #include "linkwright/serve/page.h"
 #include "linkwright/serve/run_request.h"
 #include "linkwright/serve/study_file.h"
@@ -32,263 +39,182 @@
 
 namespace linkwright::serve {
 namespace {
-using Clock = std::chrono::steady_clock;
-using platform::Direction;
-using std::chrono::milliseconds;
+namespace net = boost::asio;
+namespace http = boost::beast::http;
+using boost::beast::error_code;
+using http::field;
+using http::status;
+using http::verb;
 using std::chrono::seconds;
+using Request = http::request<http::string_body>;
+using Parser = http::request_parser<http::string_body>;
 
-// Threads that answer; more than there are runs, so that some are always free.
-constexpr std::size_t threads = 12;
-constexpr std::size_t max_waiting = 64;  // connections that wait for one of them; others are refused
-constexpr int backlog = 128;             // connections that wait to be accepted
-constexpr std::size_t largest_head = std::size_t{64} << 10;
-constexpr seconds head_patience{5}, body_patience{30}, answer_patience{60};
-constexpr milliseconds glance{100};  // between two looks whether the server ends
+constexpr int backlog = 128;  // connections that wait to be accepted
+constexpr std::uint32_t largest_head = std::uint32_t{64} << 10;
+constexpr std::size_t longest_target = 8192;
+constexpr seconds body_patience{30}, answer_patience{60};
 
-/// Time at which the connection of this thread came.
-thread_local Clock::time_point arrived;
-
-/// One connection with one request. All that is read together has a limit and a time, so that clients which
-/// send for ever, or hardly at all, do not hold their thread.
-class Connection final : public httplib::Stream {
+/// A connection as Beast reads and writes it. No request and no answer ends by the end of the connection,
+/// which is an error therefore.
+class Stream {
  public:
-  Connection(socket_t socket, const std::atomic<bool>& ending) : socket_(socket), ending_(ending) {}
-  ~Connection() override {
-    platform::end_sending(socket_);
-    // Data left unread would reset the connection before the answer has arrived.
-    const auto end = Clock::now() + (unread_ ? seconds(2) : seconds(0));
-    char rest[16384];
-    do {
-      while (platform::receive_at_once(socket_, rest, sizeof rest) > 0 && Clock::now() < end) continue;
-    } while (Clock::now() < end && wait(Direction::to_read, end) &&
-             platform::incoming(socket_) == platform::Incoming::data);
-    platform::close(socket_);
-  }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  explicit Stream(Connection& connection) : connection_(connection) {}
 
-  void within(seconds patience) { end_ = Clock::now() + patience; }
-  /// Lets the body be read as well.
-  void accept_body(std::size_t size) {
-    allowance_ += size;
-    unread_ = false;
-    within(body_patience);
+  template <class Buffers>
+  std::size_t read_some(const Buffers& buffers, error_code& error) {
+    const net::mutable_buffer to = *net::buffer_sequence_begin(buffers);
+    return done(connection_.read(static_cast<char*>(to.data()), to.size()), error);
   }
-  void leave_body() { unread_ = true; }
-  bool gone() const { return platform::incoming(socket_) == platform::Incoming::end; }
-
-  bool is_readable() const override { return begin_ < size_ || wait(Direction::to_read, end_); }
-  bool is_writable() const override { return !gone() && wait(Direction::to_write, end_); }
-  ssize_t read(char* to, std::size_t size) override {
-    if (begin_ == size_) {
-      if (allowance_ == 0 || !wait(Direction::to_read, end_)) return -1;
-      const ssize_t count = platform::receive(socket_, buffer_, std::min(sizeof buffer_, allowance_));
-      if (count <= 0) return count;
-      begin_ = 0;
-      size_ = static_cast<std::size_t>(count);
-      allowance_ -= size_;
+  template <class Buffers>
+  std::size_t write_some(const Buffers& buffers, error_code& error) {
+    for (auto part = net::buffer_sequence_begin(buffers); part != net::buffer_sequence_end(buffers); ++part) {
+      const net::const_buffer from = *part;
+      if (from.size() > 0)
+        return done(connection_.write(static_cast<const char*>(from.data()), from.size()), error);
     }
-    const std::size_t count = std::min(size, size_ - begin_);
-    std::memcpy(to, buffer_ + begin_, count);
-    begin_ += count;
-    return static_cast<ssize_t>(count);
+    error = {};
+    return 0;
   }
-  ssize_t write(const char* from, std::size_t size) override {
-    if (!wait(Direction::to_write, end_)) return -1;
-    return platform::send_at_once(socket_, from, size);
+  template <class Buffers>
+  std::size_t read_some(const Buffers& buffers) {
+    return checked(&Stream::read_some<Buffers>, buffers);
   }
-  void get_remote_ip_and_port(std::string&, int&) const override {}
-  void get_local_ip_and_port(std::string&, int&) const override {}
-  socket_t socket() const override { return socket_; }
-
- private:
-  bool wait(Direction direction, Clock::time_point end) const {
-    while (!ending_) {
-      const auto left =
-          std::max(std::chrono::duration_cast<milliseconds>(end - Clock::now()), milliseconds(0));
-      const platform::Waited waited = platform::wait_for(socket_, direction, std::min(left, glance));
-      if (waited == platform::Waited::ready) return true;
-      if (waited == platform::Waited::failed || left == milliseconds(0)) return false;
-    }
-    return false;
-  }
-
-  const socket_t socket_;
-  const std::atomic<bool>& ending_;
-  Clock::time_point end_ = arrived + head_patience;
-  std::size_t allowance_ = largest_head;
-  bool unread_ = false;
-  char buffer_[16384];
-  std::size_t begin_ = 0, size_ = 0;
-};
-
-/// The connection that this thread is about, and whether it is one too many.
-thread_local Connection* connection = nullptr;
-thread_local bool refusing = false;
-
-/// The threads that answer. Who comes when too many wait is refused by the thread that accepts.
-class Workers final : public httplib::TaskQueue {
- public:
-  Workers() {
-    for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
-  }
-  void enqueue(std::function<void()> task) override {
-    {
-      const std::lock_guard lock(mutex_);
-      if (tasks_.size() < max_waiting) {
-        tasks_.emplace_back(Clock::now(), std::move(task));
-        came_.notify_one();
-        return;
-      }
-    }
-    refusing = true;
-    task();
-    refusing = false;
-  }
-  void shutdown() override {
-    {
-      const std::lock_guard lock(mutex_);
-      over_ = true;
-    }
-    came_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
+  template <class Buffers>
+  std::size_t write_some(const Buffers& buffers) {
+    return checked(&Stream::write_some<Buffers>, buffers);
   }
 
  private:
-  void work() {
-    for (std::unique_lock lock(mutex_);;) {
-      came_.wait(lock, [this] { return over_ || !tasks_.empty(); });
-      if (tasks_.empty()) return;
-      const auto [came, task] = std::move(tasks_.front());
-      tasks_.pop_front();
-      arrived = came;
-      lock.unlock();
-      task();
-      lock.lock();
-    }
+  static std::size_t done(long count, error_code& error) {
+    error = {};
+    if (count == 0) error = net::error::eof;
+    if (count < 0) error = net::error::timed_out;
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  template <class Buffers>
+  std::size_t checked(std::size_t (Stream::*some)(const Buffers&, error_code&), const Buffers& buffers) {
+    error_code error;
+    const std::size_t count = (this->*some)(buffers, error);
+    if (error) throw boost::system::system_error(error);
+    return count;
   }
 
-  std::mutex mutex_;
-  std::condition_variable came_;
-  std::deque<std::pair<Clock::time_point, std::function<void()>>> tasks_;
-  bool over_ = false;
-  std::vector<std::thread> threads_;
+  Connection& connection_;
 };
 
-}  // namespace
-
-/// cpp-httplib with connections of our own, one request each.
-class Listener final : public httplib::Server {
- public:
-  Listener() {
-    new_task_queue = [] { return new Workers; };
-    // Not SO_REUSEPORT, which lets a second program listen at the same port.
-    set_socket_options([](socket_t socket) { platform::reuse_address(socket); });
-    set_tcp_nodelay(true);
-    set_payload_max_length(largest_body);
-  }
-
-  void run() {
-    platform::listen(svr_sock_, backlog);
-    thread_ = std::thread([this] { listen_after_bind(); });
-    while (!is_running()) std::this_thread::sleep_for(milliseconds(1));
-  }
-  void end() {
-    ending_ = true;
-    if (!thread_.joinable()) return;
-    stop();
-    thread_.join();
-  }
-
- private:
-  bool process_and_close_socket(socket_t socket) override try {
-    Connection own(socket, ending_);
-    if (refusing) {
-      constexpr std::string_view answer =
-          "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n";
-      platform::send_at_once(socket, answer.data(), answer.size());
-      return false;
-    }
-    connection = &own;
-    bool closed = false;
-    const bool done = process_request(own, true, closed, [](httplib::Request& request) {
-      // Nothing here is compressed, is asked for in parts, or is a form.
-      for (const char* header : {"Accept-Encoding", "Content-Type"}) request.headers.erase(header);
-      request.ranges.clear();
-    });
-    connection = nullptr;
-    return done;
-  } catch (const std::exception&) {  // no memory for it
-    connection = nullptr;
-    return false;
-  }
-
-  std::atomic<bool> ending_{false};
-  std::thread thread_;
+struct Answer {
+  status code = status::ok;
+  std::string_view type = {};
+  std::string body = {};
+  std::shared_ptr<Job> job = nullptr;  ///< its frames come in place of the body
+  bool packed = false;                 ///< the body is compressed by gzip
 };
 
-namespace {
-
-void answer(httplib::Response& response, int status, const std::string& text) {
-  response.status = status;
-  response.set_content(text, "text/plain; charset=utf-8");
+Answer text(status code, std::string words) {
+  return {.code = code, .type = "text/plain; charset=utf-8", .body = std::move(words)};
 }
 
-void answer(httplib::Response& response, const Value& document) {
-  response.set_content(study::to_json(document), "application/json");
-}
+Answer json(const Value& document) { return {.type = "application/json", .body = study::to_json(document)}; }
+
+std::string_view view(boost::beast::string_view words) { return {words.data(), words.size()}; }
 
 /// The value of a header that is there exactly once; nothing else.
-std::optional<std::string> header(const httplib::Request& request, const char* name) {
-  if (request.get_header_value_count(name) != 1) return std::nullopt;
-  return request.get_header_value(name);
+std::optional<std::string_view> header(const Request& request, field name) {
+  if (request.count(name) != 1) return std::nullopt;
+  return view(request[name]);
 }
 
-/// The size of the body that a request brings; nothing, with the answer to it, where it is refused.
-std::optional<std::size_t> body_size(const httplib::Request& request, httplib::Response& response) {
-  const bool brings = request.method == "POST" || request.method == "PUT";
-  const auto length = header(request, "Content-Length");
-  if (request.has_header("Transfer-Encoding") || (brings && !length) ||
-      request.get_header_value_count("Content-Length") > 1) {
-    answer(response, 411, "the length of the body must be given once, as Content-Length");
-    return std::nullopt;
-  }
-  if (request.has_header("Content-Encoding")) {
-    answer(response, 415, "the body must not be compressed");
-    return std::nullopt;
-  }
-  if (!length) return 0;
-  std::size_t size = 0;
-  const char* const end = length->data() + length->size();
-  const auto [last, error] = std::from_chars(length->data(), end, size);
-  if (error == std::errc::invalid_argument || last != end) {
-    answer(response, 400, "Content-Length must be a number");
-    return std::nullopt;
-  }
-  if (error != std::errc() || size > largest_body) {
-    answer(response, 413, fmt::format("the body is larger than {} MB", largest_body >> 20));
-    return std::nullopt;
-  }
-  return size;
+std::string_view path_of(const Request& request) {
+  const std::string_view target = view(request.target());
+  return target.substr(0, target.find_first_of("?#"));
 }
 
-std::optional<std::string> body_of(const httplib::ContentReader& read, httplib::Response& response) {
-  std::string body;
-  const bool whole = read([&](const char* data, std::size_t size) {
-    body.append(data, size);
-    return body.size() <= largest_body;
-  });
-  if (!whole) {
-    answer(response, 400, "the body has not come whole");
-    return std::nullopt;
+template <class Body>
+http::response<Body> head_of(const Answer& answer) {
+  http::response<Body> head(answer.code, 11);
+  head.set("Content-Security-Policy",
+           "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+           "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  head.set("X-Content-Type-Options", "nosniff");
+  head.set(field::cache_control, "no-store");
+  head.set("Referrer-Policy", "no-referrer");
+  head.set("Cross-Origin-Opener-Policy", "same-origin");
+  head.set("Cross-Origin-Resource-Policy", "same-origin");
+  head.set(field::connection, "close");
+  if (answer.packed) head.set(field::content_encoding, "gzip");
+  if (!answer.type.empty()) head.set(field::content_type, {answer.type.data(), answer.type.size()});
+  return head;
+}
+
+void send(Stream& stream, Answer answer, bool head_only) {
+  auto response = head_of<http::string_body>(answer);
+  response.body() = std::move(answer.body);
+  response.prepare_payload();
+  http::response_serializer<http::string_body> serializer(response);
+  error_code error;
+  if (head_only)
+    http::write_header(stream, serializer, error);
+  else
+    http::write(stream, serializer, error);
+}
+
+/// Sends the frames of a run as they come; the run ends with its page.
+void send_frames(Stream& stream, Connection& connection, const Answer& answer) {
+  auto response = head_of<http::empty_body>(answer);
+  response.chunked(true);
+  http::response_serializer<http::empty_body> serializer(response);
+  error_code error;
+  http::write_header(stream, serializer, error);
+  for (bool over = false; !error && !over;) {
+    const Job::News news = answer.job->news(glance);
+    connection.within(answer_patience);
+    over = news.last;
+    if (!news.frames.empty())
+      net::write(stream, http::make_chunk(net::buffer(news.frames)), error);
+    else if (connection.gone())
+      error = net::error::eof;
   }
-  connection->within(answer_patience);
-  return body;
+  if (error) return answer.job->cancel();
+  net::write(stream, http::make_chunk_last(), error);
+}
+
+/// The answer to a head that cannot be read.
+Answer unreadable(const Request& request, error_code error) {
+  const bool length_before =
+      request.count(field::content_length) + request.count(field::transfer_encoding) > 0;
+  if (error == http::error::bad_transfer_encoding ||
+      (error == http::error::bad_content_length && length_before))
+    return text(status::length_required, "the length of the body must be given once, as Content-Length");
+  if (error == http::error::bad_content_length)
+    return text(status::bad_request, "Content-Length must be a number");
+  return {.code = status::bad_request};
+}
+
+/// The answer to a body that is refused before it is read.
+std::optional<Answer> refused_body(const Parser& parser) {
+  const Request& request = parser.get();
+  const bool brings = request.method() == verb::post || request.method() == verb::put;
+  if (request.count(field::transfer_encoding) > 0 || request.count(field::content_length) > 1 ||
+      (brings && request.count(field::content_length) == 0))
+    return text(status::length_required, "the length of the body must be given once, as Content-Length");
+  if (request.count(field::content_encoding) > 0)
+    return text(status::unsupported_media_type, "the body must not be compressed");
+  if (parser.content_length().value_or(0) > largest_body)
+    return text(status::payload_too_large, fmt::format("the body is larger than {} MB", largest_body >> 20));
+  return std::nullopt;
 }
 
 }  // namespace
 
 struct Server::Parts {
+  /// What answers a method at a path, or at all paths that begin like it and go on.
+  struct Route {
+    verb method;
+    std::string_view path;
+    bool goes_on;
+    Answer (Parts::*answer)(const Request&);
+  };
+
   explicit Parts(const ServerOptions& options)
       : folder(std::filesystem::current_path()), token(random_token()) {
     if (!options.study.empty()) {
@@ -296,142 +222,165 @@ struct Server::Parts {
       folder = study->path().parent_path();
     }
     jobs.emplace(folder, max_runs);
-    for (Listener* listener : {&here, &here6}) set_up(*listener);
   }
 
-  void set_up(Listener& listener);
-  bool admit(const httplib::Request& request, httplib::Response& response);
-  void run(const httplib::ContentReader& read, httplib::Response& response);
-  void save(const httplib::Request& request, const httplib::ContentReader& read, httplib::Response& response);
+  void listen(platform::Socket socket) {
+    listeners.push_back(std::make_unique<Listener>(socket, [this](Connection& c) { converse(c); }));
+  }
+  void converse(Connection& connection);
+  Answer answer(Stream& stream, Connection& connection, boost::beast::flat_buffer& buffer, Parser& parser);
+  std::optional<Answer> refused(const Request& request) const;
+
+  Answer page(const Request& request);
+  Answer catalogue(const Request& request);
+  Answer schema(const Request& request);
+  Answer run(const Request& request);
+  Answer cancel(const Request& request);
+  Answer open(const Request& request);
+  Answer save(const Request& request);
 
   std::filesystem::path folder;
   const std::string token;
   int port = 0;
   std::optional<StudyFile> study;
   std::optional<Jobs> jobs;
-  Listener here, here6;
+  std::vector<std::unique_ptr<Listener>> listeners;
 };
 
-/// True if a request is answered at all; else `response` says why not.
-bool Server::Parts::admit(const httplib::Request& request, httplib::Response& response) {
-  if (request.has_header("Content-Length") || request.has_header("Transfer-Encoding"))
-    connection->leave_body();
-  const auto host = header(request, "Host");
-  if (!host || !is_own_host(*host, port)) {
-    answer(response, 403, "only this machine itself is answered, by its own name");
-    return false;
+/// One request and its answer.
+void Server::Parts::converse(Connection& connection) try {
+  Stream stream(connection);
+  boost::beast::flat_buffer buffer;
+  Parser parser;
+  parser.header_limit(largest_head);
+  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // refused with words
+  error_code error;
+  http::read_header(stream, buffer, parser, error);
+  if (error && !parser.got_some()) return;
+  Answer out;
+  try {
+    out = error ? unreadable(parser.get(), error) : answer(stream, connection, buffer, parser);
+  } catch (const std::exception&) {
+    out = text(status::internal_server_error, "the server has failed at this");
   }
+  const bool broken = error == net::error::timed_out || error == http::error::partial_message;
+  if (!broken && !parser.is_done()) connection.leave_unread();
+  if (out.job)
+    send_frames(stream, connection, out);
+  else
+    send(stream, std::move(out), parser.get().method() == verb::head);
+} catch (const std::exception&) {  // no memory for it
+}
+
+/// The answer to a request whose head was read; reads the body where there is one.
+Answer Server::Parts::answer(Stream& stream, Connection& connection, boost::beast::flat_buffer& buffer,
+                             Parser& parser) {
+  static constexpr std::array routes = {
+      Route{verb::get, "/", false, &Parts::page},
+      Route{verb::get, "/catalogue", false, &Parts::catalogue},
+      Route{verb::get, "/schema/", true, &Parts::schema},
+      Route{verb::post, "/run", false, &Parts::run},
+      Route{verb::post, "/cancel", false, &Parts::cancel},
+      Route{verb::get, "/study", false, &Parts::open},
+      Route{verb::put, "/study", false, &Parts::save},
+  };
+  const Request& request = parser.get();
+  if (auto no = refused(request)) return *no;
+  if (auto no = refused_body(parser)) return *no;
+  const verb method = request.method() == verb::head ? verb::get : request.method();
+  const std::string_view path = path_of(request);
+  for (const Route& route : routes) {
+    if (route.method != method || !path.starts_with(route.path) ||
+        (path.size() > route.path.size()) != route.goes_on)
+      continue;
+    if (!parser.is_done()) {
+      connection.within(body_patience);
+      error_code error;
+      if (view(request[field::expect]) == "100-continue")
+        net::write(stream, net::buffer(std::string_view("HTTP/1.1 100 Continue\r\n\r\n")), error);
+      http::read(stream, buffer, parser, error);
+      if (error) return text(status::bad_request, "the body has not come whole");
+    }
+    connection.within(answer_patience);
+    return (this->*route.answer)(request);
+  }
+  return {.code = status::not_found};
+}
+
+/// The answer to a request that this server does not serve at all.
+std::optional<Answer> Server::Parts::refused(const Request& request) const {
+  if (request.target().size() > longest_target) return Answer{.code = status::uri_too_long};
+  if (request.method() == verb::unknown) return Answer{.code = status::bad_request};
+  const auto host = header(request, field::host);
+  if (!host || !is_own_host(*host, port))
+    return text(status::forbidden, "only this machine itself is answered, by its own name");
   // An empty one names no page.
-  const std::string origin = header(request, "Origin").value_or("given twice");
-  if (request.has_header("Origin") && !origin.empty() && !is_own_origin(origin, *host)) {
-    answer(response, 403, "only pages of this server are answered");
-    return false;
-  }
-  const bool page = request.path == "/" && (request.method == "GET" || request.method == "HEAD");
-  if (!page && !has_token(header(request, "Authorization").value_or(""), token)) {
-    answer(response, 401, "open the address that linkwright serve has printed last");
-    return false;
-  }
-  const auto size = body_size(request, response);
-  if (!size) return false;
-  connection->accept_body(*size);
-  return true;
+  const std::string_view origin = header(request, field::origin).value_or("given twice");
+  if (request.count(field::origin) > 0 && !origin.empty() && !is_own_origin(origin, *host))
+    return text(status::forbidden, "only pages of this server are answered");
+  const bool page =
+      path_of(request) == "/" && (request.method() == verb::get || request.method() == verb::head);
+  if (!page && !has_token(header(request, field::authorization).value_or(""), token))
+    return text(status::unauthorized, "open the address that linkwright serve has printed last");
+  return std::nullopt;
 }
 
-void Server::Parts::run(const httplib::ContentReader& read, httplib::Response& response) {
-  const auto body = body_of(read, response);
-  if (!body) return;
+Answer Server::Parts::page(const Request&) {
+  return {.type = "text/html; charset=utf-8", .body = std::string(workbench_page()), .packed = true};
+}
+
+Answer Server::Parts::catalogue(const Request&) { return json(app::catalogue_document()); }
+
+Answer Server::Parts::schema(const Request& request) {
+  const std::string_view kind = path_of(request).substr(std::string_view("/schema/").size());
+  if (kind.find_first_not_of("abcdefghijklmnopqrstuvwxyz_./") != kind.npos)
+    return {.code = status::not_found};
+  return json(app::schema_document(std::string(kind)));
+}
+
+Answer Server::Parts::run(const Request& request) {
   std::string problem;
-  auto request = read_run_request(*body, problem);
-  if (!request) return answer(response, 400, problem);
-  const std::shared_ptr<Job> job = jobs->start(std::move(*request));
+  auto asked = read_run_request(request.body(), problem);
+  if (!asked) return text(status::bad_request, problem);
+  std::shared_ptr<Job> job = jobs->start(std::move(*asked));
   if (!job)
-    return answer(response, 503, fmt::format("{} studies are running; end one of them, or wait", max_runs));
-  response.set_chunked_content_provider(
-      "application/octet-stream", [job](std::size_t, httplib::DataSink& sink) {
-        const Job::News news = job->news(glance);
-        connection->within(answer_patience);
-        const bool there =
-            news.frames.empty() ? !connection->gone() : sink.write(news.frames.data(), news.frames.size());
-        if (!there) job->cancel();
-        if (news.last) sink.done();
-        return there;
-      });
+    return text(status::service_unavailable,
+                fmt::format("{} studies are running; end one of them, or wait", max_runs));
+  return {.type = "application/octet-stream", .job = std::move(job)};
 }
 
-void Server::Parts::save(const httplib::Request& request, const httplib::ContentReader& read,
-                         httplib::Response& response) {
-  const auto body = body_of(read, response);
-  if (!body) return;
-  if (!study) return answer(response, 404, "the server was started without a study");
-  std::string version = header(request, "If-Match").value_or("");
+Answer Server::Parts::cancel(const Request& request) {
+  jobs->cancel(request.body());
+  return {.code = status::no_content};
+}
+
+Answer Server::Parts::open(const Request&) {
+  if (!study) return {.code = status::no_content};
+  const StudyFile::Text read = study->read();
+  const std::string name = study->path().filename().string();
+  if (!read.problem.empty())
+    return text(status::internal_server_error, fmt::format("{} {}", name, read.problem));
+  Value out = Value::object();
+  out["name"] = name;
+  out["text"] = read.text;
+  out["version"] = read.version;
+  return json(out);
+}
+
+Answer Server::Parts::save(const Request& request) {
+  if (!study) return text(status::not_found, "the server was started without a study");
+  const std::string_view version = header(request, field::if_match).value_or("");
   if (version.size() < 2 || version.front() != '"' || version.back() != '"')
-    return answer(response, 428, "the version that was changed must be given, as If-Match");
-  version = version.substr(1, version.size() - 2);
-  const StudyFile::Saved saved = study->save(*body, version);
+    return text(status::precondition_required, "the version that was changed must be given, as If-Match");
+  const StudyFile::Saved saved =
+      study->save(request.body(), std::string(version.substr(1, version.size() - 2)));
   if (saved.outcome != StudyFile::Outcome::saved)
-    return answer(response, saved.outcome == StudyFile::Outcome::changed ? 412 : 500,
-                  fmt::format("{} {}", study->path().filename().string(), saved.problem));
+    return text(saved.outcome == StudyFile::Outcome::changed ? status::precondition_failed
+                                                             : status::internal_server_error,
+                fmt::format("{} {}", study->path().filename().string(), saved.problem));
   Value out = Value::object();
   out["version"] = saved.version;
-  answer(response, out);
-}
-
-void Server::Parts::set_up(Listener& listener) {
-  using Handled = httplib::Server::HandlerResponse;
-  listener.set_default_headers(
-      {{"Content-Security-Policy",
-        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-        "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-       {"X-Content-Type-Options", "nosniff"},
-       {"Cache-Control", "no-store"},
-       {"Referrer-Policy", "no-referrer"},
-       {"Cross-Origin-Opener-Policy", "same-origin"},
-       {"Cross-Origin-Resource-Policy", "same-origin"}});
-  listener.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-    return admit(request, response) ? Handled::Unhandled : Handled::Handled;
-  });
-  listener.set_exception_handler(
-      [](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
-        answer(response, 500, "the server has failed at this");
-      });
-  listener.Get("/", [](const httplib::Request&, httplib::Response& response) {
-    connection->within(answer_patience);
-    const std::string_view page = workbench_page();
-    response.set_header("Content-Encoding", "gzip");
-    response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
-  });
-  listener.Get("/catalogue", [](const httplib::Request&, httplib::Response& response) {
-    answer(response, app::catalogue_document());
-  });
-  listener.Get(R"(/schema/([a-z_./]+))", [](const httplib::Request& request, httplib::Response& response) {
-    answer(response, app::schema_document(request.matches[1].str()));
-  });
-  listener.Post("/run", [this](const httplib::Request&, httplib::Response& response,
-                               const httplib::ContentReader& read) { run(read, response); });
-  listener.Post("/cancel", [this](const httplib::Request&, httplib::Response& response,
-                                  const httplib::ContentReader& read) {
-    const auto run = body_of(read, response);
-    if (!run) return;
-    jobs->cancel(*run);
-    response.status = 204;
-  });
-  listener.Get("/study", [this](const httplib::Request&, httplib::Response& response) {
-    if (!study) {
-      response.status = 204;
-      return;
-    }
-    const StudyFile::Text read = study->read();
-    const std::string name = study->path().filename().string();
-    if (!read.problem.empty()) return answer(response, 500, fmt::format("{} {}", name, read.problem));
-    Value out = Value::object();
-    out["name"] = name;
-    out["text"] = read.text;
-    out["version"] = read.version;
-    answer(response, out);
-  });
-  listener.Put("/study", [this](const httplib::Request& request, httplib::Response& response,
-                                const httplib::ContentReader& read) { save(request, read, response); });
+  return json(out);
 }
 
 Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -442,28 +391,25 @@ std::unique_ptr<Server> Server::start(const ServerOptions& options, std::string&
     return nullptr;
   }
   auto parts = std::make_unique<Parts>(options);
-  errno = 0;
-  parts->port = options.port;
-  if (options.port == 0)
-    parts->port = parts->here.bind_to_any_port("127.0.0.1");
-  else if (!parts->here.bind_to_port("127.0.0.1", options.port))
-    parts->port = -1;
-  if (parts->port <= 0) {
+  const platform::Socket here = platform::listen(platform::Loopback::version4, options.port, backlog);
+  if (here < 0) {
     problem = errno == EADDRINUSE
                   ? fmt::format("port {} is taken by another program; leave --port out for a free one",
                                 options.port)
                   : fmt::format("cannot listen at port {}: {}", options.port, std::strerror(errno));
     return nullptr;
   }
-  parts->here.run();
+  parts->port = platform::port_of(here);
+  parts->listen(here);
   // Machines without it are served all the same.
-  if (parts->here6.bind_to_port("::1", parts->port)) parts->here6.run();
+  const platform::Socket here6 = platform::listen(platform::Loopback::version6, parts->port, backlog);
+  if (here6 >= 0) parts->listen(here6);
   return std::unique_ptr<Server>(new Server(std::move(parts)));
 }
 
 Server::~Server() {
   parts_->jobs->cancel_all();
-  for (Listener* listener : {&parts_->here, &parts_->here6}) listener->end();
+  parts_->listeners.clear();
 }
 
 int Server::port() const { return parts_->port; }

@@ -3,7 +3,7 @@
 
 #include "linkwright/serve/server.h"
 
-// Replaces the server when the program is built without cpp-httplib.
+// Replaces the server when the program is built without it.
 namespace linkwright::serve {
 
 struct Server::Parts {};

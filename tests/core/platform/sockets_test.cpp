@@ -2,8 +2,11 @@
 #include "linkwright/core/platform/sockets.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <cerrno>
+#include <cstdint>
 #include <string>
 
 namespace linkwright::platform {
@@ -35,19 +38,34 @@ TEST(Sockets, SayWhatIsThereWithoutReadingIt) {
   close(here);
 }
 
-// Both are seen in the options of the socket.
-TEST(Sockets, ListenAtAPortThatWasJustLeft) {
-  const Socket socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  ASSERT_GE(socket, 0);
-  reuse_address(socket);
+// A second program must not take the port, and whoever comes is handed over once.
+TEST(Sockets, ListenAtALoopbackAddress) {
+  const Socket listening = listen(Loopback::version4, 0, 4);
+  ASSERT_GE(listening, 0);
   int on = 0;
   socklen_t size = sizeof on;
-  ASSERT_EQ(::getsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, &size), 0);
+  ASSERT_EQ(::getsockopt(listening, SOL_SOCKET, SO_REUSEADDR, &on, &size), 0);
   EXPECT_EQ(on, 1);
-  listen(socket, 4);
-  ASSERT_EQ(::getsockopt(socket, SOL_SOCKET, SO_ACCEPTCONN, &on, &size), 0);
-  EXPECT_EQ(on, 1);
-  close(socket);
+  const int port = port_of(listening);
+  ASSERT_GT(port, 0);
+  errno = 0;
+  EXPECT_LT(listen(Loopback::version4, port, 4), 0);
+  EXPECT_EQ(errno, EADDRINUSE);
+  EXPECT_LT(accept_at_once(listening), 0);
+
+  const Socket there = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in to = {};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(port));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(::connect(there, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  EXPECT_EQ(wait_for(listening, Direction::to_read, milliseconds(1000)), Waited::ready);
+  const Socket here = accept_at_once(listening);
+  ASSERT_GE(here, 0);
+  EXPECT_EQ(send_at_once(here, "abc", 3), 3);
+  char got[3];
+  EXPECT_EQ(receive(there, got, sizeof got), 3);
+  for (const Socket socket : {here, there, listening}) close(socket);
 }
 
 }  // namespace

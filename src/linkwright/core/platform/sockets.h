@@ -27,9 +27,14 @@ long send_at_once(Socket socket, const char* from, std::size_t size);
 void end_sending(Socket socket);
 void close(Socket socket);
 
-/// Lets a program listen at a port that one before it has just left.
-void reuse_address(Socket socket);
-/// Listens; `waiting`: connections that wait to be accepted.
-void listen(Socket socket, int waiting);
+/// The addresses at which a machine reaches itself: 127.0.0.1 and ::1.
+enum class Loopback { version4, version6 };
+/// Listens at a port of a loopback address, which may be one that a program before has just left; port 0 is
+/// any that is free. `waiting`: connections that wait to be accepted. Negative, with errno, where it fails.
+Socket listen(Loopback address, int port, int waiting);
+/// The port at which a socket listens; 0 if it does not.
+int port_of(Socket socket);
+/// The next connection, which sends what it is given without delay; negative where none waits.
+Socket accept_at_once(Socket socket);
 
 }  // namespace linkwright::platform
