@@ -17,7 +17,7 @@ import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 STUDY = "hoeken"
-LARGEST = 12.5e6  # bytes, of what is loaded to have the program
+LARGEST = 12e6  # bytes, of what is loaded to have the program
 
 
 def run(*command, **options):
