@@ -13,6 +13,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,7 +125,7 @@ class Client {
 
   static std::optional<Answer> parsed(std::string_view bytes) {
     boost::beast::http::response_parser<boost::beast::http::string_body> parser;
-    parser.body_limit(boost::none);
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());
     parser.eager(true);
     boost::beast::error_code error;
     while (!bytes.empty() && !parser.is_done()) {

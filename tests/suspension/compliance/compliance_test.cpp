@@ -456,6 +456,19 @@ TEST(LoadedCompliance, SettlesAtAStopInRubber) {
   }
 }
 
+// Joints that yield a hundred million times less than the bushings bring rounding, which must not keep it
+// going.
+TEST(LoadedCompliance, SettlesBesideVeryStiffJoints) {
+  const Suspension& suspension = corner_sample("2RS-US").suspension;
+  CornerElasticity elasticity = with_curves(suspension, 2e15);
+  for (LinkElasticity& link : elasticity.links)
+    for (JointStiffness& joint : link.carrier) joint = ball_joint(1e14);
+  const LoadedCompliance loaded = solve_loaded(suspension, solve(suspension, 0, 0).place, 0, elasticity,
+                                               Support::contact_held, {{-3000, 4000, 0}, {}});
+  ASSERT_EQ(loaded.compliance.status, Status::done) << loaded.compliance.reason;
+  EXPECT_TRUE(std::isfinite(loaded.response.toe));
+}
+
 TEST(Elasticity, RefusesCharacteristicsThatAreNoBushing) {
   const Suspension& suspension = corner_sample("2RS-US").suspension;
   const auto problem_of = [&](ForceCurve curve) {

@@ -381,6 +381,8 @@ void forget_curves(ElasticAssembly& of) {
 }
 
 constexpr int most_iterations = 60;
+/// A share of the displacements on the characteristics; rounding stays below it.
+constexpr double settled = 1e-9;
 
 /// The motion by a load on the carrier: Newton's method with steps that never pass the least of the energy,
 /// which is convex, for characteristics ascend. Without characteristics it is one linear solution.
@@ -411,6 +413,13 @@ std::optional<VectorXd> motion_by(ElasticAssembly& of, const WheelLoad& load, Ma
     if (x.size() == 0) x = VectorXd::Zero(next.size());
     for (std::size_t i = 0; i < curved.size(); ++i)
       to[i] = relative(of, *curved[i].joint, curved[i].component, next);
+    // The next step is smaller by the square of this one.
+    double change = 0, size = 0;
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      change = std::max(change, std::abs(to[i] - at[i]));
+      size = std::max(size, std::abs(to[i]));
+    }
+    if (change <= settled * size) return next;
     const VectorXd step = next - x;
     const double slope = -equations.work(step);
     // Slope of the energy along the step, at a share of it.
@@ -429,16 +438,9 @@ std::optional<VectorXd> motion_by(ElasticAssembly& of, const WheelLoad& load, Ma
          share = (low + high) / 2)
       (slope_at(share) > 0 ? high : low) = share;
     x += share * step;
-    double change = 0, size = 0;
     for (std::size_t i = 0; i < curved.size(); ++i) {
-      change = std::max(change, std::abs(to[i] - at[i]));
       at[i] += share * (to[i] - at[i]);
-      size = std::max(size, std::abs(at[i]));
       curved[i].stiffness() = beyond_offset(*curved[i].joint, curved[i].component, at[i]).stiffness;
-    }
-    if (share == 1 && change <= 1e-12 * size + 1e-18) {
-      x.tail(next.size() - of.displacements()) = next.tail(next.size() - of.displacements());
-      return x;
     }
   }
   reason = fmt::format("the characteristics of the joints do not settle in {} steps", most_iterations);
