@@ -14,12 +14,13 @@
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/path/four_bar/objective.h"
-#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/mechanism.h"
 #include "linkwright/planar/path/slider_crank/objective.h"
 #include "linkwright/planar/path/slider_crank/projection.h"
 #include "linkwright/planar/path/slider_crank/samples.h"
 #include "linkwright/planar/path/slider_crank/synthesis.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 namespace {

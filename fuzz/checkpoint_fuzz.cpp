@@ -13,8 +13,8 @@
 #include "linkwright/optimise/methods.h"
 #include "linkwright/planar/path/checkpoint.h"
 #include "linkwright/planar/path/four_bar/eighteen_points.h"
-#include "linkwright/planar/path/four_bar/synthesis.h"
-#include "linkwright/study/read.h"
+#include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/study/study.h"
 
 namespace {
 

@@ -10,8 +10,7 @@
 #include <cstring>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/four_bar/classify.h"
-#include "linkwright/planar/four_bar/cognates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 

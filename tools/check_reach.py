@@ -5,7 +5,7 @@
     tools/check_reach.py [ROOT]
 
 A function counts as reached when its name stands in a source other than the header that declares it, besides its own
-definition. Overloads of one name count as one.
+definition, which a source of the same folder has. Overloads of one name count as one.
 """
 
 import re
@@ -105,9 +105,8 @@ def check(root, reasons=None):
             count = counts.get(name, 0)
             if where in headers:
                 continue
-            own = where.removesuffix(".cpp") + ".h" in headers
             definitions = 0
-            if own:
+            if any(where.rpartition("/")[0] == header.rpartition("/")[0] for header in headers):
                 text = (source / where).read_text(encoding="utf-8")
                 definitions = len(re.findall(rf"^\S[^\n=]*\b{name}\((?![^\n]*;$)", text, re.M))
             calls += max(0, count - definitions)

@@ -30,7 +30,8 @@ PROSE_READERS = {
 }
 # A type that holds a point or vector of the plane: a structure of x and y, or one of the library.
 INITIAL = r"(?: = [\w.]+|\{[^}]*\})?"
-PLANE_STRUCT = re.compile(rf"\bstruct (\w+) \{{\s*(?:double|T) x{INITIAL}, y{INITIAL};(?:\s*//[^\n]*)?(?!\s*[\w:<>, ]+ \w+(?:;| =|{{))")
+PLANE_STRUCT = re.compile(rf"\bstruct (\w+) \{{\s*(?:double|T) x{INITIAL}(?:,|;\s*//[^\n]*\n\s*(?:double|T)) y{INITIAL};"
+                          r"(?!(?:\s*//[^\n]*)?\s*[\w:<>, ]+ \w+(?:;| =|{))")
 PLANE_LIBRARY = [r"std::complex<double>", r"math::Complex<", r"std::array<double, 2>", r"std::pair<double, double>", r"Eigen::Vector2d"]
 
 

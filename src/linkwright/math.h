@@ -18,7 +18,7 @@
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
-#include "linkwright/math/pose.h"
 #include "linkwright/math/scalar.h"
 #include "linkwright/math/spline.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/math/vector3.h"

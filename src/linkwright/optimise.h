@@ -21,5 +21,4 @@
 /// @namespace linkwright::optimise
 /// Problems of minimisation and populations of candidates.
 
-#include "linkwright/optimise/population.h"
 #include "linkwright/optimise/problem.h"

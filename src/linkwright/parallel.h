@@ -10,9 +10,6 @@
 /// Parallel robots and paths of their tools.
 
 #include "linkwright/parallel/robot/jacobians.h"
-#include "linkwright/parallel/robot/position.h"
 #include "linkwright/parallel/robot/robot.h"
-#include "linkwright/parallel/tool/curve.h"
 #include "linkwright/parallel/tool/motion.h"
 #include "linkwright/parallel/tool/path.h"
-#include "linkwright/parallel/tool/time_law.h"

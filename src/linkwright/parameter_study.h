@@ -17,5 +17,4 @@
 /// @namespace linkwright::parameter_study
 /// Samples of parameters and the influence of each on a quantity.
 
-#include "linkwright/parameter_study/sampling.h"
 #include "linkwright/parameter_study/sensitivity.h"

@@ -10,13 +10,8 @@
 /// Wheel suspensions.
 
 #include "linkwright/suspension/corner/constraints.h"
-#include "linkwright/suspension/corner/constructions.h"
-#include "linkwright/suspension/corner/former_names.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/corner/wheel.h"
 #include "linkwright/suspension/wheel/axle.h"
-#include "linkwright/suspension/wheel/axle_sweep.h"
 #include "linkwright/suspension/wheel/parameters.h"
-#include "linkwright/suspension/wheel/steering.h"

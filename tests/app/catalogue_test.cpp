@@ -9,7 +9,7 @@
 #include <regex>
 #include <set>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/reproduction.h"
 #include "linkwright/study/study.h"
 #include "tests/study/sample_kind.h"
 

@@ -14,7 +14,7 @@
 #include "linkwright/app/run.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
 

@@ -14,7 +14,6 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/core/closing_row.h"
 #include "linkwright/study/design.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 
 // Studies of designs, from every kind that finds designs: a study of each, which runs as it is and says the

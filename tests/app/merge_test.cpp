@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "support/message.h"
 

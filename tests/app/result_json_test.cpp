@@ -5,7 +5,7 @@
 
 #include "linkwright/app/run.h"
 #include "linkwright/app/sha256.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
 

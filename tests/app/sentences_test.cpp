@@ -16,7 +16,6 @@
 #include "linkwright/core/sentence.h"
 #include "linkwright/report/view_data.h"
 #include "linkwright/study/display_units.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"
 #include "support/message.h"

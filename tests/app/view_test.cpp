@@ -16,7 +16,7 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {

@@ -59,7 +59,7 @@ TEST(ContactPins, RatesAreThoseOfThePlaces) {
       EXPECT_NEAR((after.depth - before.depth) / (2 * h), now.depth_rate, 1e-6 * norm(now.rate));
       const planar::LinkageMotion here = m.motion(0);
       pins.place(here);
-      const planar::Vec<double> acceleration = pins.acceleration(here, k);
+      const math::Vec2 acceleration = pins.acceleration(here, k);
       EXPECT_NEAR(norm((0.5 / h) * (after.rate - before.rate) - acceleration), 0, 1e-6 * norm(acceleration));
       EXPECT_NEAR((after.depth_rate - before.depth_rate) / (2 * h), pins.depth_acceleration(here, k),
                   1e-6 * norm(acceleration));
@@ -79,12 +79,12 @@ TEST(ContactPins, SidesExchangePinAndBush) {
     EXPECT_NEAR(a[k].depth_rate, b[k].depth_rate, 1e-12);
   }
   // The frame of the ground is the global one; that of the rocker turns.
-  EXPECT_NEAR(b.bush_angle(second.motion(0), 1),
-              std::remainder(
-                  planar::angle_of(b[1].eccentricity) -
-                      planar::angle_of(planar::body_state(second.open.plan, second.motion(0), 0).direction),
-                  2 * pi),
-              1e-14);
+  EXPECT_NEAR(
+      b.bush_angle(second.motion(0), 1),
+      std::remainder(math::angle_of(b[1].eccentricity) -
+                         math::angle_of(planar::body_state(second.open.plan, second.motion(0), 0).direction),
+                     2 * pi),
+      1e-14);
 }
 
 // Pin and bush feel opposite forces at one point: together no force and no moment.
@@ -95,10 +95,10 @@ TEST(ContactPins, ForcesBalance) {
   pins.place(motion);
   const std::vector<PinForce> forces{{120, 7}, {0, 0}};
   pins.press(forces);
-  planar::Vec<double> sum{0, 0};
+  math::Vec2 sum{0, 0};
   double moment = 0, largest = 0;
   for (const planar::PointForce& f : m.open.linkage.forces) {
-    const planar::Vec<double> force = planar::vec(f.force);
+    const math::Vec2 force = math::vec(f.force);
     const auto where = planar::point_motion(m.open.plan, motion, f.point.body,
                                             m.open.linkage.bodies[static_cast<std::size_t>(f.point.body)]
                                                 .points[static_cast<std::size_t>(f.point.point)]

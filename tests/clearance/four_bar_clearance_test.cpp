@@ -11,7 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/rates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {

@@ -195,8 +195,7 @@ TEST(JointClearance, PinsWithinADyadAndSeveralAtOnce) {
         [&](const planar::SimulationInstant& now) {
           for (std::size_t j = 0; j < cleared.bars.size(); ++j) {
             const auto& s = now.motion->parts[static_cast<std::size_t>(cleared.bars[j].body)];
-            EXPECT_NEAR(math::angle_difference(planar::angle_of(s.direction), rows.joints[k][j].angle), 0,
-                        1e-7)
+            EXPECT_NEAR(math::angle_difference(math::angle_of(s.direction), rows.joints[k][j].angle), 0, 1e-7)
                 << names[j] << " row " << k;
           }
           ++k;

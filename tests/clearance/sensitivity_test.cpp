@@ -109,7 +109,7 @@ TEST(ClearanceSensitivity, WorstErrorIsThatOfTheWorstDirection) {
     const double *x = row.derivatives.data(), *y = x + 6;
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
-      const planar::Vec<double> n = planar::unit(full_turn / 2 * i / 20000);
+      const math::Vec2 n = math::unit(full_turn / 2 * i / 20000);
       const auto along = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
       worst = std::max(worst, 2e-5 * std::hypot(along(0), along(1)) + 1e-5 * std::hypot(along(2), along(3)) +
                                   3e-5 * std::abs(along(4)) + 4e-5 * std::abs(along(5)));

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "tests/cli/program_fixture.h"
 #include "tests/study/sample_kind.h"
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::test {}
 namespace linkwright::cli::test {

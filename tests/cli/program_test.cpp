@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "tests/cli/program_fixture.h"
 #include "tests/study/sample_kind.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/core/quantity.h"
-
 #include <gtest/gtest.h>
 
 #include "linkwright/core/table.h"

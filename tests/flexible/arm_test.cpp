@@ -95,7 +95,7 @@ TEST(Arm, StiffSpringInAHingeIsAWeld) {
     const SectionForce weld = link_sections(a, 1, of_one, one.states[i]).front(),
                        root = link_sections(b, 1, of_two, two.states[i]).front();
     EXPECT_NEAR(root.moment, weld.moment, 1e-3);
-    const Vec2 force = hinge_forces(b, of_two, two.states[i]).at(0);
+    const math::Vec2 force = hinge_forces(b, of_two, two.states[i]).at(0);
     EXPECT_NEAR(std::hypot(force.x, force.y), std::hypot(root.axial, root.shear), 0.3);
   }
 }

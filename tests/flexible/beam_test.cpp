@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/beam.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "flexible/beams.h"
+#include "linkwright/flexible/chain.h"
 
 namespace linkwright::flexible {
 namespace {

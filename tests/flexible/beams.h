@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/chain.h"
 #include "linkwright/flexible/samples.h"
 #include "support/published.h"

@@ -42,7 +42,7 @@ ChainState after(const ChainState& s, double t) {
   return out;
 }
 
-Vec2 in_ground(double angle, Vec2 z) { return turned({std::cos(angle), std::sin(angle)}, z); }
+math::Vec2 in_ground(double angle, math::Vec2 z) { return rotate({std::cos(angle), std::sin(angle)}, z); }
 
 Beam rich_beam() {
   Beam beam = torque_beam();
@@ -71,13 +71,13 @@ TEST(ChainEquations, ResidualsAgreeWithVirtualWork) {
         return in_ground(s.angle, shape(chain, s.q).node[j]);
       };
       const double h = 2e-3;
-      std::vector<Vec2> force(n + 1);
+      std::vector<math::Vec2> force(n + 1);
       for (std::size_t j = 0; j <= n; ++j) {
-        Vec2 a = -2.5 * place(state, j);  // second difference of fourth order
+        math::Vec2 a = -2.5 * place(state, j);  // second difference of fourth order
         for (const double side : {-1.0, 1.0})
           a += 4.0 / 3 * place(after(state, side * h), j) + -1.0 / 12 * place(after(state, 2 * side * h), j);
         const double mass = j == 0 ? chain.root_mass : chain.cells[j - 1].mass;
-        force[j] = mass * (1 / (h * h) * a + Vec2{0, chain.gravity});
+        force[j] = mass * (1 / (h * h) * a + math::Vec2{0, chain.gravity});
       }
       // Errors: h^4 of the sixth derivative and rounding over h^2, both some 1e-9 of forces of 1 N.
       const double near = 2e-8;
@@ -87,7 +87,7 @@ TEST(ChainEquations, ResidualsAgreeWithVirtualWork) {
         relative[s + 1] = relative[s] + state.v[per * s + turn];
       }
       const double d = 1e-5;
-      std::vector<Vec2> drift(n + 1);  // velocity of the nodes in the hub
+      std::vector<math::Vec2> drift(n + 1);  // velocity of the nodes in the hub
       {
         ChainState ahead = state, behind = state;
         for (std::size_t i = 0; i < state.q.size(); ++i) {
@@ -108,7 +108,8 @@ TEST(ChainEquations, ResidualsAgreeWithVirtualWork) {
         behind.q[i] -= d;
         double work = 0;
         for (std::size_t j = 1; j <= n; ++j) {
-          const Vec2 by = 1 / (2 * d) * (shape(chain, ahead.q).node[j] - shape(chain, behind.q).node[j]);
+          const math::Vec2 by =
+              1 / (2 * d) * (shape(chain, ahead.q).node[j] - shape(chain, behind.q).node[j]);
           const double mass = chain.cells[j - 1].mass, inertia = chain.cells[j - 1].inertia;
           work += dot(by, in_ground(-state.angle, force[j]) + chain.mass_damping * mass * drift[j]);
           if (kind == turn && j > s) work += inertia * (absolute[j] + chain.mass_damping * relative[j]);
@@ -119,11 +120,12 @@ TEST(ChainEquations, ResidualsAgreeWithVirtualWork) {
         EXPECT_NEAR(equations.residual()[i], work + spring, near + 1e-13 * std::abs(spring)) << i;
       }
       // The hub on the link: all forces, and their moment about the weld.
-      Vec2 sum;
+      math::Vec2 sum;
       double moment = chain.root_inertia * state.acceleration;
       for (std::size_t j = 0; j <= n; ++j) {
         sum += in_ground(-state.angle, force[j]);
-        moment += cross(shape(chain, state.q).node[j] - Vec2{0.05, 0}, in_ground(-state.angle, force[j]));
+        moment +=
+            cross(shape(chain, state.q).node[j] - math::Vec2{0.05, 0}, in_ground(-state.angle, force[j]));
         if (j > 0) moment += chain.cells[j - 1].inertia * absolute[j];
       }
       EXPECT_NEAR(forces.reaction.x, sum.x, near);

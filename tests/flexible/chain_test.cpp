@@ -81,9 +81,9 @@ TEST(Chain, SlidesGoWhereTheKinematicsSay) {
     const Chain chain = discretise(torque_beam(), 1, kinematics);
     ChainState state = state_at_rest(chain);
     state.q[turn] = bend;
-    const Vec2 before = shape(chain, state.q).node[2];
+    const math::Vec2 before = shape(chain, state.q).node[2];
     state.q[coordinates_per_cell + slide] = w;
-    const Vec2 moved = shape(chain, state.q).node[2] - before;
+    const math::Vec2 moved = shape(chain, state.q).node[2] - before;
     if (kinematics == Kinematics::chord_consistent) {
       // Across the second joint's bars, both at 0.4 rad, and shorter by c2 w^2 / l, c2 = 0.6 without shear.
       const double shorter = 0.6 * w * w / 0.9;

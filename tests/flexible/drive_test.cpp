@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/drive.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "linkwright/flexible/simulation.h"
 #include "support/message.h"
 
 namespace linkwright::flexible {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/response.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "linkwright/flexible/samples.h"
+#include "linkwright/flexible/simulation.h"
 #include "support/message.h"
 
 namespace linkwright::flexible {

@@ -10,7 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
-#include "linkwright/optimise/population.h"
+#include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
 namespace {

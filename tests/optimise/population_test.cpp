@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/optimise/population.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 
 #include "linkwright/core/check.h"
+#include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
 namespace {

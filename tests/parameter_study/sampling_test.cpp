@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parameter_study/sampling.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/parameter_study/sensitivity.h"
 
 namespace linkwright::parameter_study {
 namespace {

@@ -79,7 +79,7 @@ std::vector<double> spun_up(int segments, std::span<const double> times) {
                [&](const SimulationInstant& now) {
                  const PointMotion tip =
                      point_motion(e.plan, *now.motion, e.pieces[0].bodies.back(), e.pieces[0].nodes.back());
-                 found.push_back(cross(unit(now.inputs[0].value), tip.position));
+                 found.push_back(cross(math::unit(now.inputs[0].value), tip.position));
                  return true;
                });
   EXPECT_EQ(r.status, Status::done) << to_string(r.message);

@@ -22,8 +22,8 @@ struct Change {
   std::complex<double> vector(std::complex<double> z) const {
     return std::polar(1.0, angle) * (mirrored ? std::conj(z) : z);
   }
-  Vec<double> vector(const Vec<double>& v) const { return vec(vector(number(v))); }
-  Vec<double> point(const Vec<double>& v) const { return vec(shift + vector(number(v))); }
+  math::Vec2 vector(const math::Vec2& v) const { return math::vec(vector(number(v))); }
+  math::Vec2 point(const math::Vec2& v) const { return math::vec(shift + vector(number(v))); }
   double sense() const { return mirrored ? -1 : 1; }
 };
 

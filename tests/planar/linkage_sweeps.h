@@ -128,7 +128,7 @@ class PlainFollower {
       for (std::size_t p = 1; p < good.size(); ++p) {
         PartState<double>& part = motion_.parts[p];
         part.origin = good[p].origin + way * good[p].velocity;
-        part.direction = rotate(good[p].direction, unit(way * good[p].speed));
+        part.direction = rotate(good[p].direction, math::unit(way * good[p].speed));
         travel = std::max(
             {travel, std::abs(way) * norm(good[p].velocity) / plan_.size, std::abs(way * good[p].speed)});
       }
@@ -253,7 +253,7 @@ inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int start
     for (int k = 0; k < starts && !there; ++k) {
       for (std::size_t part = 1; part < p.parts.size(); ++part) {
         follower.motion().parts[part].origin = {random.uniform(-1, 1), random.uniform(-1, 1)};
-        follower.motion().parts[part].direction = unit(random.uniform(-3.2, 3.2));
+        follower.motion().parts[part].direction = math::unit(random.uniform(-3.2, 3.2));
       }
       if (!follower.solve(value) || follower.go(value, drawn, first_step) != drawn) continue;
       if (apart(follower.motion().parts, start, p.size) < 1e-5) {

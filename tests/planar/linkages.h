@@ -51,12 +51,12 @@ inline std::vector<InputMotion> inputs_at(const LinkageSample& s, double share, 
   return out;
 }
 
-inline Vec<double> place_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m,
-                            const BodyPoint& p) {
+inline math::Vec2 place_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m,
+                           const BodyPoint& p) {
   return point_motion(plan, m, p.body, l.bodies[index(p.body)].points[index(p.point)].at).position;
 }
-inline Vec<double> place_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m,
-                            std::string_view point) {
+inline math::Vec2 place_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m,
+                           std::string_view point) {
   return place_of(l, plan, m, point_named(l, point));
 }
 
@@ -76,9 +76,9 @@ inline double open_joints(const Linkage& l, const LinkagePlan& plan, const Linka
       worst = std::max(worst, std::abs(std::remainder(off, 2 * std::acos(-1.0))) * plan.size);
       continue;
     }
-    const Vec<double> apart = place_of(l, plan, m, j.second) - place_of(l, plan, m, j.first);
+    const math::Vec2 apart = place_of(l, plan, m, j.second) - place_of(l, plan, m, j.first);
     if (j.type == JointType::rack) {
-      const Vec<double> along = rotate(b.direction, unit(j.slide_second));
+      const math::Vec2 along = rotate(b.direction, math::unit(j.slide_second));
       const double turned_by = turned(j.first.body) - turned(j.second.body) - j.phase;
       // Angles are known up to whole turns.
       const double off = turned_by - dot(along, apart) / j.radius;
@@ -86,8 +86,8 @@ inline double open_joints(const Linkage& l, const LinkagePlan& plan, const Linka
                         std::abs(std::remainder(off, 2 * std::acos(-1.0)) * j.radius)});
       continue;
     }
-    const Vec<double> along = rotate(a.direction, unit(j.slide_first)),
-                      other = rotate(b.direction, unit(j.slide_second));
+    const math::Vec2 along = rotate(a.direction, math::unit(j.slide_first)),
+                     other = rotate(b.direction, math::unit(j.slide_second));
     if (j.type == JointType::revolute || j.type == JointType::fixed) worst = std::max(worst, norm(apart));
     if (j.type == JointType::prismatic || j.type == JointType::pin_in_slot)
       worst = std::max(worst, std::abs(cross(along, apart)));
@@ -120,9 +120,9 @@ inline double unbalance(const Linkage& l, const LinkagePlan& plan, const Linkage
     const int body = static_cast<int>(b);
     const BodyMass mass = whole_mass(l.bodies[b]);
     const PointMotion c = point_motion(plan, m, body, mass.centre);
-    Vec<double> force = mass.mass * (vec(l.gravity) - c.acceleration);
+    math::Vec2 force = mass.mass * (math::vec(l.gravity) - c.acceleration);
     double moment = -mass.inertia * body_state(plan, m, body).angular_acceleration;
-    const auto add = [&](const Vec<double>& point, const Vec<double>& f1, double m1) {
+    const auto add = [&](const math::Vec2& point, const math::Vec2& f1, double m1) {
       force = force + f1;
       moment += m1 + cross(point - c.position, f1);
     };
@@ -164,10 +164,10 @@ inline double largest_force(const LinkageForces& f) {
 /// Kinetic energy, momentum and angular momentum about the global origin, from the bodies.
 struct Momenta {
   double kinetic_energy = 0;
-  Vec<double> momentum{0, 0};
+  math::Vec2 momentum{0, 0};
   double angular = 0;
   double mass = 0;
-  Vec<double> first_moment{0, 0};  ///< mass times place
+  math::Vec2 first_moment{0, 0};  ///< mass times place
 };
 inline Momenta momenta(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& m) {
   Momenta out;

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "tests/serve/long_study.h"
 
 namespace linkwright::serve {

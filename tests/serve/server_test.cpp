@@ -18,7 +18,7 @@
 #include <thread>
 
 #include "linkwright/serve/page.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 #include "tests/serve/client.h"
 #include "tests/serve/long_study.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace {

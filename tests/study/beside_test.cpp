@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace {

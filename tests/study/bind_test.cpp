@@ -6,7 +6,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "support/message.h"
 
 namespace linkwright::study {

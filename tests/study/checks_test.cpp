@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/checks.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/kind.h"
+#include "linkwright/study/study.h"
 #include "support/message.h"
 
 namespace linkwright::study {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::study {

@@ -8,7 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_output_units.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 #include "support/message.h"
 

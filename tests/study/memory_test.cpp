@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "linkwright/core/memory.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/read.h"
-
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "linkwright/study/study.h"
 #include "support/message.h"
 
 namespace linkwright::study {

@@ -7,7 +7,6 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/memory.h"
 #include "linkwright/study/bind.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "support/message.h"
 #include "tests/study/sample_kind.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "linkwright/core/check.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace {

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "support/message.h"
 

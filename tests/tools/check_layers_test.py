@@ -45,12 +45,12 @@ class CheckLayers(ScratchCase):
     def test_folders_of_a_domain(self):
         def include(name):
             return f'#include "linkwright/{name}.h"\n'
-        self.assertEqual(self.findings("planar/linkage/plan.h", include("planar/plane")), [])
+        self.assertEqual(self.findings("planar/linkage/plan.h", include("planar/link_mass")), [])
         self.assertEqual(self.findings("planar/path/fit.h", include("planar/four_bar/kernel")), [])
         self.assertEqual(self.findings("planar/studies.cpp", include("planar/studies/path")), [])
         self.assertEqual(self.findings("clearance/studies/simulation.h", include("planar/studies/linkage")), [])
         for name, used, problem in (
-                ("planar/plane.h", "planar/linkage/plan", "planar/ may not use planar/linkage: it lies above"),
+                ("planar/link_mass.h", "planar/linkage/plan", "planar/ may not use planar/linkage: it lies above"),
                 ("planar/linkage/plan.cpp", "planar/serial_arm/serial_arm",
                  "planar/linkage may not use planar/serial_arm: they share a layer"),
                 ("planar/path/fit.cpp", "planar/studies/path", "planar/path may not use planar/studies: it lies above"),
@@ -58,7 +58,7 @@ class CheckLayers(ScratchCase):
                  "planar/studies may not use what stands above its studies: it lies above"),
                 ("clearance/open_linkage.cpp", "planar/studies/linkage",
                  "only clearance/studies/ uses planar/studies/"),
-                ("planar/gears/train.h", "planar/plane",
+                ("planar/gears/train.h", "planar/link_mass",
                  "folder 'planar/gears' has no place (tools/check_layers.py lists them)")):
             [finding] = self.findings(name, include(used))
             self.assertEqual(finding, f"src/linkwright/{name}:1: {problem}")

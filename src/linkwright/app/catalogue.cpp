@@ -19,6 +19,7 @@
 #include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/renamed.h"
+#include "linkwright/study/reproduction.h"
 #include "linkwright/study/study.h"
 #include "linkwright/suspension/reproductions.h"
 #include "linkwright/suspension/studies.h"

@@ -9,7 +9,10 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/study/kind.h"
-#include "linkwright/study/reproduction.h"
+
+namespace linkwright::study {
+struct Reproduction;
+}
 
 namespace linkwright::app {
 

@@ -10,7 +10,7 @@
 #include "linkwright/app/sha256.h"
 #include "linkwright/app/write_whole.h"
 #include "linkwright/core/check.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {

@@ -16,7 +16,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/answer.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::app {
 namespace fs = std::filesystem;

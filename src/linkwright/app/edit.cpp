@@ -13,7 +13,6 @@
 #include "linkwright/study/design.h"
 #include "linkwright/study/display_units.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"

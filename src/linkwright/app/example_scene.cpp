@@ -14,7 +14,6 @@
 #include "linkwright/core/looks.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/report/view_data.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 
 namespace linkwright::app {

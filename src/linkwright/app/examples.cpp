@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::app {
 namespace {

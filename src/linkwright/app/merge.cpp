@@ -13,7 +13,7 @@
 
 #include "linkwright/app/run.h"
 #include "linkwright/app/write_whole.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {

@@ -6,7 +6,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/status.h"
 #include "linkwright/study/answer.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::app {
 namespace {

@@ -24,8 +24,8 @@
 #include "linkwright/report/svg.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {

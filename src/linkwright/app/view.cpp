@@ -20,8 +20,8 @@
 #include "linkwright/report/view_data.h"
 #include "linkwright/study/display_units.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/result_units.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {

@@ -9,8 +9,6 @@
 
 namespace linkwright::clearance {
 
-using planar::Vec, planar::dot, planar::cross, planar::perpendicular;
-
 ContactPins::ContactPins(OpenLinkage& open, std::span<const ContactJoint> joints)
     : open_(open),
       joints_(joints),
@@ -41,10 +39,10 @@ void ContactPins::place(const planar::LinkageMotion& motion) {
     PinPlace& s = places_[k];
     const double sign = joints_[k].pin == PinSide::second ? 1 : -1;
     const PinGap gap = pin_gap(open_, motion, k);
-    s.eccentricity = sign * planar::vec(gap.way);
-    s.rate = sign * planar::vec(gap.rate);
+    s.eccentricity = sign * math::vec(gap.way);
+    s.rate = sign * math::vec(gap.rate);
     s.distance = norm(s.eccentricity);
-    s.normal = s.distance > 0 ? (1 / s.distance) * s.eccentricity : Vec<double>{1, 0};
+    s.normal = s.distance > 0 ? (1 / s.distance) * s.eccentricity : math::Vec2{1, 0};
     s.depth = s.distance - joints_[k].clearance;
     s.depth_rate = dot(s.rate, s.normal);
     const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
@@ -59,7 +57,7 @@ void ContactPins::press(std::span<const PinForce> forces) {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const PinPlace& s = places_[k];
     const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
-    const Vec<double> on_pin = -forces[k].normal * s.normal - forces[k].friction * perpendicular(s.normal);
+    const math::Vec2 on_pin = -forces[k].normal * s.normal - forces[k].friction * perpendicular(s.normal);
     if (journal(k).body != 0) {
       l.forces[force++].force = number(on_pin);
       l.torques[torque++].torque = cross(pin_radius * s.normal, on_pin);
@@ -71,7 +69,7 @@ void ContactPins::press(std::span<const PinForce> forces) {
   }
 }
 
-Vec<double> ContactPins::acceleration(const planar::LinkageMotion& motion, std::size_t pin) const {
+math::Vec2 ContactPins::acceleration(const planar::LinkageMotion& motion, std::size_t pin) const {
   const auto of = [&](const planar::BodyPoint& p) {
     return planar::point_motion(open_.plan, motion, p.body,
                                 open_.linkage.bodies[at(p.body)].points[at(p.point)].at)
@@ -89,8 +87,8 @@ double ContactPins::depth_acceleration(const planar::LinkageMotion& motion, std:
 
 double ContactPins::bush_angle(const planar::LinkageMotion& motion, std::size_t pin) const {
   return math::angle_difference(
-      planar::angle_of(places_[pin].eccentricity),
-      planar::angle_of(planar::body_state(open_.plan, motion, bush(pin).body).direction));
+      math::angle_of(places_[pin].eccentricity),
+      math::angle_of(planar::body_state(open_.plan, motion, bush(pin).body).direction));
 }
 
 }  // namespace linkwright::clearance

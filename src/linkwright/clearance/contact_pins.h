@@ -36,10 +36,10 @@ struct ContactJoint {
 
 /// A pin in its bush at one instant.
 struct PinPlace {
-  planar::Vec<double> eccentricity{0, 0}, rate{0, 0};  ///< J - B, m and m/s, global frame
-  planar::Vec<double> normal{1, 0};                    ///< direction of the eccentricity
-  double distance = 0;                                 ///< m, of the centres
-  double depth = 0, depth_rate = 0;  ///< m and m/s: distance less clearance; negative in flight
+  math::Vec2 eccentricity{0, 0}, rate{0, 0};  ///< J - B, m and m/s, global frame
+  math::Vec2 normal{1, 0};                    ///< direction of the eccentricity
+  double distance = 0;                        ///< m, of the centres
+  double depth = 0, depth_rate = 0;           ///< m and m/s: distance less clearance; negative in flight
   /// m/s: speed of the surface of the pin against that of the bush, anticlockwise, both spins included.
   double slip = 0;
 };
@@ -66,7 +66,7 @@ class ContactPins {
   void press(std::span<const PinForce> forces);
 
   /// The acceleration of the eccentricity and of the depth (m/s2); call after solve_acceleration.
-  planar::Vec<double> acceleration(const planar::LinkageMotion& motion, std::size_t pin) const;
+  math::Vec2 acceleration(const planar::LinkageMotion& motion, std::size_t pin) const;
   double depth_acceleration(const planar::LinkageMotion& motion, std::size_t pin) const;
 
   /// Direction of the eccentricity in the frame of the body that carries the bush, rad.

@@ -15,7 +15,7 @@
 namespace linkwright::clearance {
 namespace {
 
-using planar::InputMotion, planar::Vec, planar::dot;
+using planar::InputMotion;
 
 // Largest value of a cubic through values and slopes at the ends of a step, if there is one inside.
 std::optional<double> summit(double f0, double s0, double f1, double s1, double h) {
@@ -218,7 +218,7 @@ class ContactMotion {
     bool on = false;
     ContactEvent event;                                                     // the last one
     std::size_t number = 0;                                                 // its place in the list
-    Vec<double> seen{0, 0};                                                 // eccentricity at the last step
+    math::Vec2 seen{0, 0};                                                  // eccentricity at the last step
     double time = 0, depth = 0, depth_rate = 0, force = 0, force_rate = 0;  // then
     double mass = 0;                                                        // effective, along the normal
   };
@@ -229,7 +229,7 @@ class ContactMotion {
     c.event = {.joint = static_cast<int>(k),
                .start = t,
                .approach = approach,
-               .angle = planar::angle_of(pins_[k].eccentricity),
+               .angle = math::angle_of(pins_[k].eccentricity),
                .bush_angle = pins_.bush_angle(dynamics_->motion, k)};
     c.number = run_.events.size();
     // Its place in the order of the starts; what it was is known at its end.

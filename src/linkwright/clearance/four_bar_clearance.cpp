@@ -73,7 +73,7 @@ ClearancePosition clearance_position(const ClearanceFourBar& model, double crank
     p.status = Status::no_assembly;
     return p;
   }
-  const planar::Direction<double> d = planar::coupler_direction(closure, l.coupler);
+  const math::Vec2 d = planar::coupler_direction(closure, l.coupler);
   const Complex along = Complex{d.x, d.y} / std::hypot(d.x, d.y);
   p.joint = p.bush + l.coupler * along;
   p.point = p.bush + times(along, {l.coupler_u, l.coupler_v});

@@ -46,7 +46,7 @@ std::vector<InputMotion> standing(std::span<const double> inputs) {
 int placed(const LinkagePlan& plan, int body) { return plan.group_of_part[at(plan.bodies[at(body)].part)]; }
 
 double angle_of(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
-  return planar::angle_of(planar::body_state(plan, motion, body).direction);
+  return math::angle_of(planar::body_state(plan, motion, body).direction);
 }
 
 // Values and rates of the inputs of the bars for wanted absolute angles and rates: the carriers move little
@@ -139,7 +139,7 @@ class Watcher {
     for (std::size_t k = 0; k < cleared_.bars.size(); ++k) {
       const planar::PartState<double> s = planar::body_state(cleared_.plan, *i.motion, cleared_.bars[k].body);
       ClearanceState& now = run_.end[k];
-      now.angle += math::angle_difference(planar::angle_of(s.direction), now.angle);
+      now.angle += math::angle_difference(math::angle_of(s.direction), now.angle);
       now.rate = s.speed;
       now.acceleration = s.angular_acceleration;
       now.tension = tension(i, k);
@@ -227,7 +227,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
   l.modes.clear();  // pairs change; places at the start give the modes
   for (std::size_t b = 1; b < l.bodies.size(); ++b) {
     const planar::PartState<double> s = planar::body_state(ideal.plan, motion, static_cast<int>(b));
-    l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, planar::angle_of(s.direction)};
+    l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, math::angle_of(s.direction)};
   }
   for (const JointClearance& c : clearances) {
     const LinkageJoint pin = l.joints[at(c.joint)];

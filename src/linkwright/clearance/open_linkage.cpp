@@ -176,7 +176,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   l.modes.clear();  // pairs change; places at the start give the modes
   for (std::size_t b = 1; b < l.bodies.size(); ++b) {
     const PartState<double> s = planar::body_state(whole.plan, motion, static_cast<int>(b));
-    l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, planar::angle_of(s.direction)};
+    l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, math::angle_of(s.direction)};
   }
   for (const int j : joints) {
     const LinkageJoint& pin = linkage.joints[at(j)];
@@ -207,7 +207,7 @@ PinGap pin_gap(const OpenLinkage& open, const LinkageMotion& motion, std::size_t
                                 open.linkage.bodies[at(p.body)].points[at(p.point)].at);
   };
   const planar::PointMotion a = point(open.pins[pin].first), b = point(open.pins[pin].second);
-  return {planar::number(b.position - a.position), planar::number(b.velocity - a.velocity)};
+  return {math::number(b.position - a.position), math::number(b.velocity - a.velocity)};
 }
 
 Status place_pins(const OpenLinkage& open, std::span<const PinGap> gaps, std::vector<InputMotion>& inputs,

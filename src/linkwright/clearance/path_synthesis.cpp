@@ -24,7 +24,7 @@ bool trace(const ClearancePathProblem& p, const T* x, const T& crank, T& px, T& 
   const T gx = x[0] * cos(x[8]), gy = x[0] * sin(x[8]);
   const planar::Closure<T> closure = planar::close_loop(gx, gy, wx, wy, x[2], x[3], T(sign(p.branch)));
   if (!(closure.radicand > T(0))) return false;
-  const planar::Direction<T> d = planar::coupler_direction(closure, x[2]);
+  const math::Vector2<T> d = planar::coupler_direction(closure, x[2]);
   const T u = x[4] * cos(x[7]), v = x[4] * sin(x[7]);
   px = x[5] + wx + d.x * u - d.y * v;
   py = x[6] + wy + d.x * v + d.y * u;

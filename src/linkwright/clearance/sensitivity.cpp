@@ -121,9 +121,9 @@ class Solver {
   Status status(std::size_t s) const { return status_[s]; }
   const std::vector<double>& values(std::size_t s) const { return values_[s]; }
   /// Direction of the frame of a body in the nominal motion.
-  planar::Vec<double> direction(std::size_t s, int body) const {
+  math::Vec2 direction(std::size_t s, int body) const {
     const planar::BodyOnPart& on = plan_.bodies[at(body)];
-    return planar::rotate(parts_[s][at(on.part)].direction, on.turn);
+    return math::rotate(parts_[s][at(on.part)].direction, on.turn);
   }
   double size() const { return plan_.size; }
 
@@ -196,12 +196,12 @@ class Solver {
 void worst_error(const LinkageTolerances& t, const double* rows, std::size_t parameters, std::size_t size,
                  double* contributions, double* total) {
   const std::size_t pins = t.pins.size();
-  const auto along = [&](const planar::Vec<double>& n, std::size_t j) {
+  const auto along = [&](const math::Vec2& n, std::size_t j) {
     return n.x * rows[j] + (size == 2 ? n.y * rows[parameters + j] : 0);
   };
   // The extreme errors for a direction, summed up; the part of each in that direction.
-  const auto extreme = [&](const planar::Vec<double>& n) {
-    planar::Vec<double> sum{0, 0};
+  const auto extreme = [&](const math::Vec2& n) {
+    math::Vec2 sum{0, 0};
     const auto add = [&](std::size_t j, double by) {
       sum.x += by * rows[j];
       if (size == 2) sum.y += by * rows[parameters + j];
@@ -220,15 +220,15 @@ void worst_error(const LinkageTolerances& t, const double* rows, std::size_t par
     }
     return sum;
   };
-  planar::Vec<double> best{1, 0}, sum = extreme(best);
+  math::Vec2 best{1, 0}, sum = extreme(best);
   if (size == 2) {
     constexpr int directions = 32;  // directions in half a turn: the other half is the same
     for (int i = 1; i < directions; ++i) {
-      const planar::Vec<double> n = planar::unit(pi * i / directions), s = extreme(n);
+      const math::Vec2 n = math::unit(pi * i / directions), s = extreme(n);
       if (dot(n, s) > dot(best, extreme(best))) best = n, sum = s;
     }
     for (int i = 0; i < 100 && norm(sum) > 0; ++i) {
-      const planar::Vec<double> next = (1 / norm(sum)) * sum;
+      const math::Vec2 next = (1 / norm(sum)) * sum;
       const bool there = norm(next - best) < 1e-9;  // the error is stationary: right to rounding
       best = next;
       sum = extreme(best);
@@ -310,10 +310,10 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
     SensitivitySample& now = out[s];
     // From the frames of the first bodies to the global one.
     for (std::size_t k = 0; k < pins && now.status == Status::done; ++k) {
-      const planar::Vec<double> d = solver.direction(s, l.joints[at(t.pins[k].joint)].first.body);
+      const math::Vec2 d = solver.direction(s, l.joints[at(t.pins[k].joint)].first.body);
       for (std::size_t i = 0; i < values; ++i) {
         double* pair = &now.derivatives[i * parameters + 2 * k];
-        const planar::Vec<double> global = planar::rotate(d, planar::Vec<double>{pair[0], pair[1]});
+        const math::Vec2 global = math::rotate(d, math::Vec2{pair[0], pair[1]});
         pair[0] = global.x, pair[1] = global.y;
       }
     }

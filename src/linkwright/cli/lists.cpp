@@ -26,7 +26,6 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/units.h"
 #include "linkwright/optimise/pieces.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/renamed.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"

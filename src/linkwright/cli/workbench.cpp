@@ -18,7 +18,7 @@
 #include "linkwright/core/platform/files.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/serve/server.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::cli {
 namespace fs = std::filesystem;

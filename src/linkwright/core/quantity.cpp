@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/core/quantity.h"
+#include <string>
 
+#include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
 
 namespace linkwright {

@@ -9,12 +9,12 @@ namespace linkwright::flexible {
 
 namespace {
 
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+math::Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 // Force of the inner part on the outer one at the cut in the joint of a cell, axes of the hub.
-Vec2 force_at(const ChainShape& shape, std::size_t cell, const SectionForce& cut) {
+math::Vec2 force_at(const ChainShape& shape, std::size_t cell, const SectionForce& cut) {
   const double mean = (shape.angle[cell] + shape.angle[cell + 1]) / 2;
-  return turned(direction(mean), Vec2{-cut.axial, -cut.shear});
+  return rotate(direction(mean), math::Vec2{-cut.axial, -cut.shear});
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ std::vector<double> bent(const Chain& chain, std::span<const double> q, double s
 
 TipDisplacement tip_displacement(const Chain& chain, std::span<const double> q) {
   const ChainShape actual = shape(chain, q), rigid = shape(chain, bent(chain, q, 0));
-  const Vec2 moved = turned_back(direction(rigid.angle.back()), actual.node.back() - rigid.node.back());
+  const math::Vec2 moved =
+      rotate_inverse(direction(rigid.angle.back()), actual.node.back() - rigid.node.back());
   return {moved.x, moved.y};
 }
 
@@ -68,7 +69,7 @@ std::vector<SectionForce> link_sections(const ArmChain& arm, std::size_t link,
   // The cut in the joint of a cell, moved to one of its ends: the force is the same, the arm is another.
   const auto moved = [&](std::size_t cell, std::size_t node) {
     SectionForce cut = all[cell + 1];
-    const Vec2 middle = 0.5 * (at.node[cell] + at.node[cell + 1]);
+    const math::Vec2 middle = 0.5 * (at.node[cell] + at.node[cell + 1]);
     cut.moment -= cross(middle - at.node[node], force_at(at, cell, cut));
     cut.position = tip_length(node);
     return cut;
@@ -82,13 +83,13 @@ std::vector<SectionForce> link_sections(const ArmChain& arm, std::size_t link,
   return out;
 }
 
-std::vector<Vec2> hinge_forces(const ArmChain& arm, const ChainEquations& equations,
-                               const ChainState& state) {
+std::vector<math::Vec2> hinge_forces(const ArmChain& arm, const ChainEquations& equations,
+                                     const ChainState& state) {
   const std::vector<SectionForce> all = equations.sections();
   const ChainShape at = shape(arm.chain, state.q);
-  std::vector<Vec2> out;
+  std::vector<math::Vec2> out;
   for (const ArmChain::Link& l : arm.links)
-    if (l.hinge) out.push_back(turned(direction(state.angle), force_at(at, *l.hinge, all[*l.hinge + 1])));
+    if (l.hinge) out.push_back(rotate(direction(state.angle), force_at(at, *l.hinge, all[*l.hinge + 1])));
   return out;
 }
 

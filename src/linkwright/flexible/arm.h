@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/chain.h"
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/links.h"
@@ -51,6 +50,7 @@ std::vector<SectionForce> link_sections(const ArmChain& arm, std::size_t link,
                                         const ChainEquations& equations, const ChainState& state);
 
 /// Force of the inner link on the outer one in each hinge, axes of the ground (N), from the hub outwards.
-std::vector<Vec2> hinge_forces(const ArmChain& arm, const ChainEquations& equations, const ChainState& state);
+std::vector<math::Vec2> hinge_forces(const ArmChain& arm, const ChainEquations& equations,
+                                     const ChainState& state);
 
 }  // namespace linkwright::flexible

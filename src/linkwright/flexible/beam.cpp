@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/beam.h"
-
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/flexible/chain.h"
 
 namespace linkwright::flexible {
 

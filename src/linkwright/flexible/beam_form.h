@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "linkwright/core/field.h"
-#include "linkwright/flexible/beam.h"
+#include "linkwright/flexible/chain.h"
 
 // Flexible links as files hold them.
 namespace linkwright::flexible::beam_fields {

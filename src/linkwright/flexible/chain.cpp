@@ -69,12 +69,12 @@ ChainShape shape(const Chain& chain, std::span<const double> q) {
   ChainShape out;
   out.node = {{chain.hub_radius, 0}};
   out.angle = {0};
-  Vec2 direction{1, 0};
+  math::Vec2 direction{1, 0};
   for (std::size_t s = 0; s < chain.cells.size(); ++s) {
     const JointStep step = joint_step(chain.kinematics, chain.cells[s], &q[coordinates_per_cell * s]);
     out.node.push_back(out.node.back() + step.displacement(direction, out.angle.back()));
     out.angle.push_back(out.angle.back() + q[coordinates_per_cell * s + turn]);
-    direction = turned(step.half, turned(step.half, direction));
+    direction = rotate(step.half, rotate(step.half, direction));
   }
   return out;
 }

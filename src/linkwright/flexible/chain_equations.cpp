@@ -41,7 +41,7 @@ ChainEquations::ChainEquations(const Chain& chain)
 
 void ChainEquations::move(const ChainState& state) {
   const double hub = state.rate;
-  Vec2 direction{1, 0};
+  math::Vec2 direction{1, 0};
   Node& root = node_.front();
   root.z = {chain_->hub_radius, 0};
   root.v = hub * perpendicular(root.z);
@@ -58,40 +58,40 @@ void ChainEquations::move(const ChainState& state) {
     const double* a = &state.a[coordinates_per_cell * s];
     j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[coordinates_per_cell * s]);
     const JointStep& step = j.step;
-    j.mean = turned(step.half, direction);
-    direction = turned(step.half, j.mean);
+    j.mean = rotate(step.half, direction);
+    direction = rotate(step.half, j.mean);
 
     // Delta = R(beta) d + R(theta) f, seen from the hub's axes; beta' and beta'' are against the ground.
     const bool hub_axis = chain_->kinematics == Kinematics::hub_axis;
     const double rate = in.rate + v[turn] / 2, acceleration = in.acceleration + a[turn] / 2;
-    Vec2 d1{step.by_turn * v[turn] + step.by_slide * v[slide], 0}, f1, f2;
-    Vec2 d2{step.by_turn * a[turn] + step.by_slide * a[slide] + step.by_turn_twice * v[turn] * v[turn] +
-                step.by_slide_twice * v[slide] * v[slide],
-            0};
+    math::Vec2 d1{step.by_turn * v[turn] + step.by_slide * v[slide], 0}, f1, f2;
+    math::Vec2 d2{step.by_turn * a[turn] + step.by_slide * a[slide] + step.by_turn_twice * v[turn] * v[turn] +
+                      step.by_slide_twice * v[slide] * v[slide],
+                  0};
     if (hub_axis) {
       f1 = {v[extension], v[slide]};
       f2 = {a[extension], a[slide]};
     } else {
-      d1 += Vec2{v[extension], v[slide]};
-      d2 += Vec2{a[extension], a[slide]};
+      d1 += math::Vec2{v[extension], v[slide]};
+      d2 += math::Vec2{a[extension], a[slide]};
     }
-    const Vec2 d = step.along, f = step.across;
-    const Vec2 relative = d1 + (rate - hub) * perpendicular(d);
-    out.z = in.z + turned(j.mean, d) + f;
-    out.drift = in.drift + turned(j.mean, relative) + f1;
-    out.v = in.v + turned(j.mean, d1 + rate * perpendicular(d)) + f1 + hub * perpendicular(f);
+    const math::Vec2 d = step.along, f = step.across;
+    const math::Vec2 relative = d1 + (rate - hub) * perpendicular(d);
+    out.z = in.z + rotate(j.mean, d) + f;
+    out.drift = in.drift + rotate(j.mean, relative) + f1;
+    out.v = in.v + rotate(j.mean, d1 + rate * perpendicular(d)) + f1 + hub * perpendicular(f);
     out.a = in.a +
-            turned(j.mean,
+            rotate(j.mean,
                    d2 + 2 * rate * perpendicular(d1) + acceleration * perpendicular(d) - rate * rate * d) +
             f2 + 2 * hub * perpendicular(f1) + state.acceleration * perpendicular(f) - hub * hub * f;
     out.angle = in.angle + step.turn_by;
     out.rate = in.rate + v[turn];
     out.acceleration = in.acceleration + a[turn];
 
-    j.by_angle = turned(j.mean, perpendicular(d));
-    j.by[turn] = turned(j.mean, Vec2{step.by_turn, 0} + 0.5 * perpendicular(d));
-    j.by[slide] = hub_axis ? Vec2{0, 1} : turned(j.mean, {step.by_slide, 1});
-    j.by[extension] = hub_axis ? Vec2{1, 0} : j.mean;
+    j.by_angle = rotate(j.mean, perpendicular(d));
+    j.by[turn] = rotate(j.mean, math::Vec2{step.by_turn, 0} + 0.5 * perpendicular(d));
+    j.by[slide] = hub_axis ? math::Vec2{0, 1} : rotate(j.mean, {step.by_slide, 1});
+    j.by[extension] = hub_axis ? math::Vec2{1, 0} : j.mean;
   }
 }
 
@@ -103,8 +103,8 @@ void ChainEquations::move_linearised(const ChainState& state) {
     Node& out = node_[s + 1];
     Joint& j = joint_[s];
     const double l = chain_->cells[s].length;
-    const auto sum = [&](Vec2 before, const double* x, double angle) {
-      return before + Vec2{x[slide], x[slide] + l * angle + l / 2 * x[turn]};
+    const auto sum = [&](math::Vec2 before, const double* x, double angle) {
+      return before + math::Vec2{x[slide], x[slide] + l * angle + l / 2 * x[turn]};
     };
     j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[coordinates_per_cell * s]);
     j.mean = {1, 0};
@@ -115,13 +115,13 @@ void ChainEquations::move_linearised(const ChainState& state) {
     out.rate = in.rate + state.v[coordinates_per_cell * s + turn];
     out.acceleration = in.acceleration + state.a[coordinates_per_cell * s + turn];
     j.by_angle = {0, l};
-    j.by = {Vec2{1, 1}, Vec2{0, l / 2}, Vec2{}};
+    j.by = {math::Vec2{1, 1}, math::Vec2{0, l / 2}, math::Vec2{}};
   }
 }
 
 // From forces and couples at the nodes to residuals, with springs and dampers.
 void ChainEquations::project(const ChainState& state) {
-  Vec2 outer;
+  math::Vec2 outer;
   double couple = 0, max_force = 0, max_moment = 0;
   for (std::size_t s = joint_.size(); s-- > 0;) {
     Joint& j = joint_[s];
@@ -160,10 +160,10 @@ void ChainEquations::project(const ChainState& state) {
 
 void ChainEquations::balance(const ChainState& state, const TipLoad& load) {
   load_ = load;
-  gravity_ = turned_back({std::cos(state.angle), std::sin(state.angle)}, {0, -chain_->gravity});
-  Vec2 force;
+  gravity_ = rotate_inverse(math::unit(state.angle), math::Vec2{0, -chain_->gravity});
+  math::Vec2 force;
   double moment = 0;
-  const Vec2 weld{chain_->hub_radius, 0};
+  const math::Vec2 weld{chain_->hub_radius, 0};
   for (std::size_t s = 0; s < joint_.size(); ++s) {
     const Node& node = node_[s + 1];
     const Cell& cell = chain_->cells[s];
@@ -218,7 +218,7 @@ const ChainForces& ChainEquations::evaluate(const ChainState& state, const TipLo
   if (linearised_) {
     move_linearised(state);
     balance_linearised(state);
-    joint_.back().force = joint_.back().force - Vec2{0, load.force.y};
+    joint_.back().force = joint_.back().force - math::Vec2{0, load.force.y};
     joint_.back().couple -= load.couple;
   } else {
     move(state);
@@ -237,8 +237,8 @@ double ChainEquations::relative_residual() const {
   return std::max(force / force_scale_, couple / moment_scale_);
 }
 
-Vec2 ChainEquations::tip() const {
-  return linearised_ ? Vec2{chain_->hub_radius + chain_->length(), node_.back().z.y} : node_.back().z;
+math::Vec2 ChainEquations::tip() const {
+  return linearised_ ? math::Vec2{chain_->hub_radius + chain_->length(), node_.back().z.y} : node_.back().z;
 }
 
 ChainEnergy ChainEquations::energy(const ChainState& state) const {
@@ -254,7 +254,7 @@ ChainEnergy ChainEquations::energy(const ChainState& state) const {
     const Cell& cell = c.cells[s];
     x += cell.length;
     if (linearised_) {
-      const Vec2 v{-hub * node.z.x, hub * x + node.v.y};
+      const math::Vec2 v{-hub * node.z.x, hub * x + node.v.y};
       twice += cell.mass * dot(v, v);
       out.angular_momentum += cell.mass * (x * v.y - node.z.x * v.x);
     } else {
@@ -285,10 +285,10 @@ std::vector<SectionForce> ChainEquations::sections() const {
   LINKWRIGHT_REQUIRE(!linearised_, "source_linearised has no forces inside the link");
   std::vector<SectionForce> out(joint_.size() + 2);
   double position = chain_->length(), couple = 0, moment = 0;  // moment of the forces about O
-  Vec2 force;
+  math::Vec2 force;
   // Outside of the tip mass only the load is left.
   const double angle = node_.back().angle;
-  const Vec2 load = turned_back({std::cos(angle), std::sin(angle)}, load_.force);
+  const math::Vec2 load = rotate_inverse({std::cos(angle), std::sin(angle)}, load_.force);
   out.back() = {.position = position, .axial = load.x, .shear = load.y, .moment = load_.couple};
   for (std::size_t s = joint_.size(); s-- > 0;) {
     const Node& node = node_[s + 1];
@@ -296,8 +296,8 @@ std::vector<SectionForce> ChainEquations::sections() const {
     force += joint_[s].force;
     moment += cross(node.z, joint_[s].force);
     couple += joint_[s].couple;
-    const Vec2 middle = 0.5 * (node_[s].z + node.z);
-    const Vec2 along = turned_back(joint_[s].mean, force);
+    const math::Vec2 middle = 0.5 * (node_[s].z + node.z);
+    const math::Vec2 along = rotate_inverse(joint_[s].mean, force);
     out[s + 1] = {.position = position - cell.length / 2,
                   .axial = -along.x,
                   .shear = -along.y,

@@ -8,7 +8,7 @@
 
 #include "linkwright/flexible/chain.h"
 #include "linkwright/flexible/joint_kernel.h"
-#include "linkwright/flexible/vec2.h"
+#include "linkwright/math/vector2.h"
 
 /// Equations of motion of hub and chain, in time and memory proportional to the number of cells.
 namespace linkwright::flexible {
@@ -16,7 +16,7 @@ namespace linkwright::flexible {
 /// Loads at the tip, in axes of the hub, beside those of inertia, gravity and drive; for links on a driven
 /// hub.
 struct TipLoad {
-  Vec2 force;         ///< N; keeps its direction in the axes of the hub
+  math::Vec2 force;   ///< N; keeps its direction in the axes of the hub
   double couple = 0;  ///< N m
 };
 
@@ -25,7 +25,7 @@ struct ChainForces {
   /// Reaction of the hub on the link at the weld O1, in axes of the hub (N, N m), from Newton's and Euler's
   /// laws of the whole link. source_linearised: the multipliers of the printed equations; the couple is
   /// lambda_3, without the elastic moment that (3.49) adds to it.
-  Vec2 reaction;
+  math::Vec2 reaction;
   double moment = 0;
   double torque = 0;  ///< torque of the drive on the hub that this motion needs (N m)
 };
@@ -72,7 +72,7 @@ class ChainEquations {
   double moment_scale() const { return moment_scale_; }
   /// Tip position in the state evaluated last, from O, in axes of the hub; and the angle of the last bar
   /// against the hub.
-  Vec2 tip() const;
+  math::Vec2 tip() const;
   double tip_angle() const { return node_.back().angle; }
 
   /// A motor in joint s = 0, 1, ...: its torque on the outer bar (N m), or a turn that is given, whose row
@@ -100,23 +100,23 @@ class ChainEquations {
 
  private:
   struct Node {
-    Vec2 z, v, a;      // from O, in axes of the hub; velocity and acceleration against the ground
-    Vec2 drift;        // velocity in the hub
-    double angle = 0;  // against the hub
+    math::Vec2 z, v, a;  // from O, in axes of the hub; velocity and acceleration against the ground
+    math::Vec2 drift;    // velocity in the hub
+    double angle = 0;    // against the hub
     double rate = 0, acceleration = 0;  // against the ground
   };
   struct Joint {
     JointStep step;
-    Vec2 mean;               // unit vector of the mean direction
-    Vec2 by_angle;           // derivatives of the displacement: by the angle of the inner bar,
-    std::array<Vec2, 3> by;  // by the coordinates
-    Vec2 force;              // inertia force of node s, with its damping
+    math::Vec2 mean;               // unit vector of the mean direction
+    math::Vec2 by_angle;           // derivatives of the displacement: by the angle of the inner bar,
+    std::array<math::Vec2, 3> by;  // by the coordinates
+    math::Vec2 force;              // inertia force of node s, with its damping
     double couple = 0;
-    Vec2 outer;  // sum of the forces from node s outwards
+    math::Vec2 outer;  // sum of the forces from node s outwards
   };
   struct Eliminated {
-    Vec2 by_angle;
-    std::array<Vec2, 3> by;
+    math::Vec2 by_angle;
+    std::array<math::Vec2, 3> by;
     std::array<double, 3> pivot, lower;  // L D L^T of the joint's own block; l10, l20, l21
     std::array<std::array<double, 3>, 3> gain;
   };
@@ -140,7 +140,7 @@ class ChainEquations {
   double force_scale_ = 1, moment_scale_ = 1;
   double natural_force_ = 1, natural_moment_ = 1;
   double hub_rate_ = 0;
-  Vec2 gravity_;
+  math::Vec2 gravity_;
   TipLoad load_;
   std::vector<Node> node_;
   std::vector<Joint> joint_;

@@ -20,10 +20,10 @@ struct Geometric {
   std::array<std::array<double, 3>, 3> by_by{};
 };
 
-Geometric geometric(const JointStep& step, Vec2 mean, Vec2 force) {
+Geometric geometric(const JointStep& step, math::Vec2 mean, math::Vec2 force) {
   Geometric out;
   if (step.kinematics == Kinematics::source_linearised) return out;
-  const Vec2 f = turned_back(mean, force), d = step.along;
+  const math::Vec2 f = rotate_inverse(mean, force), d = step.along;
   const double around = f.y * step.by_turn;  // f . J (p_delta, 0)
   out.angle_angle = -dot(f, d);
   out.angle_by[turn] = around - 0.5 * dot(f, d);
@@ -64,7 +64,7 @@ bool ChainEquations::eliminate(const TangentScale& scale) {
     const double a0 = j.by_angle.x, a1 = j.by_angle.y;
     double block[C][C], state[C][3];
     for (int c = 0; c < C; ++c) {
-      const Vec2 b = j.by[c];
+      const math::Vec2 b = j.by[c];
       const double angle = c == int(turn) ? 1 : 0;
       const double sx = xx * b.x + xy * b.y + xa * angle;
       const double sy = xy * b.x + yy * b.y + ya * angle;
@@ -134,7 +134,7 @@ bool ChainEquations::factor(const TangentScale& scale, bool free_hub) {
 }
 
 void ChainEquations::project_only(std::span<double> out) {
-  Vec2 outer;
+  math::Vec2 outer;
   double couple = 0;
   for (std::size_t s = joint_.size(); s-- > 0;) {
     const Joint& j = joint_[s];
@@ -162,7 +162,7 @@ bool ChainEquations::eliminate_hub(const TangentScale& scale) {
       x += cell.length;
       if (linearised_) {
         const double speed = row ? 0 : -2 * hub_rate_ * scale.rate * node.z.x;
-        j.force = cell.mass * Vec2{speed, scale.acceleration * x};
+        j.force = cell.mass * math::Vec2{speed, scale.acceleration * x};
         if (row) inertia += cell.mass * (x * x + node.z.x * node.z.x) + cell.inertia;
       } else {
         j.force = cell.mass * (scale.acceleration * perpendicular(node.z) + perpendicular(gravity_));

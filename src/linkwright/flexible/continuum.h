@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "linkwright/flexible/beam.h"
+#include "linkwright/flexible/chain.h"
 
 /// The uniform link as a continuum, with its tip mass: frequencies to compare chains with.
 namespace linkwright::flexible {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/drive.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/flexible/simulation.h"
 
 namespace linkwright::flexible {
 

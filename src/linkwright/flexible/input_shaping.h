@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
-#include "linkwright/flexible/drive.h"
+#include "linkwright/flexible/simulation.h"
 
 /// Input shaping: a drive is given in a few shares, late by parts of a period, so that the vibrations they
 /// excite cancel.

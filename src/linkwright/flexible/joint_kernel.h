@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/flexible/chain.h"
-#include "linkwright/flexible/vec2.h"
+#include "linkwright/math/vector2.h"
 
 /// One cell of the chain: from node to node.
 namespace linkwright::flexible {
@@ -15,19 +15,19 @@ struct JointStep {
   Kinematics kinematics;
   double length;
   double turn_by;      ///< delta
-  Vec2 half;           ///< cos and sin of delta / 2
-  Vec2 along;          ///< (p, w) of chord_consistent, (p, 0) of hub_axis, in the mean direction
-  Vec2 across;         ///< (u, w) of hub_axis in axes of the hub, else 0; source_linearised: (w, w)
+  math::Vec2 half;     ///< cos and sin of delta / 2
+  math::Vec2 along;    ///< (p, w) of chord_consistent, (p, 0) of hub_axis, in the mean direction
+  math::Vec2 across;   ///< (u, w) of hub_axis in axes of the hub, else 0; source_linearised: (w, w)
   double by_turn = 0;  ///< dp/ddelta
   double by_slide = 0;
   double by_turn_twice = 0;
   double by_slide_twice = 0;
 
   /// `direction` and `angle` of the inner bar.
-  Vec2 displacement(Vec2 direction, double angle) const {
+  math::Vec2 displacement(math::Vec2 direction, double angle) const {
     if (kinematics == Kinematics::source_linearised)
       return {length, across.y + length * angle + length / 2 * turn_by};
-    return turned(turned(half, direction), along) + across;
+    return rotate(rotate(half, direction), along) + across;
   }
 };
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/chain.h"
 
 /// Several links in a row on one hub.

@@ -289,7 +289,7 @@ ReferenceMotion simulate(const Beam& beam, const AngleLaw* motion, const TorqueL
 
 }  // namespace
 
-ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const ReferenceOptions& options) {
+ReferenceShape reference_shape(const Beam& beam, math::Vec2 tip_force, const ReferenceOptions& options) {
   require(beam, options);
   const Grid g = grid(beam, options);
   const int n = options.points, terms = options.degree + 1;

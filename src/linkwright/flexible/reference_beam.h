@@ -7,10 +7,9 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
-#include "linkwright/flexible/beam.h"
-#include "linkwright/flexible/drive.h"
-#include "linkwright/flexible/response.h"
-#include "linkwright/flexible/vec2.h"
+#include "linkwright/flexible/chain.h"
+#include "linkwright/flexible/simulation.h"
+#include "linkwright/math/vector2.h"
 
 /// The link as an elastica, without cells: the angle of its line against the hub is
 /// phi(s, t) = sum over k of a_k(t) times the integral of Legendre's P_k from 0 to s, and X' = cos phi, Y' =
@@ -27,10 +26,10 @@ struct ReferenceOptions {
 /// Shape at the tip under a load that keeps its direction in the axes of the hub.
 struct ReferenceShape {
   Status status = Status::done;  ///< not_converged: the load is beyond what Newton's method follows
-  Vec2 tip;                      ///< from O1 (m)
+  math::Vec2 tip;                ///< from O1 (m)
   double angle = 0;              ///< rad
 };
-ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const ReferenceOptions& options = {});
+ReferenceShape reference_shape(const Beam& beam, math::Vec2 tip_force, const ReferenceOptions& options = {});
 
 /// First frequencies (rad/s) in the plane about the straight link on a hub that is driven at a steady speed
 /// (rad/s).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/flexible/response.h"
-
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/flexible/simulation.h"
 
 namespace linkwright::flexible {
 

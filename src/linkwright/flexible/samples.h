@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "linkwright/flexible/beam.h"
+#include "linkwright/flexible/chain.h"
 
 /// Beams of publications, for tests, examples and benchmarks.
 namespace linkwright::flexible {

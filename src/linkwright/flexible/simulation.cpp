@@ -292,7 +292,7 @@ class Run {
   void sample(double t) {
     const ChainForces& f = equations_.evaluate(now_);
     const ChainEnergy e = equations_.energy(now_);
-    const Vec2 tip = equations_.tip();
+    const math::Vec2 tip = equations_.tip();
     double bending = nan;
     if (chain_.kinematics != Kinematics::source_linearised) {
       bending = 0;

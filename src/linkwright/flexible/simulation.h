@@ -8,13 +8,132 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
+#include "linkwright/core/table.h"
 #include "linkwright/flexible/chain.h"
-#include "linkwright/flexible/drive.h"
-#include "linkwright/flexible/response.h"
+#include "linkwright/math/function_ref.h"
 
 /// @file
 /// Motion of hub and link in time.
 namespace linkwright::flexible {
+
+/// Angle of the hub and its derivatives.
+struct HubMotion {
+  double angle = 0,      ///< rad
+      rate = 0,          ///< rad/s
+      acceleration = 0;  ///< rad/s2
+};
+
+/// Angle of the hub as a function of time (s).
+using AngleLaw = math::FunctionRef<HubMotion(double)>;
+/// Torque (N m) as a function of time (s).
+using TorqueLaw = math::FunctionRef<double(double)>;
+
+/// Spin-up (Boskovic 2018, (3.50)): from rest to a steady rate within a time, without a jump of the
+/// acceleration.
+struct SpinUp {
+  double rate = 0;      ///< omega_0 (rad/s), of either sign
+  double duration = 0;  ///< T > 0 (s)
+  /// The motion at a time.
+  ///
+  /// @param time s
+  /// @returns angle, rate and acceleration of the hub
+  /// @throws ContractError unless the duration is positive
+  HubMotion operator()(double time) const;
+};
+
+/// One period of a sine (Boskovic 2018, (3.51)), then none.
+struct SinePulse {
+  double torque = 0;    ///< tau_0 (N m)
+  double duration = 0;  ///< T > 0 (s): a break
+  /// The torque at a time.
+  ///
+  /// @param time s
+  /// @returns N m
+  /// @throws ContractError unless the duration is positive
+  double operator()(double time) const;
+};
+
+/// Torque in straight lines between rows; none before the first and after the last.
+struct TorqueTable {
+  std::vector<double> times;    ///< s, increasing: breaks
+  std::vector<double> torques;  ///< N m
+  /// The torque at a time.
+  ///
+  /// @param time s
+  /// @returns N m
+  /// @throws ContractError unless there are times, and as many torques
+  double operator()(double time) const;
+};
+
+/// The quantities of hub and link at one time.
+struct Sample {
+  double time = 0;  ///< s
+  /// Angle of the hub, and its derivatives (rad, rad/s, rad/s2).
+  double angle = 0,      ///< angle of the hub, rad
+      rate = 0,          ///< its rate, rad/s
+      acceleration = 0;  ///< its acceleration, rad/s2
+  double torque = 0;     ///< torque of the drive: given, or needed for the given motion (N m)
+  /// Displacement of the tip along xi from its place on the undeformed link (m).
+  double tip_xi = 0,
+         tip_eta = 0;    ///< the same along eta, m
+  double tip_angle = 0;  ///< angle of the link there against the hub (rad)
+  /// Force of the hub on the link at O1 along xi (N).
+  double reaction_xi = 0,
+         reaction_eta = 0,      ///< the same along eta, N
+      moment = 0;               ///< couple of the hub on the link at O1, N m
+  double bending_moment = 0;    ///< largest |M| along the link (N m); NaN for source_linearised
+  double kinetic = 0,           ///< J
+      potential = 0;            ///< J
+  double work = 0;              ///< work of all drives since the start (J)
+  double dissipated = 0;        ///< by all dampers (J)
+  double angular_momentum = 0;  ///< about O (N m s)
+
+  /// The balance kinetic + potential + dissipated - work, which stays as it was at the start. @returns J
+  double energy_balance() const { return kinetic + potential + dissipated - work; }
+};
+
+/// The smallest or largest value of a sampled quantity between two times, with the time, refined by a
+/// parabola through three samples.
+struct Extreme {
+  double time = 0,  ///< s
+      value = 0;    ///< value of the quantity
+};
+
+/// The smallest value of a quantity.
+///
+/// @param samples the samples
+/// @param quantity the member of Sample
+/// @param from first time (s)
+/// @param to last time (s)
+/// @returns value and time
+/// @throws ContractError if there is no sample with a number between both times
+Extreme smallest(std::span<const Sample> samples, double Sample::*quantity, double from, double to);
+
+/// The largest value of a quantity.
+///
+/// @param samples the samples
+/// @param quantity the member of Sample
+/// @param from first time (s)
+/// @param to last time (s)
+/// @returns value and time
+/// @throws ContractError if there is no sample with a number between both times
+Extreme largest(std::span<const Sample> samples, double Sample::*quantity, double from, double to);
+
+/// The bending stress by a moment.
+///
+/// @param beam the beam
+/// @param moment bending moment (N m)
+/// @param fibre_distance distance of the outer fibre from the neutral line (m), > 0
+/// @returns the stress (Pa)
+/// @throws ContractError unless the distance is positive
+double bending_stress(const Beam& beam, double moment, double fibre_distance);
+
+/// The samples as a table, one row a sample; columns time_s, hub_angle_rad, ..., energy_balance_J, the last
+/// from what it was in the first sample.
+///
+/// @param samples the samples
+/// @returns the table "response"
+Table table_of(std::span<const Sample> samples);
 
 /// A motor in a hinge: turns the outer link against the inner one by a given angle, or with a given torque.
 struct HingeDrive {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/math/pose.h"
+#include <complex>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/math/vector2.h"
 
 namespace linkwright::math {
 

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/optimise/population.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {

@@ -17,7 +17,6 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/optimise/kernels.h"
-#include "linkwright/optimise/population.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {

@@ -44,8 +44,11 @@ struct AdaptedProblem {
   std::string get_name() const { return "Linkwright problem"; }
 };
 
-/// Cost and violation of what pagmo calls a fitness.
-std::pair<double, double> split(const pagmo::problem& problem, const double* fitness) {
+/// The parts of what pagmo calls a fitness.
+struct Merit {
+  double cost, violation;
+};
+Merit split(const pagmo::problem& problem, const double* fitness) {
   double violation = 0;
   const pagmo::vector_double tolerance = problem.get_c_tol();
   for (std::size_t k = 0; k < tolerance.size(); ++k) {
@@ -88,8 +91,10 @@ struct AdaptedAlgorithm {
     for (std::size_t i = 0; i < size; ++i) first.set(i, known_x[i]);
     optimiser->begin_with(first.view());
     optimiser->ask();
-    for (std::size_t i = 0; i < size; ++i)
-      std::tie(cost[i], violation[i]) = split(problem, known_f[i].data());
+    for (std::size_t i = 0; i < size; ++i) {
+      const Merit merit = split(problem, known_f[i].data());
+      cost[i] = merit.cost, violation[i] = merit.violation;
+    }
     optimiser->tell(cost, violation);
 
     const std::size_t nf = problem.get_nf();
@@ -112,8 +117,10 @@ struct AdaptedAlgorithm {
     while (optimiser->generation() < last) {
       const PopulationView candidates = optimiser->ask();
       const pagmo::vector_double f = evaluate(candidates);
-      for (std::size_t i = 0; i < candidates.size; ++i)
-        std::tie(cost[i], violation[i]) = split(problem, &f[i * nf]);
+      for (std::size_t i = 0; i < candidates.size; ++i) {
+        const Merit merit = split(problem, &f[i * nf]);
+        cost[i] = merit.cost, violation[i] = merit.violation;
+      }
       optimiser->tell({cost.data(), candidates.size}, {violation.data(), candidates.size});
       if (optimiser->improved()) {
         const double* found = &f[optimiser->best_candidate() * nf];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/optimise/population.h"
-
 #include <algorithm>
 #include <new>
+#include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
 namespace {

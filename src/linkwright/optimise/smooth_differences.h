@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/optimise/population.h"
+#include "linkwright/optimise/problem.h"
 #include "linkwright/optimise/smooth_problem.h"
 
 namespace linkwright::optimise {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parameter_study/sampling.h"
-
 #include <boost/random/sobol.hpp>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
+#include "linkwright/parameter_study/sensitivity.h"
 
 namespace linkwright::parameter_study {
 

@@ -21,10 +21,10 @@
 #include "linkwright/planar/balancing/four_bar_synthesis.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/balancing/serial_arm.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/reproductions_paths.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/planar/studies/published.h"
 #include "linkwright/planar/studies/published_four_bars.h"
 

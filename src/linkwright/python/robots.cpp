@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/parallel/robot/position.h"
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/python/arrays.h"
 #include "linkwright/python/bindings.h"

@@ -32,7 +32,7 @@
 #include "linkwright/study/answer.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::python {

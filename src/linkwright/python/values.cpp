@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::python {
 namespace py = pybind11;

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::serve {
 namespace {

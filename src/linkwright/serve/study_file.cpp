@@ -10,7 +10,7 @@
 #include "linkwright/app/write_whole.h"
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/report/markup.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::serve {
 namespace fs = std::filesystem;

@@ -19,8 +19,8 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/absent.h"
 #include "linkwright/study/bind_traits.h"
+#include "linkwright/study/kind.h"
 
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
 // single values by `reader(field::length(...), member)`. Members may be double, bool, whole numbers,

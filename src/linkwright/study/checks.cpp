@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/closing_row.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/kind.h"
 
 namespace linkwright::study {
 namespace {

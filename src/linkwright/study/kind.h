@@ -5,19 +5,82 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/absent.h"
-#include "linkwright/study/checks.h"
 #include "linkwright/study/display_units.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
+
+/// A key, or one of its words, that a study of a related kind has and this kind has not.
+struct Absent {
+  std::string_view key;     ///< key with its tables and without unit: "target.gates", "constraint.type"
+  std::string_view word;    ///< the word of that key that is not here; empty = the key itself
+  std::string_view reason;  ///< says why it is absent, and what comes nearest
+};
+
+class ObjectReader;  // study/bind.h
+
+/// One `[[check]]` of a study. The limits are in the unit that the quantity's name ends in.
+struct CheckRequest {
+  std::string quantity;           ///< see `evaluate`
+  std::optional<double> at_most,  ///< upper limit
+      at_least,                   ///< lower limit
+      equals,                     ///< expected value
+      tolerance;                  ///< allowed distance from it, >= 0
+  /// Row of a table: numbers by column key, any unit of the column's dimension; { travel_mm = 50.0, rack_mm =
+  /// 0.0 }.
+  std::vector<std::pair<std::string, double>> at;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CheckRequest& c) {
+  visit(
+      field::entry("quantity", "what is checked: best.<key>, statistics.<key>, <table>.<column>.<statistic>")
+          .required(),
+      c.quantity);
+  visit(field::entry("at_most", "upper limit"), c.at_most);
+  visit(field::entry("at_least", "lower limit"), c.at_least);
+  visit(field::entry("equals", "expected value"), c.equals);
+  visit(field::entry("tolerance", "allowed distance from the expected value").not_negative(), c.tolerance);
+}
+
+/// Reads the row of a table that a quantity belongs to.
+/// @param reader table of the study that may have the key `at`
+/// @param check receives the row; unchanged if there is no key
+void read_row(ObjectReader& reader, CheckRequest& check);
+
+/// Reads `[[check]]`: each needs limits that fit together.
+/// @param document the study, whose reader takes what is wrong
+/// @returns the checks in their order
+std::vector<CheckRequest> read_checks(ObjectReader& document);
+
+/// @param checks checks of a study
+/// @returns them as a canonical study holds them
+Value write_checks(const std::vector<CheckRequest>& checks);
+
+/// Compares a result with a check. Quantities are
+///
+/// - `best.KEY`: objective, parameter or classification (a number) of the first solution;
+/// - `statistics.KEY`: number of the statistics;
+/// - `TABLE.COLUMN` with `at`: the row whose columns have these values (to 1e-6 of the column's span);
+/// - `TABLE.COLUMN.WHAT`: max, min, max_abs, mean, rms, first or last of the rows that have a value; mean and
+/// rms
+///   count one of the two ends of a period;
+/// - `TABLE.COLUMN` of a table with one row.
+///
+/// Keys match in any unit of their dimension: sweep.toe_deg is found in the column toe_rad and converted.
+/// @param request the check
+/// @param result result of the study
+/// @returns the check with its value; a quantity that cannot be found is a failed check whose message says
+/// why
+Check evaluate(const CheckRequest& request, const Result& result);
 
 class ObjectReader;  // study/bind.h
 class SchemaWriter;  // study/bind_schema.h

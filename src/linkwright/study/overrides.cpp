@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "linkwright/core/units.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace {

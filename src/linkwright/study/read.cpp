@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/read.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <string_view>
 
 #include "linkwright/core/csv.h"
 #include "linkwright/study/read_syntax.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 namespace fs = std::filesystem;

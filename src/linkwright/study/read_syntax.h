@@ -5,7 +5,7 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/value.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 // The parts of reading that read.cpp puts together; each parser has its translation unit because of its heavy
 // header. Diagnostics carry no file name here.

@@ -2,7 +2,7 @@
 #include "linkwright/study/reproduction.h"
 
 #include "linkwright/core/check.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::study {
 

@@ -10,7 +10,7 @@
 #include "linkwright/app/example_scene.h"
 #include "linkwright/app/examples.h"
 #include "linkwright/app/view.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 // The program behind the functions of C that a page can call. Each answers with a document: engine_json() and

@@ -31,7 +31,7 @@ TEST(ChainScene, DrawsBendingToScaleWhereItIsSeen) {
   const study::Scene plain = chain_scene(arm, names, bent_run(arm, 0.05), {});
   EXPECT_NE(to_string(plain.title).find("bending to scale"), std::string::npos) << to_string(plain.title);
   const ChainShape at = shape(arm.chain, bent_run(arm, 0.05).states[0].q);
-  const Vec2 tip = turned({std::cos(0.5), std::sin(0.5)}, at.node.back());
+  const math::Vec2 tip = rotate({std::cos(0.5), std::sin(0.5)}, at.node.back());
   const study::Scene::Point& drawn = plain.points[arm.chain.cells.size() + 1];
   EXPECT_EQ(drawn.name, "tip");
   EXPECT_NEAR(drawn.x[0], tip.x, 1e-12);

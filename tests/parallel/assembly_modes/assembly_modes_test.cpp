@@ -8,7 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 #include "parallel/random_vector.h"
 #include "parallel/robots.h"
 

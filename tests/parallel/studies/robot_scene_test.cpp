@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/tool/curve.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/parallel/tool/path.h"
 
 namespace linkwright::parallel {
 namespace {

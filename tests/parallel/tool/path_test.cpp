@@ -11,7 +11,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "support/message.h"
 
 namespace linkwright::parallel {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/tool/time_law.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "linkwright/core/random.h"
+#include "linkwright/parallel/tool/path.h"
 #include "support/message.h"
 
 namespace linkwright::parallel {

@@ -12,7 +12,6 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "support/resumed.h"
 

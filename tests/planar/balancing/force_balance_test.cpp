@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/force_balance.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
+#include "linkwright/planar/balancing/four_bar.h"
 #include "planar/reactions_cases.h"
 #include "support/message.h"
 

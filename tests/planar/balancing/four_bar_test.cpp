@@ -11,7 +11,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/balancing_cases.h"
 #include "support/allocations.h"
 #include "support/message.h"

@@ -13,7 +13,7 @@
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/samples.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/reactions_cases.h"
 #include "planar/serial_arm_cases.h"
 #include "support/message.h"

@@ -23,9 +23,9 @@ void expect_drawn(const ChainGraph& graph, const ChainSketch& drawn) {
     for (const int j : around)
       EXPECT_TRUE(joints[linkwright::at(j)][0] == link || joints[linkwright::at(j)][1] == link);
     for (std::size_t k = 0, n = around.size(); k < n; ++k) {
-      const Vec<double> a = drawn.joints[linkwright::at(around[k])],
-                        b = drawn.joints[linkwright::at(around[(k + 1) % n])],
-                        c = drawn.joints[linkwright::at(around[(k + 2) % n])];
+      const math::Vec2 a = drawn.joints[linkwright::at(around[k])],
+                       b = drawn.joints[linkwright::at(around[(k + 1) % n])],
+                       c = drawn.joints[linkwright::at(around[(k + 2) % n])];
       // Bars are of similar length, and links turn left at each joint.
       EXPECT_GT(std::hypot(b.x - a.x, b.y - a.y), 0.2);
       EXPECT_LT(std::hypot(b.x - a.x, b.y - a.y), 4);
@@ -75,7 +75,7 @@ TEST(Sketch, LaysTheGroundAtTheBottom) {
       EXPECT_NEAR(drawn.joints[linkwright::at(around.back())].y, 0, 1e-12);
       // Most of the chain lies above it.
       double mean = 0;
-      for (const Vec<double>& p : drawn.joints) mean += p.y;
+      for (const math::Vec2& p : drawn.joints) mean += p.y;
       EXPECT_GT(mean, 0) << chain.name << " ground " << ground + 1;
     }
 }

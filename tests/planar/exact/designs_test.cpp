@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/exact_cases.h"
 
 namespace linkwright::planar {

@@ -70,15 +70,15 @@ TEST(FourBarAsLinkage, HasTheLimitsOfBothSidesWhereBranchesMeet) {
     const auto rate = [&](double angle) { return rates(beside(angle), angle, 3, 7); };
     const auto force = [&](double angle) { return reactions(beside(angle), masses, rate(angle), 0); };
     const std::complex<double> frame = std::polar(1.0, l.frame_angle);
-    const Vec<double> pin = point_on(here.motion.parts[3], vec(l.rocker * frame)),
-                      tracing = point_on(here.motion.parts[2],
-                                         vec(std::complex<double>(l.coupler_u, l.coupler_v) * frame));
-    const auto place = [&](double Vec<double>::*c, std::complex<double> FourBarPosition::*of) {
-      return [=](double a) { return c == &Vec<double>::x ? (pose(a).*of).real() : (pose(a).*of).imag(); };
+    const math::Vec2 pin = point_on(here.motion.parts[3], math::vec(l.rocker * frame)),
+                     tracing = point_on(here.motion.parts[2],
+                                        math::vec(std::complex<double>(l.coupler_u, l.coupler_v) * frame));
+    const auto place = [&](double math::Vec2::*c, std::complex<double> FourBarPosition::*of) {
+      return [=](double a) { return c == &math::Vec2::x ? (pose(a).*of).real() : (pose(a).*of).imag(); };
     };
-    expect(pin.x, place(&Vec<double>::x, &FourBarPosition::coupler_pin), 1e-10, "B x");
-    expect(pin.y, place(&Vec<double>::y, &FourBarPosition::coupler_pin), 1e-10, "B y");
-    expect(tracing.x, place(&Vec<double>::x, &FourBarPosition::coupler_point), 1e-10, "C x");
+    expect(pin.x, place(&math::Vec2::x, &FourBarPosition::coupler_pin), 1e-10, "B x");
+    expect(pin.y, place(&math::Vec2::y, &FourBarPosition::coupler_pin), 1e-10, "B y");
+    expect(tracing.x, place(&math::Vec2::x, &FourBarPosition::coupler_point), 1e-10, "C x");
     const auto rate_of = [&](double FourBarRates::*of) { return [=](double a) { return rate(a).*of; }; };
     expect(here.motion.parts[2].speed, rate_of(&FourBarRates::coupler_speed), 1e-8, "speed");
     expect(here.motion.parts[3].speed, rate_of(&FourBarRates::rocker_speed), 1e-8, "speed");
@@ -110,7 +110,7 @@ TEST(FourBarAsLinkage, ForcesThatStayFiniteAreThere) {
     const OnBothBranches here = smooth_at(l, uniform, 0, angle == 0 ? 0.1 : 3, angle, 10, 0);
     ASSERT_EQ(here.forces.status, Status::done) << angle;
     const double sense = std::cos(angle);
-    const Vec<double> on_crank = here.forces.joints[0].force, on_rocker = here.forces.joints[3].force;
+    const math::Vec2 on_crank = here.forces.joints[0].force, on_rocker = here.forces.joints[3].force;
     EXPECT_NEAR(on_rocker.x, -sense * 100 * (1 * 0.1 + 1.5 * 0.2), 1e-6);
     EXPECT_NEAR(on_rocker.y, 0, 1e-6);
     EXPECT_NEAR(on_crank.x, on_rocker.x, 1e-6);

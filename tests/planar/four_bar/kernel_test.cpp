@@ -32,7 +32,7 @@ std::array<T, 2> coupler_point(const std::array<T, parameter_count>& q, double b
   using std::cos, std::sin;
   const T wx = q[1] * cos(q[9]), wy = q[1] * sin(q[9]);
   const Closure<T> closure = close_loop(q[0], T(0.0), wx, wy, q[2], q[3], T(branch));
-  const Direction<T> v = coupler_direction(closure, q[2]);
+  const math::Vector2<T> v = coupler_direction(closure, q[2]);
   const T zx = wx + q[4] * v.x - q[5] * v.y, zy = wy + q[4] * v.y + q[5] * v.x;
   const T c = cos(q[8]), s = sin(q[8]);
   return {q[6] + c * zx - s * zy, q[7] + s * zx + c * zy};
@@ -110,14 +110,14 @@ TEST(FourBarKernel, BatchesGiveTheBitsOfTheScalar) {
     const auto lanes = [&](int j) { return Batch::load_unaligned(q[j]); };
     const Closure<Batch> batch =
         close_loop(lanes(0), lanes(1), lanes(2), lanes(3), lanes(4), lanes(5), Batch::load_unaligned(side));
-    const Direction<Batch> direction = coupler_direction(batch, lanes(4));
+    const math::Vector2<Batch> direction = coupler_direction(batch, lanes(4));
     double out[6][2];
     const Batch results[6] = {batch.nx, batch.ny, batch.r2, batch.radicand, direction.x, direction.y};
     for (int j = 0; j < 6; ++j) results[j].store_unaligned(out[j]);
     for (int lane = 0; lane < 2; ++lane) {
       const Closure<double> one =
           close_loop(q[0][lane], q[1][lane], q[2][lane], q[3][lane], q[4][lane], q[5][lane], side[lane]);
-      const Direction<double> v = coupler_direction(one, q[4][lane]);
+      const math::Vec2 v = coupler_direction(one, q[4][lane]);
       const double expected[6] = {one.nx, one.ny, one.r2, one.radicand, v.x, v.y};
       for (int j = 0; j < 6; ++j)
         EXPECT_EQ(std::bit_cast<std::uint64_t>(out[j][lane]), std::bit_cast<std::uint64_t>(expected[j]));

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/rates.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -10,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/reactions_cases.h"
 #include "support/message.h"
 

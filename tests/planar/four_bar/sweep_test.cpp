@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/four_bar/detail/sweep_kernel.h"
 #include "planar/reactions_cases.h"
 #include "support/allocations.h"
 #include "support/message.h"

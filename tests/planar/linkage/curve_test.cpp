@@ -100,7 +100,7 @@ TEST(LinkageCurve, FindsTheNearestPlace) {
   ASSERT_FALSE(modes.found.empty());
   std::vector<PartState<double>> parts = modes.found[0].parts;
   const std::vector<PartState<double>> exact = parts;
-  for (std::size_t k = 1; k < parts.size(); ++k) parts[k].origin = parts[k].origin + Vec<double>{1e-3, -1e-3};
+  for (std::size_t k = 1; k < parts.size(); ++k) parts[k].origin = parts[k].origin + math::Vec2{1e-3, -1e-3};
   double value = 0.4;
   ASSERT_TRUE(nearest_place(p, along_input(std::vector<double>{0.4}, 0), value, parts));
   EXPECT_NEAR(value, 0.4, 0.02);

@@ -21,8 +21,8 @@ TEST(LinkageGeneral, FindsThePlaceFromAfar) {
   LinkageMotion near(p), far(p);
   const std::vector<InputMotion> in{{0, 1, 0}};
   for (std::size_t k = 2; k < far.parts.size(); ++k) {
-    far.parts[k].origin = far.parts[k].origin + Vec<double>{0.03, -0.02};
-    far.parts[k].direction = unit(angle_of(far.parts[k].direction) + 0.2);
+    far.parts[k].origin = far.parts[k].origin + math::Vec2{0.03, -0.02};
+    far.parts[k].direction = math::unit(angle_of(far.parts[k].direction) + 0.2);
   }
   solve_position(p, in, near);
   solve_position(p, in, far);
@@ -100,7 +100,7 @@ TEST(LinkageGeneral, DrivesACylinderBetweenMovingBodies) {
   ASSERT_EQ(m.status, Status::done);
   EXPECT_LE(open_joints(l, p, m), 1e-14);
   const PartState<double> boom = body_state(p, m, 1);
-  const Vec<double> b = boom.direction, c{0.4, -0.3};
+  const math::Vec2 b = boom.direction, c{0.4, -0.3};
   EXPECT_NEAR(norm(b - c), length, 1e-15);
   const double lever = cross(b, (1 / length) * (b - c));  // lever of the cylinder's force about O
   EXPECT_NEAR(boom.speed, 0.1 / lever, 1e-13);

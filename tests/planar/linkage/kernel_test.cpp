@@ -57,7 +57,7 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
   for (const auto& [mode, sign] : {std::pair{1.0, "+1"}, {-1.0, "-1"}}) {
     std::vector<double> e = expected(std::string("RRR") + sign);
     std::vector<PartState<double>> parts = placed(rrr, mode, DyadType::rrr);
-    Vec<double> c = point_on(parts[1], {1.2, 0});
+    math::Vec2 c = point_on(parts[1], {1.2, 0});
     EXPECT_NEAR(c.x, e[0], 1e-10);
     EXPECT_NEAR(c.y, e[1], 1e-10);
     EXPECT_LE(norm(point_on(parts[2], {0.9, 0}) - c), 1e-15);
@@ -66,11 +66,11 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
     c = point_on(parts[1], {1.2, 0});
     EXPECT_NEAR(c.x, e[0], 1e-10);
     EXPECT_NEAR(c.y, e[1], 1e-10);
-    EXPECT_NEAR(dot(unit(0.7), c - Vec<double>{0.5, -0.3}), e[2], 1e-10);
+    EXPECT_NEAR(dot(math::unit(0.7), c - math::Vec2{0.5, -0.3}), e[2], 1e-10);
     e = expected(std::string("RPR") + sign);
     parts = placed(rpr, mode, DyadType::rpr);
     EXPECT_NEAR(std::remainder(angle_of(parts[1].direction) - e[0], 2 * std::acos(-1.0)), 0, 1e-10);
-    EXPECT_NEAR(dot(parts[1].direction, vec(b - a)), e[1], 1e-10);
+    EXPECT_NEAR(dot(parts[1].direction, math::vec(b - a)), e[1], 1e-10);
   }
 
   Linkage prp = grounded({{"A", a}, {"B", b}});
@@ -95,10 +95,10 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
   add_slide(rpp, "guide", "ground.B", "second.P", 2.4, 2.4);
   e = expected("RPP");
   parts = placed(rpp, 1, DyadType::rpp);
-  const Vec<double> p = parts[2].origin;
-  EXPECT_NEAR(dot(unit(2.4), p - vec(b)), e[0], 1e-10);
-  EXPECT_NEAR(cross(unit(2.4), p - vec(b)), 0, 1e-15);
-  EXPECT_NEAR(dot(unit(0.9), vec(a) - p), e[1], 1e-10);
+  const math::Vec2 p = parts[2].origin;
+  EXPECT_NEAR(dot(math::unit(2.4), p - math::vec(b)), e[0], 1e-10);
+  EXPECT_NEAR(cross(math::unit(2.4), p - math::vec(b)), 0, 1e-15);
+  EXPECT_NEAR(dot(math::unit(0.9), math::vec(a) - p), e[1], 1e-10);
 }
 
 // One batch of positions in the place of single ones: motion and joint forces of every sample in closed form.
@@ -112,7 +112,7 @@ TEST(LinkageKernel, IsTheSameForBatches) {
     if (!plain || !s.linkage.springs.empty() || !s.linkage.torques.empty() || !s.linkage.forces.empty())
       continue;
     SCOPED_TRACE(s.name);
-    const Vec<double> gravity = vec(s.linkage.gravity);
+    const math::Vec2 gravity = math::vec(s.linkage.gravity);
     std::vector<PartState<B>> parts(p.parts.size());
     const B zero(0.0), one(1.0);
     parts[0] = {{zero, zero}, {one, zero}, {zero, zero}, zero, {zero, zero}, zero};
@@ -140,7 +140,7 @@ TEST(LinkageKernel, IsTheSameForBatches) {
       }
     }
     for (std::size_t k = 1; k < parts.size(); ++k)
-      needed[k] = needed_wrench(p.masses[k], parts[k], broadcast<B>(gravity));
+      needed[k] = needed_wrench(p.masses[k], parts[k], math::broadcast<B>(gravity));
     std::vector<Wrench<B>> torque(p.inputs());
     for (std::size_t k = p.groups.size(); k-- > 0;) {
       const Group& g = p.groups[k];

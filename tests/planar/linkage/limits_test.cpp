@@ -10,7 +10,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"
 

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
-#include "linkwright/planar/four_bar/rates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/general.h"
 #include "planar/four_bars.h"
 #include "planar/linkage_changes.h"
@@ -49,7 +49,7 @@ TEST(LinkageMotion, RatesAreDerivatives) {
           solve_motion(p, in, n);
           for (std::size_t k = 0; k < parts; ++k) {
             const PartState<double>& b = n.parts[k + 1];
-            const Vec<double> turning = b.speed * perpendicular(b.direction);
+            const math::Vec2 turning = b.speed * perpendicular(b.direction);
             const double values[] = {b.origin.x,   b.origin.y,   b.direction.x, b.direction.y,
                                      b.velocity.x, b.velocity.y, b.speed};
             const double rates[] = {
@@ -150,10 +150,10 @@ RC_GTEST_PROP(LinkageMotionOfAFourBar, AgreesWithItsClosedForm, ()) {
                s = std::abs(r.transmission_sine), ratio = size / std::min({b.coupler, b.rocker});
   const double near = 1e-14 * ratio / s;
   const PartState<double> coupler = body_state(p, m, 2), rocker = body_state(p, m, 3);
-  RC_ASSERT(norm(place_of(l, p, m, "coupler.B") - vec(place.coupler_pin)) <= near * size);
-  RC_ASSERT(norm(place_of(l, p, m, "coupler.C") - vec(place.coupler_point)) <=
+  RC_ASSERT(norm(place_of(l, p, m, "coupler.B") - math::vec(place.coupler_pin)) <= near * size);
+  RC_ASSERT(norm(place_of(l, p, m, "coupler.C") - math::vec(place.coupler_point)) <=
             near * (size + std::abs(b.coupler_u) + std::abs(b.coupler_v)));
-  RC_ASSERT(norm(coupler.direction - vec(r.coupler_direction)) <= near);
+  RC_ASSERT(norm(coupler.direction - math::vec(r.coupler_direction)) <= near);
   const double fast = 1 + std::max(std::abs(r.coupler_speed), std::abs(r.rocker_speed));
   RC_ASSERT(std::abs(coupler.speed - r.coupler_speed) <= 10 * near * ratio / s * fast);
   RC_ASSERT(std::abs(rocker.speed - r.rocker_speed) <= 10 * near * ratio / s * fast);
@@ -191,8 +191,8 @@ RC_GTEST_PROP(LinkageMotionOfASliderCrank, AgreesWithItsFormula, ()) {
                                       (l2 * std::cos(theta2 - delta) + l3 * std::cos(theta3 - delta)) * e -
                                       h * i * e;
   // asin loses half of its digits towards 1: slack over l3 is at least 0.01 / 4.
-  RC_ASSERT(norm(place_of(l, p, m, "rod.C") - vec(c)) <= 1e-12);
-  RC_ASSERT(norm(place_of(l, p, m, "slider.pin") - vec(slider)) <= 1e-12);
+  RC_ASSERT(norm(place_of(l, p, m, "rod.C") - math::vec(c)) <= 1e-12);
+  RC_ASSERT(norm(place_of(l, p, m, "slider.pin") - math::vec(slider)) <= 1e-12);
 }
 
 // ---- published chains of dyads
@@ -271,7 +271,7 @@ TEST(LinkageMotion, MeetsThePublishedChains) {
       LinkageMotion m(p);
       solve_position(p, in, m);
       const std::vector<double> expected = numbers(at(values, c.key));
-      const Vec<double> found = place_of(c.linkage, p, m, c.point);
+      const math::Vec2 found = place_of(c.linkage, p, m, c.point);
       EXPECT_NEAR(found.x, expected[0], 1e-10) << c.key << " at " << degrees;
       EXPECT_NEAR(found.y, expected[1], 1e-10) << c.key << " at " << degrees;
     }

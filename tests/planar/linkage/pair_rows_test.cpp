@@ -146,7 +146,7 @@ void agrees(Linkage l, const std::vector<double>& angles) {
     EXPECT_LE(open_joints(l, p, m), 1e-12);
     n.parts = m.parts;
     for (std::size_t k = 1; k < n.parts.size(); ++k)
-      n.parts[k].direction = rotate(n.parts[k].direction, unit(1e-3));
+      n.parts[k].direction = rotate(n.parts[k].direction, math::unit(1e-3));
     solve_motion(q, std::vector<InputMotion>{{angle, 2, 1.5}}, n);
     ASSERT_EQ(n.status, Status::done);
     for (std::size_t k = 1; k < m.parts.size(); ++k) {

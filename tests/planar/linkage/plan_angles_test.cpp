@@ -182,7 +182,7 @@ TEST(PlanAngles, TrainsPressTheirTeethAtThePitchPoints) {
   EXPECT_NEAR(norm(joint("sun").force), number_at(wanted, "sun_bearing_force_N"), 1e-10);
   const auto vector = [&](const char* key) {
     const std::vector<double> v = numbers(at(wanted, key));
-    return Vec<double>{v[0], v[1]};
+    return math::Vec2{v[0], v[1]};
   };
   EXPECT_LE(norm(sun.force - vector("mesh_force_on_planet_by_sun_N")), 1e-9);
   EXPECT_LE(norm(ring.force + vector("mesh_force_on_planet_by_ring_N")), 1e-9);
@@ -344,7 +344,7 @@ TEST(PlanAngles, GearsFollowARodOnAnArm) {
     solve_motion(p, in, m);
     ASSERT_EQ(m.status, Status::done);
     if (k == 0) {
-      EXPECT_LE(norm(place_of(l, p, m, "rod.B") - Vec<double>{0.036916, 4.928040}), 1e-6);
+      EXPECT_LE(norm(place_of(l, p, m, "rod.B") - math::Vec2{0.036916, 4.928040}), 1e-6);
     }
     sun.push_back(angle_of(body_state(p, m, body_index(l, "sun")).direction));
   }
@@ -373,8 +373,8 @@ TEST(PlanAngles, APlanetMovesADyad) {
   for (const Value& row : at(machine("gear-cycloidal-crank-rocker"), "computed.rows").as_array()) {
     const std::vector<double> v = numbers(row);
     solve_motion(p, std::vector<InputMotion>{{math::radians(v[0]), 0, 0}}, m);
-    EXPECT_LE(norm(place_of(l, p, m, "planet.Q") - Vec<double>{v[1], v[2]}), 1e-12);
-    EXPECT_LE(norm(place_of(l, p, m, "coupler.B") - Vec<double>{v[3], v[4]}), 1e-12);
+    EXPECT_LE(norm(place_of(l, p, m, "planet.Q") - math::Vec2{v[1], v[2]}), 1e-12);
+    EXPECT_LE(norm(place_of(l, p, m, "coupler.B") - math::Vec2{v[3], v[4]}), 1e-12);
   }
 }
 
@@ -406,7 +406,7 @@ TEST(PlanAngles, AgreeWithDifferencesAndWithAllAtOnce) {
         EXPECT_LE(norm((1 / (2 * h)) * (c.velocity - a.velocity) - b.acceleration), 1e-7);
       }
       n.parts = m.parts;
-      for (PartState<double>& part : n.parts) part.direction = rotate(part.direction, unit(1e-3));
+      for (PartState<double>& part : n.parts) part.direction = rotate(part.direction, math::unit(1e-3));
       n.parts[0] = m.parts[0];
       const std::vector<InputMotion> in{{angle, 2, 1.5}};
       solve_motion(q, in, n);
@@ -437,7 +437,7 @@ TEST(PlanAngles, TurnsOfLoopsAreCounted) {
     l.bodies[index(body)].points[1].at = length;
   const LinkagePlan p = planned(l);
   LinkageMotion m(p);
-  std::vector<Vec<double>> pinion;
+  std::vector<math::Vec2> pinion;
   for (int k = 0; k <= 720; ++k) {
     solve_position(p, std::vector<InputMotion>{{math::radians(k), 0, 0}}, m);
     ASSERT_EQ(m.status, Status::done);

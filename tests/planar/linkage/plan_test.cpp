@@ -107,8 +107,9 @@ TEST(LinkagePlan, DrivesSlidesEitherWay) {
     solve_motion(p, in, m);
     solve_forces(l, p, m, 0, 0, f);
     const double sign = swapped ? -1 : 1;
-    EXPECT_LE(norm(place_of(l, p, m, "slider.middle") - (Vec<double>{0.1, 0.2} + sign * 0.7 * unit(0.2))),
-              1e-15);
+    EXPECT_LE(
+        norm(place_of(l, p, m, "slider.middle") - (math::Vec2{0.1, 0.2} + sign * 0.7 * math::unit(0.2))),
+        1e-15);
     EXPECT_NEAR(angle_of(m.parts[1].direction), -0.3, 1e-15);
     EXPECT_NEAR(f.drives[0], 8, 1e-14);  // force on the second body, along the slide: pushes them apart
     EXPECT_NEAR(f.drive_power, 8, 1e-14);
@@ -129,10 +130,10 @@ TEST(LinkagePlan, JoinsWeldedBodies) {
   LinkageMotion m(p);
   const std::vector<InputMotion> in{{0, 1, 0}};
   solve_motion(p, in, m);
-  EXPECT_LE(norm(place_of(l, p, m, "b.end") - Vec<double>{1, 1}), 1e-15);
-  EXPECT_LE(norm(place_of(l, p, m, "c.end") - Vec<double>{0, 1}), 1e-15);
+  EXPECT_LE(norm(place_of(l, p, m, "b.end") - math::Vec2{1, 1}), 1e-15);
+  EXPECT_LE(norm(place_of(l, p, m, "c.end") - math::Vec2{0, 1}), 1e-15);
   EXPECT_NEAR(p.masses[1].mass, 3, 1e-15);
-  EXPECT_LE(norm(p.masses[1].moment - Vec<double>{0.5 + 1 + 0.5, 0.5 + 1}), 1e-15);
+  EXPECT_LE(norm(p.masses[1].moment - math::Vec2{0.5 + 1 + 0.5, 0.5 + 1}), 1e-15);
   EXPECT_EQ(mobility(l), 1);
 }
 // A drive counts from the frames of its bodies, also where they are welded to others; along groups, all at
@@ -162,11 +163,11 @@ TEST(LinkagePlan, DrivesFromTheFramesOfWeldedBodies) {
     const std::vector<InputMotion> in{{0.3, 2, 0}};
     solve_motion(p, in, m);
     ASSERT_EQ(m.status, Status::done);
-    EXPECT_LE(norm(body_state(p, m, 3).direction - unit(pi / 2 + 0.3)), 1e-15);
-    EXPECT_LE(norm(body_state(p, m, 2).direction - unit(pi / 2 + 0.3 - 0.4)), 1e-15);
+    EXPECT_LE(norm(body_state(p, m, 3).direction - math::unit(pi / 2 + 0.3)), 1e-15);
+    EXPECT_LE(norm(body_state(p, m, 2).direction - math::unit(pi / 2 + 0.3 - 0.4)), 1e-15);
     EXPECT_LE(open_joints(l, p, m), 1e-14);
     if (geared) {
-      EXPECT_LE(norm(body_state(p, m, 4).direction - unit(pi + 0.6 + 0.1)), 1e-15);
+      EXPECT_LE(norm(body_state(p, m, 4).direction - math::unit(pi + 0.6 + 0.1)), 1e-15);
     }
   }
 }

@@ -5,7 +5,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -124,7 +124,7 @@ TEST(LinkageQuality, ThreeInstantCentresLieOnALine) {
                               c = instant_centre(p, m, i, k);
           if (a.kind != InstantCentre::Kind::point || b.kind != a.kind || c.kind != a.kind) continue;
           ++lines;
-          const Vec<double> u = b.position - a.position, v = c.position - a.position;
+          const math::Vec2 u = b.position - a.position, v = c.position - a.position;
           // Rounding of the positions over the shortest of the sides.
           EXPECT_NEAR(cross(u, v) / (norm(u) * norm(v) + 1e-6), 0, 1e-9);
         }
@@ -196,13 +196,13 @@ TEST(LinkageQuality, InflectionCircleHoldsThePointsWithoutCurvature) {
     const PartState<double> base = body_state(p, m, reference),
                             s = relative_motion(base, body_state(p, m, body));
     for (int i = 1; i < 8; ++i) {
-      const Vec<double> start = g.pole - g.circle_centre;
-      const Vec<double> x = g.circle_centre + rotate(unit(0.7 * i), start);
-      const Vec<double> r = rotate_inverse(base.direction, x - base.origin);
+      const math::Vec2 start = g.pole - g.circle_centre;
+      const math::Vec2 x = g.circle_centre + rotate(math::unit(0.7 * i), start);
+      const math::Vec2 r = rotate_inverse(base.direction, x - base.origin);
       const PointMotion point{r, velocity_at(s, r), acceleration_at(s, r)};
       EXPECT_NEAR(path_curvature(point) * g.circle_radius, 0, 1e-11);
     }
-    const Vec<double> still = rotate_inverse(base.direction, g.acceleration_pole - base.origin);
+    const math::Vec2 still = rotate_inverse(base.direction, g.acceleration_pole - base.origin);
     EXPECT_NEAR(norm(acceleration_at(s, still)), 0, 1e-12);
   }
   // A point that runs round a pivot has the curvature of its circle.

@@ -103,11 +103,11 @@ TEST(LinkageReactions, GiveTheRatesOfEnergyAndMomentum) {
         r[0] = now.kinetic_energy, r[1] = now.momentum.x, r[2] = now.momentum.y, r[3] = now.angular;
         if (jacobian.empty()) return n.status == Status::done;
         solve_forces(l, p, n, 0, 0, f);
-        const Vec<double> weight = now.mass * vec(l.gravity);
+        const math::Vec2 weight = now.mass * math::vec(l.gravity);
         jacobian[0] = f.kinetic_power;
         jacobian[1] = weight.x - f.shaking_force.x;
         jacobian[2] = weight.y - f.shaking_force.y;
-        jacobian[3] = cross(now.first_moment, vec(l.gravity)) - f.shaking_moment_with_drive;
+        jacobian[3] = cross(now.first_moment, math::vec(l.gravity)) - f.shaking_moment_with_drive;
         return n.status == Status::done;
       };
       const std::vector<double> now{0}, scale{0.05};
@@ -170,16 +170,16 @@ RC_GTEST_PROP(LinkageReactionsOfAFourBar, AgreeWithItsClosedForm, ()) {
                s = std::abs(r.transmission_sine);
   // Rounding of places 1e-15 size, times 1 / s a derivative and once for the forces.
   const double near = 1e-14 * ratio * ratio / (s * s * s) * largest;
-  RC_ASSERT(norm(f.joints[0].force - vec(known.ground_on_crank)) <= near);
-  RC_ASSERT(norm(f.joints[1].force - vec(known.crank_on_coupler)) <= near);
-  RC_ASSERT(norm(f.joints[2].force - vec(known.rocker_on_coupler)) <= near);
-  RC_ASSERT(norm(f.joints[3].force - vec(known.ground_on_rocker)) <= near);
-  RC_ASSERT(norm(f.shaking_force - vec(known.shaking_force)) <= 2 * near);
+  RC_ASSERT(norm(f.joints[0].force - math::vec(known.ground_on_crank)) <= near);
+  RC_ASSERT(norm(f.joints[1].force - math::vec(known.crank_on_coupler)) <= near);
+  RC_ASSERT(norm(f.joints[2].force - math::vec(known.rocker_on_coupler)) <= near);
+  RC_ASSERT(norm(f.joints[3].force - math::vec(known.ground_on_rocker)) <= near);
+  RC_ASSERT(norm(f.shaking_force - math::vec(known.shaking_force)) <= 2 * near);
   const double moment = near * (size + masses.crank.centre_distance + masses.coupler.centre_distance) +
                         1e-13 * (masses.crank.inertia + 5 * 9) * std::abs(acceleration);
   RC_ASSERT(std::abs(f.drives[0] - known.drive_torque) <= moment);
   // About O instead of the global origin.
-  const double lever = cross(vec(crank_pivot(b)), f.shaking_force);
+  const double lever = cross(math::vec(crank_pivot(b)), f.shaking_force);
   const double wide = moment + near * (std::abs(b.pivot_x) + std::abs(b.pivot_y));
   RC_ASSERT(std::abs(f.shaking_moment - lever - known.shaking_moment) <= 2 * wide);
   RC_ASSERT(std::abs(f.shaking_moment_with_drive - lever - known.shaking_moment_with_drive) <= 3 * wide);
@@ -244,7 +244,7 @@ TEST(LinkageReactions, AreLinearInTheBaseParameters) {
     LinkageForces base, sum;
     solve_forces(s.linkage, p, m, 0, 0, base);
     const std::vector<PartMass> masses = p.masses;
-    std::vector<Vec<double>> joints(base.joints.size(), {0, 0});
+    std::vector<math::Vec2> joints(base.joints.size(), {0, 0});
     double drive = 0;
     for (std::size_t k = 1; k < masses.size(); ++k)
       for (int what = 0; what < 4; ++what) {
@@ -404,7 +404,7 @@ TEST(LinkageReactions, OfAPlanetGear) {
   const std::vector<InputMotion> in{{0.3, 6, 4}};
   solve_motion(p, in, m);
   EXPECT_NEAR(body_state(p, m, 2).speed, 18, 1e-14);
-  EXPECT_LE(norm(body_state(p, m, 2).direction - unit(0.9)), 1e-14);
+  EXPECT_LE(norm(body_state(p, m, 2).direction - math::unit(0.9)), 1e-14);
   EXPECT_LE(open_joints(l, p, m), 1e-14);
   solve_forces(l, p, m, 0, 0, f);
   EXPECT_LE(unbalance(l, p, m, f), 1e-12);
@@ -517,7 +517,7 @@ TEST(LinkageReactions, OfAPlanetGearBetweenWeldedBodies) {
   const std::vector<InputMotion> in{{0.3, 6, 4}};
   solve_motion(p, in, m);
   // The arm stands at 0.6: the planet at 0.6 - 2 (0 - 0.6) + 0.2.
-  EXPECT_LE(norm(body_state(p, m, 4).direction - unit(2.0)), 1e-14);
+  EXPECT_LE(norm(body_state(p, m, 4).direction - math::unit(2.0)), 1e-14);
   EXPECT_LE(open_joints(l, p, m), 1e-14);
   solve_forces(l, p, m, 0, 0, f);
   EXPECT_LE(unbalance(l, p, m, f), 1e-12 * largest_force(f));
@@ -551,7 +551,7 @@ TEST(LinkageReactions, OfASlotAreNormalToIt) {
     solve_motion(p, in, m);
     solve_forces(s.linkage, p, m, 0, 0, f);
     const JointReaction& r = f.joints[index(slot)];
-    const Vec<double> along = body_state(p, m, body_index(s.linkage, "lever")).direction;
+    const math::Vec2 along = body_state(p, m, body_index(s.linkage, "lever")).direction;
     EXPECT_NEAR(dot(along, r.force), 0, 1e-12 * norm(r.force));
     EXPECT_NEAR(r.moment, 0, 1e-15 * norm(r.force));
     EXPECT_LE(norm(r.point - place_of(s.linkage, p, m, "crank.A")), 1e-15);
@@ -659,7 +659,7 @@ TEST(LinkageReactions, ShakingForceIsThatOfTheGroundsJoints) {
   solve_motion(p, in, m);
   solve_forces(l, p, m, 0, in[0].value, f);
   ASSERT_EQ(f.status, Status::done);
-  Vec<double> sum{0, 0};
+  math::Vec2 sum{0, 0};
   double moment = 0;
   for (std::size_t j = 0; j < l.joints.size(); ++j) {
     if (l.joints[j].first.body != 0 && l.joints[j].second.body != 0) continue;

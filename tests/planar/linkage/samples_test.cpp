@@ -106,7 +106,7 @@ TEST(LinkageSamples, ComeBackAfterATurn) {
   for (const LinkageSample& s : linkage_samples()) {
     if (std::abs(s.to[0] - s.from[0] - 2 * pi) > 1e-12) continue;
     SCOPED_TRACE(s.name);
-    Vec<double> start{0, 0}, end{0, 0};
+    math::Vec2 start{0, 0}, end{0, 0};
     sweep(s, 90, [&](double share, const LinkagePlan& p, const LinkageMotion& m) {
       if (share == 0) start = place_of(s.linkage, p, m, s.traces[0]);
       if (share == 1) end = place_of(s.linkage, p, m, s.traces[0]);
@@ -133,7 +133,7 @@ TEST(Peaucellier, DrawsAStraightLine) {
   const LinkageSample& s = linkage_sample("peaucellier");
   double low = 0, high = 0;
   sweep(s, 720, [&](double, const LinkagePlan& p, const LinkageMotion& m) {
-    const Vec<double> pen = place_of(s.linkage, p, m, "side 3.pen");
+    const math::Vec2 pen = place_of(s.linkage, p, m, "side 3.pen");
     EXPECT_NEAR(pen.x, 0.3375, 1e-13);
     low = std::min(low, pen.y), high = std::max(high, pen.y);
   });
@@ -149,7 +149,7 @@ TEST(Hoeken, IsStraightOverHalfATurn) {
   const LinkageSample& s = linkage_sample("hoeken");
   double low = 1e9, high = -1e9, left = 1e9, right = -1e9;
   sweep(s, 720, [&](double share, const LinkagePlan& p, const LinkageMotion& m) {
-    const Vec<double> pen = 10.0 * place_of(s.linkage, p, m, "coupler.pen");
+    const math::Vec2 pen = 10.0 * place_of(s.linkage, p, m, "coupler.pen");
     const double c = std::cos(2 * pi * share);
     EXPECT_NEAR(pen.y, (2 - c) * std::sqrt((20 + 4 * c) / (5 - 4 * c)), 1e-13);
     if (share < 0.25 || share > 0.75) return;
@@ -180,7 +180,7 @@ TEST(Chebyshev, IsStraightBetweenUprightCranks) {
   EXPECT_NEAR(pen(pi / 2).x, 0, 1e-13);
   double low = 1e9, high = -1e9;
   for (int i = 0; i <= 400; ++i) {
-    const Vec<double> here = pen(0.66 + (pi / 2 - 0.66) * i / 400);
+    const math::Vec2 here = pen(0.66 + (pi / 2 - 0.66) * i / 400);
     low = std::min(low, here.y), high = std::max(high, here.y);
   }
   EXPECT_GE(low, 4 - 0.012);
@@ -210,7 +210,7 @@ TEST(GearedFiveBar, KeepsTheRatio) {
   sweep(s, 90, [&](double share, const LinkagePlan& p, const LinkageMotion& m) {
     const PartState<double> second = body_state(p, m, body_index(s.linkage, "second crank"));
     EXPECT_NEAR(second.speed, -2 * s.speed, 1e-14);
-    EXPECT_LE(norm(second.direction - unit(0.4 - 2 * 2 * pi * share)), 1e-14);
+    EXPECT_LE(norm(second.direction - math::unit(0.4 - 2 * 2 * pi * share)), 1e-14);
   });
 }
 
@@ -223,7 +223,7 @@ Gait gait(const LinkageSample& s, double band) {
   Gait g;
   std::vector<double> heights;
   sweep(s, 720, [&](double, const LinkagePlan& p, const LinkageMotion& m) {
-    const Vec<double> foot = place_of(s.linkage, p, m, s.traces[0]);
+    const math::Vec2 foot = place_of(s.linkage, p, m, s.traces[0]);
     heights.push_back(foot.y);
     g.low = std::min(g.low, foot.y), g.high = std::max(g.high, foot.y);
     g.left = std::min(g.left, foot.x), g.right = std::max(g.right, foot.x);
@@ -242,7 +242,7 @@ TEST(KlannLeg, WalksAsStated) {
   for (int i = 0; i <= 180; ++i) {
     const std::vector<InputMotion> in{{pi + pi * i / 180, 1, 0}};
     solve_motion(p, in, m);
-    const Vec<double> foot = place_of(s.linkage, p, m, "leg.foot");
+    const math::Vec2 foot = place_of(s.linkage, p, m, "leg.foot");
     left = std::min(left, foot.x), right = std::max(right, foot.x);
   }
   EXPECT_NEAR(right - left, 1.0, 0.01);

@@ -36,7 +36,7 @@ TEST(SliderCrank, IsTheSourcesMechanismOnBothSides) {
       const auto c = std::complex<double>(0.3, -0.1) + std::polar(0.4, angle) +
                      std::polar(1.0, rod) * std::complex<double>(0.5, 0.2);
       solve_position(planned.plan, std::vector<InputMotion>{{angle, 0, 0}}, motion);
-      const Vec<double> there = point_motion(planned.plan, motion, 2, {0.5, 0.2}).position;
+      const math::Vec2 there = point_motion(planned.plan, motion, 2, {0.5, 0.2}).position;
       EXPECT_NEAR(there.x, c.real(), 1e-14);
       EXPECT_NEAR(there.y, c.imag(), 1e-14);
     }

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "planar/linkage_sweeps.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/targets.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 namespace {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/serial_arm/dynamics.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/serial_arm_cases.h"
 #include "support/message.h"
 

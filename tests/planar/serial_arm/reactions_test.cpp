@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/serial_arm/reactions.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,6 +10,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/serial_arm/samples.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/serial_arm_cases.h"
 #include "support/allocations.h"
 #include "support/message.h"

@@ -120,7 +120,7 @@ TEST(Simulate, SqueezesAsAndrewsMechanism) {
   // The problem closes its three loops at E between the chain K1 K2 and K3, K5 K4 and K7 K6: its multipliers
   // are the forces of K3 on K4 and K6, and all together that of K2 on K3.
   const auto joint = [&](const char* name) { return forces.joints[index(joint_index(l, name))].force; };
-  const auto multiplier = [&](std::size_t i) { return Vec<double>{y[21 + 2 * i], y[22 + 2 * i]}; };
+  const auto multiplier = [&](std::size_t i) { return math::Vec2{y[21 + 2 * i], y[22 + 2 * i]}; };
   EXPECT_LT(norm(joint("E2") + (multiplier(0) + multiplier(1) + multiplier(2))), 3e-4);
   EXPECT_LT(norm(joint("E4") - multiplier(1)), 3e-5);
   EXPECT_LT(norm(joint("E6") - multiplier(2)), 3e-5);
@@ -163,7 +163,7 @@ TEST_P(Chain, PassesFlatPositionsOnItsBranch) {
       EXPECT_NEAR(std::cos(row.inputs[0].value), samples[i][1], 4.5e-6);
       EXPECT_NEAR(std::sin(row.inputs[0].value), samples[i][2], 4.5e-6);
     }
-    const Vec<double> first = row.parts[index(p.bodies[1].part)].direction;
+    const math::Vec2 first = row.parts[index(p.bodies[1].part)].direction;
     for (int k = 0; k <= loops; ++k) {
       const int rocker = body_index(l, "rocker " + std::to_string(k));
       EXPECT_LT(norm(row.parts[index(p.bodies[index(rocker)].part)].direction - first), 1e-10) << k;

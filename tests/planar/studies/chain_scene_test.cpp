@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/plane.h"
+#include "linkwright/math/vector2.h"
 
 namespace linkwright::planar {
 namespace {
@@ -58,11 +58,9 @@ TEST(ChainSheets, DrawGearsThatTouch) {
   const Scene sheet = chain_sheets(figures).front();
   ASSERT_EQ(sheet.circles.size(), 2u);
   EXPECT_EQ(sheet.circles[0].rim, sheet.circles[1].rim);
-  const auto at_point = [&](int k) {
-    return Vec<double>{sheet.points[at(k)].x[0], sheet.points[at(k)].y[0]};
-  };
-  const Vec<double> a = at_point(sheet.circles[0].centre), b = at_point(sheet.circles[1].centre),
-                    mesh = at_point(sheet.circles[0].rim);
+  const auto at_point = [&](int k) { return math::Vec2{sheet.points[at(k)].x[0], sheet.points[at(k)].y[0]}; };
+  const math::Vec2 a = at_point(sheet.circles[0].centre), b = at_point(sheet.circles[1].centre),
+                   mesh = at_point(sheet.circles[0].rim);
   EXPECT_NEAR(std::hypot(mesh.x - a.x, mesh.y - a.y), std::hypot(mesh.x - b.x, mesh.y - b.y), 1e-12);
 }
 

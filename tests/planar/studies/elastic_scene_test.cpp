@@ -42,8 +42,8 @@ TEST(LinkageElasticScene, LineOfABentBodyMovesAsItsEnds) {
   const double h = 1e-5;  // differences: h^2 = 1e-10 of the third derivatives, and rounding over h^2
   const PartState<double> before = b.line(-h), after = b.line(h), now = b.line(0);
   EXPECT_NEAR(norm(now.direction), 1, 1e-14);
-  const Vec<double> end = point_on(now, {0.4, 0});
-  const Vec<double> there =
+  const math::Vec2 end = point_on(now, {0.4, 0});
+  const math::Vec2 there =
       point_motion(b.elastic.plan, b.motion, b.elastic.pieces[0].bodies.back(), 0.4).position;
   EXPECT_NEAR(cross(now.direction, there - now.origin), 0, 1e-15);
   EXPECT_LT(norm(end - there), 1e-3);  // it is shorter by the square of the bend
@@ -93,7 +93,7 @@ TEST(LinkageElasticScene, DrawsPointsBesideTheBeam) {
   for (int k = 0; k < 2; ++k)
     first += static_cast<int>(b.rigid.bodies[static_cast<std::size_t>(k)].points.size());
   const study::Scene::Point& p = scene.points[static_cast<std::size_t>(first) + 2];
-  const Vec<double> there =
+  const math::Vec2 there =
       point_motion(b.elastic.plan, b.motion, b.elastic.pieces[0].bodies[3], {0.3, 0.1}).position;
   EXPECT_NEAR(p.x[0], there.x, 1e-14);
   EXPECT_NEAR(p.y[0], there.y, 1e-14);

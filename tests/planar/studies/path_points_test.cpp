@@ -7,7 +7,7 @@
 #include <string>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

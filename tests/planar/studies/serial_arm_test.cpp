@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 

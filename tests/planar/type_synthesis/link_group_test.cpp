@@ -189,7 +189,7 @@ TEST(LinkGroups, AreLinkagesThatStartAnywhere) {
         const InputMotion input{angles[k] + found.crank_angle, 0, 0};
         assembly.place(std::span(&input, 1), moving);
         ASSERT_EQ(moving.status, Status::done) << p->name << " at " << k;
-        const Vec<double> place = point_motion(planned.plan, moving, point.body, local).position;
+        const math::Vec2 place = point_motion(planned.plan, moving, point.body, local).position;
         EXPECT_LT(std::abs((std::complex<double>(place.x, place.y) - target.centre) / target.size - curve[k]),
                   1e-6)
             << p->name << ' ' << seed << " at " << k;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/constructions.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
+#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "tests/suspension/suspensions.h"

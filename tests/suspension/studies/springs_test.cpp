@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "linkwright/suspension/wheel/axle_sweep.h"
+#include "linkwright/suspension/wheel/axle.h"
 #include "suspension/pushrod_corner.h"
 #include "suspension/pushrod_study.h"
 

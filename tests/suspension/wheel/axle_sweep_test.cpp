@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/wheel/axle_sweep.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "linkwright/core/looks.h"
 #include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/wheel/axle.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"
 

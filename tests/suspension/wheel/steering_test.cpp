@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/wheel/steering.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/wheel/axle.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"
 

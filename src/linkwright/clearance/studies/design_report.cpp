@@ -152,8 +152,11 @@ class DesignReporter {
   double separation_angle(const DesignMeasures& d) const {
     return s_.mass.crank.angle + s_.mass.crank.speed * d.run.first_separation;
   }
+  struct PhaseRange {
+    double low, high;  // rad
+  };
   // Largest and least phase over the turn, wrapped about the wanted one.
-  std::pair<double, double> phases(const DesignMeasures& d) const {
+  PhaseRange phases(const DesignMeasures& d) const {
     double low = infinity, high = -infinity;
     for (const DesignRow& r : d.rows) {
       const double phase = phase_of(s_, r);

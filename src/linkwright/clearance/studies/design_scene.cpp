@@ -222,8 +222,8 @@ study::Scene design_scene(const ClearanceDesignStudy& s, const DesignMeasures& d
     // Without rates: what has speeds is drawn from the masses' motion below.
     const auto body = [&](std::complex<double> origin, double angle) {
       planar::PartState<double> out{};
-      out.origin = planar::vec(origin);
-      out.direction = planar::unit(angle);
+      out.origin = math::vec(origin);
+      out.direction = math::unit(angle);
       return out;
     };
     row.record.bodies = {body({0, 0}, 0), body(o2, r.crank), body(p.bush, p.coupler_angle),
@@ -232,14 +232,14 @@ study::Scene design_scene(const ClearanceDesignStudy& s, const DesignMeasures& d
     // The frame of the coupler moves so that the tracing point, the only point asked for, is right.
     planar::PartState<double>& coupler = row.record.bodies[2];
     const std::complex<double> arm = p.point - p.bush, i{0, 1};
-    coupler.velocity = planar::vec(r.instant.bush_velocity);
+    coupler.velocity = math::vec(r.instant.bush_velocity);
     coupler.speed = r.instant.coupler_rate;
     coupler.angular_acceleration = r.instant.coupler_acceleration;
-    coupler.acceleration = planar::vec(r.instant.point_acceleration - i * coupler.angular_acceleration * arm +
-                                       coupler.speed * coupler.speed * arm);
+    coupler.acceleration = math::vec(r.instant.point_acceleration - i * coupler.angular_acceleration * arm +
+                                     coupler.speed * coupler.speed * arm);
     const auto force = [](std::complex<double> f) {
       planar::JointReaction out;
-      out.force = planar::vec(f);
+      out.force = math::vec(f);
       return out;
     };
     row.record.joints = {force(r.instant.pin_force), force(r.instant.pin_force),

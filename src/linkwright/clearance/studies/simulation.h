@@ -99,7 +99,7 @@ struct PinInstant {
   double normal = 0, friction = 0;          ///< N; of continuous contact `normal` is the tension
   bool contact = false;
   double angle = 0, angle_rate = 0, angle_acceleration = 0;  ///< angle of the clearance link
-  planar::Vec<double> force{0, 0};                           ///< N, of the first body on the second
+  math::Vec2 force{0, 0};                                    ///< N, of the first body on the second
 };
 struct RecordedRow {
   double time = 0;

@@ -23,10 +23,10 @@ constexpr std::size_t max_compared = 20000;
 double distance_from(const std::vector<std::complex<double>>& path, std::complex<double> place) {
   double least = infinity;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const planar::Vec<double> along = planar::vec(path[i + 1] - path[i]), way = planar::vec(place - path[i]);
+    const math::Vec2 along = math::vec(path[i + 1] - path[i]), way = math::vec(place - path[i]);
     const double square = dot(along, along);
     const double share = square > 0 ? std::clamp(dot(along, way) / square, 0.0, 1.0) : 0;
-    const planar::Vec<double> off = way - share * along;
+    const math::Vec2 off = way - share * along;
     least = std::min(least, dot(off, off));
   }
   return std::isfinite(least) ? std::sqrt(least) : nan;

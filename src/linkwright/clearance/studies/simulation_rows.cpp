@@ -12,7 +12,7 @@
 
 namespace linkwright::clearance {
 
-using planar::InputMotion, planar::Vec;
+using planar::InputMotion;
 
 namespace {
 
@@ -20,13 +20,13 @@ namespace {
 double angle_in(const planar::LinkagePlan& plan, const planar::LinkageMotion& motion, int body,
                 std::complex<double> vector) {
   return math::angle_difference(std::arg(vector),
-                                planar::angle_of(planar::body_state(plan, motion, body).direction));
+                                math::angle_of(planar::body_state(plan, motion, body).direction));
 }
 
 }  // namespace
 
-Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                     const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
+math::Vec2 place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
+                    const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
   return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
 }
 
@@ -125,7 +125,7 @@ bool ClearanceRows::add(const JointClearanceRow& c) {
         (pin_first ? -clearances_[k] : clearances_[k]) * std::polar(1.0, state.angle);
     // The pin of the bar at its carrier has the number of the joint.
     const bool by_first = cleared_->bars[k].carrier == joint.first.body;
-    const Vec<double> f = forces_.joints[at(s_.joint_of(k))].force;
+    const math::Vec2 f = forces_.joints[at(s_.joint_of(k))].force;
     row.pins.push_back({.eccentricity = e,
                         .rate = std::complex<double>(0, state.rate) * e,
                         .bush_angle = angle_in(cleared_->plan, *i.motion,
@@ -144,13 +144,13 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
   const ContactState& state = c.joints[k];
   const OpenLinkage::Pin& pin = open_->pins[k];
   const bool pin_first = s_.contacts[k].pin == PinSide::first;
-  const Vec<double> e = planar::vec(state.eccentricity);
-  const Vec<double> n = norm(e) > 0 ? (1 / norm(e)) * e : Vec<double>{1, 0};
-  const Vec<double> on_pin = -state.normal * n - state.friction * perpendicular(n);
-  const Vec<double> where =
+  const math::Vec2 e = math::vec(state.eccentricity);
+  const math::Vec2 n = norm(e) > 0 ? (1 / norm(e)) * e : math::Vec2{1, 0};
+  const math::Vec2 on_pin = -state.normal * n - state.friction * perpendicular(n);
+  const math::Vec2 where =
       place_of(open_->linkage, open_->plan, *c.motion, pin_first ? pin.first : pin.second) +
       (s_.contacts[k].bush_radius - s_.contacts[k].clearance) * n;
-  const Vec<double> on_second = pin_first ? -on_pin : on_pin;
+  const math::Vec2 on_second = pin_first ? -on_pin : on_pin;
   const std::size_t first_force = s_.linkage.forces.size();
   for (std::size_t side = 0; side < 2; ++side) {
     planar::PointForce& force = pressed_.forces[first_force + 2 * k + side];

@@ -56,7 +56,7 @@ class ClearanceRows {
 };
 
 /// The position of a point of a body in a position of the ideal linkage (m).
-planar::Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                             const planar::LinkageMotion& motion, const planar::BodyPoint& p);
+math::Vec2 place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
+                    const planar::LinkageMotion& motion, const planar::BodyPoint& p);
 
 }  // namespace linkwright::clearance

@@ -16,7 +16,7 @@
 namespace linkwright::clearance {
 namespace {
 
-using planar::InputMotion, planar::Vec;
+using planar::InputMotion;
 
 // A motion that repeats itself after more periods than this counts as one that does not.
 constexpr int max_periods = 8;
@@ -336,7 +336,7 @@ class Recorder {
     if (forces_.status != Status::done) return false;
     directions.clear();
     for (const ContinuousPin& pin : s_.continuous)
-      directions.push_back(planar::angle_of(-forces_.joints[at(pin.clearance.joint)].force));
+      directions.push_back(math::angle_of(-forces_.joints[at(pin.clearance.joint)].force));
     return true;
   }
   std::vector<JointClearance> started() {

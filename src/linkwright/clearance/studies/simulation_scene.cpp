@@ -55,7 +55,7 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
       x.push_back((stays + away).real());
       y.push_back((stays + away).imag());
       const std::complex<double> middle = pin_moves ? stays : stays + away;
-      const planar::Vec<double> along = rows[i]->record.bodies[at(bush.body)].direction;
+      const math::Vec2 along = rows[i]->record.bodies[at(bush.body)].direction;
       const std::complex<double> edge = middle + scale * s.clearance_of(k) * number(along);
       rim.x.push_back(edge.real());
       rim.y.push_back(edge.imag());

@@ -92,7 +92,7 @@ ToleranceRecording record_tolerances(const ToleranceStudy& study, RunContext& co
 /// NaN where the point does not move.
 struct PathBand {
   std::vector<double> across;
-  std::vector<planar::Vec<double>> normal;
+  std::vector<math::Vec2> normal;
 };
 PathBand path_band(const ToleranceStudy& study, const ToleranceRecording& recording, std::size_t point);
 

@@ -209,22 +209,22 @@ ToleranceRecording record_tolerances(const ToleranceStudy& s, RunContext& contex
 PathBand path_band(const ToleranceStudy& s, const ToleranceRecording& r, std::size_t point) {
   const std::size_t rows = r.linear.size(), pins = s.tolerances.pins.size(),
                     parameters = 2 * pins + s.tolerances.lengths.size(), i = r.quantities[point].first;
-  const auto place = [&](std::size_t row) -> planar::Vec<double> {
+  const auto place = [&](std::size_t row) -> math::Vec2 {
     return {r.linear[row].values[i], r.linear[row].values[i + 1]};
   };
-  PathBand band{std::vector<double>(rows, nan), std::vector<planar::Vec<double>>(rows, {nan, nan})};
+  PathBand band{std::vector<double>(rows, nan), std::vector<math::Vec2>(rows, {nan, nan})};
   for (std::size_t row = 0; row < rows; ++row) {
     // Neighbours along the last axis of a grid.
     const std::size_t in_run = row % r.run_length;
     std::size_t before = in_run > 0 ? row - 1 : row, after = in_run + 1 < r.run_length ? row + 1 : row;
     if (std::isnan(place(before).x)) before = row;
     if (std::isnan(place(after).x)) after = row;
-    planar::Vec<double> way = place(after) - place(before);
+    math::Vec2 way = place(after) - place(before);
     const double least = 1e-9 * s.motion.plan.size;
     // The neighbours of a point that turns back lie at one place.
     if (!(norm(way) > least)) way = place(after) - place(row);
     if (!(norm(way) > least)) continue;
-    const planar::Vec<double> n = (1 / norm(way)) * perpendicular(way);
+    const math::Vec2 n = (1 / norm(way)) * perpendicular(way);
     const double *x = r.linear[row].derivatives.data() + i * parameters, *y = x + parameters;
     const auto across = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
     double error = 0;

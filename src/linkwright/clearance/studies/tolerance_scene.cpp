@@ -66,8 +66,8 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
     for (std::size_t i = 0; i < r.records.size(); ++i) {
       const std::size_t k = middle.x.size() == 1 ? 0 : i;
       const planar::LinkageRecord& record = r.records[i];
-      const planar::Vec<double> along = record.bodies.empty() ? planar::Vec<double>{nan, nan}
-                                                              : record.bodies[at(joint.first.body)].direction;
+      const math::Vec2 along =
+          record.bodies.empty() ? math::Vec2{nan, nan} : record.bodies[at(joint.first.body)].direction;
       rim.x.push_back(middle.x.empty() ? nan : middle.x[k] + scale * pin.clearance * along.x);
       rim.y.push_back(middle.y.empty() ? nan : middle.y[k] + scale * pin.clearance * along.y);
     }

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/flexible/response.h"
+#include "linkwright/flexible/simulation.h"
 #include "linkwright/flexible/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -82,17 +82,17 @@ Recording record(const ArmStudy& s, const ArmChain& arm, const Simulation& run) 
     const Sample& sample = run.samples[i];
     const ChainState& state = run.states[i];
     equations.evaluate(state);
-    const Vec2 hub{std::cos(state.angle), std::sin(state.angle)};
-    const Vec2 tip = turned(hub, shape(arm.chain, state.q).node.back());
-    const Vec2 rigid = turned(hub, shape(arm.chain, bent(arm.chain, state.q, 0)).node.back());
+    const math::Vec2 hub{std::cos(state.angle), std::sin(state.angle)};
+    const math::Vec2 tip = rotate(hub, shape(arm.chain, state.q).node.back());
+    const math::Vec2 rigid = rotate(hub, shape(arm.chain, bent(arm.chain, state.q, 0)).node.back());
     const TipDisplacement moved = tip_displacement(arm.chain, state.q);
-    const Vec2 reaction = turned(hub, {sample.reaction_xi, sample.reaction_eta});
+    const math::Vec2 reaction = rotate(hub, {sample.reaction_xi, sample.reaction_eta});
     std::size_t column = first;
     for (const double value :
          {sample.time, sample.angle, sample.rate, tip.x, tip.y, rigid.x, rigid.y, moved.along, moved.across,
           sample.torque, reaction.x, reaction.y, sample.moment})
       push(column++, value);
-    const std::vector<Vec2> forces = hinge_forces(arm, equations, state);
+    const std::vector<math::Vec2> forces = hinge_forces(arm, equations, state);
     hinge = 0;
     for (std::size_t k = 0; k < links.size(); ++k) {
       const std::vector<SectionForce> cuts = link_sections(arm, k, equations, state);

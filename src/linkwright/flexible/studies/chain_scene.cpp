@@ -56,9 +56,9 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
   for (std::size_t i = 0; i < run.states.size(); ++i) {
     const ChainState& state = run.states[i];
     scene.input.push_back(run.samples[i].time);
-    const Vec2 hub{std::cos(state.angle), std::sin(state.angle)};
-    const auto put = [&](Scene::Point& to, Vec2 at) {
-      const Vec2 p = turned(hub, at);
+    const math::Vec2 hub{std::cos(state.angle), std::sin(state.angle)};
+    const auto put = [&](Scene::Point& to, math::Vec2 at) {
+      const math::Vec2 p = rotate(hub, at);
       to.x.push_back(p.x);
       to.y.push_back(p.y);
     };
@@ -68,7 +68,7 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
     put(rigid[0], straight.node[0]);
     for (std::size_t k = 0; k < arm.links.size(); ++k) put(rigid[k + 1], straight.node[arm.links[k].tip]);
     const Sample& sample = run.samples[i];
-    const Vec2 force = turned(hub, {sample.reaction_xi, sample.reaction_eta});
+    const math::Vec2 force = rotate(hub, {sample.reaction_xi, sample.reaction_eta});
     reaction.x.push_back(force.x);
     reaction.y.push_back(force.y);
     torque.value.push_back(sample.torque);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "linkwright/flexible/beam_form.h"
-#include "linkwright/flexible/drive.h"
 #include "linkwright/flexible/input_shaping.h"
+#include "linkwright/flexible/simulation.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/flexible/reference_beam.h"
-#include "linkwright/flexible/response.h"
+#include "linkwright/flexible/simulation.h"
 #include "linkwright/flexible/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"

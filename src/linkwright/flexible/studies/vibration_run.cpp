@@ -9,7 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/continuum.h"
 #include "linkwright/flexible/modes.h"
-#include "linkwright/flexible/response.h"
+#include "linkwright/flexible/simulation.h"
 #include "linkwright/flexible/statics.h"
 #include "linkwright/flexible/studies/chain.h"
 #include "linkwright/flexible/studies/vibration.h"

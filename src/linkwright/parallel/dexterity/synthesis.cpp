@@ -165,7 +165,8 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x,
   out.robot = designed.robot;
   out.origin = designed.offset * designed.ahead;
   const std::vector<double> unknowns = model.unknowns_of(x, extremes);
-  std::tie(out.arm_lowest, out.arm_highest) = model.travel(extremes);
+  const DexterityModel::Travel travel = model.travel(extremes);
+  out.arm_lowest = travel.low, out.arm_highest = travel.high;
   out.size = x[designed.arm()] + x[designed.rod()];
   out.worst = extremes.conditioning.value;
   out.worst_place = out.origin + model.at(extremes.conditioning.pose).place;

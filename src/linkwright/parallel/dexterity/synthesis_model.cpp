@@ -335,7 +335,7 @@ void DexterityModel::whole(std::span<const double> u, std::vector<Whole>& out,
     number(DexterityLimit::pi_rate_most, range.rate_most.value, most, false, range.rate_most / most - 1.0);
 }
 
-std::pair<double, double> DexterityModel::travel(const Extremes& extremes) const {
+DexterityModel::Travel DexterityModel::travel(const Extremes& extremes) const {
   double low = extremes.lowest[0].value, high = extremes.highest[0].value;
   for (int i = 1; i < legs_; ++i) {
     low = std::min(low, extremes.lowest[i].value);

@@ -53,8 +53,11 @@ double inertia_slope(const PiMasses& m, const Shape& s) {
          2 * m.rod_mass * reach * s.j * s.turn * s.turn + 2 * (m.rod_mass + rotor_mass(m)) * s.j * s.j_slope;
 }
 
-// First moments of what moves along u(theta) and along u(phi).
-std::pair<double, double> moments(const PiJoint& joint, const PiMasses& m, const Shape& s) {
+// First moments (kg m) of what moves along u(theta) and along u(phi).
+struct FirstMoments {
+  double arms, drive;
+};
+FirstMoments moments(const PiJoint& joint, const PiMasses& m, const Shape& s) {
   return {2 * m.arm_mass * m.arm_centre + m.coupler_mass * joint.arm,
           m.nut_mass * m.nut_centre + m.rod_mass * (s.d - m.rod_centre)};
 }

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/parallel/pi_joint/dynamics.h"
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/robot/statics.h"
 
 /// Inverse and direct dynamics of parallel robots with rigid links. Rods carry their mass along their line

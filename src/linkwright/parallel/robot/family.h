@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// Families of robots with equal legs, given by a few dimensions, and what each dimension changes: exact
 /// derivatives for a search of dimensions.

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// @file
 /// First and second order motion, and how far a pose is from singular: Jx t = Jq dalpha/dt (Gosselin and

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "linkwright/parallel/robot/position.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// The pose that arms of a robot come to when they are led from home: of all that their angles allow, the one
 /// of home's assembly.

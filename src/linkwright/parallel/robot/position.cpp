@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/robot/position.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/robot/detail/legs_kernel.h"
+#include "linkwright/parallel/robot/robot.h"
 
 namespace linkwright::parallel {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/tool/curve.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "linkwright/parallel/tool/path.h"
 
 namespace linkwright::parallel {
 namespace {

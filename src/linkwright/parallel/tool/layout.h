@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/parallel/tool/curve.h"
 #include "linkwright/parallel/tool/path.h"
 
 /// The shape of a tool's path, before it is run in time.

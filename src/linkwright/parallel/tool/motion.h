@@ -9,9 +9,7 @@
 #include "linkwright/core/sentence.h"
 #include "linkwright/math/spline.h"
 #include "linkwright/parallel/robot/robot.h"
-#include "linkwright/parallel/tool/curve.h"
 #include "linkwright/parallel/tool/path.h"
-#include "linkwright/parallel/tool/time_law.h"
 
 /// @file
 /// The position and motion of the tool at any time.

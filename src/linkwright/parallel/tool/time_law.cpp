@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/tool/time_law.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/parallel/tool/path.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/parallel/tool/layout.h"
-#include "linkwright/parallel/tool/time_law.h"
+#include "linkwright/parallel/tool/path.h"
 
 /// The time that a tool takes along parts that join, from rest to rest.
 namespace linkwright::parallel {

@@ -11,9 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "linkwright/parameter_study/sampling.h"
+#include "linkwright/parameter_study/sensitivity.h"
 #include "linkwright/study/bind.h"
-#include "linkwright/study/checks.h"
 #include "linkwright/study/kind.h"
 
 // A study run again and again with some of its keys changed: what its file holds, how it is read, run and

@@ -18,7 +18,6 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/overrides.h"
-#include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 
 namespace linkwright::parameter_study {

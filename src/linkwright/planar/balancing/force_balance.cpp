@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/force_balance.h"
-
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/balancing/four_bar.h"
 
 namespace linkwright::planar {
 

@@ -15,7 +15,7 @@
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/reactions.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 namespace {
@@ -174,6 +174,42 @@ LinearForces linear_forces(const SerialArm& arm, std::span<const math::Motion> m
   return forces;
 }
 
+namespace {
+
+// Throws ContractError if forces are not linear in the masses.
+void require_linear(const Linkage& linkage, const LinkagePlan& plan) {
+  for (const LinkageJoint& j : linkage.joints)
+    LINKWRIGHT_REQUIRE(j.efficiency == 1,
+                       "gear '{}' has losses, with which forces are not linear in the masses", j.name);
+  for (const LinkageJoint& j : linkage.joints)
+    LINKWRIGHT_REQUIRE(j.friction == 0,
+                       "joint '{}' has friction, with which forces are not linear in the masses", j.name);
+  for (const LinkageJoint& j : linkage.joints)
+    LINKWRIGHT_REQUIRE((j.type != JointType::rack && !j.curve) || j.pressure_angle == 0,
+                       "'{}' has a pressure angle, with which forces are not linear in the masses", j.name);
+  for (const Group& g : plan.groups)
+    for (const PlanGear& gear : g.gears)
+      LINKWRIGHT_REQUIRE(!gear.mesh || gear.mesh->tangent == 0,
+                         "gear '{}' has a pressure angle, with which forces are not linear in the masses",
+                         linkage.joints[static_cast<std::size_t>(gear.joint)].name);
+}
+
+std::vector<std::string> component_names(const Linkage& linkage, const LinkagePlan& plan) {
+  std::vector<std::string> names;
+  for (const LinkageJoint& j : linkage.joints) {
+    const std::string key = identifier(j.name);
+    names.insert(names.end(), {key + "_x_N", key + "_y_N", key + "_moment_N_m"});
+  }
+  for (std::size_t k = 0; k < plan.inputs(); ++k)
+    names.push_back(identifier(input_joint(linkage, k).name) +
+                    (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"));
+  names.insert(names.end(), {"shaking_force_x_N", "shaking_force_y_N", "shaking_moment_N_m",
+                             "shaking_moment_with_drive_N_m"});
+  return names;
+}
+
+}  // namespace
+
 LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std::span<const int> bodies,
                            std::span<const InputMotion> inputs, std::span<const double> times) {
   const std::size_t width = plan.inputs();
@@ -185,21 +221,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
   LinearForces forces{.samples = inputs.size() / width};
   LINKWRIGHT_REQUIRE(times.empty() || times.size() == forces.samples, "{} times for {} samples", times.size(),
                      forces.samples);
-  for (const LinkageJoint& j : linkage.joints)
-    LINKWRIGHT_REQUIRE(j.efficiency == 1,
-                       "gear '{}' has losses, with which forces are not linear in the masses", j.name);
-  for (const LinkageJoint& j : linkage.joints)
-    LINKWRIGHT_REQUIRE(j.friction == 0,
-                       "joint '{}' has friction, with which forces are not linear in the masses", j.name);
-
-  for (const LinkageJoint& j : linkage.joints)
-    LINKWRIGHT_REQUIRE((j.type != JointType::rack && !j.curve) || j.pressure_angle == 0,
-                       "'{}' has a pressure angle, with which forces are not linear in the masses", j.name);
-  for (const Group& g : plan.groups)
-    for (const PlanGear& gear : g.gears)
-      LINKWRIGHT_REQUIRE(!gear.mesh || gear.mesh->tangent == 0,
-                         "gear '{}' has a pressure angle, with which forces are not linear in the masses",
-                         linkage.joints[static_cast<std::size_t>(gear.joint)].name);
+  require_linear(linkage, plan);
 
   // `rest` is the linkage without the open masses, `bare` the linkage without any mass or load.
   Linkage rest = linkage, bare = linkage;
@@ -226,17 +248,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
   bare.torques.clear();
   bare.struts.clear();
 
-  std::vector<std::string> names;
-  for (const LinkageJoint& j : linkage.joints) {
-    const std::string key = identifier(j.name);
-    names.insert(names.end(), {key + "_x_N", key + "_y_N", key + "_moment_N_m"});
-  }
-  for (std::size_t k = 0; k < width; ++k)
-    names.push_back(identifier(input_joint(linkage, k).name) +
-                    (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"));
-  names.insert(names.end(), {"shaking_force_x_N", "shaking_force_y_N", "shaking_moment_N_m",
-                             "shaking_moment_with_drive_N_m"});
-  set_names(forces, std::move(names));
+  set_names(forces, component_names(linkage, plan));
 
   // One linkage a probe; the first is what stays.
   std::vector<Linkage> linkages = {rest};

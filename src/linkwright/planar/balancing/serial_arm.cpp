@@ -13,7 +13,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/balancing/linear_forces.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 namespace {

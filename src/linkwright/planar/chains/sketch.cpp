@@ -15,7 +15,7 @@
 namespace linkwright::planar {
 namespace {
 
-using Point = Vec<double>;
+using Point = math::Vec2;
 using Side = std::array<int, 2>;  // two joints of a link, neighbours around it
 
 double length(const Point& a) { return std::hypot(a.x, a.y); }

@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/chains/graph.h"
-#include "linkwright/planar/plane.h"
 
 namespace linkwright::planar {
 
 /// A drawing of a chain: bars for binary links, polygons for the others. Lengths are in the usual length of a
 /// bar; the ground, or the link with most joints on the border, lies at the bottom.
 struct ChainSketch {
-  std::vector<Vec<double>> joints;      ///< a place for each of joints_of()
+  std::vector<math::Vec2> joints;       ///< a place for each of joints_of()
   std::vector<std::vector<int>> links;  ///< joints of each link, in their order around it
   int crossings = 0;                    ///< sides of different links that cross; 0 of planar graphs
 };

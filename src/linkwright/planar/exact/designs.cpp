@@ -11,7 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/exact/detail/crank_turns.h"
 #include "linkwright/planar/exact/detail/path_systems.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/usability.h"
 
 namespace linkwright::planar {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/classify.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 
 namespace linkwright::planar {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/cognates.h"
-
 #include <cmath>
 #include <complex>
+#include <vector>
+
+#include "linkwright/planar/four_bar/four_bar.h"
 
 namespace linkwright::planar {
 namespace {

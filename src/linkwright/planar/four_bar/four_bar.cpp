@@ -50,7 +50,7 @@ FourBarPosition position(const FourBar& linkage, double crank_angle) {
     out.status = Status::singular;  // A on B0: the coupler direction is not determined
     return out;
   }
-  const Direction<double> direction = coupler_direction(closure, linkage.coupler);
+  const math::Vec2 direction = coupler_direction(closure, linkage.coupler);
   const std::complex<double> v(direction.x, direction.y);
   const std::complex<double> rocker = crank + linkage.coupler * v - linkage.ground;
   out.coupler_pin = out.crank_pin + frame * (linkage.coupler * v);

@@ -4,7 +4,9 @@
 #include <array>
 #include <complex>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
@@ -121,5 +123,136 @@ std::complex<double> crank_pivot(const FourBar& linkage);
 /// @param linkage the four-bar
 /// @returns B0 in the global frame (m)
 std::complex<double> rocker_pivot(const FourBar& linkage);
+
+/// Type of a four-bar by the signs of T1 = L1-L2+L3-L4, T2 = L1-L2-L3+L4, T3 = L3+L4-L1-L2. The last four do
+/// not meet Grashof's condition; "0" and "pi" say through which collinear position input (first) and output
+/// pass.
+enum class FourBarType {
+  crank_rocker,           ///< the crank rotates fully, the rocker swings
+  rocker_crank,           ///< the crank swings, the rocker rotates fully
+  double_crank,           ///< both rotate fully
+  grashof_double_rocker,  ///< both swing, the coupler rotates fully
+  triple_rocker_00,       ///< non-Grashof, input through 0, output through 0
+  triple_rocker_0pi,      ///< non-Grashof, input through 0, output through pi
+  triple_rocker_pi0,      ///< non-Grashof, input through pi, output through 0
+  triple_rocker_pipi,     ///< non-Grashof, input through pi, output through pi
+  change_point            ///< T1, T2 or T3 is zero within the tolerance
+};
+constexpr std::array<EnumName<FourBarType>, 9> names(FourBarType) {
+  return {{{FourBarType::crank_rocker, "crank-rocker"},
+           {FourBarType::rocker_crank, "rocker-crank"},
+           {FourBarType::double_crank, "double-crank"},
+           {FourBarType::grashof_double_rocker, "grashof-double-rocker"},
+           {FourBarType::triple_rocker_00, "00", "non-Grashof, input through 0, output through 0"},
+           {FourBarType::triple_rocker_0pi, "0pi", "non-Grashof, input through 0, output through pi"},
+           {FourBarType::triple_rocker_pi0, "pi0", "non-Grashof, input through pi, output through 0"},
+           {FourBarType::triple_rocker_pipi, "pipi", "non-Grashof, input through pi, output through pi"},
+           {FourBarType::change_point, "change-point"}}};
+}
+
+/// The name of a type in words, with a code after them: "crank-rocker", "non-Grashof, input through 0, output
+/// through pi (0pi)".
+///
+/// @param type the type
+/// @returns the text
+std::string in_words(FourBarType type);
+
+/// Interval of crank angles [from, to], from < to, relative to the ground link, in which the linkage
+/// assembles.
+struct AngleInterval {
+  double from = 0,  ///< rad
+      to = 0;       ///< rad, more than `from`
+};
+
+/// The type of a four-bar and how its crank can turn.
+struct FourBarClass {
+  FourBarType type = FourBarType::change_point;  ///< by the signs of T1, T2 and T3
+  bool grashof = false;  ///< the shortest and the longest link together are not longer than the other two
+  bool crank_rotates_fully = false;  ///< the crank assembles over a full turn
+  int circuits = 1;                  ///< 2 for Grashof linkages, else 1; 0 when the linkage assembles nowhere
+  /// Metres; smallest margin of the full-rotation conditions, < 0 = does not rotate.
+  double crank_margin = 0;
+  /// Crank angles that assemble; one interval of length 2 pi when it rotates fully; empty = never.
+  std::vector<AngleInterval> inputs;
+};
+
+/// Classifies a four-bar.
+///
+/// @param linkage the four-bar
+/// @param tolerance relative to the sum of the links: a smaller T1, T2 or T3 counts as zero
+/// @returns its type, and the crank angles that assemble
+/// @throws ContractError on the lengths that require_lengths rejects and on a negative tolerance
+FourBarClass classify(const FourBar& linkage, double tolerance = 1e-9);
+
+/// Extremes of the transmission angle, folded to [0, pi/2].
+struct TransmissionAngles {
+  double minimum = 0,  ///< rad
+      maximum = 0;     ///< rad
+};
+
+/// Extremes of the transmission angle over a full crank turn, or over the crank angles that assemble.
+///
+/// @param linkage the four-bar
+/// @returns both extremes
+/// @throws ContractError on the lengths that require_lengths rejects
+TransmissionAngles transmission_angles(const FourBar& linkage);
+
+/// The same over an interval of crank angles only.
+///
+/// @param linkage the four-bar
+/// @param from first crank angle, from the ground link (rad)
+/// @param to last crank angle (rad)
+/// @returns both extremes
+/// @throws ContractError on the lengths that require_lengths rejects, and unless from <= to
+TransmissionAngles transmission_angles(const FourBar& linkage, double from, double to);
+
+/// Motion of a four-bar at one instant: directions of the links in the global frame, and how fast they turn.
+/// Speeds in rad/s and accelerations in rad/s2, counter-clockwise positive. What is not determined is NaN.
+struct FourBarRates {
+  /// done, no_assembly, or singular (dead point: the speeds are not determined).
+  Status status = Status::done;
+  std::complex<double> ground_direction;                ///< unit vector along O -> B0
+  std::complex<double> crank_direction;                 ///< along O -> A
+  std::complex<double> coupler_direction = {nan, nan};  ///< along A -> B
+  std::complex<double> rocker_direction = {nan, nan};   ///< along B0 -> B
+  double transmission_sine = nan;  ///< sin(rocker angle - coupler angle); its sign is that of the branch
+  double crank_speed = 0,          ///< given
+      crank_acceleration = 0;      ///< given
+  double coupler_speed = nan,      ///< of the coupler
+      coupler_acceleration = nan;  ///< of the coupler
+  double rocker_speed = nan,       ///< of the rocker
+      rocker_acceleration = nan;   ///< of the rocker
+};
+
+/// Rates of a four-bar in closed form, from the first and second derivative of the loop. They are singular if
+/// the transmission angle is below tolerance::toggle_angle.
+///
+/// @param linkage the four-bar
+/// @param crank_angle crank angle, from the ground link (rad)
+/// @param crank_speed rad/s
+/// @param crank_acceleration rad/s2
+/// @returns the motion, with its status
+/// @throws ContractError on the lengths that require_lengths rejects and on arguments that are not finite
+FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,
+                   double crank_acceleration = 0);
+
+/// A linkage that traces the same curve (Roberts-Chebyshev).
+struct Cognate {
+  FourBar linkage;  ///< the cognate
+  /// Its crank angle equals the original's; otherwise its input follows the coupler angle.
+  bool same_timing = false;
+};
+
+/// The two cognates of a four-bar, with lambda = (coupler_u + i coupler_v) / coupler: the one on the pivots O
+/// and C0 = O + lambda (B0 - O), whose input follows the coupler angle, and the one on C0 and B0, whose crank
+/// angle equals the original's at every position and which lies on the opposite branch. The first one passes
+/// its own toggles within the motion, so its branch is the one at `crank_angle`. A degenerate cognate
+/// (tracing point on A or on B) is left out.
+///
+/// @param linkage the four-bar
+/// @param crank_angle crank angle of the original, from its ground link (rad)
+/// @returns the cognates, at most two
+/// @throws ContractError if a length is not positive
+std::vector<Cognate> cognates(const FourBar& linkage, double crank_angle);
 
 }  // namespace linkwright::planar

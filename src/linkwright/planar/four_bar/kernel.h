@@ -5,6 +5,7 @@
 
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/scalar.h"
+#include "linkwright/math/vector2.h"
 
 namespace linkwright::planar {
 
@@ -42,11 +43,7 @@ LINKWRIGHT_KERNEL Closure<T> close_loop(const T& gx, const T& gy, const T& wx, c
 
 /// Unit vector along A->B, from its closure.
 template <class T>
-struct Direction {
-  T x, y;
-};
-template <class T>
-LINKWRIGHT_KERNEL Direction<T> coupler_direction(const Closure<T>& closure, const T& coupler) {
+LINKWRIGHT_KERNEL math::Vector2<T> coupler_direction(const Closure<T>& closure, const T& coupler) {
   const T scale = T(0.5) / (coupler * closure.r2);
   return {closure.nx * scale, closure.ny * scale};
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/rates.h"
-
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/four_bar/detail/forces_kernel.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {

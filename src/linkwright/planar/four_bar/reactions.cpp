@@ -9,29 +9,18 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/four_bar/detail/forces_kernel.h"
 
 namespace linkwright::planar {
 namespace {
 
-// Complex numbers without the care that std::complex takes of infinities in products.
-struct Vector {
-  double x = 0, y = 0;
-};
-Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
-Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
-Vector operator*(double s, Vector a) { return {s * a.x, s * a.y}; }
-double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
-double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
-Vector perpendicular(Vector a) { return {-a.y, a.x}; }
-Vector vector(std::complex<double> z) { return {z.real(), z.imag()}; }
-
 // A link as Newton and Euler see it.
 struct Body {
-  Vector line;          // own joint to far joint
-  Vector arm;           // own joint to mass centre
-  Vector velocity;      // velocity of the mass centre
-  Vector acceleration;  // acceleration of the mass centre
+  math::Vec2 line;          // own joint to far joint
+  math::Vec2 arm;           // own joint to mass centre
+  math::Vec2 velocity;      // velocity of the mass centre
+  math::Vec2 acceleration;  // acceleration of the mass centre
   double speed, angular_acceleration;
 };
 struct Bodies {
@@ -40,12 +29,13 @@ struct Bodies {
 
 // `length` along `direction`; the own joint moves with `velocity` and `acceleration`.
 Body body(double length, std::complex<double> direction, const LinkMass& mass, double speed,
-          double angular_acceleration, Vector velocity, Vector acceleration) {
-  const Vector e = vector(direction);
-  const Vector centre = mass.centre_angle == 0 ? Vector{mass.centre_distance, 0}
-                                               : mass.centre_distance * Vector{std::cos(mass.centre_angle),
-                                                                               std::sin(mass.centre_angle)};
-  const Vector arm = centre.x * e + centre.y * perpendicular(e);
+          double angular_acceleration, math::Vec2 velocity, math::Vec2 acceleration) {
+  const math::Vec2 e = math::vec(direction);
+  const math::Vec2 centre =
+      mass.centre_angle == 0
+          ? math::Vec2{mass.centre_distance, 0}
+          : mass.centre_distance * math::Vec2{std::cos(mass.centre_angle), std::sin(mass.centre_angle)};
+  const math::Vec2 arm = centre.x * e + centre.y * perpendicular(e);
   return {length * e,
           arm,
           velocity + speed * perpendicular(arm),
@@ -57,8 +47,8 @@ Body body(double length, std::complex<double> direction, const LinkMass& mass, d
 Bodies bodies(const FourBar& l, const FourBarMasses& m, const FourBarRates& r) {
   Bodies b;
   b.crank = body(l.crank, r.crank_direction, m.crank, r.crank_speed, r.crank_acceleration, {}, {});
-  const Vector pin_velocity = r.crank_speed * perpendicular(b.crank.line);
-  const Vector pin_acceleration =
+  const math::Vec2 pin_velocity = r.crank_speed * perpendicular(b.crank.line);
+  const math::Vec2 pin_acceleration =
       r.crank_acceleration * perpendicular(b.crank.line) - (r.crank_speed * r.crank_speed) * b.crank.line;
   b.coupler = body(l.coupler, r.coupler_direction, m.coupler, r.coupler_speed, r.coupler_acceleration,
                    pin_velocity, pin_acceleration);
@@ -78,9 +68,9 @@ void require_masses(const FourBarMasses& masses, double gravity) {
 
 // Adds the shaking force and moments on the ground, from the forces on it.
 void add_shaking(FourBarReactions& out, const FourBar& linkage, const FourBarRates& rates) {
-  const Vector ground = linkage.ground * vector(rates.ground_direction);
+  const math::Vec2 ground = linkage.ground * math::vec(rates.ground_direction);
   out.shaking_force = -(out.ground_on_crank + out.ground_on_rocker);
-  out.shaking_moment = -cross(ground, vector(out.ground_on_rocker));
+  out.shaking_moment = -cross(ground, math::vec(out.ground_on_rocker));
   out.shaking_moment_with_drive = out.shaking_moment - out.drive_torque;
 }
 
@@ -93,8 +83,8 @@ LinkBase<double> link_base(const LinkMass& m) {
 }
 
 // Inertia force and support of the weight.
-Vector load(const LinkMass& mass, const Body& body, double gravity) {
-  return mass.mass * (body.acceleration + Vector{0, gravity});
+math::Vec2 load(const LinkMass& mass, const Body& body, double gravity) {
+  return mass.mass * (body.acceleration + math::Vec2{0, gravity});
 }
 
 }  // namespace
@@ -149,7 +139,7 @@ FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMas
   const std::array<const Body*, 3> body = {&b.crank, &b.coupler, &b.rocker};
   const std::array<const LinkMass*, 3> mass = {&masses.crank, &masses.coupler, &masses.rocker};
   // Force `sign` * unknowns (column, column + 1) on body i, at the lever from its mass centre.
-  const auto act = [&](int i, int column, double sign, Vector lever) {
+  const auto act = [&](int i, int column, double sign, math::Vec2 lever) {
     a(3 * i, column) += sign;
     a(3 * i + 1, column + 1) += sign;
     a(3 * i + 2, column) -= sign * lever.y;
@@ -168,7 +158,7 @@ FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMas
   act(2, 6, +1, own(2));
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const Vector force = load(*mass[k], *body[k], gravity);
+    const math::Vec2 force = load(*mass[k], *body[k], gravity);
     rhs.segment<3>(3 * i) << force.x, force.y, mass[k]->inertia * body[k]->angular_acceleration;
   }
   const Eigen::Matrix<double, 9, 1> x = a.partialPivLu().solve(rhs);

@@ -7,7 +7,6 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/four_bar/rates.h"
 #include "linkwright/planar/link_mass.h"
 
 namespace linkwright::planar {

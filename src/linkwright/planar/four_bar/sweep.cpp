@@ -8,6 +8,7 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/unfilled_array.h"
 #include "linkwright/math/sincos.h"
+#include "linkwright/planar/four_bar/detail/sweep_kernel.h"
 #include "linkwright/planar/sweep_samples.h"
 
 namespace linkwright::planar {

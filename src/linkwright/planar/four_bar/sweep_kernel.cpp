@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/four_bar/detail/sweep_kernel.h"
+
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/four_bar/detail/forces_kernel.h"
-#include "linkwright/planar/four_bar/sweep.h"
 
 namespace linkwright::planar {
 

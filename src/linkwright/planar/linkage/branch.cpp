@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/linkage/branch.h"
-
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/scan.h"
 
@@ -206,10 +207,13 @@ std::vector<DeadCentre> dead_centres(const Linkage& linkage, const LinkagePlan& 
     return motion.status == Status::done ? joint_motion(linkage, plan, motion, joint)
                                          : JointMotion{nan, nan, nan};
   };
-  std::vector<std::pair<double, double>> rates;
+  struct Sample {
+    double input, rate;
+  };
+  std::vector<Sample> rates;
   const auto look = [&](double x) {
     const double rate = moved(x).rate;
-    if (std::isfinite(rate)) rates.emplace_back(x, rate);
+    if (std::isfinite(rate)) rates.push_back({x, rate});
   };
   if (path.pieces.empty()) return {};
   if (path.period == 0 && path.low.kind == EndKind::bound) look(path.low.value);
@@ -218,9 +222,9 @@ std::vector<DeadCentre> dead_centres(const Linkage& linkage, const LinkagePlan& 
       look((p.from + p.to) / 2 - (p.to - p.from) / 2 * std::cos((i + 0.5) * pi / nodes));
   if (path.period == 0 && path.high.kind == EndKind::bound) look(path.high.value);
   if (path.period > 0 && !rates.empty())
-    rates.emplace_back(rates.front().first + path.period, rates.front().second);
+    rates.push_back({rates.front().input + path.period, rates.front().rate});
   double largest = 0;
-  for (const auto& r : rates) largest = std::max(largest, std::abs(r.second));
+  for (const auto& r : rates) largest = std::max(largest, std::abs(r.rate));
   std::vector<DeadCentre> out;
   const auto add = [&](double x) {
     // A rate that jumps (a kink of the branch) changes sign without a zero.
@@ -234,11 +238,11 @@ std::vector<DeadCentre> dead_centres(const Linkage& linkage, const LinkagePlan& 
   const double rounding = 1e-13 * largest;
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const bool end = path.period == 0 && (i == 0 || i + 1 == rates.size());
-    if (rates[i].second == 0 || (end && std::abs(rates[i].second) <= rounding)) {
-      add(rates[i].first);
-    } else if (i > 0 && rates[i - 1].second != 0 && (rates[i - 1].second < 0) != (rates[i].second < 0)) {
-      if (path.period == 0 && i == 1 && std::abs(rates[0].second) <= rounding) continue;
-      add(math::zero_between([&](double x) { return moved(x).rate; }, rates[i - 1].first, rates[i].first));
+    if (rates[i].rate == 0 || (end && std::abs(rates[i].rate) <= rounding)) {
+      add(rates[i].input);
+    } else if (i > 0 && rates[i - 1].rate != 0 && (rates[i - 1].rate < 0) != (rates[i].rate < 0)) {
+      if (path.period == 0 && i == 1 && std::abs(rates[0].rate) <= rounding) continue;
+      add(math::zero_between([&](double x) { return moved(x).rate; }, rates[i - 1].input, rates[i].input));
     }
   }
   std::sort(out.begin(), out.end(),

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/core/quantity.h"
+#include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
@@ -116,7 +116,7 @@ SlideMotion slide_motion(const Linkage& l, const LinkagePlan& plan, const Linkag
     return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
   };
   const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
-  const Vec<double> along = rotate(first.direction, unit(joint.slide_first));
+  const math::Vec2 along = rotate(first.direction, math::unit(joint.slide_first));
   const PointMotion a = place(joint.first), b = place(joint.second);
   return {dot(along, b.position - a.position), dot(along, b.velocity - velocity_at(first, b.position)),
           dot(along, b.acceleration - acceleration_at(first, b.position))};

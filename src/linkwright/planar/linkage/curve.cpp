@@ -76,7 +76,7 @@ struct ModeCurve::Memory {
       PartState<double>& part = out.parts[at(p)];
       part.origin = a0 * x.origin + b0 * y.origin + a1 * x.velocity + b1 * y.velocity;
       const double turned = angle_of(rotate_inverse(x.direction, y.direction));
-      part.direction = planar::rotate(x.direction, unit(b0 * turned + a1 * x.speed + b1 * y.speed));
+      part.direction = math::rotate(x.direction, math::unit(b0 * turned + a1 * x.speed + b1 * y.speed));
       part.velocity = r * x.velocity + s * y.velocity;
       part.speed = r * x.speed + s * y.speed;
     }
@@ -109,7 +109,7 @@ struct ModeCurve::Memory {
     Trace out;
     Eigen::VectorXd direction = equations.tangent(a), bend = Eigen::VectorXd::Zero(direction.size());
     equations.factorise(a, direction);
-    std::pair<double, double> border = equations.determinant();
+    Determinant border = equations.determinant();
     const CurveNode origin = a;
     double step = 0.02;
     int turns = 0;
@@ -127,19 +127,19 @@ struct ModeCurve::Memory {
         continue;
       }
       const Eigen::VectorXd after = equations.tangent(*next);
-      const std::pair<double, double> beyond = equations.determinant();
+      const Determinant beyond = equations.determinant();
       if (equations.product(direction, after) < 0.98 || !smooth(a, *next) ||
           (step > crossing_step && !turns_once(a, *next, sense))) {
         shorten();
         continue;
       }
-      const bool crosses = beyond.first != border.first;
+      const bool crosses = beyond.sign != border.sign;
       if (crosses && step > crossing_step) {
         shorten();
         continue;
       }
       if (crosses) {
-        const double share = 1 / (1 + std::exp(beyond.second - border.second));
+        const double share = 1 / (1 + std::exp(beyond.log - border.log));
         const CurveNode there = interpolated(a, *next, share);
         const double value = there.value;
         if (policy != AtChangePoint::smooth) {

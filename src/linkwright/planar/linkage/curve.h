@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/limits.h"
 
 namespace linkwright::planar {
 

@@ -24,7 +24,7 @@ Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
     return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
   };
   const PointMotion a = point(s.first), b = point(s.second);
-  const Vec<double> way = b.position - a.position;
+  const math::Vec2 way = b.position - a.position;
   const double length = norm(way);
   if (length == 0) return {0, 0};  // the same as in applied_loads
   return {length - s.free_length, dot(way, b.velocity - a.velocity) / length};
@@ -48,7 +48,7 @@ double kinetic_energy(const LinkagePlan& plan, const LinkageMotion& motion) {
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
     const PartMass& m = plan.masses[p];
     const PartState<double>& s = motion.parts[p];
-    const Vec<double> arm = rotate(s.direction, m.moment);
+    const math::Vec2 arm = rotate(s.direction, m.moment);
     sum += m.mass * dot(s.velocity, s.velocity) / 2 + s.speed * cross(arm, s.velocity) +
            m.inertia * s.speed * s.speed / 2;
   }
@@ -60,7 +60,7 @@ double potential_energy(const Linkage& l, const LinkagePlan& plan, const Linkage
 }
 double potential_energy(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                         std::span<const double> twists) {
-  const Vec<double> gravity = vec(l.gravity);
+  const math::Vec2 gravity = math::vec(l.gravity);
   double sum = 0;
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
     const PartState<double>& s = motion.parts[p];
@@ -215,7 +215,7 @@ Status LinkageDynamics::settle_friction(double time, std::span<InputMotion> inpu
 void LinkageDynamics::needed_wrenches(double time, double input) {
   loads_.clear();
   applied_loads(linkage_, plan_, motion, time, input, loads_);
-  const Vec<double> gravity = vec(linkage_.gravity);
+  const math::Vec2 gravity = math::vec(linkage_.gravity);
   for (std::size_t p = 1; p < plan_.parts.size(); ++p)
     needed_[p] = needed_wrench(plan_.masses[p], motion.parts[p], gravity);
   for (const AppliedLoad& load : loads_) {
@@ -240,7 +240,7 @@ bool LinkageDynamics::solve_masses(std::span<InputMotion> inputs) {
     double sum = 0;
     for (std::size_t p = 1; p < parts; ++p) {
       const PartMass& m = plan_.masses[p];
-      const Vec<double> arm = rotate(motion.parts[p].direction, m.moment);
+      const math::Vec2 arm = rotate(motion.parts[p].direction, m.moment);
       sum += m.mass * dot(a[p].velocity, b[p].velocity) + a[p].speed * cross(arm, b[p].velocity) +
              b[p].speed * cross(arm, a[p].velocity) + m.inertia * a[p].speed * b[p].speed;
     }

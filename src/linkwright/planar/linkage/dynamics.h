@@ -69,7 +69,7 @@ class LinkageDynamics {
 
  private:
   struct PartRate {
-    Vec<double> velocity;
+    math::Vec2 velocity;
     double speed;
   };
   void unit_velocities(std::span<const InputMotion> inputs);

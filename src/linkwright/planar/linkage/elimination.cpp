@@ -17,10 +17,10 @@ namespace {
 constexpr double no_pivot = 1e-13;
 
 // The direction of a slide, and where the joint acts.
-Vec<double> along_of(const PlanJoint& j, const LinkageMotion& motion) {
+math::Vec2 along_of(const PlanJoint& j, const LinkageMotion& motion) {
   return rotate(motion.parts[at(j.before.part)].direction, j.before.direction);
 }
-Vec<double> point_of(const PlanJoint& j, const LinkageMotion& motion) {
+math::Vec2 point_of(const PlanJoint& j, const LinkageMotion& motion) {
   return point_on(motion.parts[at(j.after.part)], j.after.at);
 }
 
@@ -123,7 +123,7 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
   for (std::size_t p = 1; p < parts_.size(); ++p) {
     Part& part = parts_[p];
     const PartState<double>& s = motion.parts[p];
-    const Vec<double> arm = rotate(s.direction, part.local);
+    const math::Vec2 arm = rotate(s.direction, part.local);
     part.centre = s.origin + arm;
     // Rows over the mass of the part (or the reference), turns times its length.
     const double scale = part.mass > 0 ? part.mass * reference_ : reference_;
@@ -136,18 +136,18 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
     x_[c + 2] = -(w.moment - cross(arm, w.force)) / (scale * part.length);
   }
   for (const Row& j : joints_) {
-    const Vec<double> point = point_of(*j.joint, motion);
+    const math::Vec2 point = point_of(*j.joint, motion);
     const bool slide = j.joint->slide;
-    const Vec<double> along = slide ? along_of(*j.joint, motion) : Vec<double>{1, 0};
+    const math::Vec2 along = slide ? along_of(*j.joint, motion) : math::Vec2{1, 0};
     const int rows = j.rows();
     for (int i = 0; i < rows; ++i) x_[j.place + at(i)] = 0;
     for (const auto& [p, sign] :
          {std::pair{j.joint->after.part, 1.0}, std::pair{j.joint->before.part, -1.0}}) {
       if (p == 0) continue;
       const Part& part = parts_[at(p)];
-      const Vec<double> arm = point - part.centre;
+      const math::Vec2 arm = point - part.centre;
       const double mass = part.mass > 0 ? part.mass : 1;
-      const auto put = [&, sign = sign](int i, const Vec<double>& force, double moment) {
+      const auto put = [&, sign = sign](int i, const math::Vec2& force, double moment) {
         const std::size_t row = j.place + at(i), c = part.place;
         const std::array<double, 3> values{sign * force.x, sign * force.y,
                                            sign * (moment + cross(arm, force)) / part.length};
@@ -178,11 +178,11 @@ double LinkageElimination::acceleration(std::size_t input) const {
   };
   const double sense = j.reversed ? -1 : 1;
   if (!j.slide) return sense * (turning(j.after.part) - turning(j.before.part));
-  const Vec<double> point = point_of(j, *motion_);
+  const math::Vec2 point = point_of(j, *motion_);
   const auto moving = [&](int p) {
-    if (p == 0) return Vec<double>{0, 0};
+    if (p == 0) return math::Vec2{0, 0};
     const Part& part = parts_[at(p)];
-    return Vec<double>{x_[part.place], x_[part.place + 1]} + turning(p) * perpendicular(point - part.centre);
+    return math::Vec2{x_[part.place], x_[part.place + 1]} + turning(p) * perpendicular(point - part.centre);
   };
   return sense * dot(along_of(j, *motion_), moving(j.after.part) - moving(j.before.part));
 }

@@ -44,8 +44,8 @@ class LinkageElimination {
     double mass = 0;        // a share of the reference
     double turning = 1;     // inertia about the mass centre / (mass length^2)
     double length = 1;      // length that makes rotations comparable to displacements
-    Vec<double> local{0, 0};
-    Vec<double> centre{0, 0};  // mass centre, global
+    math::Vec2 local{0, 0};
+    math::Vec2 centre{0, 0};  // mass centre, global
   };
   void order();
   const LinkagePlan& plan_;

@@ -23,6 +23,7 @@ class Names {
  public:
   Names(const Linkage& linkage, std::vector<FormProblem>& problems) : l_(linkage), problems_(problems) {}
 
+  bool clean() const { return problems_.empty(); }
   void at(std::string list, std::size_t index) { list_ = std::move(list), index_ = index; }
   int body(const std::string& key, const std::string& name) {
     const int found = body_index(l_, name);
@@ -495,6 +496,76 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
   return f;
 }
 
+LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
+  LinkageJoint j{.name = f.name, .type = f.type};
+  if (f.type == JointType::gear) {
+    j.first = names.wheel("first", f.first);
+    j.second = names.wheel("second", f.second);
+    j.ratio = ratio_of(f, names);
+    if (f.carrier) j.carrier = names.body("carrier", *f.carrier);
+    if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
+    if (f.ratio_curve) j.curve = RatioCurve{f.ratio_curve->first, f.ratio_curve->second};
+    j.efficiency = f.efficiency.value_or(1);
+  } else {
+    j.first = names.point("first", f.first);
+    j.second = names.point("second", f.second);
+  }
+  if (f.type == JointType::screw) {
+    if (!f.lead)
+      names.problem("lead_mm", fmt::format("screw '{}' has no lead", f.name),
+                    "give the displacement for one turn of the spindle");
+    j.type = JointType::prismatic;
+    j.screw = Screw{f.lead.value_or(1),
+                    f.pitch_diameter.value_or(0),
+                    f.friction,
+                    f.flank_angle.value_or(pi / 3),
+                    f.spindle_inertia.value_or(0),
+                    f.hand == ThreadHand::left};
+  }
+  j.slide_first = f.direction;
+  j.slide_second = f.direction_second.value_or(drawn && (j.type == JointType::prismatic) ? f.direction : 0.0);
+  j.phase = f.phase;
+  if (f.type == JointType::rack) {
+    j.slide_first = 0, j.slide_second = f.direction;
+    if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
+  }
+  j.friction = j.screw ? 0 : f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
+  return j;
+}
+
+// Springs, forces, torques and struts.
+void add_loads(const LinkageForm& form, Linkage& l, Names& names) {
+  for (std::size_t i = 0; i < form.springs.size(); ++i) {
+    const SpringForm& s = form.springs[i];
+    names.at("spring", i);
+    l.springs.push_back({s.name, names.point("first", s.first), names.point("second", s.second), s.stiffness,
+                         s.free_length, s.damping});
+    if (s.preload && names.clean()) l.springs.back().free_length = free_length_of(l, s, names);
+  }
+  for (std::size_t i = 0; i < form.torsion_springs.size(); ++i) {
+    const TorsionSpringForm& s = form.torsion_springs[i];
+    names.at("torsion_spring", i);
+    l.torsion_springs.push_back({s.name, names.body("first", s.first), names.body("second", s.second),
+                                 s.stiffness, s.free_angle, s.damping});
+  }
+  for (std::size_t i = 0; i < form.forces.size(); ++i) {
+    const ForceForm& f = form.forces[i];
+    names.at("force", i);
+    l.forces.push_back(
+        {f.name, names.point("point", f.point), number(f.force), f.turns_with_body, factor_of(f.factor)});
+  }
+  for (std::size_t i = 0; i < form.torques.size(); ++i) {
+    const TorqueForm& t = form.torques[i];
+    names.at("torque", i);
+    l.torques.push_back(
+        {t.name, names.body("body", t.body), names.body("from", t.from), t.torque, factor_of(t.factor)});
+  }
+  for (std::size_t i = 0; i < form.struts.size(); ++i) {
+    names.at("strut", i);
+    l.struts.push_back(strut_of(form.struts[i], names));
+  }
+}
+
 }  // namespace
 
 Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) {
@@ -508,43 +579,8 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     return l;
   }
   for (std::size_t i = 0; i < form.joints.size(); ++i) {
-    const JointForm& f = form.joints[i];
     names.at("joint", i);
-    LinkageJoint j{.name = f.name, .type = f.type};
-    if (f.type == JointType::gear) {
-      j.first = names.wheel("first", f.first);
-      j.second = names.wheel("second", f.second);
-      j.ratio = ratio_of(f, names);
-      if (f.carrier) j.carrier = names.body("carrier", *f.carrier);
-      if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
-      if (f.ratio_curve) j.curve = RatioCurve{f.ratio_curve->first, f.ratio_curve->second};
-      j.efficiency = f.efficiency.value_or(1);
-    } else {
-      j.first = names.point("first", f.first);
-      j.second = names.point("second", f.second);
-    }
-    if (f.type == JointType::screw) {
-      if (!f.lead)
-        names.problem("lead_mm", fmt::format("screw '{}' has no lead", f.name),
-                      "give the displacement for one turn of the spindle");
-      j.type = JointType::prismatic;
-      j.screw = Screw{f.lead.value_or(1),
-                      f.pitch_diameter.value_or(0),
-                      f.friction,
-                      f.flank_angle.value_or(pi / 3),
-                      f.spindle_inertia.value_or(0),
-                      f.hand == ThreadHand::left};
-    }
-    j.slide_first = f.direction;
-    j.slide_second =
-        f.direction_second.value_or(form.drawn && (j.type == JointType::prismatic) ? f.direction : 0.0);
-    j.phase = f.phase;
-    if (f.type == JointType::rack) {
-      j.slide_first = 0, j.slide_second = f.direction;
-      if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
-    }
-    j.friction = j.screw ? 0 : f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
-    l.joints.push_back(std::move(j));
+    l.joints.push_back(joint_of(form.joints[i], form.drawn, names));
   }
   const bool pins_known = problems.empty();
   for (std::size_t i = 0; i < form.joints.size() && pins_known; ++i) {
@@ -574,35 +610,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     l.modes.push_back(
         {names.body("bodies", a.bodies.front()), names.body("bodies", a.bodies.back()), a.mode});
   }
-  for (std::size_t i = 0; i < form.springs.size(); ++i) {
-    const SpringForm& s = form.springs[i];
-    names.at("spring", i);
-    l.springs.push_back({s.name, names.point("first", s.first), names.point("second", s.second), s.stiffness,
-                         s.free_length, s.damping});
-    if (s.preload && problems.empty()) l.springs.back().free_length = free_length_of(l, s, names);
-  }
-  for (std::size_t i = 0; i < form.torsion_springs.size(); ++i) {
-    const TorsionSpringForm& s = form.torsion_springs[i];
-    names.at("torsion_spring", i);
-    l.torsion_springs.push_back({s.name, names.body("first", s.first), names.body("second", s.second),
-                                 s.stiffness, s.free_angle, s.damping});
-  }
-  for (std::size_t i = 0; i < form.forces.size(); ++i) {
-    const ForceForm& f = form.forces[i];
-    names.at("force", i);
-    l.forces.push_back(
-        {f.name, names.point("point", f.point), number(f.force), f.turns_with_body, factor_of(f.factor)});
-  }
-  for (std::size_t i = 0; i < form.torques.size(); ++i) {
-    const TorqueForm& t = form.torques[i];
-    names.at("torque", i);
-    l.torques.push_back(
-        {t.name, names.body("body", t.body), names.body("from", t.from), t.torque, factor_of(t.factor)});
-  }
-  for (std::size_t i = 0; i < form.struts.size(); ++i) {
-    names.at("strut", i);
-    l.struts.push_back(strut_of(form.struts[i], names));
-  }
+  add_loads(form, l, names);
   for (std::size_t b = 0; b < form.bodies.size(); ++b) complete_mass(l, b, form.bodies[b]);
   return l;
 }

@@ -15,7 +15,7 @@ double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
 // The load that the friction of a joint is proportional to, times its coefficient: N m of a pin or gear,
 // N of a slide.
-double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<double>& along, double sense) {
+double friction_size(const LinkageJoint& j, const JointReaction& r, const math::Vec2& along, double sense) {
   // The second wheel gets the share of what the first one gives, or gives more than the first one gets.
   if (j.type == JointType::gear)
     return std::abs(r.moment) * (r.moment * sense > 0 ? 1 - j.efficiency : 1 / j.efficiency - 1);
@@ -31,7 +31,7 @@ double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<do
 struct Sliding {
   std::size_t joint;
   double sense;
-  Vec<double> along;  // direction of a slide
+  math::Vec2 along;  // direction of a slide
 };
 std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                                     const std::vector<JointReaction>& joints) {
@@ -50,7 +50,7 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
     const PartState<double>&first = part_of(j.first.body), &second = part_of(j.second.body);
     Sliding s{k, sign_of(second.speed - first.speed), {0, 0}};
     if (j.type != JointType::revolute) {
-      s.along = rotate(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
+      s.along = rotate(body_state(plan, motion, j.first.body).direction, math::unit(j.slide_first));
       s.sense =
           sign_of(dot(s.along, velocity_at(second, joints[k].point) - velocity_at(first, joints[k].point)));
     }
@@ -59,14 +59,14 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
   return out;
 }
 // Friction of given size, as loads on both bodies.
-void friction_load(const LinkageJoint& j, const Sliding& s, const Vec<double>& point, double size,
+void friction_load(const LinkageJoint& j, const Sliding& s, const math::Vec2& point, double size,
                    std::vector<AppliedLoad>& loads) {
   if (j.type == JointType::revolute || j.type == JointType::gear) {
     const double torque = -size * s.sense;
     loads.push_back({j.second.body, point, {0, 0}, torque});
     loads.push_back({j.type == JointType::gear ? j.carrier : j.first.body, point, {0, 0}, -torque});
   } else {
-    const Vec<double> force = (-size * s.sense) * s.along;
+    const math::Vec2 force = (-size * s.sense) * s.along;
     loads.push_back({j.second.body, point, force, 0});
     loads.push_back({j.first.body, point, -force, 0});
   }

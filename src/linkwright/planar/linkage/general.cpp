@@ -55,7 +55,7 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
       for (const auto& [part, side] : {std::pair{j.after.part, 1.0}, std::pair{j.before.part, -1.0}}) {
         const int c = m.column[at(part)];
         if (c < 0) continue;
-        const Vec<double> arm = r.point - motion.parts[at(part)].origin;
+        const math::Vec2 arm = r.point - motion.parts[at(part)].origin;
         m.jacobian(row, c) += side * e.force.x;
         m.jacobian(row, c + 1) += side * e.force.y;
         m.jacobian(row, c + 2) += side * (e.moment * scale + cross(arm, e.force)) / plan.size;
@@ -189,8 +189,9 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     for (int p : g.parts) {
       PartState<double>& part = motion.parts[at(p)];
       const int c = m.column[at(p)];
-      part.origin = part.origin - share * Vec<double>{m.solution[c], m.solution[c + 1]};
-      part.direction = renormalised(rotate(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
+      part.origin = part.origin - share * math::Vec2{m.solution[c], m.solution[c + 1]};
+      part.direction =
+          renormalised(rotate(part.direction, math::unit(-share * m.solution[c + 2] / plan.size)));
     }
   }
   const double residual = std::isfinite(largest) ? largest : infinity;
@@ -210,7 +211,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
     const bool driven = j.input >= 0;
     const JointRows r = joint_rows(j, driven, motion.parts);
     // The motion of the known parts goes to the right side.
-    Vec<double> slip{0, 0};
+    math::Vec2 slip{0, 0};
     double spin = 0;
     for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})
       if (m.column[at(part)] < 0) {
@@ -255,11 +256,11 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
     const JointRows r = joint_rows(j, j.input >= 0, motion.parts);
     // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
     // right side are the parts of them that do not depend on unknown accelerations.
-    Vec<double> slip{0, 0};
+    math::Vec2 slip{0, 0};
     double spin = 0;
     for (const auto& [part, state, side] :
          {std::tuple{j.after.part, &after, -1.0}, std::tuple{j.before.part, &before, 1.0}}) {
-      const Vec<double> arm = r.point - state->origin;
+      const math::Vec2 arm = r.point - state->origin;
       if (m.column[at(part)] < 0) {
         slip = slip + side * acceleration_at(*state, r.point);
         spin += side * state->angular_acceleration;
@@ -268,7 +269,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
       }
     }
     if (j.slide) {
-      const Vec<double> relative = velocity_at(after, r.point) - velocity_at(before, r.point);
+      const math::Vec2 relative = velocity_at(after, r.point) - velocity_at(before, r.point);
       slip = slip + (2 * before.speed * dot(r.along, relative)) * perpendicular(r.along);
     }
     for (int i = 0; i < r.count; ++i) {
@@ -307,10 +308,10 @@ namespace {
 // Force of the teeth that turns the second wheel with `torque`: along the tangent of the pitch circles, and
 // away from the teeth of the other wheel by the pressure angle.
 JointReaction mesh_force(const GearMesh& mesh, const LinkageMotion& motion, double torque) {
-  const Vec<double> first = point_on(motion.parts[at(mesh.first.part)], mesh.first.at),
-                    second = point_on(motion.parts[at(mesh.second.part)], mesh.second.at);
-  const Vec<double> way = second - first;
-  const Vec<double> along = (1 / norm(way)) * way, left{-along.y, along.x};
+  const math::Vec2 first = point_on(motion.parts[at(mesh.first.part)], mesh.first.at),
+                   second = point_on(motion.parts[at(mesh.second.part)], mesh.second.at);
+  const math::Vec2 way = second - first;
+  const math::Vec2 along = (1 / norm(way)) * way, left{-along.y, along.x};
   JointReaction out;
   out.point = first + mesh.first_radius * along;
   out.moment = torque;
@@ -346,8 +347,8 @@ JointReaction pair_force(const PlanPair& pair, const LinkageMotion& motion, doub
   if (const auto* strand = std::get_if<StrandPair>(&pair.kind))
     return strand_force(*strand, motion, multiplier);
   const RackPair& rack = std::get<RackPair>(pair.kind);
-  const Vec<double> along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction),
-                    left = perpendicular(along);
+  const math::Vec2 along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction),
+                   left = perpendicular(along);
   JointReaction out;
   out.point = point_on(motion.parts[at(rack.pinion.part)], rack.pinion.at) - rack.radius * left;
   out.tangential = -multiplier;
@@ -416,7 +417,7 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
     if (!std::holds_alternative<RackPair>(g.pairs[k].kind) || !(load.separating > 0)) continue;
     const RackPair& rack = std::get<RackPair>(g.pairs[k].kind);
     JointReaction apart = load;
-    const Vec<double> along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction);
+    const math::Vec2 along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction);
     apart.force = load.force - load.tangential * along;
     press(apart, rack.pinion.part, rack.rack.part);
   }

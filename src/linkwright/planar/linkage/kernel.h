@@ -5,9 +5,9 @@
 
 #include "linkwright/math/scalar.h"
 #include "linkwright/math/sincos.h"
+#include "linkwright/math/vector2.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/plan.h"
-#include "linkwright/planar/linkage/state.h"
-#include "linkwright/planar/plane.h"
 
 // Position, velocity, acceleration and joint forces of drivers and dyads, each formula once for `double` and
 // SIMD batches.
@@ -60,38 +60,40 @@ LINKWRIGHT_KERNEL void for_dyad(DyadType type, F&& f) {
 }
 
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>& part, const Vec<double>& at) {
-  return part.origin + rotate(part.direction, broadcast<T>(at));
+LINKWRIGHT_KERNEL math::Vector2<T> point_on(const PartState<T>& part, const math::Vec2& at) {
+  return part.origin + rotate(part.direction, math::broadcast<T>(at));
 }
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>& part, const Vec<T>& point) {
+LINKWRIGHT_KERNEL math::Vector2<T> velocity_at(const PartState<T>& part, const math::Vector2<T>& point) {
   return part.velocity + part.speed * perpendicular(point - part.origin);
 }
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>& point) {
-  const Vec<T> arm = point - part.origin;
+LINKWRIGHT_KERNEL math::Vector2<T> acceleration_at(const PartState<T>& part, const math::Vector2<T>& point) {
+  const math::Vector2<T> arm = point - part.origin;
   return part.acceleration + part.angular_acceleration * perpendicular(arm) - (part.speed * part.speed) * arm;
 }
 
 // The same for a part by number: the ground, part 0, is at rest in the global frame, and nothing is
 // computed for it.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>* parts, const PartPoint& p) {
-  if (p.part == 0) return broadcast<T>(p.at);
+LINKWRIGHT_KERNEL math::Vector2<T> point_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return math::broadcast<T>(p.at);
   return point_on(parts[p.part], p.at);
 }
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> direction_on(const PartState<T>* parts, const PartPoint& p) {
-  if (p.part == 0) return broadcast<T>(p.direction);
-  return rotate(parts[p.part].direction, broadcast<T>(p.direction));
+LINKWRIGHT_KERNEL math::Vector2<T> direction_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return math::broadcast<T>(p.direction);
+  return rotate(parts[p.part].direction, math::broadcast<T>(p.direction));
 }
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+LINKWRIGHT_KERNEL math::Vector2<T> velocity_at(const PartState<T>* parts, int part,
+                                               const math::Vector2<T>& point) {
   if (part == 0) return {T(0), T(0)};
   return velocity_at(parts[part], point);
 }
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+LINKWRIGHT_KERNEL math::Vector2<T> acceleration_at(const PartState<T>* parts, int part,
+                                                   const math::Vector2<T>& point) {
   if (part == 0) return {T(0), T(0)};
   return acceleration_at(parts[part], point);
 }
@@ -103,18 +105,19 @@ template <class T>
 LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>* parts) {
   const PlanJoint& j = g.joints[0];
   PartState<T>& moved = parts[j.after.part];
-  const Vec<T> pivot = point_on(parts, j.before);
+  const math::Vector2<T> pivot = point_on(parts, j.before);
   const T way = j.reversed ? -value : value;
   if (j.slide) {
-    const Vec<T> along = direction_on(parts, j.before);
-    moved.direction = rotate(along, broadcast<T>({j.after.direction.x, -j.after.direction.y}));
-    moved.origin = pivot + way * along - rotate(moved.direction, broadcast<T>(j.after.at));
+    const math::Vector2<T> along = direction_on(parts, j.before);
+    moved.direction = rotate(along, math::broadcast<T>({j.after.direction.x, -j.after.direction.y}));
+    moved.origin = pivot + way * along - rotate(moved.direction, math::broadcast<T>(j.after.at));
   } else {
-    Vec<T> rotation;
+    math::Vector2<T> rotation;
     math::sincos(way, rotation.y, rotation.x);
-    const Vec<T> turned = rotate(direction_on(parts, j.before), rotation);
-    moved.direction = renormalised(rotate(turned, broadcast<T>({j.after.direction.x, -j.after.direction.y})));
-    moved.origin = pivot - rotate(moved.direction, broadcast<T>(j.after.at));
+    const math::Vector2<T> turned = rotate(direction_on(parts, j.before), rotation);
+    moved.direction =
+        renormalised(rotate(turned, math::broadcast<T>({j.after.direction.x, -j.after.direction.y})));
+    moved.origin = pivot - rotate(moved.direction, math::broadcast<T>(j.after.at));
   }
 }
 
@@ -126,21 +129,21 @@ LINKWRIGHT_KERNEL void place_rrr(const Group& g, const Dyad& dyad, const T& mode
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> a = point_on(parts, j1.before);
-  const Vec<T> b = point_on(parts, j3.after);
-  const Vec<T> d = b - a;
+  const math::Vector2<T> a = point_on(parts, j1.before);
+  const math::Vector2<T> b = point_on(parts, j3.after);
+  const math::Vector2<T> d = b - a;
   const T d2 = dot(d, d);
   const double reach = dyad.first.length + dyad.second.length, fold = dyad.first.length - dyad.second.length;
   state.radicand = (T(reach * reach) - d2) * (d2 - T(fold * fold));
   const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(0.5) / d2;
   const T along = T(reach * fold) + d2;
-  const Vec<T> arm1 = scale * rotate(Vec<T>{along, root}, d);              // a -> c
-  const Vec<T> arm2 = scale * rotate(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
-  first.direction = renormalised(rotate(arm1, broadcast<T>(dyad.first.inverse)));
-  second.direction = renormalised(rotate(arm2, broadcast<T>(dyad.second.inverse)));
-  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
-  second.origin = b - rotate(second.direction, broadcast<T>(j3.before.at));
+  const math::Vector2<T> arm1 = scale * rotate(math::Vector2<T>{along, root}, d);              // a -> c
+  const math::Vector2<T> arm2 = scale * rotate(math::Vector2<T>{along - T(2) * d2, root}, d);  // b -> c
+  first.direction = renormalised(rotate(arm1, math::broadcast<T>(dyad.first.inverse)));
+  second.direction = renormalised(rotate(arm2, math::broadcast<T>(dyad.second.inverse)));
+  first.origin = a - rotate(first.direction, math::broadcast<T>(j1.after.at));
+  second.origin = b - rotate(second.direction, math::broadcast<T>(j3.before.at));
   state.reference = a + arm1;
   state.column_x = perpendicular(arm1);
   state.column_y = perpendicular(arm2);
@@ -153,19 +156,20 @@ LINKWRIGHT_KERNEL void place_rrp(const Group& g, const Dyad& dyad, const T& mode
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> a = point_on(parts, j1.before);
-  const Vec<T> e = direction_on(parts, j3.after);
-  second.direction = rotate(e, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const math::Vector2<T> a = point_on(parts, j1.before);
+  const math::Vector2<T> e = direction_on(parts, j3.after);
+  second.direction = rotate(e, math::broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
   // The inner pin runs along e through `start`.
-  const Vec<T> start = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
-  const Vec<T> m = a - start;
+  const math::Vector2<T> start =
+      point_on(parts, j3.after) + rotate(second.direction, math::broadcast<T>(dyad.second.vector));
+  const math::Vector2<T> m = a - start;
   const T across = cross(e, m);
   state.radicand = T(dyad.first.square) - across * across;
   const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
-  const Vec<T> arm = t * e - m;
-  first.direction = renormalised(rotate(arm, broadcast<T>(dyad.first.inverse)));
-  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
-  second.origin = start + t * e - rotate(second.direction, broadcast<T>(j2.after.at));
+  const math::Vector2<T> arm = t * e - m;
+  first.direction = renormalised(rotate(arm, math::broadcast<T>(dyad.first.inverse)));
+  first.origin = a - rotate(first.direction, math::broadcast<T>(j1.after.at));
+  second.origin = start + t * e - rotate(second.direction, math::broadcast<T>(j2.after.at));
   state.reference = a + arm;
   state.column_x = perpendicular(arm);
   state.column_y = e;
@@ -178,19 +182,19 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const Dyad& dyad, const T& mode
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> a = point_on(parts, j1.before);
-  const Vec<T> b = point_on(parts, j3.after);
-  const Vec<T> d = b - a;
+  const math::Vector2<T> a = point_on(parts, j1.before);
+  const math::Vector2<T> b = point_on(parts, j3.after);
+  const math::Vector2<T> d = b - a;
   const T d2 = dot(d, d);
   const double offset = dyad.first.vector.y - dyad.second.vector.y;  // links seen from the slide direction
   state.radicand = d2 - T(offset * offset);
   const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(1) / d2;
-  const Vec<T> e = renormalised(scale * rotate(Vec<T>{way, T(-offset)}, d));
-  first.direction = rotate(e, broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
-  second.direction = rotate(e, broadcast<T>({j2.after.direction.x, -j2.after.direction.y}));
-  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
-  second.origin = b - rotate(second.direction, broadcast<T>(j3.before.at));
+  const math::Vector2<T> e = renormalised(scale * rotate(math::Vector2<T>{way, T(-offset)}, d));
+  first.direction = rotate(e, math::broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
+  second.direction = rotate(e, math::broadcast<T>({j2.after.direction.x, -j2.after.direction.y}));
+  first.origin = a - rotate(first.direction, math::broadcast<T>(j1.after.at));
+  second.origin = b - rotate(second.direction, math::broadcast<T>(j3.before.at));
   state.reference = a;
   state.column_x = e;
   state.column_y = -perpendicular(d);
@@ -202,16 +206,17 @@ LINKWRIGHT_KERNEL void place_prp(const Group& g, const Dyad& dyad, PartState<T>*
                                  GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> e1 = direction_on(parts, j1.before);
-  const Vec<T> e3 = direction_on(parts, j3.after);
-  first.direction = rotate(e1, broadcast<T>({j1.after.direction.x, -j1.after.direction.y}));
-  second.direction = rotate(e3, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> start1 = point_on(parts, j1.before) + rotate(first.direction, broadcast<T>(dyad.first.vector));
-  const Vec<T> start3 =
-      point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
-  const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
-  first.origin = pin - rotate(first.direction, broadcast<T>(j2.before.at));
-  second.origin = pin - rotate(second.direction, broadcast<T>(j2.after.at));
+  const math::Vector2<T> e1 = direction_on(parts, j1.before);
+  const math::Vector2<T> e3 = direction_on(parts, j3.after);
+  first.direction = rotate(e1, math::broadcast<T>({j1.after.direction.x, -j1.after.direction.y}));
+  second.direction = rotate(e3, math::broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const math::Vector2<T> start1 =
+      point_on(parts, j1.before) + rotate(first.direction, math::broadcast<T>(dyad.first.vector));
+  const math::Vector2<T> start3 =
+      point_on(parts, j3.after) + rotate(second.direction, math::broadcast<T>(dyad.second.vector));
+  const math::Vector2<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
+  first.origin = pin - rotate(first.direction, math::broadcast<T>(j2.before.at));
+  second.origin = pin - rotate(second.direction, math::broadcast<T>(j2.after.at));
   state.reference = pin;
   state.column_x = e1;
   state.column_y = e3;
@@ -222,18 +227,18 @@ LINKWRIGHT_KERNEL void place_rpp(const Group& g, const Dyad& dyad, PartState<T>*
                                  GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> e3 = direction_on(parts, j3.after);
-  second.direction = rotate(e3, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> e2 = rotate(second.direction, broadcast<T>(j2.after.direction));
-  first.direction = rotate(e2, broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
-  const Vec<T> a = point_on(parts, j1.before);
-  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
-  const Vec<T> start2 = point_on(first, j2.before.at);
+  const math::Vector2<T> e3 = direction_on(parts, j3.after);
+  second.direction = rotate(e3, math::broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const math::Vector2<T> e2 = rotate(second.direction, math::broadcast<T>(j2.after.direction));
+  first.direction = rotate(e2, math::broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
+  const math::Vector2<T> a = point_on(parts, j1.before);
+  first.origin = a - rotate(first.direction, math::broadcast<T>(j1.after.at));
+  const math::Vector2<T> start2 = point_on(first, j2.before.at);
   // The second part's inner point runs along e2 through start2 and along e3 through start3.
-  const Vec<T> start3 =
-      point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
-  const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
-  second.origin = meet - rotate(second.direction, broadcast<T>(j2.after.at));
+  const math::Vector2<T> start3 =
+      point_on(parts, j3.after) + rotate(second.direction, math::broadcast<T>(dyad.second.vector));
+  const math::Vector2<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
+  second.origin = meet - rotate(second.direction, math::broadcast<T>(j2.after.at));
   state.reference = a;
   state.column_x = e2;
   state.column_y = e3;
@@ -265,7 +270,7 @@ LINKWRIGHT_KERNEL void place_dyad(DyadTag<type>, const Group& g, const Dyad& dya
 /// `point` and `direction` give those of a PartPoint in the global frame.
 template <class Point, class Direction>
 double mode_side(const Group& g, Point point, Direction direction) {
-  const Vec<double> a = point(g.joints.front().before), b = point(g.joints.back().after);
+  const math::Vec2 a = point(g.joints.front().before), b = point(g.joints.back().after);
   const auto beside = [&](const PlanJoint& pin) { return cross(b - a, point(pin.before) - a); };
   return by_kind(
       g, [](const Driver&) { return 0.0; }, [](const GearTrain&) { return 0.0; },
@@ -300,7 +305,7 @@ LINKWRIGHT_KERNEL void drive_velocity(const Group& g, const T& rate, PartState<T
     moved.speed = base.speed;
     moved.velocity = velocity_at(parts, j.before.part, moved.origin) + way * direction_on(parts, j.before);
   } else {
-    const Vec<T> pivot = point_on(parts, j.before);
+    const math::Vector2<T> pivot = point_on(parts, j.before);
     moved.speed = base.speed + way;
     moved.velocity =
         velocity_at(parts, j.before.part, pivot) - moved.speed * perpendicular(pivot - moved.origin);
@@ -314,14 +319,14 @@ LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T
   PartState<T>& moved = parts[j.after.part];
   const T way = j.reversed ? -acceleration : acceleration;
   if (j.slide) {
-    const Vec<T> along = direction_on(parts, j.before);
+    const math::Vector2<T> along = direction_on(parts, j.before);
     const T sliding = j.reversed ? -rate : rate;
     moved.angular_acceleration = base.angular_acceleration;
     moved.acceleration = acceleration_at(parts, j.before.part, moved.origin) + way * along +
                          (T(2) * base.speed * sliding) * perpendicular(along);
   } else {
-    const Vec<T> pivot = point_on(parts, j.before);
-    const Vec<T> arm = pivot - moved.origin;
+    const math::Vector2<T> pivot = point_on(parts, j.before);
+    const math::Vector2<T> arm = pivot - moved.origin;
     moved.angular_acceleration = base.angular_acceleration + way;
     moved.acceleration = acceleration_at(parts, j.before.part, pivot) -
                          moved.angular_acceleration * perpendicular(arm) + (moved.speed * moved.speed) * arm;
@@ -335,7 +340,7 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadTag<type>, const Group& g, PartState<T>
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   constexpr DyadLayout at = layout(type);
-  const Vec<T> jump =
+  const math::Vector2<T> jump =
       velocity_at(parts, j3.after.part, s.reference) - velocity_at(parts, j1.before.part, s.reference);
   s.rate_x = cross(jump, s.column_y) * s.inverse;
   s.rate_y = cross(s.column_x, jump) * s.inverse;
@@ -346,9 +351,9 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadTag<type>, const Group& g, PartState<T>
   const T rate1 = at.zero == 0 ? s.rate_zero : s.rate_x;
   first.speed = at.slide1 ? before.speed : before.speed + rate1;
   second.speed = at.slide3 ? after.speed : after.speed - s.rate_y;
-  const Vec<T> at_first = velocity_at(parts, j1.before.part, s.reference) +
-                          (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
-  const Vec<T> at_second = velocity_at(parts, j3.after.part, s.reference) - s.rate_y * s.column_y;
+  const math::Vector2<T> at_first = velocity_at(parts, j1.before.part, s.reference) +
+                                    (at.zero == 0 ? math::Vector2<T>{T(0), T(0)} : s.rate_x * s.column_x);
+  const math::Vector2<T> at_second = velocity_at(parts, j3.after.part, s.reference) - s.rate_y * s.column_y;
   first.velocity = at_first - first.speed * perpendicular(s.reference - first.origin);
   second.velocity = at_second - second.speed * perpendicular(s.reference - second.origin);
 }
@@ -356,8 +361,8 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadTag<type>, const Group& g, PartState<T>
 /// The acceleration that a joint adds at R beyond the acceleration of its own rate: centripetal of a pin,
 /// Coriolis of a slide.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& rate, const T& speed_before,
-                                    const T& speed_after) {
+LINKWRIGHT_KERNEL math::Vector2<T> joint_bias(bool slide, const math::Vector2<T>& column, const T& rate,
+                                              const T& speed_before, const T& speed_after) {
   if (slide) return (T(2) * speed_before * rate) * perpendicular(column);
   // column = perpendicular(R - P), so R - P = -perpendicular(column)
   return (speed_after * speed_after - speed_before * speed_before) * perpendicular(column);
@@ -370,13 +375,13 @@ LINKWRIGHT_KERNEL void dyad_acceleration(DyadTag<type>, const Group& g, PartStat
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   constexpr DyadLayout at = layout(type);
-  const Vec<T> from_before = acceleration_at(parts, j1.before.part, s.reference),
-               from_after = acceleration_at(parts, j3.after.part, s.reference);
-  const Vec<T> bias_x = at.zero == 0
-                            ? joint_bias(at.slide(at.x), s.column_x, s.rate_x, first.speed, second.speed)
-                            : joint_bias(at.slide(at.x), s.column_x, s.rate_x, before.speed, first.speed);
-  const Vec<T> bias_y = joint_bias(at.slide(at.y), s.column_y, s.rate_y, second.speed, after.speed);
-  const Vec<T> jump = from_after - from_before - bias_x - bias_y;
+  const math::Vector2<T> from_before = acceleration_at(parts, j1.before.part, s.reference),
+                         from_after = acceleration_at(parts, j3.after.part, s.reference);
+  const math::Vector2<T> bias_x =
+      at.zero == 0 ? joint_bias(at.slide(at.x), s.column_x, s.rate_x, first.speed, second.speed)
+                   : joint_bias(at.slide(at.x), s.column_x, s.rate_x, before.speed, first.speed);
+  const math::Vector2<T> bias_y = joint_bias(at.slide(at.y), s.column_y, s.rate_y, second.speed, after.speed);
+  const math::Vector2<T> jump = from_after - from_before - bias_x - bias_y;
   const T change_x = cross(jump, s.column_y) * s.inverse;
   const T change_y = cross(s.column_x, jump) * s.inverse;
   T change_zero = after.angular_acceleration - before.angular_acceleration;
@@ -387,10 +392,11 @@ LINKWRIGHT_KERNEL void dyad_acceleration(DyadTag<type>, const Group& g, PartStat
       at.slide1 ? before.angular_acceleration : before.angular_acceleration + change1;
   second.angular_acceleration =
       at.slide3 ? after.angular_acceleration : after.angular_acceleration - change_y;
-  const Vec<T> at_first = at.zero == 0 ? from_before : from_before + change_x * s.column_x + bias_x;
-  const Vec<T> at_second = from_after - change_y * s.column_y - bias_y;
-  const auto to_origin = [&](PartState<T> & part, const Vec<T>& there) __attribute__((always_inline)) {
-    const Vec<T> arm = s.reference - part.origin;
+  const math::Vector2<T> at_first = at.zero == 0 ? from_before : from_before + change_x * s.column_x + bias_x;
+  const math::Vector2<T> at_second = from_after - change_y * s.column_y - bias_y;
+  const auto to_origin = [&](PartState<T> & part, const math::Vector2<T>& there)
+      __attribute__((always_inline)) {
+    const math::Vector2<T> arm = s.reference - part.origin;
     part.acceleration =
         there - part.angular_acceleration * perpendicular(arm) + (part.speed * part.speed) * arm;
   };
@@ -411,16 +417,16 @@ LINKWRIGHT_KERNEL Wrench<T> operator-(const Wrench<T>& a, const Wrench<T>& b) {
 }
 /// The same wrench about another point; `way` leads from the new point to the old one.
 template <class T>
-LINKWRIGHT_KERNEL Wrench<T> shifted(const Wrench<T>& w, const Vec<T>& way) {
+LINKWRIGHT_KERNEL Wrench<T> shifted(const Wrench<T>& w, const math::Vector2<T>& way) {
   return {w.force, w.moment + cross(way, w.force)};
 }
 
 /// Inertia and weight of a part: the wrench about its origin that its motion needs.
 template <class T>
 LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>& part,
-                                          const Vec<T>& gravity) {
-  const Vec<T> arm = rotate(part.direction, broadcast<T>(m.moment));
-  const Vec<T> lifted = part.acceleration - gravity;
+                                          const math::Vector2<T>& gravity) {
+  const math::Vector2<T> arm = rotate(part.direction, math::broadcast<T>(m.moment));
+  const math::Vector2<T> lifted = part.acceleration - gravity;
   return {
       T(m.mass) * lifted + part.angular_acceleration * perpendicular(arm) - (part.speed * part.speed) * arm,
       T(m.inertia) * part.angular_acceleration + cross(arm, lifted)};
@@ -451,8 +457,8 @@ LINKWRIGHT_KERNEL void dyad_forces(DyadTag<type>, const Group& g, const PartStat
     if (turns_x) bx = bx - n1.moment;
     if (turns_y) by = by + n2.moment;
   }
-  const Vec<T> f =
-      s.inverse * Vec<T>{bx * s.column_y.y - by * s.column_x.y, by * s.column_x.x - bx * s.column_y.x};
+  const math::Vector2<T> f = s.inverse * math::Vector2<T>{bx * s.column_y.y - by * s.column_x.y,
+                                                          by * s.column_x.x - bx * s.column_y.x};
   const Wrench<T> pin{f, T(0)};
   if (at.zero == 0) {
     joints[0] = pin;
@@ -472,7 +478,7 @@ template <class T>
 LINKWRIGHT_KERNEL Wrench<T> driver_force(const Group& g, const PartState<T>* parts, Wrench<T>* needed) {
   const PlanJoint& j = g.joints[0];
   const int moved = j.after.part, base = j.before.part;
-  const Vec<T> pivot = point_on(parts[moved], j.after.at);
+  const math::Vector2<T> pivot = point_on(parts[moved], j.after.at);
   const Wrench<T> w = shifted(needed[moved], parts[moved].origin - pivot);
   needed[base] = needed[base] + shifted(w, pivot - parts[base].origin);
   return w;

@@ -161,7 +161,10 @@ double assembly_range(const InputLimits& limits, std::span<const double> modes) 
 
 Sentence assembly_range_text(const InputLimits& limits, std::span<const double> modes) {
   const bool rotary = limits.rotary;
-  std::vector<std::pair<double, double>> parts;
+  struct Part {
+    double from, to;
+  };
+  std::vector<Part> parts;
   for (const InputRange& r : limits.ranges) {
     if (!std::equal(modes.begin(), modes.end(), r.modes.begin(), r.modes.end())) continue;
     if (r.full_turn) return "assembles over the full turn";
@@ -169,14 +172,14 @@ Sentence assembly_range_text(const InputLimits& limits, std::span<const double> 
     const bool beyond = limits.closed && (r.from.value + r.to.value) / 2 >= limits.to - same_place;
     const double from = r.from.value - (beyond ? full_turn : 0), to = r.to.value - (beyond ? full_turn : 0);
     // Ranges that meet at a change point are one to the reader.
-    if (!parts.empty() && std::abs(parts.back().second - from) <= same_place * (limits.to - limits.from))
-      parts.back().second = to;
+    if (!parts.empty() && std::abs(parts.back().to - from) <= same_place * (limits.to - limits.from))
+      parts.back().to = to;
     else
-      parts.emplace_back(from, to);
+      parts.push_back({from, to});
   }
   if (parts.empty()) return say("assembles nowhere {}", from_to(rotary, limits.from, limits.to));
   if (limits.closed && parts.size() == 1 &&
-      parts[0].second - parts[0].first >= (1 - same_place) * (limits.to - limits.from))
+      parts[0].to - parts[0].from >= (1 - same_place) * (limits.to - limits.from))
     return "assembles over the full turn";
   Sentence out = "assembles";
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -184,7 +187,7 @@ Sentence assembly_range_text(const InputLimits& limits, std::span<const double> 
                i == 0                  ? ""
                : i + 1 == parts.size() ? " and"
                                        : ",",
-               from_to(rotary, parts[i].first, parts[i].second));
+               from_to(rotary, parts[i].from, parts[i].to));
   return out;
 }
 

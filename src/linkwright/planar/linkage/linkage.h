@@ -11,7 +11,7 @@
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/pose.h"
+#include "linkwright/math/vector2.h"
 
 namespace linkwright::planar {
 

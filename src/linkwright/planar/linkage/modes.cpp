@@ -95,7 +95,7 @@ class Enumeration {
         for (int p : g.parts) {
           PartState<double>& part = motion_.parts[at(p)];
           part.origin = {random.uniform(-2, 2) * plan_.size, random.uniform(-2, 2) * plan_.size};
-          part.direction = unit(random.uniform(-pi, pi));
+          part.direction = math::unit(random.uniform(-pi, pi));
         }
       }
       ++out_.starts;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/sentence.h"
-#include "linkwright/math/pose.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {

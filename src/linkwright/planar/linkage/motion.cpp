@@ -19,8 +19,8 @@ namespace {
 // By how much (m) a dyad that was placed cannot close; 0 when it does.
 double gap_of(const Group& g, const Dyad& dyad, const LinkageMotion& m, const GroupState<double>& s) {
   if (s.radicand > 0) return 0;
-  const Vec<double> a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
-  const Vec<double> b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
+  const math::Vec2 a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
+  const math::Vec2 b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
   switch (dyad.type) {
     case DyadType::rrr:
       return loop_gap(norm(b - a), dyad.first.length, dyad.second.length);
@@ -43,7 +43,7 @@ double gap_of(const Group& g, const Dyad& dyad, const LinkageMotion& m, const Gr
 double closure_of(const Group& g, const LinkageMotion& m) {
   const PlanJoint& inner = g.joints[1];
   const PartState<double>&before = m.parts[at(inner.before.part)], &after = m.parts[at(inner.after.part)];
-  const Vec<double> apart = point_on(after, inner.after.at) - point_on(before, inner.before.at);
+  const math::Vec2 apart = point_on(after, inner.after.at) - point_on(before, inner.before.at);
   return inner.slide ? std::abs(cross(rotate(before.direction, inner.before.direction), apart)) : norm(apart);
 }
 
@@ -70,10 +70,10 @@ void place_train(const Group& g, const GearTrain& train, std::span<const InputMo
   for (std::size_t k = 0; k < g.parts.size(); ++k) {
     const PlanJoint& j = g.joints[k];
     PartState<double>& part = motion.parts[at(g.parts[k])];
-    part.direction = unit(train.angles[k].angle + sum_of(
-                                                      train.angles[k], inputs,
-                                                      [](const InputMotion& i) { return i.value; },
-                                                      [&](int p) { return counted_angle(motion, p); }));
+    part.direction = math::unit(train.angles[k].angle + sum_of(
+                                                            train.angles[k], inputs,
+                                                            [](const InputMotion& i) { return i.value; },
+                                                            [&](int p) { return counted_angle(motion, p); }));
     part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - rotate(part.direction, j.after.at);
   }
 }
@@ -86,7 +86,7 @@ void train_velocity(const Group& g, const GearTrain& train, std::span<const Inpu
     part.speed = sum_of(
         train.angles[k], inputs, [](const InputMotion& i) { return i.rate; },
         [&](int p) { return motion.parts[at(p)].speed; });
-    const Vec<double> pin = point_on(base, j.before.at);
+    const math::Vec2 pin = point_on(base, j.before.at);
     part.velocity = velocity_at(base, pin) - part.speed * perpendicular(pin - part.origin);
   }
 }
@@ -99,7 +99,7 @@ void train_acceleration(const Group& g, const GearTrain& train, std::span<const 
     part.angular_acceleration = sum_of(
         train.angles[k], inputs, [](const InputMotion& i) { return i.acceleration; },
         [&](int p) { return motion.parts[at(p)].angular_acceleration; });
-    const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
+    const math::Vec2 pin = point_on(base, j.before.at), arm = pin - part.origin;
     part.acceleration = acceleration_at(base, pin) - part.angular_acceleration * perpendicular(arm) +
                         (part.speed * part.speed) * arm;
   }
@@ -115,8 +115,8 @@ void place_follower(const LinkagePlan& plan, const Group& g, std::span<const Inp
   for (const int p : parts_of(pair))
     if (p != g.parts[0] && !(plan.turned[at(p)] && plan.turned[at(p)]->shares.empty()))
       counted_angle(motion, p);
-  const Vec<double> pin = point_on(base, j.before.at), along = rotate(base.direction, j.before.direction);
-  part.direction = j.slide ? rotate(along, conjugate(j.after.direction)) : Vec<double>{1, 0};
+  const math::Vec2 pin = point_on(base, j.before.at), along = rotate(base.direction, j.before.direction);
+  part.direction = j.slide ? rotate(along, conjugate(j.after.direction)) : math::Vec2{1, 0};
   part.origin = pin - rotate(part.direction, j.after.at);
   const PairRow row = pair_row(pair, motion.parts, [&](int p) {
     if (p == g.parts[0] && !j.slide) return 0.0;
@@ -127,7 +127,7 @@ void place_follower(const LinkagePlan& plan, const Group& g, std::span<const Inp
   if (j.slide) {
     part.origin = part.origin - (row.residual / dot(share.force, along)) * along;
   } else {
-    part.direction = unit(-row.residual / share.turning);
+    part.direction = math::unit(-row.residual / share.turning);
     part.origin = pin - rotate(part.direction, j.after.at);
   }
 }
@@ -160,7 +160,7 @@ LinkageMotion::LinkageMotion(const LinkagePlan& plan)
       for (std::size_t i = 0; i < g.parts.size(); ++i) {
         const math::Pose pose = general_group->start.empty() ? math::Pose{} : general_group->start[i];
         parts[at(g.parts[i])].origin = {pose.x, pose.y};
-        parts[at(g.parts[i])].direction = unit(pose.angle);
+        parts[at(g.parts[i])].direction = math::unit(pose.angle);
       }
     general.push_back(traits_of(g).has_matrix ? general_group_memory(plan, g) : GeneralGroupPointer());
   }
@@ -175,7 +175,7 @@ void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t gro
     const bool keeps = !traits_of(plan.groups[g]).closed_form || (status == Status::singular && g == group);
     for (int p : plan.groups[g].parts) {
       PartState<double>& part = motion.parts[at(p)];
-      const Vec<double> origin = part.origin, direction = part.direction;
+      const math::Vec2 origin = part.origin, direction = part.direction;
       forget(part);
       if (keeps) part.origin = origin, part.direction = direction;
     }
@@ -186,7 +186,7 @@ PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motio
   const BodyOnPart& on = plan.bodies[at(body)];
   PartState<double> s = motion.parts[at(on.part)];
   if (on.same_frame) return s;
-  const Vec<double> origin = point_on(s, on.origin);
+  const math::Vec2 origin = point_on(s, on.origin);
   s.velocity = velocity_at(s, origin);
   s.acceleration = acceleration_at(s, origin);
   s.direction = rotate(s.direction, on.turn);
@@ -197,7 +197,7 @@ PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motio
 PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, int body,
                          std::complex<double> there) {
   const PartState<double> s = body_state(plan, motion, body);
-  const Vec<double> p = point_on(s, vec(there));
+  const math::Vec2 p = point_on(s, math::vec(there));
   return {p, velocity_at(s, p), acceleration_at(s, p)};
 }
 
@@ -259,7 +259,7 @@ void count_turns(const LinkagePlan& plan, std::span<const InputMotion> inputs, L
       for (std::size_t i = 0; i < t.gains.size(); ++i) motion.twists[k] += t.gains[i] * inputs[i].value;
       continue;
     }
-    const Vec<double>&a = motion.parts[at(t.first)].direction, &b = motion.parts[at(t.second)].direction;
+    const math::Vec2 &a = motion.parts[at(t.first)].direction, &b = motion.parts[at(t.second)].direction;
     const double now = angle_of(rotate_inverse(a, rotate(b, t.turn)));
     if (std::isnan(now)) continue;
     const double last =

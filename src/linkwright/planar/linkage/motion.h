@@ -7,10 +7,46 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/linkage/plan.h"
-#include "linkwright/planar/linkage/state.h"
 
 namespace linkwright::planar {
+
+/// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.
+template <class T>
+struct PartState {
+  math::Vector2<T> origin,        ///< m, global
+      direction;                  ///< direction of the x axis, unit vector
+  math::Vector2<T> velocity;      ///< velocity of the origin, m/s
+  T speed;                        ///< rad/s, counter-clockwise positive
+  math::Vector2<T> acceleration;  ///< acceleration of the origin, m/s2
+  T angular_acceleration;         ///< rad/s2
+};
+
+/// The state of a group's closure.
+template <class T>
+struct GroupState {
+  /// Radicand of a dyad with two modes, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot be assembled, zero
+  /// = the modes meet.
+  T radicand;
+  /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
+  /// transmission angle of an RRR dyad. Zero = dead point.
+  T sine;
+  math::Vector2<T> reference;  ///< reference point R of the closure, global, m
+  math::Vector2<T> column_x,   ///< displacement of R by a unit of the one joint
+      column_y;                ///< displacement of R by a unit of the other
+  T inverse;                   ///< 1 / cross(column_x, column_y)
+  T rate_x,                    ///< rate of the joint of column_x
+      rate_y,                  ///< rate of the joint of column_y
+      rate_zero;               ///< rate of the third joint
+};
+
+/// Force and its moment about a point that is named beside it.
+template <class T>
+struct Wrench {
+  math::Vector2<T> force;  ///< N, global
+  T moment;                ///< N m
+};
 
 /// The memory of a group that is solved by a matrix.
 struct GeneralGroupMemory;
@@ -59,9 +95,9 @@ class LinkageMotion {
 
 /// A point of a body in the global frame: where it is and how it moves.
 struct PointMotion {
-  Vec<double> position,  ///< global, m
-      velocity,          ///< m/s
-      acceleration;      ///< m/s2
+  math::Vec2 position,  ///< global, m
+      velocity,         ///< m/s
+      acceleration;     ///< m/s2
 };
 
 /// The motion of a point of a body.

@@ -13,8 +13,7 @@ namespace linkwright::planar {
 /// what is placed before it, for drawings; rates stay unknown. Gives the two places that a joint would hold
 /// together, `motion.gap` apart; nothing of groups without closed form. Throws ContractError as
 /// solve_position does.
-std::optional<std::array<Vec<double>, 2>> lay_open(const LinkagePlan& plan,
-                                                   std::span<const InputMotion> inputs,
-                                                   LinkageMotion& motion);
+std::optional<std::array<math::Vec2, 2>> lay_open(const LinkagePlan& plan,
+                                                  std::span<const InputMotion> inputs, LinkageMotion& motion);
 
 }  // namespace linkwright::planar

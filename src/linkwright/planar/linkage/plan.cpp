@@ -21,14 +21,14 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
     const LinkageBody& body = linkage.bodies[i];
     const BodyOnPart& on = bodies[i];
     PartMass& m = masses[at(on.part)];
-    const auto add = [&](double mass, double inertia, const Vec<double>& centre) {
-      const Vec<double> c = on.origin + rotate(on.turn, centre);
+    const auto add = [&](double mass, double inertia, const math::Vec2& centre) {
+      const math::Vec2 c = on.origin + rotate(on.turn, centre);
       m.mass += mass;
       m.moment = m.moment + mass * c;
       m.inertia += inertia + mass * dot(c, c);
     };
-    if (body.mass) add(body.mass->mass, body.mass->inertia, vec(body.mass->centre));
-    for (const AttachedMass& a : body.attached) add(a.mass, 0, vec(a.at));
+    if (body.mass) add(body.mass->mass, body.mass->inertia, math::vec(body.mass->centre));
+    for (const AttachedMass& a : body.attached) add(a.mass, 0, math::vec(a.at));
   }
   return masses;
 }

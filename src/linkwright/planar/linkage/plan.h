@@ -12,8 +12,8 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/math/spline.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/linkage/linkage.h"
-#include "linkwright/planar/plane.h"
 
 namespace linkwright::planar {
 
@@ -23,9 +23,9 @@ namespace linkwright::planar {
 
 /// One side of a joint as the solver sees it: a part with a point, and a direction for slides.
 struct PartPoint {
-  int part = 0;                 ///< index into LinkagePlan::parts
-  Vec<double> at{0, 0};         ///< in the frame of the part, m
-  Vec<double> direction{1, 0};  ///< unit vector in the frame of the part: of a slide, or x axis of the body
+  int part = 0;                ///< index into LinkagePlan::parts
+  math::Vec2 at{0, 0};         ///< in the frame of the part, m
+  math::Vec2 direction{1, 0};  ///< unit vector in the frame of the part: of a slide, or x axis of the body
 };
 
 /// A joint between two parts, pins and slides only.
@@ -149,12 +149,12 @@ constexpr GroupTraits traits_of(const Follower&) { return {.name = "follower", .
 
 /// A link between two joints of a closed form, and what that needs of it.
 struct PlanLink {
-  Vec<double> vector{0, 0};  ///< from outer to inner joint in the frame of the part
-  double square = 0,         ///< square of its length, m2
-      length = 0;            ///< m
+  math::Vec2 vector{0, 0};  ///< from outer to inner joint in the frame of the part
+  double square = 0,        ///< square of its length, m2
+      length = 0;           ///< m
   /// One over the link as a complex number: turned onto where the link lies it gives the direction of its
   /// part. 0 of a link without length.
-  Vec<double> inverse{0, 0};
+  math::Vec2 inverse{0, 0};
 };
 
 /// The type of a dyad by its joints in the order of the chain: R a pin, P a slide.
@@ -268,17 +268,17 @@ decltype(auto) by_kind(const Group& group, Cases... cases) {
 
 /// A body as it sits on its part: welded bodies make one part.
 struct BodyOnPart {
-  int part = 0;              ///< index of the part
-  Vec<double> origin{0, 0};  ///< origin of the body in the frame of the part, m
-  Vec<double> turn{1, 0};    ///< direction of the x axis of the body in the frame of the part, unit vector
-  bool same_frame = true;    ///< origin and turn are those of the part
+  int part = 0;             ///< index of the part
+  math::Vec2 origin{0, 0};  ///< origin of the body in the frame of the part, m
+  math::Vec2 turn{1, 0};    ///< direction of the x axis of the body in the frame of the part, unit vector
+  bool same_frame = true;   ///< origin and turn are those of the part
 };
 
 /// Mass of a part in the parameters that forces are linear in.
 struct PartMass {
-  double mass = 0;           ///< kg
-  Vec<double> moment{0, 0};  ///< mass times mass centre in the frame of the part, kg m
-  double inertia = 0;        ///< about the origin of the part, kg m2
+  double mass = 0;          ///< kg
+  math::Vec2 moment{0, 0};  ///< mass times mass centre in the frame of the part, kg m
+  double inertia = 0;       ///< about the origin of the part, kg m2
 };
 
 /// The twist of a torsion spring: the angle of its second body from its first, with its turns.
@@ -286,7 +286,7 @@ struct PlanTwist {
   int first = 0,   ///< part of the first body
       second = 0;  ///< part of the second body
   /// Direction of the second body on its part, less that of the first on its own (unit vector).
-  Vec<double> turn{1, 0};
+  math::Vec2 turn{1, 0};
   /// True if drives and gears alone turn both: their joints count the turns, and the twist is `angle` + the
   /// sum of `gains` times the inputs. Else it continues from the last position by less than half a turn, from
   /// the first one to the angle that is nearest to `free` but for its whole turns.

@@ -25,10 +25,10 @@ std::optional<double> drawn_mode(const PlanDraft& d, const Group& g) {
   for (const PlanJoint& j : g.joints)
     if (!d.start[at(j.before.part)] || !d.start[at(j.after.part)]) return {};
   const auto there = [&](const PartPoint& p) {
-    return vec(math::transform(*d.start[at(p.part)], number(p.at)));
+    return math::vec(math::transform(*d.start[at(p.part)], number(p.at)));
   };
   const auto along = [&](const PartPoint& p) {
-    return rotate(unit(d.start[at(p.part)]->angle), p.direction);
+    return rotate(math::unit(d.start[at(p.part)]->angle), p.direction);
   };
   return mode_side(g, there, along) < 0 ? -1.0 : 1.0;
 }
@@ -75,10 +75,10 @@ void find_drawn_inputs(PlanDraft& d) {
     if (joint.input < 0) continue;
     const auto &first = d.start[at(joint.first.part)], &second = d.start[at(joint.second.part)];
     if (!first || !second) return;
-    const Vec<double> along = rotate(unit(first->angle), joint.first.direction),
-                      other = rotate(unit(second->angle), joint.second.direction),
-                      way = vec(math::transform(*second, number(joint.second.at))) -
-                            vec(math::transform(*first, number(joint.first.at)));
+    const math::Vec2 along = rotate(math::unit(first->angle), joint.first.direction),
+                     other = rotate(math::unit(second->angle), joint.second.direction),
+                     way = math::vec(math::transform(*second, number(joint.second.at))) -
+                           math::vec(math::transform(*first, number(joint.first.at)));
     values[at(joint.input)] = joint.slide ? dot(along, way) : angle_of(rotate_inverse(along, other));
   }
   d.plan().drawn_inputs = std::move(values);

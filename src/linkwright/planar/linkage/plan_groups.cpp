@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-PlanLink closed_form_link(const Vec<double>& vector) {
+PlanLink closed_form_link(const math::Vec2& vector) {
   PlanLink link;
   link.vector = vector;
   link.square = dot(vector, vector);
@@ -27,7 +27,7 @@ Dyad dyad_of(const PlanJoint& j1, const PlanJoint& j2, const PlanJoint& j3) {
     dyad.type = j3.slide ? DyadType::rpp : DyadType::rpr;
   else
     dyad.type = j1.slide ? DyadType::prp : j3.slide ? DyadType::rrp : DyadType::rrr;
-  Vec<double> first = j2.before.at - j1.after.at, second = j2.after.at - j3.before.at;
+  math::Vec2 first = j2.before.at - j1.after.at, second = j2.after.at - j3.before.at;
   if (dyad.type == DyadType::rpr) {
     first = rotate_inverse(j2.before.direction, first);
     second = rotate_inverse(j2.after.direction, second);

@@ -18,7 +18,7 @@ namespace {
 
 PartState<double> start_of(const PlanDraft& d, int part) {
   const math::Pose& pose = *d.start[at(part)];
-  return {{pose.x, pose.y}, unit(pose.angle), {0, 0}, 0, {0, 0}, 0};
+  return {{pose.x, pose.y}, math::unit(pose.angle), {0, 0}, 0, {0, 0}, 0};
 }
 
 // The constant of a strand is what the start poses give.

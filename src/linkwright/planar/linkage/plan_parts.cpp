@@ -14,11 +14,11 @@ namespace linkwright::planar {
 namespace {
 
 struct PoseOnRoot {
-  Vec<double> origin{0, 0}, turn{1, 0};
+  math::Vec2 origin{0, 0}, turn{1, 0};
 };
 
-Vec<double> point_of_body(const PlanDraft& d, const BodyPoint& p) {
-  return vec(d.linkage.bodies[at(p.body)].points[at(p.point)].at);
+math::Vec2 point_of_body(const PlanDraft& d, const BodyPoint& p) {
+  return math::vec(d.linkage.bodies[at(p.body)].points[at(p.point)].at);
 }
 
 // Bodies joined by welds become one part, in the frame of the first of them.
@@ -39,13 +39,13 @@ void weld_bodies(PlanDraft& d) {
       return;
     }
     // Frame of b in the frame of a, then in that of a's root; all of b's part moves over.
-    const Vec<double> turn_ba = unit(j.slide_first - j.slide_second);
-    const Vec<double> origin_ba = point_of_body(d, j.first) - rotate(turn_ba, point_of_body(d, j.second));
+    const math::Vec2 turn_ba = math::unit(j.slide_first - j.slide_second);
+    const math::Vec2 origin_ba = point_of_body(d, j.first) - rotate(turn_ba, point_of_body(d, j.second));
     const PoseOnRoot &ra = pose[at(a)], rb = pose[at(b)];
     const PoseOnRoot b_in_root{ra.origin + rotate(ra.turn, origin_ba),
                                renormalised(rotate(ra.turn, turn_ba))};
-    const Vec<double> old_turn = rotate(b_in_root.turn, conjugate(rb.turn));
-    const Vec<double> old_origin = b_in_root.origin - rotate(old_turn, rb.origin);
+    const math::Vec2 old_turn = rotate(b_in_root.turn, conjugate(rb.turn));
+    const math::Vec2 old_origin = b_in_root.origin - rotate(old_turn, rb.origin);
     const int from = root[at(b)], to = root[at(a)];
     for (int i = 0; i < n; ++i)
       if (root[at(i)] == from) {
@@ -81,8 +81,8 @@ void weld_bodies(PlanDraft& d) {
     const BodyOnPart& b = d.plan().bodies[at(i)];
     if (b.part == 0 || d.start[at(b.part)] || !d.linkage.bodies[at(i)].start) continue;
     const math::Pose& s = *d.linkage.bodies[at(i)].start;
-    const Vec<double> direction = rotate(unit(s.angle), conjugate(b.turn));
-    const Vec<double> origin = Vec<double>{s.x, s.y} - rotate(direction, b.origin);
+    const math::Vec2 direction = rotate(math::unit(s.angle), conjugate(b.turn));
+    const math::Vec2 origin = math::Vec2{s.x, s.y} - rotate(direction, b.origin);
     d.start[at(b.part)] = math::Pose{origin.x, origin.y, angle_of(direction)};
   }
 }
@@ -159,7 +159,7 @@ void find_masses(PlanDraft& d) {
 
 PartPoint on_part(const PlanDraft& d, const BodyPoint& p, double direction) {
   const BodyOnPart& b = d.plan().bodies[at(p.body)];
-  return {b.part, b.origin + rotate(b.turn, point_of_body(d, p)), rotate(b.turn, unit(direction))};
+  return {b.part, b.origin + rotate(b.turn, point_of_body(d, p)), rotate(b.turn, math::unit(direction))};
 }
 
 // Gears couple the frames of bodies; parts may be turned against them.

@@ -116,8 +116,8 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
 }
 
 PartState<double> relative_motion(const PartState<double>& r, const PartState<double>& b) {
-  const Vec<double> slip = b.velocity - velocity_at(r, b.origin);
-  const Vec<double> change =
+  const math::Vec2 slip = b.velocity - velocity_at(r, b.origin);
+  const math::Vec2 change =
       b.acceleration - acceleration_at(r, b.origin) - (2 * r.speed) * perpendicular(slip);  // less Coriolis
   return {rotate_inverse(r.direction, b.origin - r.origin),
           rotate_inverse(r.direction, b.direction),
@@ -140,9 +140,9 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
   if (j.type == JointType::revolute || j.type == JointType::gear || rack)
     return {angle_of(s.direction), s.speed, s.angular_acceleration};
   const auto point = [&](const BodyPoint& p) {
-    return vec(linkage.bodies[at(p.body)].points[at(p.point)].at);
+    return math::vec(linkage.bodies[at(p.body)].points[at(p.point)].at);
   };
-  const Vec<double> there = point_on(s, point(j.second)), along = unit(j.slide_first);
+  const math::Vec2 there = point_on(s, point(j.second)), along = math::unit(j.slide_first);
   return {dot(along, there - point(j.first)), dot(along, velocity_at(s, there)),
           dot(along, acceleration_at(s, there))};
 }
@@ -154,7 +154,8 @@ double off_pitch_line(const Linkage& linkage, const LinkagePlan& plan, const Lin
   const auto place = [&](const BodyPoint& p) {
     return point_motion(plan, motion, p.body, linkage.bodies[at(p.body)].points[at(p.point)].at).position;
   };
-  const Vec<double> along = rotate(body_state(plan, motion, j.second.body).direction, unit(j.slide_second));
+  const math::Vec2 along =
+      rotate(body_state(plan, motion, j.second.body).direction, math::unit(j.slide_second));
   return cross(along, place(j.first) - place(j.second)) - j.radius;
 }
 
@@ -178,7 +179,7 @@ InstantCentre instant_centre(const LinkagePlan& plan, const LinkageMotion& motio
   out.first = first;
   out.second = second;
   const double turning = b.speed - a.speed;
-  const Vec<double> slip = b.velocity - velocity_at(a, b.origin);
+  const math::Vec2 slip = b.velocity - velocity_at(a, b.origin);
   const double turns = std::max(std::abs(a.speed), std::abs(b.speed));
   const double moves = std::max({norm(a.velocity), norm(b.velocity), turns * plan.size});
   // Differences at the level of rounding are none: a body that only slides turns by 1e-17 in numbers.
@@ -212,20 +213,20 @@ PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion,
   }
   const PartState<double> base = body_state(plan, motion, reference);
   const PartState<double> s = relative_motion(base, body_state(plan, motion, body));
-  const Vec<double> pole = rotate_inverse(base.direction, centre.position - base.origin);
+  const math::Vec2 pole = rotate_inverse(base.direction, centre.position - base.origin);
   // A point at r from the pole has the velocity w perpendicular(r) and the acceleration a + e
   // perpendicular(r) - w^2 r, a of the pole: parallel where a . r = w^2 r^2, a circle over the diameter a /
   // w^2.
-  const Vec<double> a = acceleration_at(s, pole);
+  const math::Vec2 a = acceleration_at(s, pole);
   const double square = s.speed * s.speed;
-  const Vec<double> diameter = (1 / square) * a;
-  const auto global = [&](const Vec<double>& p) { return point_on(base, p); };
+  const math::Vec2 diameter = (1 / square) * a;
+  const auto global = [&](const math::Vec2& p) { return point_on(base, p); };
   out.pole = centre.position;
   out.inflection_pole = global(pole + diameter);
   out.circle_centre = global(pole + 0.5 * diameter);
   out.circle_radius = 0.5 * norm(diameter);
   // a + (i e - w^2) r = 0
-  const Vec<double> divisor{square, -s.angular_acceleration};
+  const math::Vec2 divisor{square, -s.angular_acceleration};
   out.acceleration_pole = global(pole + (1 / dot(divisor, divisor)) * rotate_inverse(divisor, a));
   return out;
 }
@@ -246,7 +247,7 @@ Table centrodes(const LinkagePlan& plan, std::span<const double> inputs, int inp
     value.push_back(value_at(from, to, i, samples));
     const std::span<const InputMotion> in = one(value.back(), 1);
     solve_position(plan, in, motion);
-    Vec<double> fixed{nan, nan}, moving{nan, nan};
+    math::Vec2 fixed{nan, nan}, moving{nan, nan};
     std::string status(to_string(motion.status));
     if (motion.status == Status::done) {
       solve_velocity(plan, in, motion);

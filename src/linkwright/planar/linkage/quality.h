@@ -82,9 +82,9 @@ struct InstantCentre {
   /// at_infinity: the bodies turn alike, and `direction` points to the centre (in both directions);
   /// undetermined: they do not move against each other at these velocities.
   Kind kind = Kind::undetermined;
-  int first = 0, second = 0;    ///< bodies
-  Vec<double> position{0, 0};   ///< global, m
-  Vec<double> direction{0, 0};  ///< unit vector
+  int first = 0, second = 0;   ///< bodies
+  math::Vec2 position{0, 0};   ///< global, m
+  math::Vec2 direction{0, 0};  ///< unit vector
 };
 InstantCentre instant_centre(const LinkagePlan& plan, const LinkageMotion& motion, int first, int second);
 /// The instant centres of all n (n - 1) / 2 pairs of bodies. By the theorem of Aronhold and Kennedy the three
@@ -95,12 +95,12 @@ std::vector<InstantCentre> instant_centres(const LinkagePlan& plan, const Linkag
 /// accelerations in the motion; global coordinates at this instant. Independent of the speed along the motion
 /// but for the acceleration pole.
 struct PoleGeometry {
-  bool turns = false;           ///< else the rest is NaN: the bodies do not turn against each other
-  Vec<double> pole;             ///< instant centre P
-  Vec<double> inflection_pole;  ///< W: PW is the diameter of the inflection circle
-  Vec<double> circle_centre;  ///< centre of the inflection circle: its points pass inflections of their paths
-  double circle_radius = 0;   ///< m
-  Vec<double> acceleration_pole;  ///< point of the body without acceleration
+  bool turns = false;          ///< else the rest is NaN: the bodies do not turn against each other
+  math::Vec2 pole;             ///< instant centre P
+  math::Vec2 inflection_pole;  ///< W: PW is the diameter of the inflection circle
+  math::Vec2 circle_centre;  ///< centre of the inflection circle: its points pass inflections of their paths
+  double circle_radius = 0;  ///< m
+  math::Vec2 acceleration_pole;  ///< point of the body without acceleration
 };
 PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion, int body, int reference = 0);
 

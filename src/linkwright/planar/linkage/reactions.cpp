@@ -27,7 +27,7 @@ double factor_at(const LoadFactor& f, double argument, bool turns) {
 
 namespace {
 
-double strength(const LoadFactor& f, bool turns, double time, double input, const Vec<double>& point,
+double strength(const LoadFactor& f, bool turns, double time, double input, const math::Vec2& point,
                 double speed) {
   switch (f.against) {
     case LoadArgument::constant:
@@ -58,8 +58,8 @@ const PartState<double>& part_of(const LinkagePlan& plan, const LinkageMotion& m
 }
 
 // The wrench w about `about` that a plan joint puts on its part after, as the model's reaction.
-void report(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double>& w,
-            const Vec<double>& about, LinkageForces& f) {
+void report(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double>& w, const math::Vec2& about,
+            LinkageForces& f) {
   if (j.joint < 0) return;
   JointReaction& r = f.joints[at(j.joint)];
   const PartPoint& second = j.reversed ? j.before : j.after;
@@ -82,7 +82,7 @@ void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
     for (std::size_t k = 0; k < pin.joints.size(); ++k)
       f.group_joints[k].force = f.joints[at(pin.joints[k])].force;
     for (std::size_t i = 0; i < pin.joints.size(); ++i) {
-      Vec<double> sum{0, 0};
+      math::Vec2 sum{0, 0};
       for (std::size_t k = 0; k < pin.joints.size(); ++k)
         sum = sum + pin.share[i][k] * f.group_joints[k].force;
       f.joints[at(pin.joints[i])].force = sum;
@@ -92,7 +92,7 @@ void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
 
 // One pass over the groups, last first, with the loads as they are.
 void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
-  const Vec<double> gravity = vec(linkage.gravity);
+  const math::Vec2 gravity = math::vec(linkage.gravity);
   for (std::size_t p = 0; p < plan.parts.size(); ++p)
     f.needed[p] = needed_wrench(plan.masses[p], motion.parts[p], gravity);
   for (const AppliedLoad& load : f.loads) {
@@ -103,8 +103,8 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
   for (const PlanStrand& strand : plan.strands) {
     if (!strand.preloaded) continue;
     const StrandLine line = strand_line(strand.run, motion.parts);
-    const Vec<double> pull = f.preload[at(strand.belt)] * line.along;
-    const auto take = [&](int part, const Vec<double>& force, const Vec<double>& point) {
+    const math::Vec2 pull = f.preload[at(strand.belt)] * line.along;
+    const auto take = [&](int part, const math::Vec2& force, const math::Vec2& point) {
       Wrench<double>& n = f.needed[at(part)];
       n = n - shifted(Wrench<double>{force, 0}, point - motion.parts[at(part)].origin);
     };
@@ -183,17 +183,17 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
   for (std::size_t b = 1; b < n; ++b) {
     const PartState<double> s = body_state(plan, motion, static_cast<int>(b));
     PartMass m;
-    const auto add = [&](double mass, double inertia, const Vec<double>& c) {
+    const auto add = [&](double mass, double inertia, const math::Vec2& c) {
       m.mass += mass;
       m.moment = m.moment + mass * c;
       m.inertia += inertia + mass * dot(c, c);
     };
     if (l.bodies[b].mass)
-      add(l.bodies[b].mass->mass, l.bodies[b].mass->inertia, vec(l.bodies[b].mass->centre));
-    for (const AttachedMass& a : l.bodies[b].attached) add(a.mass, 0, vec(a.at));
-    needs[b] = shifted(needed_wrench(m, s, vec(l.gravity)), s.origin);
+      add(l.bodies[b].mass->mass, l.bodies[b].mass->inertia, math::vec(l.bodies[b].mass->centre));
+    for (const AttachedMass& a : l.bodies[b].attached) add(a.mass, 0, math::vec(a.at));
+    needs[b] = shifted(needed_wrench(m, s, math::vec(l.gravity)), s.origin);
   }
-  const auto take = [&](int body, const Wrench<double>& w, const Vec<double>& point) {
+  const auto take = [&](int body, const Wrench<double>& w, const math::Vec2& point) {
     needs[at(body)] = needs[at(body)] - shifted(w, point);
   };
   for (const AppliedLoad& load : f.loads) take(load.body, {load.force, load.torque}, load.point);
@@ -253,13 +253,13 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
 }
 
 void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
-  const Vec<double> gravity = vec(l.gravity);
+  const math::Vec2 gravity = math::vec(l.gravity);
   f.kinetic_power = f.weight_power = f.load_power = f.drive_power = 0;
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
     const PartState<double>& s = motion.parts[p];
-    const Wrench<double> w = needed_wrench(plan.masses[p], s, Vec<double>{0, 0});
+    const Wrench<double> w = needed_wrench(plan.masses[p], s, math::Vec2{0, 0});
     f.kinetic_power += dot(w.force, s.velocity) + w.moment * s.speed;
-    const Vec<double> arm = rotate(s.direction, plan.masses[p].moment);
+    const math::Vec2 arm = rotate(s.direction, plan.masses[p].moment);
     f.weight_power += plan.masses[p].mass * dot(gravity, s.velocity) + cross(arm, gravity) * s.speed;
   }
   for (const AppliedLoad& load : f.loads) {
@@ -272,8 +272,9 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
           &second = part_of(plan, motion, j.second.body);
     double rate = second.speed - first.speed;
     if (j.type == JointType::prismatic) {
-      const Vec<double> along = rotate(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
-      const Vec<double> point = point_of(l, plan, motion, j.second).position;
+      const math::Vec2 along =
+          rotate(body_state(plan, motion, j.first.body).direction, math::unit(j.slide_first));
+      const math::Vec2 point = point_of(l, plan, motion, j.second).position;
       rate = dot(along, velocity_at(second, point) - velocity_at(first, point));
     }
     f.drive_power += f.drives[i] * rate;
@@ -295,10 +296,10 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
                    double input, std::vector<AppliedLoad>& loads) {
   for (const LinearSpring& s : l.springs) {
     const PointMotion a = point_of(l, plan, motion, s.first), b = point_of(l, plan, motion, s.second);
-    const Vec<double> way = b.position - a.position;
+    const math::Vec2 way = b.position - a.position;
     const double length = norm(way);
     // Without a length there is no direction: as if at rest length.
-    const Vec<double> along = length > 0 ? (1 / length) * way : Vec<double>{0, 0};
+    const math::Vec2 along = length > 0 ? (1 / length) * way : math::Vec2{0, 0};
     const double pull =
         s.stiffness * (length - s.free_length) + s.damping * dot(along, b.velocity - a.velocity);
     loads.push_back({s.first.body, a.position, pull * along, 0});
@@ -314,8 +315,8 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   }
   const bool turns = !plan.rotary.empty() && plan.rotary[0];
   for (const PointForce& p : l.forces) {
-    const Vec<double> there = point_of(l, plan, motion, p.point).position;
-    Vec<double> force = strength(p.factor, turns, time, input, there, 0) * vec(p.force);
+    const math::Vec2 there = point_of(l, plan, motion, p.point).position;
+    math::Vec2 force = strength(p.factor, turns, time, input, there, 0) * math::vec(p.force);
     if (p.turns_with_body) force = rotate(body_state(plan, motion, p.point.body).direction, force);
     loads.push_back({p.point.body, there, force, 0});
   }
@@ -373,7 +374,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   }
   add_preloads(plan, motion, f);
   f.shaking_force = -f.needed[0].force;
-  f.shaking_moment_with_drive = -f.needed[0].moment - cross(vec(l.moment_centre), f.shaking_force);
+  f.shaking_moment_with_drive = -f.needed[0].moment - cross(math::vec(l.moment_centre), f.shaking_force);
   f.shaking_moment = f.shaking_moment_with_drive;
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     const LinkageJoint& j = l.joints[at(l.driven[i])];

@@ -15,9 +15,9 @@ namespace linkwright::planar {
 /// the pitch point, where that is known (Gear::mesh). Friction of the joint is not included: it is among the
 /// loads.
 struct JointReaction {
-  Vec<double> point{0, 0};  ///< position of the point of the second body, global, m
-  Vec<double> force{0, 0};  ///< N, global
-  double moment = 0;        ///< N m, about `point`
+  math::Vec2 point{0, 0};  ///< position of the point of the second body, global, m
+  math::Vec2 force{0, 0};  ///< N, global
+  double moment = 0;       ///< N m, about `point`
   /// gear: force across the line of centres on its second body (N), positive to the left of the line from the
   /// first centre to the second; NaN where the mesh is not known. rack: force along the pitch line on the
   /// rack.
@@ -27,10 +27,10 @@ struct JointReaction {
 
 /// A load on a body: a force at a point of the global frame and a torque.
 struct AppliedLoad {
-  int body = 0;             ///< index of the body
-  Vec<double> point{0, 0};  ///< global, m
-  Vec<double> force{0, 0};  ///< N, global
-  double torque = 0;        ///< N m
+  int body = 0;            ///< index of the body
+  math::Vec2 point{0, 0};  ///< global, m
+  math::Vec2 force{0, 0};  ///< N, global
+  double torque = 0;       ///< N m
 };
 
 /// Joint forces of a linkage at one instant; use one again and again.
@@ -45,7 +45,7 @@ struct LinkageForces {
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
   std::vector<AppliedLoad> loads;  ///< springs, loads, struts, friction as they acted; no weight
   /// Force of the mechanism, and of bodies welded to the ground, on the ground (N), weight included.
-  Vec<double> shaking_force{0, 0};
+  math::Vec2 shaking_force{0, 0};
   /// Moment on the ground about Linkage::moment_centre (N m), with everything that acts on it.
   double shaking_moment_with_drive = 0;
   /// The same without the torques of drives that are mounted on the ground (N m).

@@ -44,8 +44,8 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
   const Group& g = plan.groups[k];
   const PlanJoint &j1 = g.joints.front(), &j3 = g.joints.back();
   const PartState<double>&before = m.parts[at(j1.before.part)], &after = m.parts[at(j3.after.part)];
-  const Vec<double> a = point_on(before, j1.before.at), b = point_on(after, j3.after.at);
-  const Vec<double> d = b - a, slip = velocity_at(after, b) - velocity_at(before, a);
+  const math::Vec2 a = point_on(before, j1.before.at), b = point_on(after, j3.after.at);
+  const math::Vec2 d = b - a, slip = velocity_at(after, b) - velocity_at(before, a);
   const double length = norm(d);
   const auto dyad_closure = [&](const Dyad& dyad) -> Closure {
     switch (dyad.type) {
@@ -57,7 +57,7 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
                 std::min(std::abs(reach - length), std::abs(length - fold)) / reach};
       }
       case DyadType::rrp: {
-        const Vec<double> e = rotate(after.direction, j3.after.direction);
+        const math::Vec2 e = rotate(after.direction, j3.after.direction);
         // The line of the inner pin runs beside the slide's, by as much in every position of the guide.
         const double beside = rotate_inverse(j3.before.direction, dyad.second.vector).y;
         const double across = cross(e, d) + beside, l = dyad.first.length;
@@ -70,8 +70,8 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
                 std::abs(length - std::abs(offset)) / plan.size};
       }
       case DyadType::prp: {  // the sine between the slides, with sign
-        const Vec<double> e1 = rotate(before.direction, j1.before.direction),
-                          e3 = rotate(after.direction, j3.after.direction);
+        const math::Vec2 e1 = rotate(before.direction, j1.before.direction),
+                         e3 = rotate(after.direction, j3.after.direction);
         return {cross(e1, e3), (after.speed - before.speed) * dot(e1, e3), std::abs(cross(e1, e3))};
       }
       case DyadType::rpp:

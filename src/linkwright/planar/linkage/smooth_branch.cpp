@@ -147,7 +147,7 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   for (std::size_t p = 1; p < parts; ++p) {
     const double* v = &places.values()[10 * p];
     PartState<double>& s = motion.parts[p];
-    const Vec<double> direction{v[2], v[3]};
+    const math::Vec2 direction{v[2], v[3]};
     s = {{v[0], v[1]}, (1 / norm(direction)) * direction, {v[4], v[5]}, v[6], {v[7], v[8]}, v[9]};
   }
   for (GroupState<double>& g : motion.groups) g.sine = 0;

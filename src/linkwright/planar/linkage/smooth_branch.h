@@ -5,7 +5,7 @@
 #include <span>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::planar {

@@ -44,7 +44,7 @@ Span span_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& mot
   };
   const PointMotion a = point(first), b = point(second);
   Span span{.first = a.position, .second = b.position};
-  const Vec<double> between = b.position - a.position;
+  const math::Vec2 between = b.position - a.position;
   span.length = norm(between);
   if (span.length > 0) span.along = (1 / span.length) * between;
   span.rate = dot(span.along, b.velocity - a.velocity);

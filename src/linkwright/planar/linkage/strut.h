@@ -13,11 +13,11 @@ namespace linkwright::planar {
 
 /// The line between two points of a linkage.
 struct Span {
-  Vec<double> first{0, 0},  ///< one end, global, m
-      second{0, 0};         ///< the other end, global, m
-  Vec<double> along{0, 0};  ///< unit vector from the first end to the second; zero where they coincide
-  double length = 0;        ///< m
-  double rate = 0;          ///< speed at which it becomes longer, m/s; after solve_velocity
+  math::Vec2 first{0, 0},  ///< one end, global, m
+      second{0, 0};        ///< the other end, global, m
+  math::Vec2 along{0, 0};  ///< unit vector from the first end to the second; zero where they coincide
+  double length = 0;       ///< m
+  double rate = 0;         ///< speed at which it becomes longer, m/s; after solve_velocity
 };
 
 /// The line between two points of bodies at the present motion.

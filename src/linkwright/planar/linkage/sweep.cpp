@@ -177,8 +177,8 @@ LinkageSweep::LinkageSweep(Linkage linkage, LinkagePlan plan, const SweepWanted&
   m.modes = m.motion.modes;
   SweepTask& t = m.task;
   t.plan = &m.plan;
-  t.gravity = vec(m.linkage.gravity);
-  t.moment_centre = vec(m.linkage.moment_centre);
+  t.gravity = math::vec(m.linkage.gravity);
+  t.moment_centre = math::vec(m.linkage.moment_centre);
   t.rates = wanted.rates;
   t.forces = wanted.forces;
   t.part_rows = wanted.rates ? 10 : 4;

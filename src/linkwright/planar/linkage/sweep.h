@@ -91,8 +91,8 @@ const char* sweep_kernel_name();
 struct SweepTask {
   const LinkagePlan* plan = nullptr;
   const double* modes = nullptr;
-  Vec<double> gravity{0, 0};
-  Vec<double> moment_centre{0, 0};
+  math::Vec2 gravity{0, 0};
+  math::Vec2 moment_centre{0, 0};
   double* data = nullptr;
   std::size_t stride = 0;  ///< a multiple of 8
   std::size_t count = 0;   ///< samples, a multiple of 8: the last one is repeated

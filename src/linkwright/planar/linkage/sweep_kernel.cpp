@@ -15,7 +15,7 @@ struct SweepRows {
   LINKWRIGHT_KERNEL void store(std::size_t row, const Batch& value) const {
     value.store_unaligned(data + row * stride);
   }
-  LINKWRIGHT_KERNEL void store(std::size_t row, const Vec<Batch>& value) const {
+  LINKWRIGHT_KERNEL void store(std::size_t row, const math::Vector2<Batch>& value) const {
     store(row, value.x);
     store(row + 1, value.y);
   }
@@ -26,7 +26,7 @@ struct SweepRows {
 template <class Batch>
 LINKWRIGHT_KERNEL void store_reaction(const SweepTask& task, const SweepRows<Batch>& rows, const PlanJoint& j,
                                       bool moment, const PartState<Batch>* parts, const Wrench<Batch>& w,
-                                      const Vec<Batch>& about) {
+                                      const math::Vector2<Batch>& about) {
   if (j.joint < 0) return;
   const std::size_t row = task.joints + 3 * static_cast<std::size_t>(j.joint);
   Batch turning(0.0);
@@ -61,7 +61,7 @@ struct SweepBlock {
 template <class Batch>
 LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& block) {
   const LinkagePlan& plan = *task.plan;
-  const Vec<Batch> gravity = broadcast<Batch>(task.gravity);
+  const math::Vector2<Batch> gravity = math::broadcast<Batch>(task.gravity);
   const Batch none(0.0);
   for (auto& r : block.registers) {
     r.needed[0] = {{none, none}, none};
@@ -80,8 +80,8 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
         store_reaction(task, rows, j, true, r.parts, w, point_on(r.parts[j.after.part], j.after.at));
         Batch drive = w.moment;
         if (j.slide)
-          drive =
-              dot(rotate(r.parts[j.before.part].direction, broadcast<Batch>(j.before.direction)), w.force);
+          drive = dot(rotate(r.parts[j.before.part].direction, math::broadcast<Batch>(j.before.direction)),
+                      w.force);
         rows.store(task.drives + static_cast<std::size_t>(j.input), j.reversed ? -drive : drive);
       }
       continue;
@@ -92,7 +92,7 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
           for (std::size_t b = 0; b < sweep_together; ++b) {
             auto& r = block.registers[b];
             const SweepRows<Batch> rows = block.rows(b);
-            const Vec<Batch> about = r.states[k].reference;
+            const math::Vector2<Batch> about = r.states[k].reference;
             Wrench<Batch> joints[3];
             dyad_forces(type, g, r.parts, r.states[k], r.needed, joints);
             store_reaction(task, rows, g.joints[0], at.slide1, r.parts, joints[0], about);
@@ -108,18 +108,18 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
       const auto row = [&](std::size_t k) {
         return task.joints + 3 * static_cast<std::size_t>(pin.joints[k]);
       };
-      Vec<Batch> pairs[max_sweep_parts];
+      math::Vector2<Batch> pairs[max_sweep_parts];
       for (std::size_t k = 0; k < pin.joints.size(); ++k)
         pairs[k] = {rows.load(row(k)), rows.load(row(k) + 1)};
       for (std::size_t i = 0; i < pin.joints.size(); ++i) {
-        Vec<Batch> sum{none, none};
+        math::Vector2<Batch> sum{none, none};
         for (std::size_t k = 0; k < pin.joints.size(); ++k) sum = sum + Batch(pin.share[i][k]) * pairs[k];
         rows.store(row(i), sum);
       }
     }
   for (std::size_t b = 0; b < sweep_together; ++b) {
     const Wrench<Batch>& on_linkage = block.registers[b].needed[0];
-    const Vec<Batch> centre{Batch(task.moment_centre.x), Batch(task.moment_centre.y)};
+    const math::Vector2<Batch> centre{Batch(task.moment_centre.x), Batch(task.moment_centre.y)};
     block.rows(b).store(task.shaking, -on_linkage.force);
     block.rows(b).store(task.shaking + 2, cross(centre, on_linkage.force) - on_linkage.moment);
   }

@@ -13,9 +13,9 @@ namespace linkwright::planar {
 /// The side that the drive makes.
 struct DrivenSide {
   /// From the outer pin of the first body to the pin of the arm, in the frame of the first, m.
-  Vec<double> way;
-  Vec<double> rate;  ///< its derivative by the input, m/m or m/rad
-  Vec<double> turn;  ///< x axis of the second body in the frame of the first
+  math::Vec2 way;
+  math::Vec2 rate;  ///< its derivative by the input, m/m or m/rad
+  math::Vec2 turn;  ///< x axis of the second body in the frame of the first
 };
 DrivenSide driven_side(const Group& group, double value);
 

@@ -13,8 +13,8 @@
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/field.h"
 #include "linkwright/core/value.h"
-#include "linkwright/planar/path/answer.h"
 #include "linkwright/planar/path/mechanism.h"
+#include "linkwright/planar/path/task.h"
 
 // A finished seed of a path synthesis (status done or infeasible) as a checkpoint keeps it: the linkages, not
 // what they achieve.

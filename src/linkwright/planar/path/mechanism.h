@@ -27,31 +27,6 @@
 /// The properties that path synthesis needs of a mechanism, and the functions that follow from them.
 namespace linkwright::planar {
 
-/// The tracing point of a mechanism at a crank angle.
-struct TracedPoint {
-  Status status = Status::done;  ///< done, singular (the branches meet there) or no_assembly
-  double gap = 0;                ///< m, by how much the links miss each other; 0 when they do not
-  std::complex<double> at;       ///< NaN without assembly
-};
-
-/// The margin of a crank to a full turn.
-struct CrankTurn {
-  double margin = 0;  ///< m, least margin of the conditions of full rotation; negative = it does not turn
-  double size = 0;    ///< m, sum of the lengths
-  /// Full rotation within the tolerance of the constraint: a synthesis may end on the change point.
-  ///
-  /// @returns true if the crank turns fully
-  bool full() const { return margin >= -tolerance::feasibility * size; }
-};
-
-/// Parts of sentences for messages about a mechanism.
-struct MechanismWords {
-  std::string_view name;              ///< "four-bar"
-  std::string_view missing[2];        ///< around the length by which links miss each other
-  std::string_view singular;          ///< "at a toggle"
-  std::string_view without_assembly;  ///< crank angles between two circuits: "that do not assemble"
-};
-
 /// A mechanism whose tracing point follows a path as its crank turns. `Problem` is a PathTask with bounds of
 /// the parameters, of which the last one is the start angle; `Design` is a TracedPath of `Linkage`, whose
 /// member `branch` is an enumeration of two. A mechanism is one folder beside this file that satisfies this

@@ -13,9 +13,9 @@
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/math/least_squares.h"
-#include "linkwright/planar/path/answer.h"
 #include "linkwright/planar/path/local_fit.h"
 #include "linkwright/planar/path/mechanism.h"
+#include "linkwright/planar/path/task.h"
 
 // The parts of the search that path syntheses of all mechanisms share.
 namespace linkwright::planar {

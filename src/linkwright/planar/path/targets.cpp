@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/targets.h"
-
 #include <algorithm>
+#include <complex>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 

@@ -6,8 +6,11 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/tolerance.h"
 
 namespace linkwright::planar {
+
+bool CrankTurn::full() const { return margin >= -tolerance::feasibility * size; }
 
 void require_valid_task(const PathTask& p) {
   require_valid_targets(p);

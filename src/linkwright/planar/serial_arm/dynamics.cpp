@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/serial_arm/dynamics.h"
-
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/serial_arm/reactions.h"
-
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 namespace {
@@ -118,11 +120,12 @@ std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm,
       if (p >= 2) B1(2 * p + k, 2 + k) = 1;  // s3, s4: rod 2 against rod 1
     }
   }
-  const Eigen::Vector2d rate(motion[0].rate, motion[1].rate),
+  using JointVector = Eigen::Matrix<double, 2, 1>;  // one entry a joint
+  const JointVector rate(motion[0].rate, motion[1].rate),
       acceleration(motion[0].acceleration, motion[1].acceleration);
   const Eigen::Matrix<double, 10, 1> inertia = M.asDiagonal() * (B * acceleration + B_dot * rate);
   const Eigen::Vector4d multipliers = B1.transpose() * inertia;
-  const Eigen::Vector2d torques = B.transpose() * inertia;
+  const JointVector torques = B.transpose() * inertia;
   return {ArmJointLoads{{multipliers[0], multipliers[1]}, torques[0], torques[0] + torques[1]},
           ArmJointLoads{{multipliers[2], multipliers[3]}, torques[1], torques[1]}};
 }

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "linkwright/math/motion_law.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {
 

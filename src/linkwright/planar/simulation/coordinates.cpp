@@ -25,7 +25,7 @@ using Index = Eigen::Index;
 // A point and a direction of a joint on a part, in the frame of the part.
 struct Side {
   int part = 0;
-  Vec<double> at{0, 0}, direction{1, 0};
+  math::Vec2 at{0, 0}, direction{1, 0};
 };
 
 // One equation: the slip of the second side against the first in a direction, or their turn.
@@ -144,8 +144,8 @@ class Coordinates {
 
   Side side(const BodyPoint& p, double angle) const {
     const BodyOnPart& on = plan_.bodies[at(p.body)];
-    const Vec<double> local = vec(l_.bodies[at(p.body)].points[at(p.point)].at);
-    return {on.part, on.origin + rotate(on.turn, local), rotate(on.turn, unit(angle))};
+    const math::Vec2 local = math::vec(l_.bodies[at(p.body)].points[at(p.point)].at);
+    return {on.part, on.origin + rotate(on.turn, local), rotate(on.turn, math::unit(angle))};
   }
   // All equations of the joints; turns are measured from where they are at the start.
   void equations(std::span<const double> y) {
@@ -199,7 +199,7 @@ class Coordinates {
     for (const int p : parts_) {
       const double* place = &y[at(column_[at(p)])];
       PartState<double>& s = motion_.parts[at(p)];
-      s = {{place[0], place[1]}, unit(place[2]), {place[n], place[n + 1]}, place[n + 2], {0, 0}, 0};
+      s = {{place[0], place[1]}, math::unit(place[2]), {place[n], place[n + 1]}, place[n + 2], {0, 0}, 0};
     }
     angles_ = y;
     for (std::size_t k = 0; k < twists_.size(); ++k) motion_.twists[k] = twists_[k] + turned(k);
@@ -213,7 +213,7 @@ class Coordinates {
   const PartState<double>& part(int p) const { return motion_.parts[at(p)]; }
 
   struct Geometry {
-    Vec<double> point, apart, along, force{0, 0};
+    math::Vec2 point, apart, along, force{0, 0};
     double moment = 0;
   };
   Geometry geometry(const Equation& e) const {
@@ -265,7 +265,7 @@ class Coordinates {
     matrix_.setZero();
     for (const int p : parts_) {
       const PartMass& m = plan_.masses[at(p)];
-      const Vec<double> s = rotate(part(p).direction, m.moment);
+      const math::Vec2 s = rotate(part(p).direction, m.moment);
       const Index c = column_[at(p)];
       matrix_(c, c) = matrix_(c + 1, c + 1) = m.mass;
       matrix_(c, c + 2) = matrix_(c + 2, c) = -s.y;
@@ -274,7 +274,7 @@ class Coordinates {
     }
     Index row = n;
     for (const Equation& e : equations_) {
-      const auto add = [&](int p, const Vec<double>& force, double moment) {
+      const auto add = [&](int p, const math::Vec2& force, double moment) {
         if (p == 0) return;
         const Index c = column_[at(p)];
         for (const auto& [i, value] :
@@ -308,7 +308,7 @@ class Coordinates {
     applied_loads(l_, plan_, motion_, t, inputs_[0].value, loads_);
     right_.setZero();
     for (const int p : parts_) {
-      const Wrench<double> w = needed_wrench(plan_.masses[at(p)], part(p), vec(l_.gravity));
+      const Wrench<double> w = needed_wrench(plan_.masses[at(p)], part(p), math::vec(l_.gravity));
       const Index c = column_[at(p)];
       right_[c] -= w.force.x, right_[c + 1] -= w.force.y, right_[c + 2] -= w.moment;
     }

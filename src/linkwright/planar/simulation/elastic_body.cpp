@@ -317,7 +317,7 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
   const auto place_of = [&](std::size_t i, std::complex<double> there) {
     return point_motion(elastic.plan, motion, pieces.bodies[i], there).position;
   };
-  const Vec<double> first = place_of(0, pieces.nodes[0]), way = place_of(n, pieces.nodes[n]) - first;
+  const math::Vec2 first = place_of(0, pieces.nodes[0]), way = place_of(n, pieces.nodes[n]) - first;
   const double length = norm(way);
   const auto from_line = [&](std::size_t i, std::complex<double> there) {
     return cross(way, place_of(i, there) - first) / length;
@@ -329,7 +329,7 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
   // The middle of an odd number of cells is the joint of two pieces.
   out.middle = from_line(n / 2, (pieces.nodes[0] + pieces.nodes[n]) / 2.0);
 
-  const Vec<double> along = vec((pieces.nodes[n] - pieces.nodes[0]) / pieces.length);
+  const math::Vec2 along = math::vec((pieces.nodes[n] - pieces.nodes[0]) / pieces.length);
   const ElasticBody& beam = pieces.beam;
   double worst = -1;
   for (std::size_t i = 0; i < n; ++i) {
@@ -344,7 +344,7 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
     // Without a fibre distance and forces the section with the largest moment is the worst, too.
     double measure = beam.fibre_distance > 0 || forces ? bending : std::abs(moment), stress = bending;
     if (forces) {
-      const Vec<double> mean = rotate(a.direction + b.direction, along);
+      const math::Vec2 mean = rotate(a.direction + b.direction, along);
       const double pull = -dot(forces->joints[at(pieces.joints[i])].force, mean) / norm(mean);
       out.normal_forces.push_back(pull);
       stress += std::abs(pull) / beam.area;

@@ -11,7 +11,7 @@
 #include "linkwright/core/sentence.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
-#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::planar {

@@ -121,7 +121,7 @@ std::optional<double> Simulation::kink(double value, double sense, double& rate)
     double sum = 0;
     for (std::size_t p = 1; p < a.size(); ++p) {
       const PartMass& m = plan_.masses[p];
-      const Vec<double> arm = rotate(before[p].direction, m.moment);
+      const math::Vec2 arm = rotate(before[p].direction, m.moment);
       sum += m.mass * dot(a[p].velocity, b[p].velocity) + a[p].speed * cross(arm, b[p].velocity) +
              b[p].speed * cross(arm, a[p].velocity) + m.inertia * a[p].speed * b[p].speed;
     }

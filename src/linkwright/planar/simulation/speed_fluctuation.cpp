@@ -14,8 +14,8 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/math/zero.h"
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/scan.h"
 
 namespace linkwright::planar {

@@ -50,7 +50,7 @@ Status StaticForces::solve(std::span<const double> values) {
 // The generalised forces at the present rates of the motion, and their scale.
 std::vector<double> StaticForces::along_inputs() {
   const std::size_t parts = plan_.parts.size();
-  const Vec<double> gravity = vec(l_.gravity);
+  const math::Vec2 gravity = math::vec(l_.gravity);
   loads_.clear();
   applied_loads(l_, plan_, motion, 0, inputs_.empty() ? 0 : inputs_[0].value, loads_);
   std::vector<double> out;
@@ -61,13 +61,13 @@ std::vector<double> StaticForces::along_inputs() {
     const auto add = [&](double power) { sum += power, sizes += std::abs(power); };
     for (std::size_t p = 1; p < parts; ++p) {
       const PartMass& m = plan_.masses[p];
-      const Vec<double> arm = rotate(motion.parts[p].direction, m.moment);
+      const math::Vec2 arm = rotate(motion.parts[p].direction, m.moment);
       add(dot(gravity, m.mass * rates[p].velocity + rates[p].speed * perpendicular(arm)));
     }
     for (const AppliedLoad& load : loads_) {
       const std::size_t p = at(plan_.bodies[at(load.body)].part);
       if (p == 0) continue;
-      const Vec<double> arm = load.point - motion.parts[p].origin;
+      const math::Vec2 arm = load.point - motion.parts[p].origin;
       add(dot(load.force, rates[p].velocity + rates[p].speed * perpendicular(arm)) +
           load.torque * rates[p].speed);
     }
@@ -85,7 +85,7 @@ std::vector<double> StaticForces::masses() const {
       const PartRate *a = &rates_[j * parts], *b = &rates_[k * parts];
       for (std::size_t p = 1; p < parts; ++p) {
         const PartMass& m = plan_.masses[p];
-        const Vec<double> arm = rotate(motion.parts[p].direction, m.moment);
+        const math::Vec2 arm = rotate(motion.parts[p].direction, m.moment);
         out[j * n + k] += m.mass * dot(a[p].velocity, b[p].velocity) +
                           a[p].speed * cross(arm, b[p].velocity) + b[p].speed * cross(arm, a[p].velocity) +
                           m.inertia * a[p].speed * b[p].speed;

@@ -48,7 +48,7 @@ class StaticForces {
 
  private:
   struct PartRate {
-    Vec<double> velocity;
+    math::Vec2 velocity;
     double speed;
   };
   std::vector<double> along_inputs();

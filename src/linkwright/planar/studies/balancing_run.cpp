@@ -12,7 +12,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/balancing/force_balance.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/four_bar_balancing.h"
 #include "linkwright/planar/studies/mass_balancing.h"

@@ -14,7 +14,7 @@ namespace linkwright::planar {
 namespace {
 
 using study::Scene;
-using Point = Vec<double>;
+using Point = math::Vec2;
 
 constexpr int columns = 5, rows = 4;
 constexpr double gap = 1.1;  // between figures, in bars

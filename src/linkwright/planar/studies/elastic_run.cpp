@@ -203,8 +203,8 @@ class ElasticRecorder {
       const bool first = s_.plan.bodies[at(j.first.body)].part == 0;
       const int body = first ? j.second.body : j.first.body;
       const BodyPoint& there = first ? j.second : j.first;
-      const Vec<double> p = vec(s_.linkage.bodies[at(body)].points[at(there.point)].at);
-      const Vec<double> along = rotate(rigid.bodies[at(j.first.body)].direction, unit(j.slide_first));
+      const math::Vec2 p = math::vec(s_.linkage.bodies[at(body)].points[at(there.point)].at);
+      const math::Vec2 along = rotate(rigid.bodies[at(j.first.body)].direction, math::unit(j.slide_first));
       const double way =
           dot(along, point_on(bent.record.bodies[at(body)], p) - point_on(rigid.bodies[at(body)], p));
       return first ? way : -way;
@@ -212,7 +212,7 @@ class ElasticRecorder {
     const BodyPoint &t = s_.traces[at(e.index)], on = on_piece(t);
     const std::complex<double> p = s_.linkage.bodies[at(t.body)].points[at(t.point)].at;
     return norm(point_motion(out_.elastic.plan, motion, on.body, p).position -
-                point_on(rigid.bodies[at(t.body)], vec(p)));
+                point_on(rigid.bodies[at(t.body)], math::vec(p)));
   }
 
   // ---- motion -------------------------------------------------------------------------------------------

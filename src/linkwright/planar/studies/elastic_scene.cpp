@@ -17,7 +17,7 @@ namespace {
 // Drawn size of a deflection, as a share of the size of the linkage.
 constexpr double drawn_share = 0.05;
 
-Vec<double> across(const Vec<double>& away, const Vec<double>& line) {
+math::Vec2 across(const math::Vec2& away, const math::Vec2& line) {
   return dot(away, perpendicular(line)) * perpendicular(line);
 }
 
@@ -38,9 +38,9 @@ class ElasticArtist {
   }
 
  private:
-  Vec<double> line(std::size_t e, const PartState<double>& frame) const {
+  math::Vec2 line(std::size_t e, const PartState<double>& frame) const {
     const std::complex<double> way = pieces_[e].nodes.back() - pieces_[e].nodes.front();
-    return rotate(frame.direction, vec(way / std::abs(way)));
+    return rotate(frame.direction, math::vec(way / std::abs(way)));
   }
   double largest() const {
     double out = 0;
@@ -57,11 +57,11 @@ class ElasticArtist {
     p.x.clear();
     p.y.clear();
     for (const ElasticRecord& r : records_) {
-      Vec<double> drawn{nan, nan};
+      math::Vec2 drawn{nan, nan};
       if (!r.record.bodies.empty()) {
         const PartState<double>& frame = r.record.bodies[at(pieces_[e].beam.body)];
-        const Vec<double> away = r.away[e][index];
-        drawn = point_on(frame, vec(unbent)) + away + (scale_ - 1) * across(away, line(e, frame));
+        const math::Vec2 away = r.away[e][index];
+        drawn = point_on(frame, math::vec(unbent)) + away + (scale_ - 1) * across(away, line(e, frame));
       }
       p.x.push_back(drawn.x);
       p.y.push_back(drawn.y);
@@ -119,16 +119,16 @@ PartState<double> chord_state(const ElasticLinkage& elastic, const ElasticPieces
                               const LinkageMotion& motion) {
   const PointMotion a = point_motion(elastic.plan, motion, p.bodies.front(), p.nodes.front()),
                     b = point_motion(elastic.plan, motion, p.bodies.back(), p.nodes.back());
-  const Vec<double> way = b.position - a.position, rate = b.velocity - a.velocity,
-                    change = b.acceleration - a.acceleration;
+  const math::Vec2 way = b.position - a.position, rate = b.velocity - a.velocity,
+                   change = b.acceleration - a.acceleration;
   const double square = dot(way, way), length = std::sqrt(square);
-  const Vec<double> unbent = vec(p.nodes.back() - p.nodes.front());
+  const math::Vec2 unbent = math::vec(p.nodes.back() - p.nodes.front());
   PartState<double> s;
   s.direction = (1 / (length * norm(unbent))) * rotate_inverse(unbent, way);
   s.speed = cross(way, rate) / square;
   // The line gets shorter as the body bends: 2 (rate of its length) speed is not of the turn.
   s.angular_acceleration = cross(way, change) / square - 2 * dot(way, rate) / square * s.speed;
-  const Vec<double> arm = rotate(s.direction, vec(p.nodes.front()));
+  const math::Vec2 arm = rotate(s.direction, math::vec(p.nodes.front()));
   s.origin = a.position - arm;
   s.velocity = a.velocity - s.speed * perpendicular(arm);
   s.acceleration = a.acceleration - s.angular_acceleration * perpendicular(arm) + s.speed * s.speed * arm;
@@ -146,9 +146,10 @@ ElasticRecord elastic_record(const Linkage& rigid, const ElasticLinkage& elastic
   for (const ElasticPieces& p : elastic.pieces) {
     const PartState<double> line = chord_state(elastic, p, motion);
     out.record.bodies[at(p.beam.body)] = line;
-    std::vector<Vec<double>> away;
+    std::vector<math::Vec2> away;
     const auto add = [&](int piece, std::complex<double> there) {
-      away.push_back(point_motion(elastic.plan, motion, piece, there).position - point_on(line, vec(there)));
+      away.push_back(point_motion(elastic.plan, motion, piece, there).position -
+                     point_on(line, math::vec(there)));
     };
     for (std::size_t i = 0; i < p.nodes.size(); ++i) add(p.bodies[i], p.nodes[i]);
     for (const LinkagePoint& point : rigid.bodies[at(p.beam.body)].points)

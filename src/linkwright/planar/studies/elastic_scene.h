@@ -20,7 +20,7 @@ struct ElasticRecord {
   LinkageRecord record;
   /// One an elastic body: of its nodes, then its points, how far they are away from where they would lie
   /// unbent, global, m.
-  std::vector<std::vector<Vec<double>>> away;
+  std::vector<std::vector<math::Vec2>> away;
 };
 /// `rigid` is what `elastic` was made of; forces, those of `elastic`, may be null.
 ElasticRecord elastic_record(const Linkage& rigid, const ElasticLinkage& elastic, const LinkageMotion& motion,

@@ -15,7 +15,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/exact/pivot_map.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/usability.h"
 #include "linkwright/planar/studies/exact_findings.h"
 #include "linkwright/planar/studies/four_bar_path.h"

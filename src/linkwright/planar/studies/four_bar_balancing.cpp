@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linkwright/planar/balancing/four_bar.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 
 namespace linkwright::planar {

@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/mechanism.h"
 #include "linkwright/planar/studies/path.h"
 
 // Path synthesis of the four-bar.

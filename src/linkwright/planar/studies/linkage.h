@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "linkwright/planar/four_bar/as_linkage.h"
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/form.h"
 #include "linkwright/planar/linkage/limits.h"

@@ -7,7 +7,6 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/assembly.h"
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/modes.h"
 #include "linkwright/planar/linkage/quality.h"

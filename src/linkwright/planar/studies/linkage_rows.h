@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/assembly.h"
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/studies/linkage.h"

@@ -14,10 +14,9 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/belt_run.h"
-#include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/limits.h"
@@ -360,8 +359,8 @@ class Runner {
     std::vector<double> radii;
     for (const BeltWheel& wheel : belt.wheels) {
       const PartState<double>& body = recorded_.front().bodies[at(wheel.centre.body)];
-      centres.push_back(number(
-          point_on(body, vec(s_.linkage.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at))));
+      centres.push_back(number(point_on(
+          body, math::vec(s_.linkage.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at))));
       radii.push_back(wheel.side * wheel.radius);
     }
     const BeltRun run = belt_run(centres, radii, belt.closed);

@@ -24,7 +24,7 @@ namespace {
 std::vector<int> hull(const std::vector<LinkagePoint>& points) {
   std::vector<int> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto where = [&](int i) { return vec(points[at(i)].at); };
+  const auto where = [&](int i) { return math::vec(points[at(i)].at); };
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return std::pair(where(a).x, where(a).y) < std::pair(where(b).x, where(b).y);
   });
@@ -83,10 +83,10 @@ class Artist {
   bool moves(int body) const { return plan_.bodies[at(body)].part != 0; }
 
   // A point that is given per record, or once for a fixed body.
-  int add_point(std::string name, int body, const std::function<Vec<double>(const LinkageRecord&)>& where) {
+  int add_point(std::string name, int body, const std::function<math::Vec2(const LinkageRecord&)>& where) {
     study::Scene::Point p{std::move(name), {}, {}};
     for (const LinkageRecord& r : records_) {
-      const Vec<double> v = r.bodies.empty() ? Vec<double>{nan, nan} : where(r);
+      const math::Vec2 v = r.bodies.empty() ? math::Vec2{nan, nan} : where(r);
       if (!moves(body) && std::isnan(v.x)) continue;
       p.x.push_back(v.x);
       p.y.push_back(v.y);
@@ -97,7 +97,7 @@ class Artist {
   }
   int add_point(std::string name, int body, std::complex<double> there) {
     return add_point(std::move(name), body,
-                     [=](const LinkageRecord& r) { return point_on(r.bodies[at(body)], vec(there)); });
+                     [=](const LinkageRecord& r) { return point_on(r.bodies[at(body)], math::vec(there)); });
   }
   int point(const BodyPoint& p) const { return first_[at(p.body)] + p.point; }
 
@@ -196,7 +196,7 @@ class Artist {
       const auto line = [&belt, from, to, this](const LinkageRecord& r) {
         const auto centre = [&](const BeltWheel& w) {
           return point_on(r.bodies[at(w.centre.body)],
-                          vec(l_.bodies[at(w.centre.body)].points[at(w.centre.point)].at));
+                          math::vec(l_.bodies[at(w.centre.body)].points[at(w.centre.point)].at));
         };
         const BeltWheel &a = belt.wheels[from], &b = belt.wheels[to];
         return strand_line(centre(a), a.side * a.radius, centre(b), b.side * b.radius);
@@ -213,15 +213,15 @@ class Artist {
         j.type != JointType::rack && (!moves(j.first.body) || j.type == JointType::pin_in_slot);
     const BodyPoint &base = on_first ? j.first : j.second, &runner = on_first ? j.second : j.first;
     const std::complex<double> start = l_.bodies[at(base.body)].points[at(base.point)].at;
-    const Vec<double> along = unit(on_first ? j.slide_first : j.slide_second);
+    const math::Vec2 along = math::unit(on_first ? j.slide_first : j.slide_second);
     double low = 0, high = 0;
     bool any = false;
     for (const LinkageRecord& r : records_) {
       if (r.bodies.empty()) continue;
       const PartState<double>& s = r.bodies[at(base.body)];
-      const Vec<double> there =
-          point_on(r.bodies[at(runner.body)], vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
-      const double way = dot(along, rotate_inverse(s.direction, there - s.origin) - vec(start));
+      const math::Vec2 there = point_on(r.bodies[at(runner.body)],
+                                        math::vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
+      const double way = dot(along, rotate_inverse(s.direction, there - s.origin) - math::vec(start));
       if (std::isnan(way)) continue;
       low = any ? std::min(low, way) : way;
       high = any ? std::max(high, way) : way;
@@ -323,9 +323,9 @@ class Artist {
       study::Scene::Frame frame;
       for (const LinkageRecord& r : records_) {
         if (r.bodies.empty() && !moves(b)) continue;
-        const Vec<double> none{nan, nan};
-        const Vec<double> origin = r.bodies.empty() ? none : r.bodies[at(b)].origin;
-        const Vec<double> direction = r.bodies.empty() ? none : r.bodies[at(b)].direction;
+        const math::Vec2 none{nan, nan};
+        const math::Vec2 origin = r.bodies.empty() ? none : r.bodies[at(b)].origin;
+        const math::Vec2 direction = r.bodies.empty() ? none : r.bodies[at(b)].direction;
         frame.x.push_back(origin.x);
         frame.y.push_back(origin.y);
         frame.angle.push_back(std::atan2(direction.y, direction.x));
@@ -352,7 +352,7 @@ class Artist {
       for (const std::size_t end : {0u, 1u}) {
         study::Scene::Point p;
         for (const LinkageRecord& r : records_) {
-          const Vec<double> v = r.open_group == group ? r.gap[end] : Vec<double>{nan, nan};
+          const math::Vec2 v = r.open_group == group ? r.gap[end] : math::Vec2{nan, nan};
           p.x.push_back(v.x), p.y.push_back(v.y);
         }
         ends.push_back(static_cast<int>(scene_.points.size()));
@@ -403,10 +403,10 @@ class Artist {
                            .unit = "m/s2",
                            .point = point(t)};
     for (const LinkageRecord& r : records_) {
-      Vec<double> speed{nan, nan}, change{nan, nan};
+      math::Vec2 speed{nan, nan}, change{nan, nan};
       if (!r.bodies.empty()) {
         const PartState<double>& s = r.bodies[at(t.body)];
-        const Vec<double> there = point_on(s, vec(body.points[at(t.point)].at));
+        const math::Vec2 there = point_on(s, math::vec(body.points[at(t.point)].at));
         speed = velocity_at(s, there);
         change = acceleration_at(s, there);
       }
@@ -432,7 +432,7 @@ class Artist {
           .point = point(joint.second),
           .symbol = joint.name};
       for (const LinkageRecord& r : records_) {
-        const Vec<double> f = r.joints.empty() ? Vec<double>{nan, nan} : r.joints[j].force;
+        const math::Vec2 f = r.joints.empty() ? math::Vec2{nan, nan} : r.joints[j].force;
         v.x.push_back(f.x), v.y.push_back(f.y);
       }
       scene_.vectors.push_back(std::move(v));
@@ -468,7 +468,7 @@ class Artist {
                              .point = point(f.point),
                              .symbol = f.name};
       for (const LinkageRecord& r : records_) {
-        const Vec<double> force = load(r, k).force;
+        const math::Vec2 force = load(r, k).force;
         v.x.push_back(force.x), v.y.push_back(force.y);
       }
       scene_.vectors.push_back(std::move(v));
@@ -523,7 +523,8 @@ void add_mass_centres(study::Scene& scene, const Linkage& linkage, const Linkage
     const auto add_point = [&](std::complex<double> there) {
       study::Scene::Point p;
       for (const LinkageRecord& r : records) {
-        const Vec<double> v = r.bodies.empty() ? Vec<double>{nan, nan} : point_on(r.bodies[b], vec(there));
+        const math::Vec2 v =
+            r.bodies.empty() ? math::Vec2{nan, nan} : point_on(r.bodies[b], math::vec(there));
         p.x.push_back(v.x), p.y.push_back(v.y);
       }
       scene.points.push_back(std::move(p));

@@ -19,13 +19,13 @@ struct LinkageRecord {
   double input = 0;
   /// One a body; empty when not assembled and nothing is known. NaN for bodies without a place.
   std::vector<PartState<double>> bodies;
-  std::array<Vec<double>, 2> gap{{{nan, nan}, {nan, nan}}};  ///< gap of a loop that does not close (lay_open)
-  int open_group = -1;                                       ///< the group that does not
-  std::vector<JointReaction> joints;                         ///< empty without forces
+  std::array<math::Vec2, 2> gap{{{nan, nan}, {nan, nan}}};  ///< gap of a loop that does not close (lay_open)
+  int open_group = -1;                                      ///< the group that does not
+  std::vector<JointReaction> joints;                        ///< empty without forces
   std::vector<double> drives;
   /// Loads of Linkage::forces and then of Linkage::torques; empty without forces.
   std::vector<AppliedLoad> loads;
-  Vec<double> shaking_force{0, 0};  ///< only with forces
+  math::Vec2 shaking_force{0, 0};  ///< only with forces
 };
 /// `forces` may be null.
 LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,

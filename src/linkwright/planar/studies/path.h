@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "linkwright/optimise/population_methods.h"
-#include "linkwright/planar/path/answer.h"
 #include "linkwright/planar/path/mechanism.h"
+#include "linkwright/planar/path/task.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"

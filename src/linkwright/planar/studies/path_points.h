@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/planar/path/four_bar/problem.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/task.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 

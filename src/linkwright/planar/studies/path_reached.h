@@ -6,7 +6,7 @@
 
 #include "linkwright/core/sentence.h"
 #include "linkwright/core/table.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/task.h"
 #include "linkwright/study/result.h"
 #include "linkwright/study/scene.h"
 

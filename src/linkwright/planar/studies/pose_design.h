@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/sentence.h"
 #include "linkwright/planar/dyads/designs.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 

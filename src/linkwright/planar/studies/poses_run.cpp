@@ -114,7 +114,7 @@ class PoseReport {
         LinkageRecord record{.input = static_cast<double>(k + 1)};
         for (const LinkageBody& part : there.bodies) {
           const math::Pose at = part.start.value_or(math::Pose{});
-          record.bodies.push_back({.origin = {at.x, at.y}, .direction = unit(at.angle)});
+          record.bodies.push_back({.origin = {at.x, at.y}, .direction = math::unit(at.angle)});
         }
         records.push_back(std::move(record));
       } else {
@@ -507,7 +507,7 @@ class PoseReport {
            "take out a pose or a pivot that is given, or allow other dyads in mechanism.dyads");
   }
 
-  static Complex number_of(const Vec<double>& v) { return {v.x, v.y}; }
+  static Complex number_of(const math::Vec2& v) { return {v.x, v.y}; }
 
   const PoseProblem& p_;
   const std::vector<PivotForm>& pivots_;

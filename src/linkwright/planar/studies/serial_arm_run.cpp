@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/study/remarks.h"
 

@@ -154,7 +154,7 @@ void warn_of_unused_starts(study::ObjectReader& document, const LinkageDescripti
       continue;
     const PartState<double> state = body_state(plan, motion, static_cast<int>(b));
     const double turned = math::wrap_angle(angle_of(state.direction) - body.start->angle),
-                 moved = norm(state.origin - Vec<double>{body.start->x, body.start->y});
+                 moved = norm(state.origin - math::Vec2{body.start->x, body.start->y});
     if (std::abs(turned) <= typed && moved <= typed * plan.size) continue;
     document.warning(
         "mechanism.body",

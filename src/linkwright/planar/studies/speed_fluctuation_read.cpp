@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
 #include "linkwright/planar/studies/templates.h"

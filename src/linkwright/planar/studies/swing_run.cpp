@@ -190,10 +190,10 @@ class SwingReport {
     for (const double angle : {d.swept->at_low, d.swept->at_high}) {
       const InputMotion input{angle, 0, 0};
       solve_position(plan, std::span(&input, 1), moving);
-      const Vec<double> pin = body_state(plan, moving, coupler_body).origin,
-                        end = point_motion(plan, moving, coupler_body, d.scale).position;
+      const math::Vec2 pin = body_state(plan, moving, coupler_body).origin,
+                       end = point_motion(plan, moving, coupler_body, d.scale).position;
       const std::string at = angle == d.swept->at_low ? " (low)" : " (high)";
-      const auto point = [&](std::string_view name, const Vec<double>& place) {
+      const auto point = [&](std::string_view name, const math::Vec2& place) {
         scene.points.push_back({std::string(name) + at, {place.x}, {place.y}});
         return static_cast<int>(scene.points.size()) - 1;
       };

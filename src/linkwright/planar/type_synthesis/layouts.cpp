@@ -8,7 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/cognates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/type_synthesis/program.h"
 
 namespace linkwright::planar {

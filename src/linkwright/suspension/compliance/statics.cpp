@@ -37,6 +37,35 @@ Vec3 middle(const std::vector<Vec3>& points) {
   return points.size() == 2 ? 0.5 * (points[0] + points[1]) : points.at(0);
 }
 
+// The forces in the joints of all links, from what the links give to the carrier (`on_carrier`) and what
+// springs and couplers give to the links (`on_link`).
+std::vector<JointForce> joint_forces(const Suspension& suspension, const CarrierPose& carrier, double rack,
+                                     const std::vector<Wrench>& on_carrier,
+                                     const std::vector<Wrench>& on_link) {
+  std::vector<JointForce> out;
+  for (int i = 0; i < static_cast<int>(suspension.links.size()); ++i) {
+    std::vector<Vec3> at_body, at_carrier;
+    for (int k = 0; k < body_points(suspension.links[i].type); ++k)
+      at_body.push_back(body_point(suspension, i, k, rack));
+    for (int k = 0; k < carrier_points(suspension.links[i].type); ++k)
+      at_carrier.push_back(carrier_point(suspension, i, k, carrier));
+    // The body gives to the link what the link gives to the carrier, less what springs and couplers give to
+    // the link.
+    const Vec3 body = middle(at_body);
+    const Vec3 force = on_carrier[i].force - on_link[i].force;
+    const Vec3 moment = on_carrier[i].moment - on_link[i].moment - cross(body - carrier.centre, force);
+    if (at_carrier.empty()) {
+      out.push_back({i, true, body, force, moment});
+      continue;
+    }
+    out.push_back({i, false, body, force, moment});
+    const Vec3 end = middle(at_carrier);
+    out.push_back({i, true, end, on_carrier[i].force,
+                   on_carrier[i].moment - cross(end - carrier.centre, on_carrier[i].force)});
+  }
+  return out;
+}
+
 }  // namespace
 
 CornerForces solve_forces(const Suspension& suspension, const CornerPlan& plan,
@@ -129,26 +158,7 @@ CornerForces solve_forces(const Suspension& suspension, const CornerPlan& plan,
     pass_on(kernel::passed_force(placed_plan, spring.second, push), all);
   }
 
-  for (int i = 0; i < links; ++i) {
-    std::vector<Vec3> at_body, at_carrier;
-    for (int k = 0; k < body_points(suspension.links[i].type); ++k)
-      at_body.push_back(body_point(suspension, i, k, rack));
-    for (int k = 0; k < carrier_points(suspension.links[i].type); ++k)
-      at_carrier.push_back(carrier_point(suspension, i, k, carrier));
-    // The body gives to the link what the link gives to the carrier, less what springs and couplers give to
-    // the link.
-    const Vec3 body = middle(at_body);
-    const Vec3 force = on_carrier[i].force - on_link[i].force;
-    const Vec3 moment = on_carrier[i].moment - on_link[i].moment - cross(body - carrier.centre, force);
-    if (at_carrier.empty()) {
-      out.joints.push_back({i, true, body, force, moment});
-      continue;
-    }
-    out.joints.push_back({i, false, body, force, moment});
-    const Vec3 end = middle(at_carrier);
-    out.joints.push_back({i, true, end, on_carrier[i].force,
-                          on_carrier[i].moment - cross(end - carrier.centre, on_carrier[i].force)});
-  }
+  out.joints = joint_forces(suspension, carrier, rack, on_carrier, on_link);
   return out;
 }
 

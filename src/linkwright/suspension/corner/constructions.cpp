@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/constructions.h"
-
 #include <fmt/core.h>
+
+#include <string>
+
+#include "linkwright/suspension/corner/constraints.h"
 
 namespace linkwright::suspension {
 

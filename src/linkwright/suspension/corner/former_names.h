@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "linkwright/suspension/corner/constraints.h"
-#include "linkwright/suspension/corner/constructions.h"
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/suspension.h"

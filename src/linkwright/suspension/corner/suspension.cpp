@@ -188,8 +188,9 @@ std::string rocker_label(const Suspension& suspension, int rocker) {
   return name.empty() ? fmt::format("rocker {}", rocker + 1) : name;
 }
 
-Diagnostics check(const Suspension& suspension) {
-  CornerFindings found;
+namespace {
+
+void check_wheel(const Suspension& suspension, CornerFindings& found) {
   const CornerWheel& wheel = suspension.wheel;
   if (!finite(wheel.centre) || !std::isfinite(wheel.toe) || !std::isfinite(wheel.camber))
     found.add("wheel", "a number is not finite");
@@ -203,6 +204,33 @@ Diagnostics check(const Suspension& suspension) {
   // At pi/2 toe is not determined; beyond, top and bottom of the wheel change places.
   if (!(std::abs(wheel.camber) < 1.5))
     found.add("wheel", fmt::format("camber {} rad lies beyond 1.5", wheel.camber));
+}
+
+// A point fixed to a rod off its line needs a joint that holds the rod's spin.
+void check_rod_point(const Suspension& suspension, const std::string& key, const char* what, int link,
+                     const Vec3& point, CornerFindings& found) {
+  const CornerLink& rod = suspension.links[link];
+  const double off = off_line(point, rod.body[0], rod.carrier[0]);
+  if (!(off > no_length)) return;
+  if (rod.type == LinkType::SS)
+    found.add(key,
+              fmt::format("{} lies {:.3g} mm off the line of {}, which may turn about it", what, off * 1e3,
+                          link_label(suspension, link)),
+              "a US link cannot turn about its line: its universal joint holds it");
+  else if (!rod.cross_axis && is_upright(rod.carrier[0] - rod.body[0]))
+    found.add(key,
+              fmt::format(
+                  "{} lies {:.3g} mm off the line of {}, which is vertical, so that no axis of its universal "
+                  "joint can be taken for granted",
+                  what, off * 1e3, link_label(suspension, link)),
+              "give the link cross_axis = [x, y, z]");
+}
+
+}  // namespace
+
+Diagnostics check(const Suspension& suspension) {
+  CornerFindings found;
+  check_wheel(suspension, found);
 
   std::set<std::string> seen;
   for (int i = 0; i < static_cast<int>(suspension.links.size()); ++i) {
@@ -219,24 +247,8 @@ Diagnostics check(const Suspension& suspension) {
   if (!found.list.empty()) return found.list;  // the following checks look at the links
 
   const int links = static_cast<int>(suspension.links.size());
-  // A point fixed to a rod off its line needs a joint that holds the rod's spin.
   const auto check_hold = [&](const std::string& key, const char* what, int link, const Vec3& point) {
-    const CornerLink& rod = suspension.links[link];
-    const double off = off_line(point, rod.body[0], rod.carrier[0]);
-    if (!(off > no_length)) return;
-    if (rod.type == LinkType::SS)
-      found.add(key,
-                fmt::format("{} lies {:.3g} mm off the line of {}, which may turn about it", what, off * 1e3,
-                            link_label(suspension, link)),
-                "a US link cannot turn about its line: its universal joint holds it");
-    else if (!rod.cross_axis && is_upright(rod.carrier[0] - rod.body[0]))
-      found.add(
-          key,
-          fmt::format(
-              "{} lies {:.3g} mm off the line of {}, which is vertical, so that no axis of its universal "
-              "joint can be taken for granted",
-              what, off * 1e3, link_label(suspension, link)),
-          "give the link cross_axis = [x, y, z]");
+    check_rod_point(suspension, key, what, link, point, found);
   };
   const auto is = [&](int link, std::initializer_list<LinkType> types) {
     for (LinkType type : types)

@@ -11,7 +11,6 @@
 #include "linkwright/suspension/studies/corner.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/axle.h"
-#include "linkwright/suspension/wheel/axle_sweep.h"
 
 // The tables `[vehicle]` and `[axle]`, by which an analysis of a wheel suspension covers the whole axle.
 namespace linkwright::suspension {

@@ -12,7 +12,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
-#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
 #include "linkwright/suspension/studies/sweep.h"
 #include "linkwright/suspension/studies/templates.h"
 #include "linkwright/suspension/wheel/corner_columns.h"

@@ -13,7 +13,7 @@
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/corner/assemblies.h"
-#include "linkwright/suspension/corner/constructions.h"
+#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/hard_points.h"
 #include "linkwright/suspension/corner/structure.h"
 #include "linkwright/suspension/studies/corner_scene.h"

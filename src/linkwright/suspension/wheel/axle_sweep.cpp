@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/wheel/axle_sweep.h"
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/suspension/wheel/axle.h"
 
 namespace linkwright::suspension {
 namespace {

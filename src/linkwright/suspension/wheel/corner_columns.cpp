@@ -5,7 +5,7 @@
 #include <array>
 
 #include "linkwright/core/units.h"
-#include "linkwright/suspension/corner/constructions.h"
+#include "linkwright/suspension/corner/constraints.h"
 
 namespace linkwright::suspension {
 namespace {

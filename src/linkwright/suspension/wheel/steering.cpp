@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/wheel/steering.h"
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/suspension/wheel/axle.h"
 
 namespace linkwright::suspension {
 namespace {

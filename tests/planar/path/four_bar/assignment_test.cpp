@@ -9,7 +9,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {

@@ -11,7 +11,8 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/path/mechanism.h"
 #include "planar/four_bars.h"
 #include "planar/path_cases.h"
 

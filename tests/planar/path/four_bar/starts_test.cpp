@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/four_bar/synthesis.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,9 +10,9 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/classify.h"
-#include "linkwright/planar/four_bar/cognates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/defects.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {

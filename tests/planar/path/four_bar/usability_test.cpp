@@ -8,7 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {

@@ -23,7 +23,7 @@ TEST(SliderCrankPathKernel, TheRodIsOfItsLengthAndItsEndLiesOnTheGuide) {
     for (const double side : {1.0, -1.0}) {
       const double across = crank * std::sin(phase);
       const RodClosure<double> c = close_rod(across, offset, 1 / rod);
-      const Vec<double> v = rod_direction(c, side);
+      const math::Vec2 v = rod_direction(c, side);
       EXPECT_NEAR(norm(v), 1, 1e-15);
       EXPECT_NEAR(across + rod * v.y, offset, 4e-16 * (rod + crank));
       EXPECT_GE(side * v.x, 0);
@@ -68,9 +68,9 @@ TEST(SliderCrankPathKernel, NumbersDualNumbersAndRegistersAgree) {
     const double rod = crank + std::abs(offset) + r.uniform(0.1, 1), across = crank * std::sin(phase);
     for (const double side : {1.0, -1.0}) {
       const RodClosure<double> c = close_rod(across, offset, 1 / rod);
-      const Vec<double> v = rod_direction(c, side);
+      const math::Vec2 v = rod_direction(c, side);
       const RodClosure<Batch> lanes = close_rod(Batch(across), Batch(offset), Batch(1 / rod));
-      const Vec<Batch> w = rod_direction(lanes, Batch(side));
+      const math::Vector2<Batch> w = rod_direction(lanes, Batch(side));
       EXPECT_EQ(w.x.get(0), v.x);
       EXPECT_EQ(w.y.get(1), v.y);
       EXPECT_EQ(slider_stroke(Batch(crank), Batch(rod), Batch(offset)).get(1),
@@ -78,7 +78,7 @@ TEST(SliderCrankPathKernel, NumbersDualNumbersAndRegistersAgree) {
       // Derivatives by crank sine and offset against the closed form dpsi = dsine / cosine.
       using D = Dual<2>;
       const RodClosure<D> dual = close_rod(D::variable(across, 0), D::variable(offset, 1), D(1 / rod));
-      const Vec<D> d = rod_direction(dual, D(side));
+      const math::Vector2<D> d = rod_direction(dual, D(side));
       EXPECT_EQ(d.x.value, v.x);
       EXPECT_NEAR(d.y.by[0], -1 / rod, 1e-14);
       EXPECT_NEAR(d.x.by[1], -v.y / (rod * v.x), 1e-12 / std::abs(v.x));

@@ -111,8 +111,11 @@ class DexterityModel {
   /// Unknowns of a design; angles are those that it uses.
   std::vector<double> unknowns_of(std::span<const double> x, const Extremes& extremes) const;
   std::vector<double> design_of(std::span<const double> unknowns) const;
-  /// Least and largest outward angle that is used.
-  std::pair<double, double> travel(const Extremes& extremes) const;
+  /// Outward angles that are used (rad).
+  struct Travel {
+    double low, high;
+  };
+  Travel travel(const Extremes& extremes) const;
 
   /// The cost to be minimised, for given extremes (and mean, where it is the goal).
   double cost(std::span<const double> unknowns, const Extremes& extremes, double mean) const;

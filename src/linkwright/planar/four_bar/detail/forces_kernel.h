@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/math/scalar.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/four_bar/kernel.h"
 
 // Motion and joint forces of a four-bar at one instant, written once for `double` and SIMD batches. All
@@ -73,12 +74,8 @@ struct FourBarTurning {
 };
 
 template <class T>
-struct PinAcceleration {
-  T x, y;
-};
-template <class T>
-LINKWRIGHT_KERNEL PinAcceleration<T> crank_pin_acceleration(const T& crank, const T& e1x, const T& e1y,
-                                                            const T& w1, const T& a1) {
+LINKWRIGHT_KERNEL math::Vector2<T> crank_pin_acceleration(const T& crank, const T& e1x, const T& e1y,
+                                                          const T& w1, const T& a1) {
   const T across = crank * a1, inwards = crank * (w1 * w1);
   return {-(across * e1y) - inwards * e1x, across * e1x - inwards * e1y};
 }

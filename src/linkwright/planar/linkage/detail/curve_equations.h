@@ -25,6 +25,12 @@ struct CurveNode {
   std::vector<PartState<double>> parts;
 };
 
+// A determinant by its logarithm, since it is very large or very small.
+struct Determinant {
+  double sign;  // +1 or -1
+  double log;   // of its size
+};
+
 // The joint equations of the groups that take part, over the displacement of their parts (origins over the
 // linkage's size, angles) and of the value (times `unit`). The length of a displacement is the root of the
 // mean square over the parts and the square of the value's.
@@ -121,8 +127,8 @@ class CurveEquations {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       PartState<double>& part = y.parts[part_index(parts_[i])];
       const auto c = static_cast<Eigen::Index>(3 * i);
-      part.origin = part.origin + plan_.size * Vec<double>{z[c], z[c + 1]};
-      part.direction = renormalised(rotate(part.direction, planar::unit(z[c + 2])));
+      part.origin = part.origin + plan_.size * math::Vec2{z[c], z[c + 1]};
+      part.direction = renormalised(rotate(part.direction, math::unit(z[c + 2])));
     }
     y.value += z[n_] / unit_;
   }
@@ -144,7 +150,7 @@ class CurveEquations {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       PartState<double>& part = y.parts[part_index(parts_[i])];
       const auto c = static_cast<Eigen::Index>(3 * i);
-      part.velocity = plan_.size * Vec<double>{t[c], t[c + 1]};
+      part.velocity = plan_.size * math::Vec2{t[c], t[c + 1]};
       part.speed = t[c + 2];
     }
     y.slope = t[n_] / unit_;
@@ -191,8 +197,8 @@ class CurveEquations {
     t /= length(t);
     return product(t, direction) < 0 ? Eigen::VectorXd(-t) : t;
   }
-  // Sign and logarithm of the determinant of the factors.
-  std::pair<double, double> determinant() const {
+  // The determinant of the factors.
+  Determinant determinant() const {
     const auto& lu = lu_.matrixLU();
     const auto& order = lu_.permutationP().indices();
     bool negative = false;
@@ -256,7 +262,7 @@ class CurveEquations {
     for (const auto& [part, side] : {std::pair{j.after.part, 1.0}, std::pair{j.before.part, -1.0}}) {
       const int c = column_[part_index(part)];
       if (c < 0) continue;
-      const Vec<double> arm = r.point - y.parts[part_index(part)].origin;
+      const math::Vec2 arm = r.point - y.parts[part_index(part)].origin;
       jacobian_(row, c) += side * e.force.x;
       jacobian_(row, c + 1) += side * e.force.y;
       jacobian_(row, c + 2) += side * (e.moment + cross(arm, e.force) / plan_.size);

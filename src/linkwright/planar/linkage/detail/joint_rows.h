@@ -16,12 +16,12 @@ namespace linkwright::planar {
 // direction and `moment` the couple that a unit of the row's multiplier puts on the part after, about
 // `point`.
 struct JointEquation {
-  Vec<double> force{0, 0};
+  math::Vec2 force{0, 0};
   double moment = 0;
 };
 struct JointRows {
-  Vec<double> point;
-  Vec<double> along;  // direction of a slide
+  math::Vec2 point;
+  math::Vec2 along;  // direction of a slide
   std::array<JointEquation, 3> rows;
   int count = 2;
 };
@@ -50,16 +50,16 @@ inline std::array<double, 3> joint_residuals(const PlanJoint& j, const JointRows
                                              const std::vector<PartState<double>>& parts, double size) {
   const PartState<double>&before = parts[static_cast<std::size_t>(j.before.part)],
         &after = parts[static_cast<std::size_t>(j.after.part)];
-  const Vec<double> apart = r.point - point_on(before, j.before.at);
+  const math::Vec2 apart = r.point - point_on(before, j.before.at);
   if (j.slide) {
-    const Vec<double> other = rotate(after.direction, j.after.direction);
+    const math::Vec2 other = rotate(after.direction, j.after.direction);
     const double angle = std::atan2(cross(r.along, other), dot(r.along, other));
     return {cross(r.along, apart), angle * size, input ? dot(r.along, apart) - sense(j) * input->value : 0.0};
   }
   double turned = 0;
   if (input) {
-    const Vec<double> relative = rotate_inverse(rotate(before.direction, j.before.direction),
-                                                rotate(after.direction, j.after.direction));
+    const math::Vec2 relative = rotate_inverse(rotate(before.direction, j.before.direction),
+                                               rotate(after.direction, j.after.direction));
     turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
   }
   return {apart.x, apart.y, turned};

@@ -21,7 +21,7 @@ namespace linkwright::planar {
 // the part.
 struct PairShare {
   int part = 0;
-  Vec<double> force{0, 0};
+  math::Vec2 force{0, 0};
   double moment = 0;   // about the origin of the part, m
   double turning = 0;  // part of it that the angle of the part alone gives: its radius with sign, m
   double around = 0;   // change of the residual for a turn of the part, over 2 pi, m
@@ -34,18 +34,18 @@ struct PairRow {
 
 // A strand between its wheels, straight.
 struct StrandLine {
-  Vec<double> along;          // unit vector in the direction in which the belt runs
-  Vec<double> first, second;  // points where it leaves the one wheel and meets the other
-  double length = 0;          // NaN where the wheels overlap
+  math::Vec2 along;          // unit vector in the direction in which the belt runs
+  math::Vec2 first, second;  // points where it leaves the one wheel and meets the other
+  double length = 0;         // NaN where the wheels overlap
 };
-inline StrandLine strand_line(const Vec<double>& first, double first_radius, const Vec<double>& second,
+inline StrandLine strand_line(const math::Vec2& first, double first_radius, const math::Vec2& second,
                               double second_radius) {
-  const Vec<double> way = second - first;
+  const math::Vec2 way = second - first;
   const double apart = norm(way), step = second_radius - first_radius;
   StrandLine out;
   out.length = std::sqrt(apart * apart - step * step);
-  const Vec<double> towards = (1 / apart) * way;
-  out.along = rotate(towards, Vec<double>{out.length / apart, -step / apart});
+  const math::Vec2 towards = (1 / apart) * way;
+  out.along = rotate(towards, math::Vec2{out.length / apart, -step / apart});
   out.first = first - first_radius * perpendicular(out.along);
   out.second = second - second_radius * perpendicular(out.along);
   return out;
@@ -77,10 +77,10 @@ template <class Angle>
 PairRow pair_row(const RackPair& rack, const std::vector<PartState<double>>& parts, const Angle& angle) {
   const PartState<double>&pinion = parts[static_cast<std::size_t>(rack.pinion.part)],
         &base = parts[static_cast<std::size_t>(rack.rack.part)];
-  const Vec<double> along = rotate(base.direction, rack.rack.direction), left = perpendicular(along);
-  const Vec<double> centre = point_on(pinion, rack.pinion.at);
-  const Vec<double> arm = centre - pinion.origin, base_arm = centre - base.origin;
-  const Vec<double> slip = velocity_at(pinion, centre) - velocity_at(base, centre);
+  const math::Vec2 along = rotate(base.direction, rack.rack.direction), left = perpendicular(along);
+  const math::Vec2 centre = point_on(pinion, rack.pinion.at);
+  const math::Vec2 arm = centre - pinion.origin, base_arm = centre - base.origin;
+  const math::Vec2 slip = velocity_at(pinion, centre) - velocity_at(base, centre);
   PairRow out;
   out.residual = dot(along, centre - point_on(base, rack.rack.at)) +
                  rack.radius * (angle(rack.pinion.part) - angle(rack.rack.part) - rack.phase);
@@ -96,10 +96,10 @@ PairRow pair_row(const StrandPair& s, const std::vector<PartState<double>>& part
   const PartState<double>&a = parts[static_cast<std::size_t>(s.first.part)],
         &b = parts[static_cast<std::size_t>(s.second.part)];
   const StrandLine line = strand_line(s, parts);
-  const Vec<double> first = point_on(a, s.first.at), second = point_on(b, s.second.at), way = second - first;
+  const math::Vec2 first = point_on(a, s.first.at), second = point_on(b, s.second.at), way = second - first;
   const double apart = norm(way), step = s.second_radius - s.first_radius;
-  const Vec<double> towards = (1 / apart) * way;
-  const Vec<double> slip = velocity_at(b, second) - velocity_at(a, first);
+  const math::Vec2 towards = (1 / apart) * way;
+  const math::Vec2 slip = velocity_at(b, second) - velocity_at(a, first);
   const double turning = cross(towards, slip) / apart, parting = dot(towards, slip);
   const double direction = s.reference + math::wrap_angle(angle_of(line.along) - s.reference);
   PairRow out;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/math/simd.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 

@@ -8,8 +8,8 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/classify.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 namespace {

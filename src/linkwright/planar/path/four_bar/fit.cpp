@@ -11,7 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/kernel.h"
 #include "linkwright/planar/path/detail/multipliers.h"
-#include "linkwright/planar/path/targets.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 namespace {
@@ -247,7 +247,7 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
     const double ux = std::cos(angle), uy = std::sin(angle);
     const Closure<double> c = close_loop(l1, 0.0, l2 * ux, l2 * uy, l3, l4, branch_);
     if (!(c.radicand > 0)) return false;
-    const Direction<double> v = coupler_direction(c, l3);
+    const math::Vec2 v = coupler_direction(c, l3);
     // Relative frame first: z = L2 u + l v.
     const double lx = cu * v.x - cv * v.y, ly = cu * v.y + cv * v.x;
     const double zx = l2 * ux + lx, zy = l2 * uy + ly;

@@ -13,7 +13,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/assignment.h"
 #include "linkwright/planar/path/four_bar/fit.h"
 #include "linkwright/planar/path/four_bar/starts.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/path/four_bar/synthesis.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {
 

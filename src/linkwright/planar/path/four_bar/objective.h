@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "linkwright/core/kernels.h"
-#include "linkwright/optimise/population.h"
+#include "linkwright/optimise/problem.h"
 #include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/mechanism.h"
 
 namespace linkwright::planar {
 

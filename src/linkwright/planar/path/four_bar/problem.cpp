@@ -10,8 +10,9 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/objective.h"
+#include "linkwright/planar/path/mechanism.h"
 
 namespace linkwright::planar {
 std::string_view name(FourBarParameter parameter) {

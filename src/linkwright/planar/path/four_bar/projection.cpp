@@ -106,7 +106,7 @@ bool PathProjection::project(std::span<const double> q) {
     uy_[k] = start_x * offset_y_[k] + start_y * offset_x_[k];
     const Closure<double> c = close_loop(r1, 0.0, ux_[k], uy_[k], r3, r4, side);
     assembles &= c.radicand >= 0 && c.r2 > 0;
-    const Direction<double> v = coupler_direction(c, r3);
+    const math::Vec2 v = coupler_direction(c, r3);
     vx_[k] = v.x;
     vy_[k] = v.y;
   }

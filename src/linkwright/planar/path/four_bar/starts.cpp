@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/four_bar/kernel.h"
 
 namespace linkwright::planar {
@@ -46,7 +46,7 @@ std::optional<PathStart> PathMatcher::best_of(int linkages, RatioKind kind, Rand
     overlay_.trace(from, to, sense_, [&](double angle) {
       const Complex u = std::polar(1.0, angle);
       const Closure<double> c = close_loop(l1, 0.0, u.real(), u.imag(), l3, l4, sign(branch_));
-      const Direction<double> v = coupler_direction(c, l3);
+      const math::Vec2 v = coupler_direction(c, l3);
       return u + point * Complex(v.x, v.y);
     });
     const auto laid = overlay_.lay(best ? best->mismatch : overlay_.spread(), stream);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/four_bar/synthesis.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,11 +8,13 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/four_bar/cognates.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/path/four_bar/fit.h"
 #include "linkwright/planar/path/four_bar/free_timing.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/path/four_bar/projection.h"
 #include "linkwright/planar/path/four_bar/usability.h"
+#include "linkwright/planar/path/mechanism.h"
 #include "linkwright/planar/path/search.h"
 
 namespace linkwright::planar {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/planar/path/four_bar/problem.h"
+#include "linkwright/planar/path/mechanism.h"
 
 namespace linkwright::planar {
 

@@ -171,7 +171,7 @@ bool SliderPathFitter::evaluate(const Shared& q, const std::vector<double>& angl
     const double c = std::cos(phase), s = std::sin(phase);
     const RodClosure<double> closure = close_rod(crank * s, offset, 1 / rod);
     if (!(closure.radicand > 0)) return false;
-    const Vec<double> direction = rod_direction(closure, side_);
+    const math::Vec2 direction = rod_direction(closure, side_);
     const Complex v(direction.x, direction.y), arm = distance * toward * v,
                                                pin = crank * guide * Complex(c, s);
     const Complex point = pivot + pin + arm;

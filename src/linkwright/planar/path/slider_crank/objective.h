@@ -6,7 +6,7 @@
 
 #include "linkwright/core/kernels.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/optimise/population.h"
+#include "linkwright/optimise/problem.h"
 #include "linkwright/planar/path/slider_crank/problem.h"
 
 namespace linkwright::planar {

@@ -45,7 +45,7 @@ LINKWRIGHT_KERNEL void evaluate_slider_candidates(const SliderPathObjective& o, 
       wx = S::multiply_add(bx, ux, -(by * uy)), wy = S::multiply_add(bx, uy, by * ux);
     }
     const RodClosure<T> closure = close_rod(S::multiply_add(wy, ec, -(wx * es)), offset, inverse);
-    const Vec<T> v = rod_direction(closure, side);
+    const math::Vector2<T> v = rod_direction(closure, side);
     const T ex = S::multiply_add(gx, v.x, S::multiply_add(-gy, v.y, wx + (px - T(o.x[k]))));
     const T ey = S::multiply_add(gx, v.y, S::multiply_add(gy, v.x, wy + (py - T(o.y[k]))));
     const auto at = [k](const std::vector<double>& values) __attribute__((always_inline)) {

@@ -63,7 +63,7 @@ SliderCrankPose slider_crank_pose(const SliderCrankMechanism& m, double crank_an
     out.rod_angle = out.displacement = out.pressure_angle = nan;
     return out;
   }
-  const Vec<double> v = rod_direction(closure, sign(m.branch));
+  const math::Vec2 v = rod_direction(closure, sign(m.branch));
   const Complex rod = guide * Complex(v.x, v.y);
   out.slider = out.crank_pin + f.rod * rod;
   out.point = out.crank_pin + Complex(f.rod_u, f.rod_v) * rod;

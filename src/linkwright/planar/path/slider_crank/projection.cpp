@@ -170,7 +170,7 @@ bool SliderPathProjection::project(std::span<const double> q) {
     quy_[k] = uy_[k] = start_x * offset_y_[k] + start_y * offset_x_[k];
     const RodClosure<double> c = close_rod(uy_[k], eta_, inverse);
     assembles &= c.radicand > 0;
-    const Vec<double> v = rod_direction(c, side_);
+    const math::Vec2 v = rod_direction(c, side_);
     qvx_[k] = vx_[k] = v.x;
     qvy_[k] = vy_[k] = v.y;
   }

@@ -51,7 +51,7 @@ std::optional<SliderPathStart> SliderPathMatcher::best_of(int mechanisms, Random
     const double inside = turns ? 0 : 1e-3 * (interval->to - interval->from);
     overlay_.trace(interval->from + inside, interval->to - inside, sense_, [&](double angle) {
       const Complex u = std::polar(1.0, angle);
-      const Vec<double> v = rod_direction(close_rod(u.imag(), eta, 1 / rho), sign(side_));
+      const math::Vec2 v = rod_direction(close_rod(u.imag(), eta, 1 / rho), sign(side_));
       return u + point * Complex(v.x, v.y);
     });
     const auto laid = overlay_.lay(best ? best->mismatch : overlay_.spread(), stream);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/path/answer.h"
 #include "linkwright/planar/path/slider_crank/problem.h"
+#include "linkwright/planar/path/task.h"
 
 namespace linkwright::planar {
 

@@ -8,7 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/scalar.h"
 #include "linkwright/math/sincos.h"
-#include "linkwright/planar/plane.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/link_group.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/math/scalar.h"
-#include "linkwright/planar/plane.h"
+#include "linkwright/math/vector2.h"
 
 // Formulas of the slider-crank in the frame of its guide, written once for `double`, dual numbers and SIMD
 // batches: the x axis runs along the guide, the crank pivot O is the origin, and the guide line lies at
@@ -30,7 +30,7 @@ LINKWRIGHT_KERNEL RodClosure<T> close_rod(const T& across, const T& offset, cons
 /// Where the rod does not reach the guide the root counts as zero and the vector is longer than 1: finite,
 /// and to be flagged by the caller.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> rod_direction(const RodClosure<T>& closure, const T& side) {
+LINKWRIGHT_KERNEL math::Vector2<T> rod_direction(const RodClosure<T>& closure, const T& side) {
   using std::sqrt;
   return {side * sqrt(math::Scalar<T>::positive_part(closure.radicand)), closure.sine};
 }
