@@ -10,6 +10,7 @@
 /// Wheel suspensions.
 
 #include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/former_names.h"
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/corner/wheel.h"

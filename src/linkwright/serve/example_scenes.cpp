@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Writes what the page draws of the examples before it has an engine: a document of app::example_scene() a
-// line.
-//   example_scenes FOLDER    where the files go that examples read
+//   line. example_scenes FOLDER    where the files go that examples read
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -71,8 +71,7 @@ Value write_checks(const std::vector<CheckRequest>& checks);
 /// - `statistics.KEY`: number of the statistics;
 /// - `TABLE.COLUMN` with `at`: the row whose columns have these values (to 1e-6 of the column's span);
 /// - `TABLE.COLUMN.WHAT`: max, min, max_abs, mean, rms, first or last of the rows that have a value; mean and
-/// rms
-///   count one of the two ends of a period;
+///   rms count one of the two ends of a period;
 /// - `TABLE.COLUMN` of a table with one row.
 ///
 /// Keys match in any unit of their dimension: sweep.toe_deg is found in the column toe_rad and converted.

@@ -39,8 +39,7 @@ Span span_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotio
 /// @param time time (s)
 /// @param input value of the first input (rad or m)
 /// @returns force (N), positive where it pushes its ends apart; that of a gas spring beyond its stroke goes
-/// on
-///   linearly
+///   on linearly
 double push_of(const Strut& strut, const Span& span, bool turns, double time, double input);
 
 /// True if the force of a strut depends on its length alone, so that it stores energy.
@@ -54,8 +53,7 @@ bool stores_energy(const Strut& strut);
 /// @param strut the strut
 /// @param length distance of its ends (m)
 /// @returns energy (J): zero at the extended length of a gas spring, at the first length of a table, and at
-/// no
-///   length for a constant force; zero of a strut that stores none
+///   no length for a constant force; zero of a strut that stores none
 double stored_energy(const Strut& strut, double length);
 
 /// True if a strut is a gas spring that is shorter or longer than its stroke allows.

@@ -30,8 +30,7 @@ class StaticForces {
   ///
   /// @param values values of all inputs (rad or m)
   /// @returns done; the status of the position where it is not done; limit_reached where a gas spring would
-  /// be
-  ///   beyond its stroke
+  ///   be beyond its stroke
   Status solve(std::span<const double> values);
 
   /// Mass matrix of the free inputs at the last `solve`, row by row (kg m2, kg m or kg).

@@ -108,8 +108,7 @@ struct TurningCircle {
 /// @param wheelbase m, > 0
 /// @param axes distance of the steering axes at the ground (m, > 0)
 /// @param scrub from the steering axis of the outer wheel at the ground to its contact point, across the
-/// wheel
-///   (m, > 0 if the contact is outboard)
+///   wheel (m, > 0 if the contact is outboard)
 /// @param overhang of the body ahead of the front axle (m), or NaN
 /// @param width of the body (m), or NaN
 /// @returns both diameters
