@@ -37,10 +37,10 @@ TEST(ForceCurve, CompressionOfAForce) {
 }
 
 TEST(ForceCurve, Problems) {
-  EXPECT_EQ(problem({{0, 1}, {0, 1}}), "");
-  EXPECT_EQ(problem({{0}, {0}}), "a characteristic needs at least two points");
-  EXPECT_EQ(problem({{0, 1}, {0}}), "2 compressions and 1 forces");
-  EXPECT_EQ(problem({{0, 1, 1}, {0, 1, 2}}), "the compressions do not ascend at point 3");
+  EXPECT_EQ(problem(ForceCurve{{0, 1}, {0, 1}}), "");
+  EXPECT_EQ(problem(ForceCurve{{0}, {0}}), "a characteristic needs at least two points");
+  EXPECT_EQ(problem(ForceCurve{{0, 1}, {0}}), "2 compressions and 1 forces");
+  EXPECT_EQ(problem(ForceCurve{{0, 1, 1}, {0, 1, 2}}), "the compressions do not ascend at point 3");
   EXPECT_THAT(test::message([] {
                 force_of(ForceCurve{{0}, {0}}, 0);
               }),

@@ -116,6 +116,37 @@ TEST(SpringParts, DampersBarsAndStops) {
       "mechanism.damper.attached_to: the damper has no ends of its own; write body_m and moving_m as well");
 }
 
+TEST(SpringParts, CurvesOfDampers) {
+  const auto with = [](const std::string& lines) { return problem("damping_N_s_per_m = 3000", lines); };
+  EXPECT_EQ(with("damping_N_s_per_m = 3000\ncurve = { speed_m_per_s = [-1, 1], force_N = [-1, 1] }"),
+            "mechanism.damper.curve: the damper has a damping already; keep damping or curve");
+  EXPECT_EQ(
+      with("curve = { speed_m_per_s = [0, 1], force_N = [0, 1] }"),
+      "mechanism.damper.curve.speed_m_per_s: speeds of extension (< 0) and of compression (> 0) are both "
+      "needed");
+  EXPECT_EQ(with("curve = { speed_m_per_s = [-1, 1], force_N = [1, 1] }"),
+            "mechanism.damper.curve.speed_m_per_s: the force at point 1 has another sign than the speed: it "
+            "would drive the motion");
+  EXPECT_EQ(with("curve = { speed_m_per_s = [-1, 1], force_N = [-1] }"),
+            "mechanism.damper.curve.speed_m_per_s: 2 speeds and 1 forces");
+}
+
+TEST(SpringParts, PostsOfTBars) {
+  const auto with = [](const std::string& axis) {
+    return problem("axis_mm     = [[120, 0, 250], [120, 100, 250]]", "shape = \"T\"\naxis_mm = " + axis);
+  };
+  EXPECT_EQ(
+      with("[[120, 0, 250], [120, 100, 250]]"),
+      "mechanism.anti_roll_bar.axis_mm: the post of a T bar is not in the middle of the vehicle; give its "
+      "foot and its top with y = 0");
+  EXPECT_EQ(
+      with("[[120, 0, 250], [120, 0, 250]]"),
+      "mechanism.anti_roll_bar.axis_mm: foot and top of the post are the same point; set them apart along "
+      "the post");
+  EXPECT_THAT(problem("axis_mm     = [[120, 0, 250], [120, 100, 250]]", "shape = \"V\""),
+              HasSubstr("mechanism.anti_roll_bar.shape: is 'V'"));
+}
+
 TEST(SpringParts, CurveOfAFile) {
   const auto folder = std::filesystem::temp_directory_path() / "linkwright_spring_parts_test";
   std::filesystem::create_directories(folder);

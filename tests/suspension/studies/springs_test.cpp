@@ -94,6 +94,51 @@ TEST(Springs, TorsionBarWoundUpByEitherSense) {
   EXPECT_NEAR(column(one, "rocker_angle_rad").at(0), -column(other, "rocker_angle_rad").at(0), 1e-12);
 }
 
+// The body leans over a plane road and finds its height by its load; the load acts in the middle of the axle
+// at the road.
+TEST(Springs, RollRateByTheEnergyOfTheAxleHasTheJackingOfTheLoad) {
+  const study::Result result = run_text(pushrod_study);
+  const AxlePlan axle = prepare_axle(pushrod_corner());
+  const AxlePosition reference = reference_position(axle);
+  const auto contact = [](const CornerPlan& plan, const CornerPosition& position) {
+    return wheel_parameters(plan, position).contact;
+  };
+  const double load = [&] {
+    const AxlePosition up = solve_axle(axle, {Driver::contact_z, 1e-5, 1e-5, 0}, reference),
+                       down = solve_axle(axle, {Driver::contact_z, -1e-5, -1e-5, 0}, reference);
+    const auto length = [&](const AxlePosition& at) {
+      return driver_value(axle.left, at.left.place, 0, Driver::spring);
+    };
+    return 2 * 900 * (length(down) - length(up)) / 2e-5;
+  }();
+  const auto energy = [&](double roll, double heave) {
+    const AxlePosition at = solve_roll(axle, roll, heave, 0, reference);
+    EXPECT_EQ(at.status, Status::done);
+    double sum = 0, twist = 0;
+    for (const auto& [plan, position, sign] :
+         {std::tuple{&axle.left, &at.left, 1.0}, std::tuple{&axle.right, &at.right, -1.0}}) {
+      const double force = 900 - 35e3 * driver_value(*plan, position->place, 0, Driver::spring);
+      sum += force * force / (2 * 35e3);
+      twist += sign * rocker_states(*plan, position->place, 0)[1].angle;
+    }
+    const Vec3 left = contact(axle.left, at.left);
+    const double road = left.z - left.y * std::tan(roll);  // in the middle, in the frame of the body
+    return sum + 1200 * twist * twist / 2 - load * (road - axle.left.contact.z) * std::cos(roll);
+  };
+  const auto least = [&](double roll) {  // of the parabola through three heaves
+    const double h = 1e-3, a = energy(roll, -h), b = energy(roll, 0), c = energy(roll, h);
+    return b - (c - a) * (c - a) / (8 * (a + c - 2 * b));
+  };
+  const double step = 4e-3, second = (16 * (least(step) + least(-step)) -
+                                      (least(2 * step) + least(-2 * step)) - 30 * least(0)) /
+                                     (12 * step * step);
+  EXPECT_NEAR(test::value_of_fact(result, "roll rate by the energy of the axle, load held and track free"),
+              second, 2e-4 * second);
+  const double plain = test::value_of_fact(result, "roll rate of the springs") +
+                       test::value_of_fact(result, "roll rate of the anti-roll bar");
+  EXPECT_GT(std::abs(second - plain), 0.003 * plain);  // the jacking is no rounding
+}
+
 TEST(Springs, ContactHeightAsTheCoordinate) {
   const study::Result centre = run_text(pushrod_study),
                       contact = run_text(pushrod_study + "coordinate = \"contact_z\"\n");
@@ -255,6 +300,12 @@ TEST(Springs, PartsBetweenTheWheelsAreTheSameForBoth) {
       HasSubstr(
           "other_wheel.mechanism: the anti-roll bar has another stiffness than at the first wheel; it is one "
           "bar: give the same stiffness for both wheels"));
+  const std::string t_bar = "shape = \"T\"\naxis_mm = [[200, 0, 250], [20, 0, 260]]";
+  EXPECT_THAT(
+      problems_of(replaced(pushrod_study, "axis_mm     = [[120, 0, 250], [120, 100, 250]]", t_bar) +
+                  other_wheel()),
+      HasSubstr("other_wheel.mechanism: the anti-roll bar has another shape or post than at the first "
+                "wheel; it is one bar"));
   const std::string heave =
       "heave_spring]\nmoving_mm = [15, 190, 500]\nattached_to = \"rocker\"\n"
       "stiffness_N_per_mm = 60\n";

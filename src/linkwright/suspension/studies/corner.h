@@ -12,6 +12,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/suspension/compliance/damper_law.h"
 #include "linkwright/suspension/compliance/springs.h"
 #include "linkwright/suspension/corner/hard_points.h"
 #include "linkwright/suspension/indirect/synthesis.h"
@@ -223,11 +224,24 @@ void fields(Visitor&& visit, HeaveSpringForm& s) {
   fields(visit, s.law);
 }
 
+/// The force of a damper over the speed of its ends: points given here or in a file.
+struct DamperCurveForm {
+  std::optional<std::string> file;
+  std::vector<double> speed, force;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DamperCurveForm& c) {
+  visit(field::entry("file", "CSV with the columns speed_m_per_s and force_N"), c.file);
+  visit(field::speed("speed", "ascending, by which its ends approach each other: < 0 in extension"), c.speed);
+  visit(field::force("force", "at these speeds, with their sign"), c.force);
+}
+
 struct DamperForm {
   std::optional<PointsForm> body, moving;
   std::vector<std::string> points;
   std::string attached_to = "carrier", body_attached_to = "body";
   std::optional<double> damping;
+  std::optional<DamperCurveForm> curve;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DamperForm& d) {
@@ -238,6 +252,7 @@ void fields(Visitor&& visit, DamperForm& d) {
   visit(field::entry("body_attached_to", "part that holds its first end, if that is not the body"),
         d.body_attached_to);
   visit(field::damping("damping", "force by speed").not_negative(), d.damping);
+  visit(field::entry("curve", "its force over its speed, instead of the damping"), d.curve);
 }
 
 struct TorsionBarForm {
@@ -253,7 +268,16 @@ void fields(Visitor&& visit, TorsionBarForm& t) {
   visit(field::torque("preload", "moment at the reference, > 0: it pushes the wheel down"), t.preload);
 }
 
+/// The shape of an anti-roll bar.
+enum class BarShape { U, T };
+constexpr std::array<EnumName<BarShape>, 2> names(BarShape) {
+  return {{{BarShape::U, "U", "two arms, each with a droplink, on a bar that is twisted between them"},
+           {BarShape::T, "T",
+            "a crossbar with both droplinks on a post in the middle, which tilts freely and is twisted"}}};
+}
+
 struct AntiRollBarForm {
+  BarShape shape = BarShape::U;
   std::optional<PointsForm> axis, droplink;
   std::vector<std::string> points;
   std::string attached_to;
@@ -261,14 +285,18 @@ struct AntiRollBarForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, AntiRollBarForm& a) {
-  visit(field::length("axis", "two points of its axis; angles are right-handed from the first to the second"),
+  visit(field::entry("shape", "U or T"), a.shape);
+  visit(field::length("axis",
+                      "two points of its axis; angles are right-handed from the first to the second. Of a T "
+                      "bar the foot and the top of its post"),
         a.axis);
   visit(field::length("droplink", "its end on the part that moves it, its end on the bar's arm"), a.droplink);
   visit(field::entry("points", "names of four hard points instead: axis, droplink"), a.points);
   visit(field::entry("attached_to", "\"carrier\", or the name of a link or a rocker: what the droplink is on")
             .required(),
         a.attached_to);
-  visit(field::stiffness_angular("stiffness", "moment by twist between the ends of both arms").not_negative(),
+  visit(field::stiffness_angular("stiffness", "moment by twist between the ends of both arms, or of the post")
+            .not_negative(),
         a.stiffness);
 }
 
@@ -355,7 +383,7 @@ void fields(Visitor&& visit, CornerForm& g) {
   visit(field::entry("heave_spring", "third spring, between the rockers or links of both wheels"),
         g.heave_spring);
   visit(field::entry("torsion_bar", "spring that a rocker or a hinged link twists"), g.torsion_bar);
-  visit(field::entry("anti_roll_bar", "U bar with droplinks, this wheel's arm"), g.anti_roll_bar);
+  visit(field::entry("anti_roll_bar", "U or T bar with droplinks, this wheel's arm"), g.anti_roll_bar);
   visit(field::entry("bump_stop", "engages as the spring or damper is compressed"), g.bump_stop);
   visit(field::entry("rebound_stop", "engages as the spring or damper is extended"), g.rebound_stop);
   visit(field::entry("rack", "of the steering"), g.rack);
@@ -367,7 +395,8 @@ enum class OpenPoints { none, boxes };
 /// The damper: the element that it is, none where it is in line with the spring.
 struct DamperDescription {
   std::optional<std::size_t> element;
-  std::optional<double> damping;  ///< N s/m
+  std::optional<double> damping;     ///< N s/m
+  std::optional<DamperCurve> curve;  ///< replaces the damping
 };
 /// A torsion bar: its element, and moment by twist with the moment at the reference that pushes the wheel
 /// down.
@@ -380,10 +409,12 @@ struct HeaveSpringDescription {
   std::size_t element = 0;
   SpringLaw law;  ///< N/m, N
 };
-/// An anti-roll bar: its arm is a rocker.
+/// An anti-roll bar: its arm is a rocker. The rocker of a T bar is its tilt, about the lateral axis through
+/// the foot of the post, as long as both wheels travel equally.
 struct AntiRollBarDescription {
   std::size_t rocker = 0;
-  double stiffness = 0;  ///< N m/rad between the ends of its arms
+  double stiffness = 0;               ///< N m/rad between the ends of its arms, or of the post
+  std::optional<Vec3> post_top = {};  ///< top of the post of a T bar, m
 };
 struct StopDescription {
   StopPlace on = StopPlace::spring;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -92,6 +93,12 @@ class Reader {
     auto table = mechanism_.table("damper");
     const DamperForm& d = *form_.damper;
     DamperDescription out{.damping = d.damping};
+    if (d.damping && d.curve)
+      return table->error("curve", "the damper has a damping already", "keep damping or curve");
+    if (d.curve) {
+      out.curve = damper_curve(*table, *d.curve);
+      if (!out.curve) return;
+    }
     if (!d.body && !d.moving && d.points.empty()) {
       if (!form_.spring)
         return table->error("body", "its ends are missing, and there is no spring that it is in line with",
@@ -131,10 +138,14 @@ class Reader {
     const auto on = part_named(*table, "attached_to", a.attached_to);
     if (!points || !on) return;
     out_.springs.anti_roll_bar = AntiRollBarDescription{out_.suspension.rockers.size(), a.stiffness};
-    out_.suspension.rockers.push_back({.name = std::string(bar_arm),
-                                       .axis = {(*points)[0], (*points)[1]},
-                                       .rod = (*points)[3],
-                                       .driven_by = {(*points)[2], *on}});
+    std::array<Vec3, 2> axis{(*points)[0], (*points)[1]};
+    if (a.shape == BarShape::T) {
+      if (!t_bar_stands(*table, axis, (*points)[3])) return;
+      out_.springs.anti_roll_bar->post_top = axis[1];
+      axis[1] = axis[0] + Vec3{0, form_.side == Side::left ? 0.1 : -0.1, 0};
+    }
+    out_.suspension.rockers.push_back(
+        {.name = std::string(bar_arm), .axis = axis, .rod = (*points)[3], .driven_by = {(*points)[2], *on}});
   }
 
   void stop(std::string_view key, const std::optional<StopForm>& form, std::optional<StopDescription>& to) {
@@ -158,6 +169,22 @@ class Reader {
 
  private:
   using Ends = std::pair<Vec3, Vec3>;
+
+  /// Reports what keeps a post from standing in the middle with a crossbar that reaches out of it.
+  static bool t_bar_stands(study::ObjectReader& table, const std::array<Vec3, 2>& post, const Vec3& end) {
+    constexpr double no_length = 1e-6;
+    if (norm(post[1] - post[0]) < no_length)
+      table.error("axis", "foot and top of the post are the same point", "set them apart along the post");
+    else if (std::abs(post[0].y) > no_length || std::abs(post[1].y) > no_length)
+      table.error("axis", "the post of a T bar is not in the middle of the vehicle",
+                  "give its foot and its top with y = 0");
+    else if (norm(cross(unit(post[1] - post[0]), end - post[0])) < no_length)
+      table.error("droplink", "its end on the crossbar lies on the post, which it cannot twist",
+                  "give the end of the crossbar at this wheel");
+    else
+      return true;
+    return false;
+  }
 
   std::optional<Vec3> one_given(study::ObjectReader& table, std::string_view key, const PointsForm& form) {
     if (form.points.size() != 1)
@@ -274,31 +301,52 @@ class Reader {
                                        .length = form.rod_length});
   }
 
-  /// A characteristic, given here or in a file.
+  using Columns = std::pair<std::vector<double>, std::vector<double>>;
+
+  /// Forces over another quantity, given here or in a file, whose key is `over` with an example of a unit.
+  template <class Form>
+  std::optional<Columns> forces(study::ObjectReader& table, const Form& form, Columns given,
+                                std::string_view over, std::string_view unit, Dimension dimension) {
+    if (!form.file) return given;
+    if (!given.first.empty() || !given.second.empty())
+      return refused(table, "file", "the curve is given twice",
+                     fmt::format("keep the file, or {} and force", over));
+    const auto text = study::read_beside(table, "file", common_.folder, *form.file);
+    if (!text) return std::nullopt;
+    Diagnostics problems;
+    const auto read = read_csv(*text, *form.file, problems);
+    for (const Diagnostic& d : problems) table.unreadable("file", study::in_file(d));
+    if (!read) return std::nullopt;
+    const auto at = quantity(*read, std::string(over), dimension),
+               force = quantity(*read, "force", Dimension::force);
+    if (!at || !force)
+      return refused(table, "file",
+                     fmt::format("'{}' needs the columns {} and force, each with its unit", *form.file, over),
+                     fmt::format("name them {}_{}, force_N", over, unit));
+    return Columns{*at, *force};
+  }
+
+  /// A characteristic of a spring or a stop.
   std::optional<ForceCurve> curve(study::ObjectReader& owner, const CharacteristicForm& form) {
     auto table = owner.table("curve");
-    ForceCurve out{form.compression, form.force};
-    if (form.file) {
-      if (!out.compression.empty() || !out.force.empty())
-        return refused(*table, "file", "the curve is given twice", "keep the file, or compression and force");
-      const auto text = study::read_beside(*table, "file", common_.folder, *form.file);
-      if (!text) return std::nullopt;
-      Diagnostics problems;
-      const auto read = read_csv(*text, *form.file, problems);
-      for (const Diagnostic& d : problems) table->unreadable("file", study::in_file(d));
-      if (!read) return std::nullopt;
-      const auto compression = quantity(*read, "compression", Dimension::length),
-                 force = quantity(*read, "force", Dimension::force);
-      if (!compression || !force)
-        return refused(
-            *table, "file",
-            fmt::format("'{}' needs the columns compression and force, each with its unit", *form.file),
-            "name them compression_mm, force_N");
-      out = {*compression, *force};
-    }
+    auto points =
+        forces(*table, form, {form.compression, form.force}, "compression", "mm", Dimension::length);
+    if (!points) return std::nullopt;
+    ForceCurve out{std::move(points->first), std::move(points->second)};
     if (const std::string bad = problem(out); !bad.empty())
       return refused(*table, form.file ? "file" : "compression", bad);
     return out;
+  }
+
+  /// A characteristic of a damper.
+  std::optional<DamperCurve> damper_curve(study::ObjectReader& owner, const DamperCurveForm& form) {
+    auto table = owner.table("curve");
+    auto points = forces(*table, form, {form.speed, form.force}, "speed", "m_per_s", Dimension::speed);
+    if (!points) return std::nullopt;
+    DamperCurve out{std::move(points->first), std::move(points->second)};
+    if (const std::string bad = problem(out); !bad.empty())
+      return refused(*table, form.file ? "file" : "speed", bad);
+    return with_rest(std::move(out));
   }
 
   /// The law of a spring whose length as drawn is known; nothing if it has none or a problem.
@@ -416,8 +464,12 @@ void write_spring_parts(const CornerDescription& d, CornerForm& form) {
     const Rocker& r = g.rockers[i];
     const PointsForm axis = points_of({r.axis[0], r.axis[1]}), rod = points_of({r.driven_by.at, r.rod});
     if (bar && bar->rocker == i)
-      form.anti_roll_bar = AntiRollBarForm{
-          .axis = axis, .droplink = rod, .attached_to = name(r.driven_by.part), .stiffness = bar->stiffness};
+      form.anti_roll_bar =
+          AntiRollBarForm{.shape = bar->post_top ? BarShape::T : BarShape::U,
+                          .axis = bar->post_top ? points_of({r.axis[0], *bar->post_top}) : axis,
+                          .droplink = rod,
+                          .attached_to = name(r.driven_by.part),
+                          .stiffness = bar->stiffness};
     else
       form.rockers.push_back({.name = r.name,
                               .axis = axis,
@@ -433,6 +485,8 @@ void write_spring_parts(const CornerDescription& d, CornerForm& form) {
   if (g.spring && d.spring) form.spring->law = written(*d.spring, norm(g.spring->moving - g.spring->body));
   if (const auto& damper = d.springs.damper) {
     form.damper = DamperForm{.damping = damper->damping};
+    if (damper->curve)
+      form.damper->curve = DamperCurveForm{.speed = damper->curve->speed, .force = damper->curve->force};
     if (damper->element) {
       const CornerElement& element = g.elements.at(*damper->element);
       form.damper->body = points_of({element.first.at});
@@ -478,7 +532,7 @@ void drop_empty_spring_keys(Value& mechanism) {
     if (!table.find("curve")) return;
     drop_if(table["curve"], "file", always);
   };
-  for (const char* key : {"spring", "heave_spring", "bump_stop", "rebound_stop"})
+  for (const char* key : {"spring", "heave_spring", "damper", "bump_stop", "rebound_stop"})
     if (has(key)) drop_lists(mechanism[key]);
 }
 

@@ -14,7 +14,9 @@
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/compliance/springs.h"
 #include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/studies/anti_roll.h"
 #include "linkwright/suspension/studies/axle.h"
+#include "linkwright/suspension/studies/damping.h"
 #include "linkwright/suspension/studies/spring_parts.h"
 
 namespace linkwright::suspension {
@@ -142,10 +144,6 @@ double damping_ratio(double rate, double damping, const RideForm& ride) {
   return rate > 0 ? damping / (2 * std::sqrt(rate * *ride.sprung_mass)) : missing;
 }
 
-/// Twist of both arms by opposite travel of a symmetric axle is twice that of one; at each wheel half the
-/// rate.
-double bar_rate(const TravelRates& arm, double stiffness) { return 2 * stiffness * arm.ratio * arm.ratio; }
-
 /// Columns of rows that are known.
 class SpringTable {
  public:
@@ -182,6 +180,10 @@ class SpringTable {
   std::string by_;
 };
 
+std::string arm_words(const CornerDescription& d) {
+  return d.springs.anti_roll_bar->post_top ? "T bar's tilt" : "anti-roll bar's arm";
+}
+
 void add_columns(Table& table, const CornerDescription& d, const RideForm& ride, const SpringModel& model,
                  const std::vector<std::optional<SpringRow>>& rows) {
   const bool centre = ride.coordinate == Driver::wheel_centre_z;
@@ -204,7 +206,7 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
     out.add_rates("spring", "spring", false, false, [](const R& r) { return *r.motions.spring; });
   for (std::size_t i = 0; i < suspension.rockers.size(); ++i) {
     const std::string& name = suspension.rockers[i].name;
-    out.add_rates(plain_name(name), name == bar_arm ? "anti-roll bar's arm" : name, true, true,
+    out.add_rates(plain_name(name), name == bar_arm ? arm_words(d) : name, true, true,
                   [i](const R& r) { return r.motions.rockers[i]; });
   }
   const SpringParts& parts = d.springs;
@@ -228,9 +230,7 @@ void add_columns(Table& table, const CornerDescription& d, const RideForm& ride,
   if (parts.anti_roll_bar)
     out.add("anti_roll_bar_wheel_rate_N_per_m",
             "rate of the anti-roll bar at each wheel, both travelling oppositely from here (N/m)",
-            [&](const R& r) {
-              return bar_rate(r.motions.rockers[parts.anti_roll_bar->rocker], parts.anti_roll_bar->stiffness);
-            });
+            [&](const R& r) { return anti_roll_rate(d, r.motions); });
   if (parts.heave_spring) {
     out.add_rates("heave_spring", "heave spring", false, true,
                   [&](const R& r) { return r.motions.elements[parts.heave_spring->element]; });
@@ -284,19 +284,35 @@ void add_roll_rates(study::Result& result, const CornerDescription& d, const Cor
   const SpringModel model(d, by_contact);
   const SpringRow here = model.at(position);
   if (here.motions.status != Status::done) return;
-  const double half_track = std::abs(wheel_parameters(model.plan(), position).contact.y);
+  const WheelParameters wheel = wheel_parameters(model.plan(), position);
+  const double half_track = std::abs(wheel.contact.y);
   const auto roll_rate = [&](double rate) {
     return measured("N_m_per_deg", 2 * half_track * half_track * rate).fixed(3);
   };
   const study::AddFact fact{result.facts};
   const bool sprung = d.spring || d.springs.torsion_bar;
-  if (sprung) fact("roll rate of the springs", roll_rate(here.own_rate()));
-  if (const auto& bar = d.springs.anti_roll_bar)
-    fact("roll rate of the anti-roll bar",
-         roll_rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
-  if (d.springs.heave_spring)
-    fact("roll rate of the heave spring, by its force",
-         roll_rate(-here.heave.spring_force * by_opposite_travel(here.motions.ends_across[0]) / 2));
+  double together = 0;
+  if (sprung) fact("roll rate of the springs", roll_rate(together = here.own_rate()));
+  if (d.springs.anti_roll_bar) {
+    const double rate = anti_roll_rate(d, here.motions);
+    together += rate;
+    fact("roll rate of the anti-roll bar", roll_rate(rate));
+  }
+  if (d.springs.heave_spring) {
+    const double rate = -here.heave.spring_force * by_opposite_travel(here.motions.ends_across[0]) / 2;
+    together += rate;
+    fact("roll rate of the heave spring, by its force", roll_rate(rate));
+  }
+  if (!sprung) return;
+  // Rolling by a raises the contacts by s and -s, s = t a / 2, and shifts both by y' s to one side, so that
+  // the body rises above the road by y' s a; its load is that of both springs. E = k s^2 + load y' s a.
+  const double load = 2 * here.force(), shift = wheel.roll_centre_height_geometric / half_track;
+  const double jacking = 2 * load * shift * half_track;
+  fact("roll rate by the energy of the axle, load held and track free",
+       say("{}; {} of it by jacking: the contacts shift sideways against the body, which the roll thus lifts "
+           "against the load of {}",
+           measured("N_m_per_deg", 2 * half_track * half_track * together + jacking).fixed(3),
+           measured("N_m_per_deg", jacking).fixed(3), newtons(load)));
 }
 
 /// The place between two positions at which a stop engages or ends: bisection, so that it does not depend on
@@ -353,6 +369,18 @@ void check_ride(study::ObjectReader& document, const RideForm& ride, const Corne
     table->error(ride.sprung_mass ? "sprung_mass" : "tyre_stiffness",
                  "there is no spring whose stiffness is known",
                  "write stiffness_N_per_mm in [mechanism.spring]");
+  if (!ride.wheel_speeds) return;
+  const auto& damper = description.springs.damper;
+  const auto& speeds = *ride.wheel_speeds;
+  if (!damper || (!damper->damping && !damper->curve))
+    table->error("wheel_speeds", "there is no damper whose force is known",
+                 "write damping_N_s_per_m or a curve in [mechanism.damper]");
+  else if (speeds.empty() || std::any_of(speeds.begin(), speeds.end(), [](double v) { return v == 0; }))
+    table->error("wheel_speeds", speeds.empty() ? "are none" : "has 0, at which nothing is damped",
+                 "for example wheel_speeds_m_per_s = [-0.3, -0.1, 0.1, 0.3]");
+  else if (static_cast<double>(speeds.size()) > most_wheel_speeds)
+    table->error("wheel_speeds",
+                 fmt::format("{} speeds, at most {} are allowed", speeds.size(), most_wheel_speeds));
 }
 
 bool has_springs(const CornerDescription& d) {
@@ -378,6 +406,18 @@ void add_springs(study::Result& result, const CornerDescription& d, const RideFo
   Table& table = result.tables.front();
   add_columns(table, d, ride, model, rows);
   if (!stated || *stated >= rows.size() || !rows[*stated]) return;
+  if (const auto& damper = d.springs.damper; damper && (damper->curve || ride.wheel_speeds)) {
+    std::vector<DampedPosition> damped;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (positions[i].input.rack != positions[*stated].input.rack) continue;
+      if (i == *stated) at = damped.size();
+      if (rows[i])
+        damped.push_back({positions[i].input.value, model.rates(rows[i]->motions, StopPlace::damper).ratio,
+                          rows[i]->rate()});
+    }
+    add_damping(result, *damper, ride, damped, at);
+  }
   const SpringRow& here = *rows[*stated];
   const study::AddFact fact{result.facts};
   const auto rate = [](double value) { return measured("N_per_mm", value).fixed(3); };
@@ -390,9 +430,8 @@ void add_springs(study::Result& result, const CornerDescription& d, const RideFo
     if (std::isfinite(here.damping))
       fact("damping ratio", plain_number(damping_ratio(here.rate(), here.damping, ride)).fixed(3));
   }
-  if (const auto& bar = d.springs.anti_roll_bar)
-    fact("rate of the anti-roll bar at each wheel, opposite travel",
-         rate(bar_rate(here.motions.rockers[bar->rocker], bar->stiffness)));
+  if (d.springs.anti_roll_bar)
+    fact("rate of the anti-roll bar at each wheel, opposite travel", rate(anti_roll_rate(d, here.motions)));
   if (symmetric_axle && (ride.sprung_mass || ride.tyre_stiffness || d.springs.anti_roll_bar))
     add_roll_rates(result, d, positions[*stated]);
   const double rack = positions[*stated].input.rack;
@@ -437,8 +476,9 @@ void add_opposite_travel(study::Result& result, const AxleDescription& both, con
     const CornerDescription& wheel = *wheels[side];
     for (std::size_t k = 0; k < wheel.suspension.rockers.size(); ++k) {
       const std::string& name = wheel.suspension.rockers[k].name;
+      if (name == bar_arm && wheel.springs.anti_roll_bar->post_top) continue;
       add(fmt::format("{}_{}_angle_rad", word, plain_name(name)),
-          fmt::format("{} {} angle (rad)", word, name == bar_arm ? "anti-roll bar's arm" : name),
+          fmt::format("{} {} angle (rad)", word, name == bar_arm ? arm_words(wheel) : name),
           [=](const Rows& rows) { return rows[side].motions.rockers[k].value; });
     }
     if (wheel.spring || wheel.springs.torsion_bar) {
@@ -451,27 +491,34 @@ void add_opposite_travel(study::Result& result, const AxleDescription& both, con
   const auto &left_bar = both.left.springs.anti_roll_bar, &right_bar = both.right.springs.anti_roll_bar;
   if (left_bar && right_bar) {
     const double k = left_bar->stiffness;
-    const std::array arms{left_bar->rocker, right_bar->rocker};
-    const auto arm = [=](const Rows& rows, std::size_t side) {
-      return rows[side].motions.rockers[arms[side]];
+    // The twist by a path on which both wheels travel by these shares of its coordinate.
+    const auto twist = [&](const Rows& rows, double left, double right) {
+      return bar_twist(both, rows[0].motions, rows[1].motions, left, right);
     };
-    // The twist t = b_l - b_r by the travel z of the left wheel: the right one travels by -z.
-    const auto twist = [=](const Rows& rows) { return arm(rows, 0).value - arm(rows, 1).value; };
-    const auto by_travel = [=](const Rows& rows) { return arm(rows, 0).ratio + arm(rows, 1).ratio; };
-    add("twist_rad", "twist of the anti-roll bar, left less right arm (rad)", twist);
-    add("twist_by_travel_rad_per_m", "twist by travel (rad/m)", by_travel);
+    const auto opposite = [=](const Rows& rows) { return twist(rows, 1, -1); };
+    if (left_bar->post_top)
+      add("anti_roll_bar_tilt_rad", "tilt of the T bar (rad)",
+          [=](const Rows& rows) { return opposite(rows).tilt; });
+    add("twist_rad",
+        left_bar->post_top ? "twist of the T bar's post (rad)"
+                           : "twist of the anti-roll bar, left less right arm (rad)",
+        [=](const Rows& rows) { return opposite(rows).value; });
+    add("twist_by_travel_rad_per_m", "twist by travel (rad/m)",
+        [=](const Rows& rows) { return opposite(rows).by_travel; });
     add("anti_roll_bar_moment_N_m", "moment of the anti-roll bar (N m)",
-        [=](const Rows& rows) { return k * twist(rows); });
+        [=](const Rows& rows) { return k * opposite(rows).value; });
     add("left_anti_roll_bar_force_N", "force of the anti-roll bar at the left wheel (N)",
-        [=](const Rows& rows) { return k * twist(rows) * arm(rows, 0).ratio; });
+        [=](const Rows& rows) { return k * opposite(rows).value * twist(rows, 1, 0).by_travel; });
     add("right_anti_roll_bar_force_N", "force of the anti-roll bar at the right wheel (N)",
-        [=](const Rows& rows) { return -k * twist(rows) * arm(rows, 1).ratio; });
+        [=](const Rows& rows) { return k * opposite(rows).value * twist(rows, 0, 1).by_travel; });
     add("anti_roll_bar_wheel_rate_N_per_m", "rate of the anti-roll bar at each wheel, by its stiffness (N/m)",
-        [=](const Rows& rows) { return k * by_travel(rows) * by_travel(rows) / 2; });
-    add("anti_roll_bar_geometric_rate_N_per_m",
-        "rate of the anti-roll bar at each wheel, by its moment (N/m)", [=](const Rows& rows) {
-          return k * twist(rows) * (arm(rows, 0).by_travel - arm(rows, 1).by_travel) / 2;
+        [=](const Rows& rows) {
+          const double by_travel = opposite(rows).by_travel;
+          return k * by_travel * by_travel / 2;
         });
+    add("anti_roll_bar_geometric_rate_N_per_m",
+        "rate of the anti-roll bar at each wheel, by its moment (N/m)",
+        [=](const Rows& rows) { return k * opposite(rows).value * opposite(rows).change / 2; });
   }
   if (both.left.springs.heave_spring && both.right.springs.heave_spring) {
     const SpringLaw& law = both.left.springs.heave_spring->law;

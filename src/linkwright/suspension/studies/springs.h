@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/study/kind.h"
@@ -17,6 +18,7 @@ namespace linkwright::suspension {
 struct RideForm {
   Driver coordinate = Driver::wheel_centre_z;
   std::optional<double> sprung_mass, tyre_stiffness;
+  std::optional<std::vector<double>> wheel_speeds;
 };
 template <class Visitor>
 void fields(Visitor&& visit, RideForm& r) {
@@ -24,6 +26,11 @@ void fields(Visitor&& visit, RideForm& r) {
         r.coordinate);
   visit(field::mass("sprung_mass", "that this corner carries").positive(), r.sprung_mass);
   visit(field::stiffness("tyre_stiffness", "vertical, of the tyre").positive(), r.tyre_stiffness);
+  visit(field::speed("wheel_speeds",
+                     "speeds of the wheel against the body for the damping, > 0 upwards; default: those at "
+                     "which a damper with a curve has the speeds of its points")
+            .between(-100, 100),
+        r.wheel_speeds);
 }
 
 /// Reports what `[ride]` lacks.

@@ -96,7 +96,10 @@ std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document,
     table->warning("mechanism",
                    "the table sweep takes the other end of the heave spring as the mirror image of this one",
                    "[axle.opposite] takes both wheels as they are");
-  if (bar && other_bar && bar->stiffness != other_bar->stiffness)
+  if (bar && other_bar && bar->post_top != other_bar->post_top)
+    table->error("mechanism", "the anti-roll bar has another shape or post than at the first wheel",
+                 "it is one bar: give the same shape, and for a T bar the same axis, for both wheels");
+  else if (bar && other_bar && bar->stiffness != other_bar->stiffness)
     table->error("mechanism", "the anti-roll bar has another stiffness than at the first wheel",
                  "it is one bar: give the same stiffness for both wheels");
   return other;

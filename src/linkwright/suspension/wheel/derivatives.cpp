@@ -313,6 +313,7 @@ CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position
     out.elements.resize(plan.plan.elements.size());
     for (const auto& element : plan.plan.elements)
       if (element.across) out.ends_across.emplace_back();
+    out.rod_ends.resize(plan.plan.rockers.size());
     if (plan.plan.spring) out.spring.emplace();
     return out;
   }
@@ -340,17 +341,20 @@ CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position
   for (const auto& element : plan.inputs.elements)
     out.elements.push_back(
         rates([&](kernel::Row<T>& row) { return kernel::element_value(placed, element, row); }));
-  for (const auto& element : plan.inputs.elements) {
-    if (!element.across) continue;
-    auto& end = out.ends_across.emplace_back();
+  const auto coordinates = [&](const BasicPartPoint<T>& point) {
+    std::array<TravelRates, 3> end;
     for (std::size_t i = 0; i < 3; ++i)
       end[i] = rates([&](kernel::Row<T>& row) {
         math::Vector3<T> along;
         (i == 0 ? along.x : i == 1 ? along.y : along.z) = T(1);
-        kernel::add_part_point(placed, element.second, along, row);
-        return dot(along, kernel::part_point(placed, element.second));
+        kernel::add_part_point(placed, point, along, row);
+        return dot(along, kernel::part_point(placed, point));
       });
-  }
+    return end;
+  };
+  for (const auto& element : plan.inputs.elements)
+    if (element.across) out.ends_across.push_back(coordinates(element.second));
+  for (const auto& rocker : plan.inputs.rockers) out.rod_ends.push_back(coordinates(rocker.driver));
   if (plan.inputs.spring)
     out.spring = rates([&](kernel::Row<T>& row) { return kernel::spring_length(placed, row); });
   return out;

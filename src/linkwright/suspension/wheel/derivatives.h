@@ -66,6 +66,8 @@ struct CornerMotions {
   std::optional<TravelRates> spring;  ///< length of the spring
   /// Coordinates (m) of the moving end of each element that reaches across the vehicle, in their order.
   std::vector<std::array<TravelRates, 3>> ends_across;
+  /// Coordinates (m) of the end of each rocker's rod on the part that drives it.
+  std::vector<std::array<TravelRates, 3>> rod_ends;
 };
 
 /// The motions of rockers, spring and elements at a position: l, dl/dz and d2l/dz2 by implicit
