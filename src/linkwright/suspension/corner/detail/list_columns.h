@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/suspension/corner/detail/list_collector.h"
+
+/// Lists of hard points in columns: CSV and what spreadsheets export.
+namespace linkwright::suspension::lists {
+
+struct Axis {
+  int axis = -1;  ///< 0 x, 1 y, 2 z
+  const Unit* unit = nullptr;
+};
+
+/// A heading such as x, x_mm or "X [mm]".
+Axis axis_of(std::string_view heading);
+
+/// The cells of a line as they are written, with their quotes.
+std::vector<std::string_view> cells_of(std::string_view line, char separator);
+
+struct Header {
+  char separator = 0;
+  std::size_t columns = 0;
+  std::optional<std::size_t> name;
+  std::array<std::optional<std::size_t>, 3> at;
+  std::array<const Unit*, 3> units{};
+};
+
+/// The header of a list in columns; nothing for plain text. `above` is the line before it, where a heading
+/// that spans several columns may give their unit.
+std::optional<Header> header_of(std::string_view line, char separator, std::string_view above = {});
+
+/// A list in columns, brought into the order name, x, y, z line by line and read as CSV.
+std::optional<std::vector<ListedPoint>> read_columns(std::string_view text, int header_line, Header header,
+                                                     const std::string& file, const Unit* given,
+                                                     Diagnostics& diagnostics);
+
+}  // namespace linkwright::suspension::lists

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "linkwright/suspension/corner/hard_point_list.h"
+#include "linkwright/suspension/corner/samples.h"
+#include "support/message.h"
+#include "support/study_text.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using ::testing::HasSubstr;
+
+HardPointList read_whole(std::string_view text, PointUnit unit = PointUnit::mm) {
+  Diagnostics problems;
+  auto list = read_hard_point_list(text, "points.txt", unit, problems);
+  for (const Diagnostic& d : problems) ADD_FAILURE() << to_string(d) << "\n" << text;
+  return list.value_or(HardPointList{});
+}
+
+std::vector<HardPoint> points_in(const HardPointList& list) {
+  std::vector<HardPoint> out;
+  for (const ListedPoint& p : list.points) out.push_back(p.point);
+  return out;
+}
+
+std::vector<Vec3> places_in(const HardPointList& list) {
+  std::vector<Vec3> out;
+  for (const ListedPoint& p : list.points) out.push_back(p.point.at);
+  return out;
+}
+
+/// Moves the point with this number by a third of a millimetre, which no decimal number is.
+std::vector<Vec3> with_moved(const HardPointList& list, std::size_t i) {
+  std::vector<Vec3> out = places_in(list);
+  out.at(i) += Vec3{1e-3 / 3, -1e-3 / 3, 2e-3 / 3};
+  return out;
+}
+
+// Poznanovic 2016, examples 1, 2 and 4.
+constexpr const char* public_sets[]{"front_5US", "strut_SP-3US", "rear_5US"};
+
+TEST(HardPointListWrite, ReadsTheSameBitsBackFromEveryForm) {
+  for (const char* name : public_sets) {
+    const std::vector<HardPoint> points = points_of(corner_sample(name).suspension);
+    for (const auto& format : names(ListFormat{}))
+      for (const auto& unit : names(PointUnit{})) {
+        const std::string text = write_hard_points(points, format.value, unit.value);
+        const HardPointList list = read_whole(text, unit.value);
+        EXPECT_EQ(list.format, format.value);
+        ASSERT_EQ(list.points.size(), points.size()) << text;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          EXPECT_EQ(list.points[i].point.name, points[i].name);
+          // Not every length in metres is a number of another unit.
+          EXPECT_LE(norm(list.points[i].point.at - points[i].at), unit.value == PointUnit::m ? 0 : 3e-16);
+        }
+        // Read, write, read: the same bits, as a list of its own and in a new one.
+        EXPECT_EQ(write_hard_points(list, places_in(list)), text);
+        EXPECT_EQ(write_hard_points(points_in(list), format.value, unit.value), text);
+        EXPECT_EQ(points_in(read_whole(write_hard_points(points_in(list), format.value, unit.value))),
+                  points_in(list));
+        // A point that has moved, by a number of many digits.
+        std::vector<Vec3> moved = with_moved(list, 1);
+        const std::string once = write_hard_points(list, moved);
+        const HardPointList again = read_whole(once, unit.value);
+        EXPECT_LE(norm(again.points.at(1).point.at - moved[1]), 3e-16) << once;
+        moved[1] = again.points.at(1).point.at;
+        EXPECT_EQ(places_in(again), moved);
+        EXPECT_EQ(write_hard_points(list, moved), once);
+      }
+  }
+}
+
+TEST(HardPointListWrite, WritesShortNumbers) {
+  const std::vector<HardPoint> points{{"Tie rod, inner", {0.1205, -0.35, 0}},
+                                      {"hub right", {0.1, -0.75, 1e-9}}};
+  EXPECT_EQ(write_hard_points(points, ListFormat::csv, PointUnit::mm),
+            "name,x_mm,y_mm,z_mm\ntie_rod_inner,120.5,-350,0\nhub right,100,-750,1e-06\n");
+  EXPECT_EQ(write_hard_points(points, ListFormat::spreadsheet, PointUnit::mm),
+            "Name;X [mm];Y [mm];Z [mm]\ntie_rod_inner;120,5;-350;0\nhub right;100;-750;1e-06\n");
+  EXPECT_THAT(write_hard_points(points, ListFormat::property, PointUnit::in),
+              HasSubstr("LENGTH = 'inch'\n[HARDPOINT]\n"));
+  EXPECT_THAT(write_hard_points(points, ListFormat::property, PointUnit::m),
+              HasSubstr(" 'hub'            'right'                         0.1                  -0.75"));
+}
+
+TEST(HardPointListWrite, KeepsEverythingElseOfAList) {
+  const auto moved = [](std::string_view text, std::size_t i, const Vec3& at) {
+    const HardPointList list = read_whole(text);
+    std::vector<Vec3> all = places_in(list);
+    all.at(i) = at;
+    const std::string out = write_hard_points(list, all);
+    EXPECT_EQ(places_in(read_whole(out)), all) << out;
+    return out;
+  };
+  const Vec3 at{1.25, -0.3505, 0.0625};
+  EXPECT_EQ(moved("$ static\n 1  Ball, lower   10.0    20.0   30.0  # rev B\n 2  b  1 2 3\n", 0, at),
+            "$ static\n 1  Ball, lower   1250  -350.5   62.5  # rev B\n 2  b  1 2 3\n");
+  EXPECT_EQ(moved("ball = (1,2,3)\n", 0, at), "ball = (1250, -350.5, 62.5)\n");
+  EXPECT_EQ(moved("ball x=1cm y=2cm z=3cm\n", 0, at), "ball x=125cm y=-35.05cm z=6.25cm\n");
+  EXPECT_EQ(moved("ball  0,5  720,0  300\n", 0, at), "ball 1250 -350,5 62,5\n");
+  EXPECT_EQ(moved("1.0D+00 2.0D0 3.d0 ball\n", 0, at), "1250 -350.5 62.5 ball\n");
+  EXPECT_EQ(moved("name,z_m,x_mm,y_cm,group\n\"Tie rod, inner\",1,2,3,7\n", 0, at),
+            "name,z_m,x_mm,y_cm,group\n\"Tie rod, inner\",0.0625,1250,-35.05,7\n");
+  EXPECT_EQ(moved("sep=;\nName;X [mm];Y [mm];Z [mm]\nb;\"1,5\";2;3\n", 0, at),
+            "sep=;\nName;X [mm];Y [mm];Z [mm]\nb;\"1250\";-350,5;62,5\n");
+  EXPECT_EQ(moved("ball 1 2 3\nother 4 5 6\nball 1 2 3\n", 0, at),
+            "ball 1250 -350.5 62.5\nother 4 5 6\nball 1250 -350.5 62.5\n");
+  EXPECT_EQ(moved("[UNITS]\n LENGTH = 'cm'\n[HARDPOINT]\n 'lca'  'left/right'  -20.0   -40.0   15.0\n"
+                  "[PARAMETER]\n 'camber' 'left/right' 'real' -1.0\n",
+                  0, at),
+            "[UNITS]\n LENGTH = 'cm'\n[HARDPOINT]\n 'lca'  'left/right'    125  -35.05   6.25\n"
+            "[PARAMETER]\n 'camber' 'left/right' 'real' -1.0\n");
+}
+
+TEST(HardPointListWrite, ReadsNumberedPointsAndHeadingsOverSeveralRows) {
+  EXPECT_EQ(points_in(read_whole("Static values\n 1   10.5  20  30\n 12  40  50  60\n")),
+            (std::vector<HardPoint>{{"1", {0.0105, 0.02, 0.03}}, {"12", {0.04, 0.05, 0.06}}}));
+  const std::vector<HardPoint> expected{{"tie_rod_inner", {0.015, 0.02, 0.03}}};
+  for (const char* text : {"Front suspension;;;\nPoint;Coordinates [cm];;\n;X;Y;Z\nTie rod, inner;1,5;2;3\n",
+                           "Front suspension\nPoint;X (cm);Y (cm);Z (cm)\nTie rod, inner;1,5;2;3\n",
+                           "Point;Side;Coordinates (cm);;\n;;X;Y;Z\nTie rod, inner;left;1,5;2;3\n"})
+    EXPECT_EQ(points_in(read_whole(text)), expected) << text;
+}
+
+}  // namespace
+}  // namespace linkwright::suspension
