@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/cam/disc_cam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/minimum.h"
+
+namespace linkwright::planar {
+namespace {
+
+using Number = std::complex<double>;
+using math::Motion;
+
+constexpr Number i{0, 1};
+
+Number direction(double angle) { return std::polar(1.0, angle); }
+double dot(Number a, Number b) { return a.real() * b.real() + a.imag() * b.imag(); }
+double cross(Number a, Number b) { return a.real() * b.imag() - a.imag() * b.real(); }
+
+// The centre of the roller in the fixed frame, its derivatives by the angle of the cam, and the direction in
+// which the follower rises.
+struct RollerMotion {
+  Number place, rate, acceleration, rise;
+  double length;  // travel of the centre by unit of the programme
+};
+
+RollerMotion roller_motion(const DiscCam& cam, const Motion& m) {
+  const double base = base_position(cam);
+  if (cam.motion == FollowerMotion::translating)
+    return {cam.offset + i * (base + m.value), i * m.rate, i * m.acceleration, i, 1};
+  const Number arm = cam.arm * direction(pi - base - m.value);
+  return {cam.pivot + arm, -i * arm * m.rate, -i * arm * m.acceleration - arm * m.rate * m.rate,
+          -i * arm / cam.arm, cam.arm};
+}
+
+CamState roller_state(const DiscCam& cam, const Motion& m, double angle) {
+  const double sense = cam.sense();
+  const RollerMotion b = roller_motion(cam, m);
+  // First and second derivative of the pitch curve, turned into the fixed frame.
+  const Number first = b.rate - i * sense * b.place,
+               second = b.acceleration - 2.0 * i * sense * b.rate - b.place;
+  const double size = std::abs(first);
+  const Number normal = i * sense * first / size, turned = direction(-sense * angle);
+  CamState out;
+  const double lean = std::atan2(cross(b.rise, normal), dot(b.rise, normal));
+  out.pressure_angle = sense * lean;
+  out.pitch_curvature = -sense * cross(first, second) / (size * size * size);
+  out.profile_radius = 1 / out.pitch_curvature - cam.roller();
+  out.pitch = vec(b.place * turned);
+  out.profile = vec((b.place - cam.roller() * normal) * turned);
+  out.normal = vec(normal * turned);
+  out.contact = nan;
+  out.lever = b.length * std::cos(lean);
+  return out;
+}
+
+// A flat face by the support function of the cam: h(chi), the distance of the face from the centre over the
+// direction of its normal in the cam.
+CamState flat_state(const DiscCam& cam, const Motion& m, double angle) {
+  const double sense = cam.sense();
+  CamState out;
+  Number normal = i, point;
+  if (cam.motion == FollowerMotion::translating) {
+    const double height = cam.base_radius + m.value;
+    point = sense * m.rate + i * height;
+    out.profile_radius = height + m.acceleration;
+    out.contact = sense * m.rate;
+  } else {
+    const double psi = base_position(cam) + m.value, s = std::sin(psi), c = std::cos(psi);
+    const double turning = 1 + sense * m.rate, share = m.rate / turning;
+    normal = Number(s, c);
+    point = (cam.pivot * s + cam.face_offset) * normal - sense * cam.pivot * c * share * (i * normal);
+    out.profile_radius = cam.face_offset + cam.pivot * s * (1 - share * share) +
+                         cam.pivot * c * m.acceleration / (turning * turning * turning);
+    out.contact = cam.pivot * c / turning;
+    out.lever = out.contact;
+    out.pressure_angle = sense * std::atan2(cam.face_offset, out.contact);
+  }
+  const Number turned = direction(-sense * angle);
+  out.pitch_curvature = nan;
+  out.profile = out.pitch = vec(point * turned);
+  out.normal = vec(normal * turned);
+  return out;
+}
+
+std::optional<CamExtreme> radius_of(const CamExtreme& curvature) {
+  if (!(curvature.value > 0)) return std::nullopt;
+  return CamExtreme{1 / curvature.value, curvature.angle};
+}
+
+void find_pressure(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto pressure = [&cam](const Motion& m, double angle) {
+    return cam_state(cam, m, angle).pressure_angle;
+  };
+  out.greatest_pressure = greatest_over(curve, pressure);
+  out.least_pressure = least_over(curve, pressure);
+  for (const double side : {1.0, -1.0}) {
+    CamExtreme& largest = side > 0 ? out.largest_in_rise : out.largest_in_return;
+    largest = greatest_over(curve, [&](const Motion& m, double angle) {
+      return side * m.rate > 0 ? std::abs(pressure(m, angle)) : -infinity;
+    });
+    if (!std::isfinite(largest.value)) largest = {};
+  }
+}
+
+void find_radii(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto curvature = [&cam](const Motion& m, double angle) {
+    return cam_state(cam, m, angle).pitch_curvature;
+  };
+  out.least_convex_pitch = radius_of(greatest_over(curve, curvature));
+  const CamExtreme hollow = least_over(curve, curvature);
+  out.least_concave_pitch = radius_of({-hollow.value, hollow.angle});
+  const double roller = cam.roller();
+  if (out.least_convex_pitch)
+    out.least_convex_profile =
+        CamExtreme{out.least_convex_pitch->value - roller, out.least_convex_pitch->angle};
+  if (out.least_concave_pitch)
+    out.least_concave_profile =
+        CamExtreme{out.least_concave_pitch->value + roller, out.least_concave_pitch->angle};
+  if (roller > 0)
+    out.undercut = negative_ranges(
+        curve, [&](const Motion& m, double angle) { return 1 - roller * curvature(m, angle); });
+}
+
+void find_flat(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto radius = [&cam](const Motion& m, double angle) {
+    return cam_state(cam, m, angle).profile_radius;
+  };
+  const auto contact = [&cam](const Motion& m, double angle) { return cam_state(cam, m, angle).contact; };
+  out.least_convex_profile = least_over(curve, radius);
+  out.least_contact = least_over(curve, contact);
+  out.greatest_contact = greatest_over(curve, contact);
+  out.undercut = negative_ranges(curve, radius);
+}
+
+// Distance of places of the pitch curve from the whole profile, which ought to be the radius of the roller.
+class GougeSearch {
+ public:
+  GougeSearch(const DiscCam& cam, const ProgrammeCurve& curve, const std::vector<CamRange>& undercut)
+      : cam_(cam), curve_(curve), undercut_(undercut) {
+    const double last = curve.breaks().back();
+    for (int k = 0; k <= count; ++k) angles_.push_back(last * k / count);
+    for (const double angle : angles_) states_.push_back(state(angle));
+    for (std::size_t k = 1; k < states_.size(); ++k)
+      step_ = std::max(step_, norm(states_[k].profile - states_[k - 1].profile));
+  }
+
+  std::optional<CamGouge> deepest() const {
+    std::optional<CamGouge> worst;
+    const double limit = cam_.roller() + step_;
+    for (std::size_t a = 0; a < states_.size(); ++a) {
+      if (is_undercut(angles_[a])) continue;
+      for (std::size_t b = 1; b + 1 < states_.size(); ++b) {
+        const double here = distance(a, b);
+        if (here > limit || here > distance(a, b - 1) || here > distance(a, b + 1)) continue;
+        const math::Minimum least = math::minimum_about(
+            [&](double angle) { return norm(states_[a].pitch - state(angle).profile); }, angles_[b - 1],
+            angles_[b], angles_[b + 1], {.absolute = 1e-9, .relative = 0, .sections = 60});
+        const double depth = cam_.roller() - least.value;
+        if (depth < 1e-9 * cam_.prime_radius() || is_undercut(least.at)) continue;
+        if (!worst || depth > worst->depth) worst = CamGouge{angles_[a], least.at, depth};
+      }
+    }
+    return worst;
+  }
+
+ private:
+  static constexpr int count = 720;
+
+  CamState state(double angle) const { return cam_state(cam_, curve_(angle), angle); }
+  double distance(std::size_t a, std::size_t b) const { return norm(states_[a].pitch - states_[b].profile); }
+  bool is_undercut(double angle) const {
+    const double turn = curve_.breaks().back();
+    return std::any_of(undercut_.begin(), undercut_.end(), [&](const CamRange& r) {
+      return (angle >= r.from && angle <= r.to) || (angle + turn >= r.from && angle + turn <= r.to);
+    });
+  }
+
+  const DiscCam& cam_;
+  const ProgrammeCurve& curve_;
+  const std::vector<CamRange>& undercut_;
+  std::vector<double> angles_;
+  std::vector<CamState> states_;
+  double step_ = 0;
+};
+
+std::optional<CamProblem> problem_of_base(const DiscCam& cam) {
+  const double r = cam.prime_radius();
+  if (cam.motion == FollowerMotion::translating) {
+    if (cam.has_pitch_curve() && !(std::abs(cam.offset) < r)) return CamProblem{CamIssue::offset_too_large};
+    return std::nullopt;
+  }
+  const bool fits = cam.has_pitch_curve() ? r > std::abs(cam.pivot - cam.arm) && r < cam.pivot + cam.arm
+                                          : std::abs(cam.base_radius - cam.face_offset) < cam.pivot;
+  if (!fits) return CamProblem{CamIssue::no_triangle};
+  return std::nullopt;
+}
+
+}  // namespace
+
+double base_position(const DiscCam& cam) {
+  const double r = cam.prime_radius();
+  if (cam.motion == FollowerMotion::translating) {
+    if (!cam.has_pitch_curve()) return r;
+    return std::sqrt((r - cam.offset) * (r + cam.offset));
+  }
+  if (!cam.has_pitch_curve()) return std::asin((cam.base_radius - cam.face_offset) / cam.pivot);
+  // The half-angle form keeps its digits for small angles.
+  const double c = cam.pivot, l = cam.arm;
+  return 2 * std::atan2(std::sqrt((r + c - l) * (r - c + l)), std::sqrt((c + l + r) * (c + l - r)));
+}
+
+std::optional<CamProblem> problem(const DiscCam& cam, const ProgrammeCurve& curve) {
+  if (const auto found = problem_of_base(cam)) return found;
+  const double base = base_position(cam);
+  if (cam.motion == FollowerMotion::translating) {
+    const CamExtreme lowest = least_over(curve, [base](const Motion& m, double) { return base + m.value; });
+    if (!(lowest.value > 0)) return CamProblem{CamIssue::passes_centre, lowest.angle};
+    return std::nullopt;
+  }
+  if (cam.has_pitch_curve()) {
+    const CamExtreme flattest =
+        least_over(curve, [base](const Motion& m, double) { return std::sin(base + m.value); });
+    if (!(flattest.value > 0)) return CamProblem{CamIssue::arm_passes_line, flattest.angle};
+    return std::nullopt;
+  }
+  const double sense = cam.sense();
+  const CamExtreme turning =
+      least_over(curve, [sense](const Motion& m, double) { return 1 + sense * m.rate; });
+  if (!(turning.value > 0)) return CamProblem{CamIssue::face_turns_with_cam, turning.angle};
+  const CamExtreme lowest = least_over(
+      curve, [&](const Motion& m, double) { return cam.pivot * std::sin(base + m.value) + cam.face_offset; });
+  if (!(lowest.value > 0)) return CamProblem{CamIssue::passes_centre, lowest.angle};
+  const CamExtreme flattest =
+      least_over(curve, [base](const Motion& m, double) { return std::cos(base + m.value); });
+  if (!(flattest.value > 0)) return CamProblem{CamIssue::arm_passes_line, flattest.angle};
+  return std::nullopt;
+}
+
+CamState cam_state(const DiscCam& cam, const Motion& motion, double angle) {
+  return cam.has_pitch_curve() ? roller_state(cam, motion, angle) : flat_state(cam, motion, angle);
+}
+
+CamExtremes cam_extremes(const DiscCam& cam, const ProgrammeCurve& curve) {
+  LINKWRIGHT_REQUIRE(!problem(cam, curve), "there is no such cam");
+  CamExtremes out;
+  find_pressure(cam, curve, out);
+  if (!cam.has_pitch_curve()) {
+    find_flat(cam, curve, out);
+    return out;
+  }
+  find_radii(cam, curve, out);
+  if (cam.roller() > 0) out.gouge = GougeSearch(cam, curve, out.undercut).deepest();
+  return out;
+}
+
+Vec<double> cutter_centre(const CamState& state, double radius) {
+  return state.profile + radius * state.normal;
+}
+
+}  // namespace linkwright::planar
