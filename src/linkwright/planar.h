@@ -14,7 +14,6 @@
 
 #include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/measures.h"
-#include "linkwright/planar/cam/programme.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"

@@ -138,10 +138,9 @@ TEST(DiscCam, NormalAndRadiusAreThoseOfTheProfile) {
     for (const double angle : {0.2, 0.7, 1.1, 1.7, 2.5, 3.4, 4.0, 4.6}) {
       const double h = 1e-4;
       const CamState s = state_at(sample.cam, sample.curve, angle);
-      const Vec<double> low = state_at(sample.cam, sample.curve, angle - h).profile,
-                        high = state_at(sample.cam, sample.curve, angle + h).profile;
-      const Vec<double> rate = 1 / (2 * h) * (high - low),
-                        bend = 1 / (h * h) * (high + low - 2.0 * s.profile);
+      const math::Vec2 low = state_at(sample.cam, sample.curve, angle - h).profile,
+                       high = state_at(sample.cam, sample.curve, angle + h).profile;
+      const math::Vec2 rate = 1 / (2 * h) * (high - low), bend = 1 / (h * h) * (high + low - 2.0 * s.profile);
       EXPECT_NEAR(norm(s.normal), 1, 1e-14);
       EXPECT_NEAR(dot(rate, s.normal) / norm(rate), 0, 1e-6) << angle;
       // The centre of curvature of convex parts lies against the outward normal.
@@ -157,14 +156,14 @@ TEST(DiscCam, BodiesTouchWithoutPenetrating) {
     for (const double angle : {0.2, 0.9, 1.5, 3.4, 4.2}) {
       const CamState s = state_at(sample.cam, sample.curve, angle);
       const double sense = sample.cam.sense();
-      const Vec<double> turned = unit(sense * angle), point = rotate(turned, s.profile),
-                        normal = rotate(turned, s.normal);
-      const Vec<double> of_cam = sense * perpendicular(point);
+      const math::Vec2 turned = math::unit(sense * angle), point = rotate(turned, s.profile),
+                       normal = rotate(turned, s.normal);
+      const math::Vec2 of_cam = sense * perpendicular(point);
       const double rate = sample.curve(angle).rate;
       // A rising oscillating follower turns clockwise.
-      const Vec<double> of_follower = sample.cam.motion == FollowerMotion::translating
-                                          ? Vec<double>{0, rate}
-                                          : -rate * perpendicular(point - Vec<double>{sample.cam.pivot, 0});
+      const math::Vec2 of_follower = sample.cam.motion == FollowerMotion::translating
+                                         ? math::Vec2{0, rate}
+                                         : -rate * perpendicular(point - math::Vec2{sample.cam.pivot, 0});
       EXPECT_NEAR(dot(normal, of_cam), dot(normal, of_follower), 1e-15) << angle;
       // The lever of the contact force is the same product by unit of the programme.
       if (std::abs(rate) > 1e-6) {
@@ -218,15 +217,15 @@ TEST(DiscCam, GougeIsFoundAcrossAValley) {
   ASSERT_TRUE(found.gouge || !found.undercut.empty());
   // The distance of the roller's centre from the profile at the place that is told.
   if (found.gouge) {
-    const Vec<double> centre = state_at(cam, curve, found.gouge->angle).pitch,
-                      other = state_at(cam, curve, found.gouge->other).profile;
+    const math::Vec2 centre = state_at(cam, curve, found.gouge->angle).pitch,
+                     other = state_at(cam, curve, found.gouge->other).profile;
     EXPECT_NEAR(norm(centre - other), 0.02 - found.gouge->depth, 1e-12);
   }
 }
 
 TEST(DiscCam, CutterLeavesTheProfile) {
   const CamState s = state_at(roller_cam(), rise_only(), 1.0);
-  const Vec<double> same = cutter_centre(s, 0.01);
+  const math::Vec2 same = cutter_centre(s, 0.01);
   EXPECT_NEAR(norm(same - s.pitch), 0, 1e-16);
   EXPECT_NEAR(norm(cutter_centre(s, 0.03) - s.profile), 0.03, 1e-16);
 }

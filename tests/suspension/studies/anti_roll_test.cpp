@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "linkwright/suspension/wheel/axle_sweep.h"
+#include "linkwright/suspension/wheel/axle.h"
 #include "suspension/pushrod_corner.h"
 #include "suspension/pushrod_study.h"
 

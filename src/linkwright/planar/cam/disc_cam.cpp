@@ -49,9 +49,9 @@ CamState roller_state(const DiscCam& cam, const Motion& m, double angle) {
   out.pressure_angle = sense * lean;
   out.pitch_curvature = -sense * cross(first, second) / (size * size * size);
   out.profile_radius = 1 / out.pitch_curvature - cam.roller();
-  out.pitch = vec(b.place * turned);
-  out.profile = vec((b.place - cam.roller() * normal) * turned);
-  out.normal = vec(normal * turned);
+  out.pitch = math::vec(b.place * turned);
+  out.profile = math::vec((b.place - cam.roller() * normal) * turned);
+  out.normal = math::vec(normal * turned);
   out.contact = nan;
   out.lever = b.length * std::cos(lean);
   return out;
@@ -81,8 +81,8 @@ CamState flat_state(const DiscCam& cam, const Motion& m, double angle) {
   }
   const Number turned = direction(-sense * angle);
   out.pitch_curvature = nan;
-  out.profile = out.pitch = vec(point * turned);
-  out.normal = vec(normal * turned);
+  out.profile = out.pitch = math::vec(point * turned);
+  out.normal = math::vec(normal * turned);
   return out;
 }
 
@@ -257,7 +257,7 @@ CamExtremes cam_extremes(const DiscCam& cam, const ProgrammeCurve& curve) {
   return out;
 }
 
-Vec<double> cutter_centre(const CamState& state, double radius) {
+math::Vec2 cutter_centre(const CamState& state, double radius) {
   return state.profile + radius * state.normal;
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/planar/cam/curve_scan.h"
 #include "linkwright/planar/cam/programme.h"
-#include "linkwright/planar/plane.h"
 
 /// @file
 /// Disc cams: pitch curve, profile, pressure angle and curvature from the motion programme of the follower.
@@ -99,9 +99,9 @@ struct CamState {
   double pitch_curvature = 0;  ///< 1/m, positive = convex; NaN of a flat face
   double profile_radius = 0;   ///< m, positive = convex; <= 0 of a flat face, and a sign that differs from
                                ///< that of the pitch curve, mean undercut
-  Vec<double> pitch{};         ///< centre of the roller or edge (m); of a flat face the point of contact
-  Vec<double> profile{};       ///< point of contact on the cam (m)
-  Vec<double> normal{};        ///< outward normal of the cam
+  math::Vec2 pitch{};          ///< centre of the roller or edge (m); of a flat face the point of contact
+  math::Vec2 profile{};        ///< point of contact on the cam (m)
+  math::Vec2 normal{};         ///< outward normal of the cam
   double contact = 0;  ///< m: contact along a flat face from the cam's centre (translating, to the right)
                        ///< or from the pivot (oscillating); NaN otherwise
   double lever = 1;    ///< effort on the follower by unit of contact force: cosine of the pressure angle,
@@ -152,6 +152,6 @@ CamExtremes cam_extremes(const DiscCam& cam, const ProgrammeCurve& curve);
 /// @param state a place of the contour
 /// @param radius radius of the cutter (m)
 /// @returns the centre in the frame of the cam (m)
-Vec<double> cutter_centre(const CamState& state, double radius);
+math::Vec2 cutter_centre(const CamState& state, double radius);
 
 }  // namespace linkwright::planar

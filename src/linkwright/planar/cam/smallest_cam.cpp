@@ -18,9 +18,9 @@ using math::Motion;
 // A half-plane a . (e, d) >= b of the offset e, taken positive in the sense of the cam, and the height d of
 // the roller's centre above the cam's on the base circle.
 struct HalfPlane {
-  Vec<double> normal;
+  math::Vec2 normal;
   double bound;
-  bool holds(const Vec<double>& p) const {
+  bool holds(const math::Vec2& p) const {
     return dot(normal, p) >= bound - 1e-12 * (std::abs(bound) + norm(normal) * norm(p));
   }
 };
@@ -48,8 +48,8 @@ std::vector<HalfPlane> pressure_cones(const CamLimits& limits, const ProgrammeCu
 }
 
 // The point of the half-planes that is nearest to the origin: a foot on an edge, or a corner.
-std::optional<Vec<double>> nearest(const std::vector<HalfPlane>& planes) {
-  std::vector<Vec<double>> candidates;
+std::optional<math::Vec2> nearest(const std::vector<HalfPlane>& planes) {
+  std::vector<math::Vec2> candidates;
   for (std::size_t a = 0; a < planes.size(); ++a) {
     const HalfPlane& p = planes[a];
     candidates.push_back(p.bound / dot(p.normal, p.normal) * p.normal);
@@ -61,8 +61,8 @@ std::optional<Vec<double>> nearest(const std::vector<HalfPlane>& planes) {
                             (p.normal.x * q.bound - q.normal.x * p.bound) / det});
     }
   }
-  std::optional<Vec<double>> best;
-  for (const Vec<double>& c : candidates)
+  std::optional<math::Vec2> best;
+  for (const math::Vec2& c : candidates)
     if (std::all_of(planes.begin(), planes.end(), [&](const HalfPlane& p) { return p.holds(c); }) &&
         (!best || norm(c) < norm(*best)))
       best = c;
