@@ -164,7 +164,7 @@ bool coupler_errors(const Track& track, std::span<const double> x, std::span<dou
 }
 
 constexpr int offsets_tried = 24;
-constexpr double in_box = 1e-9;      // m
+constexpr double box_slack = 1e-9;   // m
 constexpr double exact_rms = 1e-14;  // m: nothing left to gain
 
 }  // namespace
@@ -227,7 +227,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const CornerLink
     fit.rms = std::sqrt(square / static_cast<double>(e.size()));
   };
   errors();
-  if (!(fit.rms <= tolerance) || !inside(task.point, {x[1], x[2], x[3]}, in_box)) {
+  if (!(fit.rms <= tolerance) || !inside(task.point, {x[1], x[2], x[3]}, box_slack)) {
     const std::array lower{task.min_offset, task.point.lower.x, task.point.lower.y, task.point.lower.z};
     const std::array upper{length, task.point.upper.x, task.point.upper.y, task.point.upper.z};
     options.max_iterations = 500;
