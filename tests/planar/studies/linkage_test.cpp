@@ -109,6 +109,13 @@ TEST(LinkageStudy, GivesTheFiguresOfTheFourBarStudy) {
   EXPECT_THAT(r.diagnostics, IsEmpty());
 }
 
+// -40 to 80 deg in steps of 1 deg: the sample at 0 is 0, whatever the rounding of the ends.
+TEST(LinkageStudy, SamplesZeroExactly) {
+  const study::Result r = run_text(replaced(four_bar_text, "from_deg = 0\nto_deg = 360\nsamples = 201",
+                                            "from_deg = -40\nto_deg = 80\nsamples = 121"));
+  EXPECT_EQ(table(r, "sweep").find("O1_angle_rad")->values[40], 0);
+}
+
 TEST(LinkageStudy, WritesAStudyThatGivesTheSameAgain) {
   std::string messages;
   const auto first = prepare(four_bar_text, messages);

@@ -17,14 +17,14 @@
 namespace linkwright::suspension {
 namespace {
 
-struct Case {
+struct PitchCase {
   test::Example example;
   CarrierTargets open;  ///< without carrier pitches
   std::vector<LinkTask> tasks;
 };
 
-Case make_case(const char* id, std::uint64_t seed, double edge) {
-  Case c{.example = test::published_example(id)};
+PitchCase make_case(const char* id, std::uint64_t seed, double edge) {
+  PitchCase c{.example = test::published_example(id)};
   c.open = c.example.targets;
   for (CarrierTarget& pose : c.open.poses) pose.angles.carrier_pitch = nan;
   RandomStream random({seed, 41});
@@ -38,7 +38,7 @@ TEST(IndirectSynthesisCarrierPitch, RearSuspensionMovesAsPrescribed) {
   // determined.
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Case c = make_case("ex4-forward", seed, 0.15);
+    const PitchCase c = make_case("ex4-forward", seed, 0.15);
     const CarrierPitchFit fit = fit_with_unknown_carrier_pitch(c.open, c.tasks, {}, seed, context);
     EXPECT_EQ(fit.status, Status::done) << seed;
     EXPECT_LE(fit.rms, 1e-7) << seed;
@@ -108,7 +108,7 @@ TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
 TEST(IndirectSynthesisCarrierPitch, CarrierPitchesAreTheirsWhenLinksAreKnown) {
   // All rods but one given: what is left has one solution, to the rounding of the positions times its
   // condition.
-  Case c = make_case("ex1-forward", 1, 0.02);
+  PitchCase c = make_case("ex1-forward", 1, 0.02);
   for (std::size_t j = 0; j < 4; ++j) {
     c.tasks[j].body[0] = {c.example.links[j].body[0], c.example.links[j].body[0]};
     c.tasks[j].carrier[0] = {c.example.links[j].carrier[0], c.example.links[j].carrier[0]};
@@ -125,7 +125,7 @@ TEST(IndirectSynthesisCarrierPitch, CarrierPitchesAreTheirsWhenLinksAreKnown) {
 }
 
 TEST(IndirectSynthesisCarrierPitch, EqualLinksAreRefused) {
-  Case c = make_case("ex4-forward", 1, 0.15);
+  PitchCase c = make_case("ex4-forward", 1, 0.15);
   c.tasks[1] = c.tasks[0];
   const LinkTask& same = c.tasks[0];
   c.tasks[1].body[0] = {same.body[0].lower, same.body[0].lower + Vec3{1e-4, 1e-4, 1e-4}};
@@ -138,7 +138,7 @@ TEST(IndirectSynthesisCarrierPitch, EqualLinksAreRefused) {
 }
 
 TEST(IndirectSynthesisCarrierPitch, CanBeStopped) {
-  const Case c = make_case("ex4-forward", 2, 0.15);
+  const PitchCase c = make_case("ex4-forward", 2, 0.15);
   RunContext context;
   context.cancel();
   const CarrierPitchFit fit =
@@ -150,7 +150,7 @@ TEST(IndirectSynthesisCarrierPitch, CanBeStopped) {
 TEST(IndirectSynthesisCarrierPitch, TechniquesOfTheSourceKeepTheirPublishedDeviations) {
   // Tab. 6-14, means over 40 repeats of differential evolution from boxes of 150 mm; a mechanism found here
   // must not be worse in the mean of a few, where it is some twenty times better.
-  const Case c = make_case("ex4-forward", 1, 0.15);
+  const PitchCase c = make_case("ex4-forward", 1, 0.15);
   for (const CarrierPitchTechnique technique :
        {CarrierPitchTechnique::quadratic, CarrierPitchTechnique::dyad}) {
     const PublishedEvolution& published =
@@ -161,7 +161,7 @@ TEST(IndirectSynthesisCarrierPitch, TechniquesOfTheSourceKeepTheirPublishedDevia
       to.largest += d.largest / repeats, to.mean += d.mean / repeats;
     };
     for (std::uint64_t seed = 1; seed <= repeats; ++seed) {
-      const Case boxes = make_case("ex4-forward", seed, 0.15);
+      const PitchCase boxes = make_case("ex4-forward", seed, 0.15);
       RunContext context;
       const CarrierPitchFit fit =
           fit_with_unknown_carrier_pitch(boxes.open, boxes.tasks, {.technique = technique}, seed, context);
@@ -187,7 +187,7 @@ TEST(IndirectSynthesisCarrierPitch, TechniquesOfTheSourceKeepTheirPublishedDevia
 }
 
 TEST(IndirectSynthesisCarrierPitch, TheQuadraticIsWhatTheCarrierPitchesFollow) {
-  const Case c = make_case("ex4-forward", 2, 0.15);
+  const PitchCase c = make_case("ex4-forward", 2, 0.15);
   RunContext context;
   const CarrierPitchFit fit = fit_with_unknown_carrier_pitch(
       c.open, c.tasks, {.technique = CarrierPitchTechnique::quadratic}, 2, context);
@@ -203,7 +203,7 @@ TEST(IndirectSynthesisCarrierPitch, TheQuadraticIsWhatTheCarrierPitchesFollow) {
 
 TEST(IndirectSynthesisCarrierPitch, DifferentialEvolutionWithBothTechniques) {
   // The source has it so, over 33 and 30 unknowns; the first of its 50000 generations.
-  const Case c = make_case("ex4-forward", 1, 0.15);
+  const PitchCase c = make_case("ex4-forward", 1, 0.15);
   for (const CarrierPitchTechnique technique :
        {CarrierPitchTechnique::quadratic, CarrierPitchTechnique::dyad}) {
     EvolutionOptions options;

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/tolerance.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
@@ -18,7 +19,9 @@ namespace linkwright::planar {
 namespace {
 
 double sample_at(double from, double to, int samples, int i) {
-  return from + (to - from) * i / (samples - 1);
+  const double value = from + (to - from) * i / (samples - 1);
+  // Where the range crosses zero, a sample is zero and not the rounding of its ends.
+  return std::abs(value) <= 4 * tolerance::epsilon * std::max(std::abs(from), std::abs(to)) ? 0 : value;
 }
 
 }  // namespace
