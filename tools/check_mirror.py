@@ -27,6 +27,7 @@ NO_TEST = {
     "suspension/corner/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "suspension/corner/detail/list_collector.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
     "suspension/corner/detail/list_columns.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
+    "suspension/corner/detail/list_json.h": "part of hard_point_list, tested in hard_point_list_write_test.cpp",
     "suspension/corner/detail/list_lines.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
     "suspension/corner/detail/list_property.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
     "suspension/corner/detail/points_kernel.h": "part of constraints, likewise",

@@ -50,7 +50,8 @@ TEST(HardPointListWrite, ReadsTheSameBitsBackFromEveryForm) {
       for (const auto& unit : names(PointUnit{})) {
         const std::string text = write_hard_points(points, format.value, unit.value);
         const HardPointList list = read_whole(text, unit.value);
-        EXPECT_EQ(list.format, format.value);
+        // Sections are those of an axle each; the points of one corner have none.
+        EXPECT_EQ(list.format, format.value == ListFormat::sections ? ListFormat::csv : format.value);
         ASSERT_EQ(list.points.size(), points.size()) << text;
         for (std::size_t i = 0; i < points.size(); ++i) {
           EXPECT_EQ(list.points[i].point.name, points[i].name);
@@ -124,6 +125,65 @@ TEST(HardPointListWrite, ReadsNumberedPointsAndHeadingsOverSeveralRows) {
                            "Front suspension\nPoint;X (cm);Y (cm);Z (cm)\nTie rod, inner;1,5;2;3\n",
                            "Point;Side;Coordinates (cm);;\n;;X;Y;Z\nTie rod, inner;left;1,5;2;3\n"})
     EXPECT_EQ(points_in(read_whole(text)), expected) << text;
+}
+
+TEST(HardPointListWrite, ReadsAndWritesSectionsOfFrontAndRear) {
+  const std::string text =
+      "Vehicle,,,\nFront Suspension,,,\nDouble A-Arm,,,\nPoint,X [mm],Y [mm],Z "
+      "[mm]\nCHAS_LowFor,100.5,200,150\n"
+      "UPRI_TiePnt,-60,600,160\nRear Suspension,,,\nDouble A-Arm,,,\nPoint,X [mm],Y [mm],Z [mm]\n"
+      "CHAS_LowFor,-1500,250,155\n";
+  const HardPointList list = read_whole(text);
+  EXPECT_EQ(list.format, ListFormat::sections);
+  const std::vector<HardPoint> points = points_in(list);
+  EXPECT_EQ(points, (std::vector<HardPoint>{{"front_chas_lowfor", {0.1005, 0.2, 0.15}},
+                                            {"front_upri_tiepnt", {-0.06, 0.6, 0.16}},
+                                            {"rear_chas_lowfor", {-1.5, 0.25, 0.155}}}));
+  std::vector<Vec3> moved = places_in(list);
+  moved[2] = {-1.25, 0.25, 0.155};
+  EXPECT_EQ(write_hard_points(list, moved), test::replaced(text, "-1500", "-1250"));
+  const std::string written = write_hard_points(points, ListFormat::sections, PointUnit::mm);
+  EXPECT_EQ(written,
+            "Name,X [mm],Y [mm],Z [mm]\nFront\nchas_lowfor,100.5,200,150\nupri_tiepnt,-60,600,160\nRear\n"
+            "chas_lowfor,-1500,250,155\n");
+  EXPECT_EQ(points_in(read_whole(written)), points);
+}
+
+TEST(HardPointListWrite, ReadsAndWritesPointsInJson) {
+  const std::string text = R"({
+  "Name": "front", // subchassis: x forward, y outboard, z up
+  "Spindle": { "Mass": 1.1, "COM": [0, 0.9, -0.02], "Inertia": [1, 2, 3] },
+  "Upper Control Arm": {
+    "Location Upright": [ -0.014, 0.71, 1.6e-1 ],
+    "Location Chassis": [0.0, 0.4, 0.18]
+  },
+  "UCA Front": [0.1, 0.2, 0.3],
+  "Curve": [[0, 1, 2], [3, 4, 5]], "Flag": true
+})";
+  const HardPointList list = read_whole(text, PointUnit::m);
+  EXPECT_EQ(list.format, ListFormat::json);
+  EXPECT_EQ(points_in(list),
+            (std::vector<HardPoint>{{"spindle_com", {0, 0.9, -0.02}},
+                                    {"upper_control_arm_location_upright", {-0.014, 0.71, 0.16}},
+                                    {"upper_control_arm_location_chassis", {0, 0.4, 0.18}},
+                                    {"uca_front", {0.1, 0.2, 0.3}}}));
+  std::vector<Vec3> moved = places_in(list);
+  moved[1].z = 0.1625;
+  EXPECT_EQ(write_hard_points(list, moved), test::replaced(text, "1.6e-1", "0.1625"));
+  const std::vector<HardPoint> rocker{{"Rocker axis", {0.1, 0.2, 0.3}}};
+  const std::string written = write_hard_points(rocker, ListFormat::json, PointUnit::mm);
+  EXPECT_EQ(written, "{\n  \"Rocker axis\": [100, 200, 300]\n}\n");
+  EXPECT_EQ(points_in(read_whole(written)), (std::vector<HardPoint>{{"rocker_axis", {0.1, 0.2, 0.3}}}));
+  const auto problem = [](std::string_view bad) {
+    Diagnostics problems;
+    EXPECT_FALSE(read_hard_point_list(bad, "car.json", PointUnit::m, problems));
+    return test::lines_of(problems);
+  };
+  EXPECT_THAT(problem("{\n \"a\": [1, 2, x]\n}"),
+              HasSubstr("car.json:2:1: error: 'x' is not a value of JSON"));
+  EXPECT_THAT(problem("{ \"a\": [1, 2, 3]"), HasSubstr("an object has no end; close it with }"));
+  EXPECT_THAT(problem("{ \"a\" [1, 2, 3] }"), HasSubstr("':' is missing after \"a\""));
+  EXPECT_THAT(problem("{ \"Mass\": 2 }"), HasSubstr("holds no point"));
 }
 
 }  // namespace

@@ -10,12 +10,11 @@
 #include "linkwright/core/units.h"
 #include "linkwright/suspension/corner/detail/list_collector.h"
 #include "linkwright/suspension/corner/detail/list_columns.h"
+#include "linkwright/suspension/corner/detail/list_json.h"
 #include "linkwright/suspension/corner/detail/list_property.h"
 
-namespace linkwright::suspension {
+namespace linkwright::suspension::lists {
 namespace {
-
-using namespace lists;
 
 /// A heading of plain text: it may name the axes, in one order, and the unit of all of them.
 void read_heading(int line, std::span<const Word> words, ListCollector& collect, const Unit*& unit) {
@@ -54,7 +53,9 @@ std::optional<HardPointList> read_list(std::string_view text, const std::string&
   for (std::string_view rest = text; !rest.empty();)
     if (section_of(take_line(rest)) == "hardpoint")
       return of(ListFormat::property, read_property_table(text, file, unit, diagnostics));
-  ListCollector collect(file, diagnostics);
+  if (is_json(text)) return of(ListFormat::json, read_json_points(text, file, unit, diagnostics));
+  const std::vector<ListSection> sections = sections_of(text);
+  ListCollector collect(file, diagnostics, sections);
   const std::string_view whole = text;
   std::string_view above;
   char separator = 0;
@@ -67,8 +68,10 @@ std::optional<HardPointList> read_list(std::string_view text, const std::string&
     if (row.empty() || comment || row.starts_with("sep=")) continue;
     if (headings)
       if (const auto header = header_of(row, separator, above))
-        return of(header->separator == ',' ? ListFormat::csv : ListFormat::spreadsheet,
-                  read_columns(whole, line, *header, file, unit, diagnostics));
+        return of(header->separator != ',' ? ListFormat::spreadsheet
+                  : sections.empty()       ? ListFormat::csv
+                                           : ListFormat::sections,
+                  read_columns(whole, line, *header, file, unit, sections, diagnostics));
     const Line read = read_line(row);
     if (read.numbers > 0) headings = false;
     above = row;
@@ -90,12 +93,15 @@ std::optional<HardPointList> read_list(std::string_view text, const std::string&
 }
 
 }  // namespace
+}  // namespace linkwright::suspension::lists
+
+namespace linkwright::suspension {
 
 std::optional<HardPointList> read_hard_point_list(std::string_view text, const std::string& file,
                                                   PointUnit unit, Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  std::string plain = plain_signs(text);
-  auto out = read_list(plain, file, find_unit(Dimension::length, name_of(unit)), diagnostics);
+  std::string plain = lists::plain_signs(text);
+  auto out = lists::read_list(plain, file, find_unit(Dimension::length, name_of(unit)), diagnostics);
   if (out) out->text = std::move(plain);
   return out;
 }

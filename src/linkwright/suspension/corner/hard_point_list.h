@@ -19,16 +19,20 @@ namespace linkwright::suspension {
 
 /// The forms of lists.
 enum class ListFormat {
-  text,        ///< one point a line: name x y z
-  property,    ///< a property file with a section [HARDPOINT]
-  csv,         ///< columns with headings, separated by commas
-  spreadsheet  ///< columns with headings, separated by semicolons, with decimal commas
+  text,         ///< one point a line: name x y z
+  property,     ///< a property file with a section [HARDPOINT]
+  csv,          ///< columns with headings, separated by commas
+  spreadsheet,  ///< columns with headings, separated by semicolons, with decimal commas
+  sections,     ///< columns separated by commas, under titles Front and Rear
+  json          ///< an object whose arrays of three numbers are points
 };
-constexpr std::array<EnumName<ListFormat>, 4> names(ListFormat) {
+constexpr std::array<EnumName<ListFormat>, 6> names(ListFormat) {
   return {{{ListFormat::text, "text", "one point a line: name x y z"},
            {ListFormat::property, "property", "property file with a section [HARDPOINT]"},
            {ListFormat::csv, "csv", "columns separated by commas"},
-           {ListFormat::spreadsheet, "spreadsheet", "columns separated by semicolons, with decimal commas"}}};
+           {ListFormat::spreadsheet, "spreadsheet", "columns separated by semicolons, with decimal commas"},
+           {ListFormat::sections, "sections", "columns separated by commas, under titles Front and Rear"},
+           {ListFormat::json, "json", "object whose arrays of three numbers are points"}}};
 }
 
 /// Place of a number in the text of a list.
@@ -66,11 +70,15 @@ struct HardPointList {
 /// A property file with a section [HARDPOINT] is read by its rows 'name' 'symmetry' x y z, with the unit of
 /// length of its section [UNITS]; other sections are passed over. A point of both sides (left/right) is that
 /// of the left one; the name of a point of the right side alone ends with right.
-/// Names are made plain: "Lower wishbone, front pivot" becomes lower_wishbone_front_pivot.
-/// Four numbers in a line and no name are the number of a point, which is its name, and its coordinates.
-/// A line with numbers that is not read is a warning where it cannot be a point (`mass 24.5`), and an error
-/// where it may be one. Problems are appended with their line under the name `file`; nothing is returned if
-/// there is an error, such as two points of one name at different positions, or no point at all.
+/// Where a list has the titles Front and Rear, in lines of their own, the names of the points below begin
+/// with front and rear; other titles and repeated headings between points in columns are passed over. An
+/// object of JSON is read by its arrays of three numbers, each named by its key after those of the objects it
+/// is in; those of inertias, axes, directions, orientations and colours are none. Names are made plain:
+/// "Lower wishbone, front pivot" becomes lower_wishbone_front_pivot. Four numbers in a line and no name are
+/// the number of a point, which is its name, and its coordinates. A line with numbers that is not read is a
+/// warning where it cannot be a point (`mass 24.5`), and an error where it may be one. Problems are appended
+/// with their line under the name `file`; nothing is returned if there is an error, such as two points of one
+/// name at different positions, or no point at all.
 std::optional<HardPointList> read_hard_point_list(std::string_view text, const std::string& file,
                                                   PointUnit unit, Diagnostics& diagnostics);
 /// Its points alone.
@@ -85,7 +93,8 @@ std::string write_hard_points(const HardPointList& list, std::span<const Vec3> a
 
 /// A new list of points (m) with labels as names, in a form and a unit. In a property file a point at y = 0
 /// is single, one whose name ends with "right" is of the right side alone, and all others are of both sides,
-/// given for the left one. A label that the form cannot hold is written as its plain_name.
+/// given for the left one; points whose names begin with front and rear are in sections of these titles. A
+/// label that the form cannot hold is written as its plain_name.
 std::string write_hard_points(std::span<const HardPoint> points, ListFormat format, PointUnit unit);
 
 }  // namespace linkwright::suspension

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -62,6 +63,87 @@ std::string fitting_label(std::string_view label) {
                     std::all_of(label.begin(), label.end(),
                                 [&](char c) { return letter(c) || signs.find(c) != signs.npos; });
   return fits ? std::string(label) : plain_name(label);
+}
+
+/// Coordinates of a point as they are written in a unit.
+std::array<std::string, 3> number_texts(const Vec3& at, const Unit& unit) {
+  std::array<std::string, 3> out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = number_text(component(at, i), unit);
+  return out;
+}
+
+std::size_t longest_name(std::span<const HardPoint> points) {
+  std::size_t out = 0;
+  for (const HardPoint& p : points) out = std::max(out, p.name.size());
+  return out;
+}
+
+std::string write_text(std::span<const HardPoint> points, const Unit& unit) {
+  const std::size_t width = longest_name(points) + 2;
+  constexpr const char* row = "{:<{}} {:>22} {:>22} {:>22}\n";
+  std::string out = fmt::format("Units: {}\n", unit.suffix) + fmt::format(row, "Point", width, "X", "Y", "Z");
+  for (const HardPoint& p : points) {
+    const auto at = number_texts(p.at, unit);
+    out += fmt::format(row, '"' + fitting_label(p.name) + '"', width, at[0], at[1], at[2]);
+  }
+  return out;
+}
+
+std::string write_property(std::span<const HardPoint> points, const Unit& unit) {
+  const std::size_t width = longest_name(points) + 2;
+  const std::string_view name = unit.suffix == "in" ? "inch" : unit.suffix == "m" ? "meter" : unit.suffix;
+  std::string out = fmt::format(
+      "[UNITS]\n LENGTH = '{}'\n[HARDPOINT]\n{{hardpoint_name symmetry x_value y_value z_value}}\n", name);
+  for (const HardPoint& p : points) {
+    std::string label = fitting_label(p.name);
+    const bool right = plain_name(label).ends_with("_right");
+    if (right) label.resize(label.size() - std::string_view("_right").size());
+    const auto at = number_texts(p.at, unit);
+    out += fmt::format(" {:<{}} {:<12} {:>22} {:>22} {:>22}\n", "'" + label + "'", width,
+                       right         ? "'right'"
+                       : p.at.y == 0 ? "'single'"
+                                     : "'left/right'",
+                       at[0], at[1], at[2]);
+  }
+  return out;
+}
+
+/// Rows of columns; where commas do not separate them, they are the decimal points.
+std::string rows_of(std::span<const HardPoint> points, const Unit& unit, char separator) {
+  std::string out;
+  for (const HardPoint& p : points) {
+    auto at = number_texts(p.at, unit);
+    if (separator != ',')
+      for (std::string& number : at) std::replace(number.begin(), number.end(), '.', ',');
+    out += fmt::format("{1}{0}{2}{0}{3}{0}{4}\n", separator, fitting_label(p.name), at[0], at[1], at[2]);
+  }
+  return out;
+}
+
+/// Points whose names begin with front and rear under these titles, if there are both; others before them.
+std::string write_sections(std::span<const HardPoint> points, const Unit& unit) {
+  std::vector<HardPoint> others, front, rear;
+  for (HardPoint p : points) {
+    const std::string plain = plain_name(p.name);
+    const bool is_front = plain.starts_with("front_");
+    std::vector<HardPoint>& group = is_front ? front : plain.starts_with("rear_") ? rear : others;
+    if (&group != &others) p.name = plain.substr(plain.find('_') + 1);
+    group.push_back(std::move(p));
+  }
+  const std::string header = fmt::format("Name,X [{0}],Y [{0}],Z [{0}]\n", unit.suffix);
+  if (front.empty() || rear.empty()) return header + rows_of(points, unit, ',');
+  return header + rows_of(others, unit, ',') + "Front\n" + rows_of(front, unit, ',') + "Rear\n" +
+         rows_of(rear, unit, ',');
+}
+
+std::string write_json(std::span<const HardPoint> points, const Unit& unit) {
+  std::string out = "{";
+  for (const HardPoint& p : points) {
+    const auto at = number_texts(p.at, unit);
+    out += fmt::format("{}\n  \"{}\": [{}, {}, {}]", out.size() > 1 ? "," : "", fitting_label(p.name), at[0],
+                       at[1], at[2]);
+  }
+  return out + "\n}\n";
 }
 
 }  // namespace
@@ -118,58 +200,21 @@ std::string write_hard_points(const HardPointList& list, std::span<const Vec3> a
 
 std::string write_hard_points(std::span<const HardPoint> points, ListFormat format, PointUnit unit) {
   const Unit& in = *find_unit(Dimension::length, name_of(unit));
-  std::size_t width = 0;
-  for (const HardPoint& p : points) width = std::max(width, p.name.size());
-  std::string out;
   switch (format) {
     case ListFormat::text:
-      out = fmt::format("Units: {}\n{:<{}} {:>22} {:>22} {:>22}\n", in.suffix, "Point", width + 2, "X", "Y",
-                        "Z");
-      break;
+      return write_text(points, in);
     case ListFormat::property:
-      out = fmt::format(
-          "[UNITS]\n LENGTH = '{}'\n[HARDPOINT]\n{{hardpoint_name symmetry x_value y_value z_value}}\n",
-          in.suffix == "in"  ? "inch"
-          : in.suffix == "m" ? "meter"
-                             : in.suffix);
-      break;
+      return write_property(points, in);
     case ListFormat::csv:
-      out = fmt::format("name,x_{0},y_{0},z_{0}\n", in.suffix);
-      break;
+      return fmt::format("name,x_{0},y_{0},z_{0}\n", in.suffix) + rows_of(points, in, ',');
     case ListFormat::spreadsheet:
-      out = fmt::format("Name;X [{0}];Y [{0}];Z [{0}]\n", in.suffix);
+      return fmt::format("Name;X [{0}];Y [{0}];Z [{0}]\n", in.suffix) + rows_of(points, in, ';');
+    case ListFormat::sections:
+      return write_sections(points, in);
+    case ListFormat::json:
       break;
   }
-  for (const HardPoint& p : points) {
-    std::string label = fitting_label(p.name);
-    std::array<std::string, 3> at;
-    for (std::size_t i = 0; i < 3; ++i) at[i] = number_text(component(p.at, i), in);
-    switch (format) {
-      case ListFormat::text:
-        out +=
-            fmt::format("{:<{}} {:>22} {:>22} {:>22}\n", '"' + label + '"', width + 2, at[0], at[1], at[2]);
-        break;
-      case ListFormat::property: {
-        constexpr std::string_view end = "right";
-        std::string_view side = p.at.y == 0 ? "single" : "left/right";
-        if (plain_name(label).ends_with("_right")) {
-          side = end;
-          label.resize(label.size() - end.size() - 1);
-        }
-        out += fmt::format(" {:<{}} {:<12} {:>22} {:>22} {:>22}\n", "'" + label + "'", width + 2,
-                           fmt::format("'{}'", side), at[0], at[1], at[2]);
-        break;
-      }
-      case ListFormat::csv:
-        out += fmt::format("{},{},{},{}\n", label, at[0], at[1], at[2]);
-        break;
-      case ListFormat::spreadsheet:
-        for (std::string& number : at) std::replace(number.begin(), number.end(), '.', ',');
-        out += fmt::format("{};{};{};{}\n", label, at[0], at[1], at[2]);
-        break;
-    }
-  }
-  return out;
+  return write_json(points, in);
 }
 
 }  // namespace linkwright::suspension

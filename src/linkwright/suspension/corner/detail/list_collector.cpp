@@ -14,6 +14,22 @@ constexpr double farthest_point = 1e3;  ///< m: no vehicle reaches further; a sl
 
 }  // namespace
 
+std::vector<ListSection> sections_of(std::string_view text) {
+  std::vector<ListSection> out;
+  bool front = false, rear = false;
+  for (int line = 1; !text.empty(); ++line) {
+    const std::string plain = plain_name(take_line(text));
+    for (const char* title : {"Front", "Rear"}) {
+      const std::string word = plain_name(title);
+      if (plain != word && plain != word + "_suspension" && plain != word + "_axle") continue;
+      out.push_back({line, title});
+      (*title == 'F' ? front : rear) = true;
+    }
+  }
+  if (!front || !rear) out.clear();
+  return out;
+}
+
 void ListCollector::problem(int line, std::string key, std::string message, std::string hint) {
   if (++problems_ <= max_problems)
     add(Diagnostic::Severity::error, line, std::move(key), std::move(message), std::move(hint));
@@ -26,7 +42,11 @@ void ListCollector::unread(int line, std::string_view text, const Line& read) {
 
 void ListCollector::add(int line, std::string_view name, const Vec3& at,
                         const std::array<ListNumber, 3>& places, std::string number_in_name) {
-  const std::string plain = plain_name(name);
+  std::string label(without_blanks(name));
+  for (const ListSection& section : sections_)
+    if (section.line < line && !plain_name(name).empty())
+      label = section.title + " " + std::string(without_blanks(name));
+  const std::string plain = plain_name(label);
   if (plain.empty())
     return problem(line, {}, "a point has no name", "write a name before x, y and z, or behind them");
   if (!(std::abs(at.x) <= farthest_point && std::abs(at.y) <= farthest_point &&
@@ -48,8 +68,7 @@ void ListCollector::add(int line, std::string_view name, const Vec3& at,
     return;
   }
   if (points_.size() == max_points) return problem(line, {}, fmt::format("more than {} points", max_points));
-  points_.push_back(
-      {{{plain, at}, std::string(without_blanks(name)), {places}}, line, std::move(number_in_name)});
+  points_.push_back({{{plain, at}, std::move(label), {places}}, line, std::move(number_in_name)});
 }
 
 std::optional<std::vector<ListedPoint>> ListCollector::finish() {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
@@ -14,10 +15,21 @@
 
 namespace linkwright::suspension::lists {
 
+/// A part of a list under a title, the word that the names of its points begin with.
+struct ListSection {
+  int line = 0;
+  std::string title;  ///< Front, Rear
+};
+
+/// The sections of a list with the titles Front and Rear, each in a line of its own and without numbers; none
+/// where it has not both of them.
+std::vector<ListSection> sections_of(std::string_view text);
+
 /// Collects the points of a list and its problems.
 class ListCollector {
  public:
-  ListCollector(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  ListCollector(const std::string& file, Diagnostics& diagnostics, std::vector<ListSection> sections = {})
+      : file_(file), diagnostics_(diagnostics), sections_(std::move(sections)) {}
 
   void problem(int line, std::string key, std::string message, std::string hint = {});
 
@@ -50,6 +62,7 @@ class ListCollector {
 
   const std::string& file_;
   Diagnostics& diagnostics_;
+  std::vector<ListSection> sections_;
   std::vector<Entry> points_;
   std::vector<Unread> unread_;
   std::size_t problems_ = 0;

@@ -98,8 +98,9 @@ std::optional<Header> header_of(std::string_view line, char separator, std::stri
 
 std::optional<std::vector<ListedPoint>> read_columns(std::string_view text, int header_line, Header header,
                                                      const std::string& file, const Unit* given,
+                                                     const std::vector<ListSection>& sections,
                                                      Diagnostics& diagnostics) {
-  ListCollector collect(file, diagnostics);
+  ListCollector collect(file, diagnostics, sections);
   for (std::size_t i = 0; i < 3; ++i)
     if (const std::string axis(1, "xyz"[i]); !header.at[i])
       collect.problem(header_line, axis, "this column is missing", fmt::format("write {}_mm", axis));
@@ -121,6 +122,11 @@ std::optional<std::vector<ListedPoint>> read_columns(std::string_view text, int 
     std::vector<std::string_view> cells = cells_of(row, header.separator);
     while (!cells.empty() && cells.back().empty()) cells.pop_back();
     if (cells.empty()) continue;
+    // Titles and repeated headings between the points of sections.
+    if (!sections.empty() && (std::count(cells.begin(), cells.end(), std::string_view()) + 1 ==
+                                  static_cast<std::ptrdiff_t>(cells.size()) ||
+                              header_of(row, header.separator)))
+      continue;
     const bool decimals = header.separator == ',' && cells.size() == 2 * header.columns;
     const std::size_t needed = std::max({*header.name, *header.at[0], *header.at[1], *header.at[2]}) + 1;
     if (cells.size() > header.columns || (cells.size() < needed && cells.size() < 3)) {

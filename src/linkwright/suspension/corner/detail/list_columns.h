@@ -39,6 +39,7 @@ std::optional<Header> header_of(std::string_view line, char separator, std::stri
 /// A list in columns, brought into the order name, x, y, z line by line and read as CSV.
 std::optional<std::vector<ListedPoint>> read_columns(std::string_view text, int header_line, Header header,
                                                      const std::string& file, const Unit* given,
+                                                     const std::vector<ListSection>& sections,
                                                      Diagnostics& diagnostics);
 
 }  // namespace linkwright::suspension::lists
