@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/corner/hard_points.h"
@@ -357,6 +358,45 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Indirec
   study::write_statistics(result.statistics, st);
 }
 
+/// The root mean square within which a link counts as found (m).
+double exact_tolerance(const IndirectStudy& s) {
+  if (const auto* published = std::get_if<PublishedIndirect>(&s.optimiser.method))
+    return published->options.tolerance;
+  const IndirectOptions& options = std::get<RecommendedIndirect>(s.optimiser.method).options;
+  return carrier_pitch_is_given(s.task.targets) ? options.link.tolerance : options.carrier_pitch.tolerance;
+}
+
+/// The largest root mean square of the structural errors of links and couplers (m); infinite where one is not
+/// found.
+double largest_rms(const IndirectSynthesis& answer) {
+  double out = 0;
+  for (const LinkFit& fit : answer.links) out = std::max(out, fit.rms);
+  for (const CouplerFit& fit : answer.couplers) out = std::max(out, fit.rms);
+  return out;
+}
+
+/// The least tolerance of two digits that accepts this error, in mm.
+double accepting_millimetres(double rms) {
+  const double mm = rms * 1e3, step = std::pow(10.0, std::floor(std::log10(mm)) - 1);
+  return std::ceil(mm / step) * step;
+}
+
+/// Names the coordinates that end at a face of their box.
+void warn_of_boxes(study::Result& result, const IndirectStudy& s, const Suspension& suspension,
+                   const study::Common& common) {
+  constexpr double at_face = 1e-6;  // as a share of the edge
+  const study::AddWarning warn{result.diagnostics};
+  each_point(s, suspension, [&](const std::string& name, const Vec3& at, const PointBox& box) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double low = coordinate(box.lower, i), high = coordinate(box.upper, i), x = coordinate(at, i);
+      if (!(high > low) || (x - low > at_face * (high - low) && high - x > at_face * (high - low))) continue;
+      warn(fmt::format("{}: {} lies at the {} face of its box, {}", name, axes[i],
+                       x - low < high - x ? "lower" : "upper", common.units.text(x, Dimension::length, 6)),
+           "a larger box may give less error");
+    }
+  });
+}
+
 Measured error_of(double value) { return value >= 1e-3 ? millimetres(value) : metres(value, 2); }
 
 }  // namespace
@@ -402,6 +442,10 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   result.headline =
       good ? say("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
                  structure_name(structure_of(suspension)), poses, error_of(best.error))
+      : assembled && best.answer.status == Status::not_converged
+          ? say("The best {} wheel suspension within the boxes misses the {} positions by at most {}: no "
+                "links there take them exactly.",
+                structure_name(structure_of(suspension)), poses, error_of(best.error))
       : assembled
           ? say("No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
                 to_string(best.answer.status), poses, error_of(best.error))
@@ -424,6 +468,19 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
         "the positions do not prescribe the carrier pitch: many suspensions move the wheel alike, this is "
         "one "
         "of them");
+  if (const double rms = largest_rms(best.answer);
+      best.answer.status == Status::not_converged && std::isfinite(rms) && rms > exact_tolerance(s))
+    study::AddWarning{result.diagnostics}(
+        say("the links are the best in the sense of least squares: they miss the positions by {} (root mean "
+            "square), a link counts as exact within {}",
+            error_of(rms), error_of(exact_tolerance(s))),
+        fmt::format("measured positions have errors of their own: {} accepts these links",
+                    std::holds_alternative<RecommendedIndirect>(s.optimiser.method) &&
+                            !carrier_pitch_is_given(s.task.targets)
+                        ? fmt::format("unknown_carrier_pitch = {{ tolerance_mm = {:.6g} }} in [optimiser]",
+                                      accepting_millimetres(rms))
+                        : fmt::format("tolerance_mm = {:.6g} in [optimiser]", accepting_millimetres(rms))));
+  if (assembled) warn_of_boxes(result, s, suspension, common);
   study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   return result;
 }
