@@ -342,6 +342,11 @@ class Result:
         return self._once("solutions", lambda: [Solution(*row[:5], self._study_of(row[5])) for row in self._run.solutions])
 
     @property
+    def files(self) -> dict[str, str]:
+        """{name: text}: files for other programs, such as lists of hard points; `save` writes them as well"""
+        return self._once("files", lambda: dict(self._run.files))
+
+    @property
     def statistics(self) -> dict:
         """dict: evaluations, best, median, success_rate, ...; empty when there are none"""
         return self._once("statistics", lambda: self._run.statistics)

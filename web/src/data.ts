@@ -130,6 +130,12 @@ export interface ShownSuffix {
 }
 
 /** A solution as a study of its own. */
+/** A file for another program: a list of points for CAD. */
+export interface ResultFile {
+  name: string;
+  text: string;
+}
+
 export interface Design {
   solution: number;
   name: string;  // name of its file, without ending
@@ -162,6 +168,7 @@ export interface View {
   /** Labels and defects of the solutions, in the order of the result. */
   solutions: { label: string; defects: string[] }[];
   designs: Design[];
+  files: ResultFile[];
   scenes: Scene[];
   plots: Plot[];
   comparisons: Comparison[];

@@ -68,6 +68,7 @@ export function ExportMenu() {
         {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
         {design && <button type="button" class="get" data-download="design" onClick={() => choose(() => save(`${design.name}.toml`, design.toml))}>Study of this design</button>}
         {design && <button type="button" data-export="design" onClick={() => choose(() => copyDesign(design))}>Copy the study of this design</button>}
+        {view.files.map((file) => <button type="button" class="get" data-download={file.name} onClick={() => choose(() => save(file.name, file.text))}>Points: {file.name}</button>)}
         {oneStudy(view) && !goOn.now && <button type="button" data-export="workbench" title="Opens workbench.html in the folder of this report; the workbench opens reports, too" onClick={() => choose(() => openWorkbench(name))}>Open in the workbench</button>}
       </Menu>
     </>

@@ -11,6 +11,7 @@ const carried = (count: number): Carried => ({
   view: {
     headline: "", remarks: [], scenes: [scene("solution-1"), scene("solution-2")].slice(0, count), solution_scenes: ["solution-1", "solution-2"].slice(0, count),
     solutions: [{ label: "eight_bar:1324b (8 links)", defects: [] }, { label: "a machine", defects: [] }].slice(0, count),
+    files: [],
     designs: [0, 1].slice(0, count).map((solution) => ({ solution, name: `machine-${solution + 1}`, toml: `title = "${solution}"` })),
   } as unknown as Carried["view"],
   result: {

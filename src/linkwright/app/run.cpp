@@ -221,6 +221,7 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
   if (wants(study, study::Format::html)) write("report.html", report_text(study, shown, outcome, json));
+  for (const study::ResultFile& file : result.files) write(file.name, file.text);
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {
     const study::Solution& solution = result.solutions[i];
     if (solution.study.is_null()) continue;

@@ -68,8 +68,9 @@ RunOutcome run_and_record(const study::Study& study, RunContext& context, std::s
 std::string report_text(const study::Study& study, const study::Result& shown, const RunOutcome& outcome,
                         std::string json = {});
 
-/// Writes the files that the study asks for, and the studies of the designs found into `designs` there, each
-/// whole or not at all. Returns those written; problems are appended to `diagnostics`.
+/// Writes the files that the study asks for, those for other programs, and the studies of the designs found
+/// into `designs` there, each whole or not at all. Returns those written; problems are appended to
+/// `diagnostics`.
 std::vector<std::filesystem::path> write_results(const study::Study& study, const RunOutcome& outcome,
                                                  const std::filesystem::path& folder,
                                                  Diagnostics& diagnostics);

@@ -489,6 +489,13 @@ void bind_results(py::module_& module) {
                                return r.shown.statistics.is_null() ? py::object(py::dict())
                                                                    : to_python(r.shown.statistics);
                              })
+      .def_property_readonly("files",
+                             [](const FinishedRun& r) {
+                               py::dict out;
+                               for (const study::ResultFile& file : r.outcome.result.files)
+                                 out[py::str(file.name)] = file.text;
+                               return out;
+                             })
       .def_property_readonly("tables",
                              [](const std::shared_ptr<FinishedRun>& r) {
                                std::vector<ShownTable> out;

@@ -272,6 +272,10 @@ Value view_data(const ReportInput& input) {
     out["solution_scenes"].push_back(s.scene);
   }
   out["designs"] = designs_data(input);
+  out["files"] = list(result.files, [](Value& o, const study::ResultFile& f) {
+    o["name"] = f.name;
+    o["text"] = f.text;
+  });
   out["scenes"] = Value::array();
   for (const auto& scene : result.scenes) {
     Value drawn = scene_data(scene, shown(scene.title), units, input.lists);

@@ -162,6 +162,12 @@ struct Trouble {
   Sentence why;  ///< one sentence
 };
 
+/// A file of another program that goes with a result: a list of points for CAD.
+struct ResultFile {
+  std::string name;  ///< name of the file without folder: "list-hardpoints.txt"
+  std::string text;  ///< its content, UTF-8
+};
+
 /// The result of a study. Tables, scenes and plots are all that a report draws.
 struct Result {
   Status status = Status::done;     ///< done, or why the result is not complete
@@ -180,6 +186,7 @@ struct Result {
   std::vector<Check> checks;            ///< checks of the study
   std::vector<Trouble> troubles;        ///< in the order in which they occur; see study/answer.h
   Diagnostics diagnostics;              ///< remarks and warnings about the answer
+  std::vector<ResultFile> files;        ///< files for other programs
 
   /// @param name name of a table
   /// @returns the table; nullptr if there is none

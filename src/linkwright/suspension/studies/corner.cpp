@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/trade_words.h"
-#include "linkwright/suspension/corner/hard_point_list.h"
 #include "linkwright/suspension/corner/plausibility.h"
 #include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/structure.h"
@@ -89,14 +90,19 @@ class CornerReader {
     if (h.file)
       if (const auto text = study::read_beside(*table, "file", common_.folder, *h.file)) {
         Diagnostics problems;
-        const auto points = read_hard_points(*text, *h.file, h.unit, problems);
+        auto list = read_hard_point_list(*text, *h.file, h.unit, problems);
         for (const Diagnostic& d : problems)
           if (d.severity == Diagnostic::Severity::error)
             table->unreadable("file", study::in_file(d));
           else
             table->warning("file", study::in_file(d));
-        if (points) hard_ = *points;
+        if (list) {
+          for (const ListedPoint& p : list->points) hard_.push_back(p.point);
+          out_.list = CornerList{std::filesystem::path(*h.file).filename().string(), *std::move(list)};
+        }
       }
+    out_.frame = h.frame;
+    out_.unit = h.unit;
     for (const auto& [name, at] : h.points) {
       const std::string plain = plain_name(name);
       if (find(plain))

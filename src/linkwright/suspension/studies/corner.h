@@ -14,6 +14,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/compliance/damper_law.h"
 #include "linkwright/suspension/compliance/springs.h"
+#include "linkwright/suspension/corner/hard_point_list.h"
 #include "linkwright/suspension/corner/hard_points.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 
@@ -430,6 +431,12 @@ struct SpringParts {
   std::optional<StopDescription> bump_stop, rebound_stop;
 };
 
+/// The list of hard points that a study reads.
+struct CornerList {
+  std::string file;  ///< name of its file without folder
+  HardPointList list;
+};
+
 /// `[mechanism]` of any study of a wheel suspension, resolved.
 struct CornerDescription {
   Suspension suspension;        ///< open coordinates at their start
@@ -438,6 +445,9 @@ struct CornerDescription {
   std::optional<SpringLaw> spring;     ///< law of the spring, if it is known
   SpringParts springs;                 ///< damper, bars and stops
   std::optional<double> rim_diameter;  ///< m, where toe is measured as a length
+  std::optional<CornerList> list;      ///< list that points were read from
+  PointFrame frame;                    ///< frame of named points, the vehicle's where there are none
+  PointUnit unit = PointUnit::mm;      ///< unit of named points
 };
 
 /// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that

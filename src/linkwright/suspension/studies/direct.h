@@ -10,6 +10,7 @@
 
 #include "linkwright/suspension/direct/synthesis.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/lists.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/corner_columns.h"
 
@@ -188,6 +189,7 @@ struct DirectStudy {
   Driver lock = Driver::wheel_centre_z;  ///< coordinate held while the steering axis is found
   DirectTask task;                       ///< task that follows from the above
   study::DisplayUnits units;             ///< units of its messages
+  std::vector<ListForm> lists;
 };
 
 /// "synthesis" of "suspension.corner" for "wheel_parameters".

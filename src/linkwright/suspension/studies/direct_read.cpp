@@ -382,10 +382,12 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
                    s.optimiser.method);
     }
   }
+  s.lists = read_lists(document, s.description);
   if (document.document().has_errors()) return std::nullopt;
   s.task.suspension = s.description.suspension;
 
   canonical["mechanism"] = write_suspension(s.description);
+  if (!s.lists.empty()) canonical["list"] = write_lists(s.lists);
   Value target_out;
   target_out["coordinate"] = name_of(s.task.driver);
   target_out["steering_lock"] = name_of(s.lock);
@@ -448,6 +450,7 @@ study::Kind direct_kind() {
                       study::schema_array(study::schema_fields<DirectConstraint>()));
     document.property(field::entry("optimiser", "how designs are searched"),
                       study::schema_fields<DirectOptimiser>());
+    describe_lists(document);
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;

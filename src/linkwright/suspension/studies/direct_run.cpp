@@ -342,6 +342,8 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   add_curves(result, s, best, before);
   add_designs(result, s, best, before);
   result.tables.push_back(hard_point_table(points_of(best.suspension)));
+  add_list_of_found(result, s.description, best.suspension);
+  add_lists(result, s.lists, s.description, best.suspension);
   result.tables.push_back(directions_table(s, best));
   add_statistics(result, s, runs, cost_of(best, options));
   for (std::size_t i = 0; i < best.objectives.size(); ++i)

@@ -11,6 +11,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/lists.h"
 
 // The synthesis of a wheel suspension from positions of its carrier: what its file holds, how it is read, run
 // and reported.
@@ -93,6 +94,7 @@ struct IndirectStudy {
   CornerDescription description;
   IndirectTask task;  ///< task for a left wheel: a right one is mirrored, and its answer mirrored back
   IndirectOptimiser optimiser;
+  std::vector<ListForm> lists;
 };
 
 /// "synthesis" of "suspension.corner" for "carrier_poses".

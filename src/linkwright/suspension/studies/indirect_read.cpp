@@ -143,8 +143,10 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
   if (auto target = document.table(field::entry("target").required()))
     read_poses(*target, common, s.task, form);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  s.lists = read_lists(document, description);
   if (!description || document.document().has_errors()) return std::nullopt;
 
+  if (!s.lists.empty()) canonical["list"] = write_lists(s.lists);
   canonical["mechanism"] = write_suspension(s.description);
   PosesTarget resolved{.file = {}, .poses = std::vector<PoseEntry>{}};
   for (const CarrierTarget& p : s.task.targets.poses) {
@@ -177,6 +179,7 @@ study::Kind indirect_kind() {
                       study::schema_fields<PosesTarget>());
     document.property(field::entry("optimiser", "how links are searched"),
                       study::schema_fields<IndirectOptimiser>());
+    describe_lists(document);
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;

@@ -433,6 +433,8 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
                {"deviation_toe_rad", "deviation_camber_rad", "deviation_carrier_pitch_rad"});
   }
   result.tables.push_back(hard_point_table(points_of(suspension)));
+  add_list_of_found(result, s.description, suspension);
+  add_lists(result, s.lists, s.description, suspension);
   result.tables.push_back(conditioning_table(s, best));
   result.tables.push_back(seeds_table(runs));
 

@@ -11,6 +11,7 @@
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/lists.h"
 #include "linkwright/suspension/studies/packaging.h"
 #include "linkwright/suspension/studies/sensitivity.h"
 #include "linkwright/suspension/studies/springs.h"
@@ -75,6 +76,7 @@ struct SweepStudy {
   std::optional<AdjustForm> adjust;
   std::optional<SensitivityForm> sensitivity;
   std::optional<TolerancesForm> tolerances;
+  std::vector<ListForm> lists;
 };
 
 /// "analysis" of "suspension.corner".

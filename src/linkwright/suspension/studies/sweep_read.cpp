@@ -176,6 +176,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(field::entry("adjust"), s.adjust);
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
+  s.lists = read_lists(document, description);
   if (description && ride) check_ride(document, s.ride, *description);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
@@ -201,6 +202,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   if (s.packaging) canonical["packaging"] = study::write_fields(*s.packaging);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
   if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
+  if (!s.lists.empty()) canonical["list"] = write_lists(s.lists);
   if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
   return s;
 }
@@ -268,6 +270,7 @@ study::Kind sweep_kind() {
                       study::schema_fields<SensitivityForm>());
     document.property(field::entry("tolerances", "bands of curves when points have tolerances"),
                       study::schema_fields<TolerancesForm>());
+    describe_lists(document);
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;

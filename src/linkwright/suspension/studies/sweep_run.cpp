@@ -414,6 +414,8 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   }
   if (s.assemblies) add_assemblies(result, s, plan);
   result.tables.push_back(hard_point_table(points_of(s.description.suspension)));
+  add_lists(result, s.lists, s.description, s.description.suspension,
+            s.other_wheel ? &*s.other_wheel : nullptr);
   if (Table bump = bump_table(grid, "bump"); bump.columns.size() > 1)
     result.tables.push_back(std::move(bump));
   add_plots(result, s);
