@@ -61,8 +61,9 @@ TEST(HardPointListWrite, ReadsTheSameBitsBackFromEveryForm) {
         // Read, write, read: the same bits, as a list of its own and in a new one.
         EXPECT_EQ(write_hard_points(list, places_in(list)), text);
         EXPECT_EQ(write_hard_points(points_in(list), format.value, unit.value), text);
-        EXPECT_EQ(points_in(read_whole(write_hard_points(points_in(list), format.value, unit.value))),
-                  points_in(list));
+        EXPECT_EQ(
+            points_in(read_whole(write_hard_points(points_in(list), format.value, unit.value), unit.value)),
+            points_in(list));
         // A point that has moved, by a number of many digits.
         std::vector<Vec3> moved = with_moved(list, 1);
         const std::string once = write_hard_points(list, moved);
