@@ -67,11 +67,13 @@ std::optional<HardPointList> read_list(std::string_view text, const std::string&
     const bool comment = begins_comment(row) || (row.starts_with(';') && row.find(';', 1) == row.npos);
     if (row.empty() || comment || row.starts_with("sep=")) continue;
     if (headings)
-      if (const auto header = header_of(row, separator, above))
+      if (const auto header = header_of(row, separator, above)) {
+        if (collect.failed()) return std::nullopt;  // by a heading before it
         return of(header->separator != ',' ? ListFormat::spreadsheet
                   : sections.empty()       ? ListFormat::csv
                                            : ListFormat::sections,
                   read_columns(whole, line, *header, file, unit, sections, diagnostics));
+      }
     const Line read = read_line(row);
     if (read.numbers > 0) headings = false;
     above = row;

@@ -193,6 +193,12 @@ std::string write_hard_points(const HardPointList& list, std::span<const Vec3> a
     }
     out += c.text;
     from = c.place.begin + c.place.size;
+    // Nor is a comma behind it.
+    if (list.format == ListFormat::text && from + 1 < list.text.size() && list.text[from] == ',' &&
+        std::isdigit(static_cast<unsigned char>(list.text[from + 1]))) {
+      out += ", ";
+      ++from;
+    }
   }
   out += std::string_view(list.text).substr(from);
   return out;
