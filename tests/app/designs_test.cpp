@@ -152,6 +152,12 @@ void six_bar_function(const Designed& d) {
   expect_same(found, again, exact, "output");
 }
 
+void cam(const Designed& d) {
+  const Table &found = table_of(d.found, "cam"), &again = table_of(d.again, "cam");
+  for (const char* key : {"profile_x_m", "profile_y_m", "pressure_angle_rad", "lift_m"})
+    expect_same(column(found, key), column(again, key), exact, key);
+}
+
 void dwell(const Designed& d) {
   const Table &sweep = table_of(d.again, "sweep"), &motion = table_of(d.found, d.numbered("motion"));
   std::vector<double> again = column(sweep, "output_angle_rad");
@@ -303,6 +309,7 @@ const std::map<std::string, std::function<void(const Designed&)>> agreements = {
     {"synthesis/planar.slider_crank/stroke", strokes},
     {"synthesis/planar.six_bar/function", six_bar_function},
     {"synthesis/planar.six_bar/dwell", dwell},
+    {"synthesis/planar.cam", cam},
     {"balancing/planar.four_bar", balanced},
     {"balancing/planar.linkage", balanced},
     {"balancing/planar.slider_crank", balanced},

@@ -147,7 +147,7 @@ constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
     {"parallel motion", "beam-engine"},
     {"elliptical trammel", "elliptical-trammel"},
     {"ellipse", "ellipse-10-points elliptical-trammel"},
-    {"cam", "dwell"},
+    {"cam", "dwell smallest-cam valve-cam"},
     {"geneva", "dwell"},
     {"gear", "epicyclic-train geared-five-bar landing-gear"},
     {"planetary gear", "epicyclic-train"},

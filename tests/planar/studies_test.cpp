@@ -30,7 +30,8 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
           "simulation/planar.four_bar", "simulation/planar.slider_crank", "speed_fluctuation/planar.linkage",
           "speed_fluctuation/planar.four_bar", "speed_fluctuation/planar.slider_crank",
           "analysis/planar.serial_arm", "balancing/planar.four_bar", "balancing/planar.linkage",
-          "balancing/planar.slider_crank", "balancing/planar.serial_arm", "rest/planar.linkage"));
+          "balancing/planar.slider_crank", "balancing/planar.serial_arm", "rest/planar.linkage",
+          "analysis/planar.cam", "synthesis/planar.cam"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                              "synthesis/planar.slider_crank/path_points",
                                              "balancing/planar.four_bar", "balancing/planar.linkage",

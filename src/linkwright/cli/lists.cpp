@@ -87,11 +87,12 @@ struct Concept {
   std::string_view answer;
 };
 constexpr std::array concepts{
-    Concept{
-        "cam cams nocken",
-        "cams are not modelled. Nearest: a motion law of a joint ([[drive]] law = ... in simulations and "
-        "serial "
-        "arms), a dwell (synthesis/planar.six_bar/dwell), a pin in a straight slot (joint type pin_in_slot)"},
+    Concept{"cam cams nocken",
+            "disc cams are analysis/planar.cam, and synthesis/planar.cam finds the smallest one; cams as "
+            "parts of "
+            "a linkage are not modelled. Nearest: a motion law of a joint ([[drive]] law = ... in "
+            "simulations and "
+            "serial arms), a dwell (synthesis/planar.six_bar/dwell)"},
     Concept{"geneva maltese ratchet",
             "step mechanisms are not modelled. Nearest: a dwell (synthesis/planar.six_bar/dwell)"},
     Concept{"gear gears gearing gearbox",

@@ -3,6 +3,7 @@
 
 #include "linkwright/planar/studies/any_machine.h"
 #include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/cam.h"
 #include "linkwright/planar/studies/chain.h"
 #include "linkwright/planar/studies/dwell.h"
 #include "linkwright/planar/studies/four_bar_path.h"
@@ -44,6 +45,8 @@ std::vector<study::Kind> studies() {
                                     serial_arm_kind()};
   for (study::Kind& kind : balancing_kinds()) kinds.push_back(std::move(kind));
   kinds.push_back(rest_kind());
+  kinds.push_back(cam_kind());
+  kinds.push_back(cam_synthesis_kind());
   return kinds;
 }
 
