@@ -12,7 +12,7 @@ namespace linkwright::planar {
 namespace {
 
 using study::Scene;
-using Place = Vec<double>;
+using Place = math::Vec2;
 
 // Corners of the polygon by which a turning cam is drawn, and samples of its animation.
 constexpr int corners = 120;
@@ -65,7 +65,7 @@ class CamDrawing {
     return last();
   }
   int last() const { return static_cast<int>(scene_.points.size()) - 1; }
-  Place turning(std::size_t k) const { return unit(s_.cam.sense() * angles_[k]); }
+  Place turning(std::size_t k) const { return math::unit(s_.cam.sense() * angles_[k]); }
   // A place of the ground as it is drawn.
   Place shown(const Place& p, std::size_t k) const { return cam_turns_ ? p : rotate_inverse(turning(k), p); }
   // A place of the cam in the frame of the ground.
@@ -95,7 +95,7 @@ class CamDrawing {
         turned[k] = turned[k - 1] -
                     s_.cam.sense() * norm(states_[k].profile - states_[k - 1].profile) / s_.cam.roller();
       const int rim = moving("rim", [&](std::size_t k) {
-        return on_ground(states_[k].pitch, k) + s_.cam.roller() * unit(turned[k]);
+        return on_ground(states_[k].pitch, k) + s_.cam.roller() * math::unit(turned[k]);
       });
       scene_.circles.push_back({"roller", centre, rim});
     }
@@ -160,7 +160,7 @@ class CamDrawing {
     }
     const int pivot = pivot_point();
     const auto along = [this](std::size_t k, double distance) {
-      const Place arm = unit(pi - base_position(s_.cam) - value(k));
+      const Place arm = math::unit(pi - base_position(s_.cam) - value(k));
       return Place{s_.cam.pivot, 0} + distance * arm - s_.cam.face_offset * perpendicular(arm);
     };
     const int near = moving("face", [&](std::size_t k) { return along(k, 0); }),
