@@ -66,10 +66,10 @@ REASONS = {
     "suspension/basic_structures": SAMPLE,
     "suspension/design_parameters": LIBRARY,
     "suspension/elastic_rods": LIBRARY,
-    "suspension/from_vehicle": LIBRARY,
     "suspension/input_derivatives": ROUTE,
     "suspension/link_problem": LIBRARY,
     "suspension/parse_structure": ROUTE,
+    "suspension/read_hard_points": LIBRARY,
     "suspension/roll_gains": LIBRARY,
     "suspension/rs_dyad": ROUTE,
 }

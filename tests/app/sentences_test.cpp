@@ -126,7 +126,7 @@ void texts_of(const Value& value, std::vector<std::string>& out) {
 // Lengths and forces in inches and pounds: what is written to files and to the page has no others.
 TEST(SentencesOfExamples, AreInTheUnitsOfTheOutputEverywhere) {
   static const std::regex others(
-      "(^|[^\\w.])[-−]?\\d+(\\.\\d+)?( |\u202f)(mm|cm|m|µm|um|N(?! m)|kN(?! m))([ ,;:.)<]|$)");
+      "(^|[^\\w.])[-−]?\\d+(\\.\\d+)?( |\u202f)(mm|cm|m|µm|um|N(?! m| s)|kN(?! m| s))([ ,;:.)<]|$)");
   std::size_t found = 0;
   for (const Told& t : told()) {
     study::Study study = t.study;
