@@ -14,12 +14,17 @@ template <class T>
 struct Vector2 {
   T x{};  ///< to the right
   T y{};  ///< up
-  /// Compares two vectors. @returns true if both components are equal
-  friend constexpr bool operator==(const Vector2&, const Vector2&) = default;
 };
 
 /// A vector of the plane, of doubles.
 using Vec2 = Vector2<double>;
+
+/// Compares two vectors.
+///
+/// @param a a vector
+/// @param b another
+/// @returns true if both components are equal
+constexpr bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
 /// The sum of two vectors.
 ///
