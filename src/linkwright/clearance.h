@@ -12,3 +12,4 @@
 
 #include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/published_clearance.h"
