@@ -165,6 +165,14 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   EXPECT_THAT(remarks, HasSubstr("the links are the best in the sense of least squares"));
   EXPECT_THAT(remarks, HasSubstr("measured positions have errors of their own: tolerance_mm = "));
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
+  // The tolerance of the warning accepts the links in a second run.
+  std::smatch tolerance;
+  ASSERT_TRUE(std::regex_search(remarks, tolerance, std::regex("tolerance_mm = [0-9.e-]+")));
+  const study::Result accepted =
+      run_text(replaced(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"),
+                        "method = \"recommended\"", "method = \"recommended\"\n" + tolerance.str()));
+  EXPECT_EQ(accepted.status, Status::done) << tolerance.str();
+  EXPECT_EQ(accepted.statistics.find("success_rate")->as_number(), 1);
 }
 
 TEST(IndirectStudy, TellsOfGivenLinksThatDoNotFit) {

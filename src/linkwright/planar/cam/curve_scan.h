@@ -22,7 +22,7 @@ struct CamExtreme {
   double angle = 0;  ///< angle of the cam (rad), in the range of the programme
 };
 
-/// The place that is told where several have the same value but for rounding.
+/// The place that is reported where several have the same value but for rounding.
 enum class EqualPlaces {
   first,  ///< the first of them
   last    ///< the last of them
@@ -31,7 +31,7 @@ enum class EqualPlaces {
 /// The least value of a quantity. Samples bracket it, and the place is refined to a zero of the derivative.
 /// @param curve the programme
 /// @param quantity the quantity; values that are not finite are passed over
-/// @param equal the place that is told of several with the same value
+/// @param equal the place that is reported of several with the same value
 /// @returns the least value and its place; infinity where there is none
 CamExtreme least_over(const ProgrammeCurve& curve, CamQuantity quantity,
                       EqualPlaces equal = EqualPlaces::first);

@@ -17,8 +17,6 @@ using math::Motion;
 constexpr Number i{0, 1};
 
 Number direction(double angle) { return std::polar(1.0, angle); }
-double dot(Number a, Number b) { return a.real() * b.real() + a.imag() * b.imag(); }
-double cross(Number a, Number b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
 // The centre of the roller in the fixed frame, its derivatives by the angle of the cam, and the direction in
 // which the follower rises.
@@ -45,9 +43,9 @@ CamState roller_state(const DiscCam& cam, const Motion& m, double angle) {
   const double size = std::abs(first);
   const Number normal = i * sense * first / size, turned = direction(-sense * angle);
   CamState out;
-  const double lean = std::atan2(cross(b.rise, normal), dot(b.rise, normal));
+  const double lean = std::arg(std::conj(b.rise) * normal);
   out.pressure_angle = sense * lean;
-  out.pitch_curvature = -sense * cross(first, second) / (size * size * size);
+  out.pitch_curvature = -sense * std::imag(std::conj(first) * second) / (size * size * size);
   out.profile_radius = 1 / out.pitch_curvature - cam.roller();
   out.pitch = math::vec(b.place * turned);
   out.profile = math::vec((b.place - cam.roller() * normal) * turned);

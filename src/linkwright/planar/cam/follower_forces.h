@@ -40,7 +40,7 @@ FollowerForces follower_forces(const CamState& state, const math::Motion& motion
 /// @param curve the programme
 /// @param load follower; its speed is not used
 /// @returns speed (rad/s) and the angle of the cam; a speed of 0 if contact is lost at rest; nothing if the
-/// follower never lifts off; of a rise and a return that are alike it is the return that is told
+/// follower never lifts off; of a rise and a return that are alike it is the return that is reported
 std::optional<CamExtreme> lift_off_speed(const ProgrammeCurve& curve, const FollowerLoad& load);
 
 /// The least preload that holds the follower on the cam at its speed.

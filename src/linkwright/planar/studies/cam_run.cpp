@@ -161,8 +161,8 @@ class CamReport {
     const std::optional<double>& limit = s_.limits.pressure_angle;
     const std::optional<double> limit_return =
         s_.limits.pressure_angle_return ? s_.limits.pressure_angle_return : limit;
-    const auto told = [&](const char* label, const char* phase, const CamExtreme& e,
-                          const std::optional<double>& most) {
+    const auto report = [&](const char* label, const char* phase, const CamExtreme& e,
+                            const std::optional<double>& most) {
       if (e.value == 0) return;
       // A cam that was designed to the limit meets it but for rounding.
       const bool exceeds = most && e.value > *most + 1e-9;
@@ -178,8 +178,8 @@ class CamReport {
             "take a larger base circle, a longer segment, or another offset; kind = \"synthesis\" finds the "
             "smallest cam within the limit");
     };
-    told("largest pressure angle of the rise", "rise", found_.largest_in_rise, limit);
-    told("largest pressure angle of the return", "return", found_.largest_in_return, limit_return);
+    report("largest pressure angle of the rise", "rise", found_.largest_in_rise, limit);
+    report("largest pressure angle of the return", "return", found_.largest_in_return, limit_return);
   }
 
   void radius_findings() {

@@ -376,7 +376,7 @@ void check_ride(study::ObjectReader& document, const RideForm& ride, const Corne
     table->error("wheel_speeds", "there is no damper whose force is known",
                  "write damping_N_s_per_m or a curve in [mechanism.damper]");
   else if (speeds.empty() || std::any_of(speeds.begin(), speeds.end(), [](double v) { return v == 0; }))
-    table->error("wheel_speeds", speeds.empty() ? "are none" : "has 0, at which nothing is damped",
+    table->error("wheel_speeds", speeds.empty() ? "holds no speed" : "has 0, at which nothing is damped",
                  "for example wheel_speeds_m_per_s = [-0.3, -0.1, 0.1, 0.3]");
   else if (static_cast<double>(speeds.size()) > most_wheel_speeds)
     table->error("wheel_speeds",
