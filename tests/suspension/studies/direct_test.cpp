@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/resumed.h"
+#include "suspension/pushrod_study.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -107,6 +108,123 @@ TEST(DirectStudy, KeepsToItsConstraints) {
   for (const study::Parameter& p : result.solutions[0].parameters)
     (p.key.ends_with("x_m") ? x : p.key.ends_with("y_m") ? y : z) = p.value;
   EXPECT_GE(std::hypot(x + 0.14, y - 0.7, z + 0.042), 0.280 - 1e-8);
+}
+
+/// Rocker, spring and arm of the bar are to give a progressive wheel rate, a load and a rate of the bar.
+const std::string& wheel_rate_study() {
+  static const std::string text = [] {
+    std::string out = test::pushrod_study;
+    out.erase(out.find("[sweep.travel]"));
+    out = replaced(out, "kind = \"analysis\"", "kind = \"synthesis\"");
+    return out + R"(
+[[design]]
+point  = "rocker.rod_2"
+box_mm = 40
+given  = ["x"]
+
+[[design]]
+point  = "spring.moving"
+box_mm = 60
+given  = ["x"]
+
+[[design]]
+point  = "anti-roll bar.rod_1"
+box_mm = 60
+given  = ["x", "z"]
+
+[target]
+type = "wheel_parameters"
+
+[[target.curve]]
+quantity           = "wheel_rate"
+travel_mm          = [-25, 0, 25]
+value_N_per_mm     = [21.5, 24.0, 27.0]
+tolerance_N_per_mm = 0.05
+
+[[target.curve]]
+quantity    = "wheel_force"
+value_N     = 720
+tolerance_N = 2
+
+[[target.curve]]
+quantity           = "anti_roll_bar_wheel_rate"
+value_N_per_mm     = 20
+tolerance_N_per_mm = 0.05
+
+[optimiser]
+method = "recommended"
+goal   = "largest"
+starts = 12
+seeds  = { first = 1, count = 1 }
+)";
+  }();
+  return text;
+}
+
+TEST(DirectStudy, WheelRateAndRateOfTheBarByRockerSpringAndArm) {
+  const study::Result result = run_text(wheel_rate_study());
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+  for (const study::Change& change : result.changes) EXPECT_LT(change.after, 1) << change.quantity;
+  EXPECT_GT(result.changes.at(0).before, 10);
+  ASSERT_EQ(result.solutions.size(), 1U);
+  EXPECT_EQ(result.solutions[0].parameters.size(), 5U);
+  EXPECT_EQ(result.solutions[0].parameters.at(0).key, "rocker_rod_2_y_m");
+  // The design as an analysis of its own has these rates.
+  Diagnostics problems;
+  const auto design = study::prepare(result.solutions[0].study, "design", ".", test::kinds(), problems);
+  ASSERT_TRUE(design) << (problems.empty() ? "" : to_string(problems[0]));
+  RunContext context;
+  const study::Result analysis = study::run_study(*design, context);
+  const auto at = [&](std::string_view key, double travel) {
+    const auto& travels = test::column(analysis, "travel_m");
+    for (std::size_t i = 0; i < travels.size(); ++i)
+      if (std::abs(travels[i] - travel) < 1e-9) return test::column(analysis, key).at(i);
+    return std::nan("");
+  };
+  EXPECT_NEAR(at("wheel_rate_N_per_m", -0.025), 21500, 50);
+  EXPECT_NEAR(at("wheel_rate_N_per_m", 0), 24000, 50);
+  EXPECT_NEAR(at("wheel_rate_N_per_m", 0.025), 27000, 50);
+  EXPECT_NEAR(at("wheel_force_N", 0), 720, 2);
+  EXPECT_NEAR(at("anti_roll_bar_wheel_rate_N_per_m", 0), 20000, 50);
+  // The target's table is that of the sweep.
+  const Table& target = table(result, "target-wheel_rate");
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(target.find("wheel_rate_N_per_m")->values.at(i),
+                at("wheel_rate_N_per_m", 0.025 * (static_cast<double>(i) - 1)), 1e-6);
+  EXPECT_NE(table(result, "sweep").find("wheel_rate_N_per_m"), nullptr);
+}
+
+TEST(DirectStudyRead, PointsOfRockersAreReadAlikeFromTheCanonicalStudy) {
+  std::string messages;
+  const auto prepared = test::prepare(
+      wheel_rate_study() + "\n[[design]]\nlink = \"rocker\"\nlength_mm = { min = 290, max = 310 }\n",
+      messages);
+  ASSERT_TRUE(prepared) << messages;
+  Diagnostics problems;
+  const Value again = prepared->canonical;
+  const auto second = study::prepare(again, "canonical", ".", test::kinds(), problems);
+  ASSERT_TRUE(second) << (problems.empty() ? "" : to_string(problems[0]));
+  EXPECT_EQ(second->canonical, prepared->canonical);
+  ASSERT_EQ(prepared->canonical.find("design")->as_array().size(), 4U);
+}
+
+TEST(DirectStudyRead, NamesWhatIsWrongWithRockersAndSprings) {
+  const auto told = [](const std::string& what, const std::string& by) {
+    return problems_of(replaced(wheel_rate_study(), what, by));
+  };
+  EXPECT_THAT(told("point  = \"rocker.rod_2\"", "point = \"rocker.rod_3\""),
+              HasSubstr("design[0].point: there is no point 'rocker.rod_3'; did you mean 'rocker.rod_1'?"));
+  EXPECT_THAT(told("point  = \"spring.moving\"", "point = \"rocker.rod_2\""),
+              HasSubstr("design[1].point: 'rocker.rod_2' is designed twice; keep one of them"));
+  EXPECT_THAT(told("stiffness_N_per_mm = 35\npreload_N          = 900", ""),
+              HasSubstr("target.curve[0].quantity: this suspension has no 'wheel_rate': the stiffness of the "
+                        "spring is not known"));
+  EXPECT_THAT(
+      told("quantity           = \"anti_roll_bar_wheel_rate\"", "quantity = \"torsion_bar_wheel_rate\""),
+      HasSubstr("this suspension has no 'torsion_bar_wheel_rate': there is no torsion bar"));
+  EXPECT_THAT(told("value_N     = 720", "value_mm = 720"), HasSubstr("target.curve[1].value"));
+  EXPECT_THAT(told("[target]\n", "[[design]]\nlink = \"rocker\"\n[target]\n"),
+              HasSubstr("design[3].length: has no range"));
 }
 
 }  // namespace

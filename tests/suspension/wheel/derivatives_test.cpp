@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/corner/samples.h"
@@ -287,6 +291,67 @@ TEST(WheelDerivatives, ByThePointsOfRockers) {
     ++compared;
   }
   EXPECT_EQ(compared, 25);
+}
+
+// Length, ratio and its slope by travel of spring, rockers and elements, by every point of links, rockers and
+// springs, against differences of `corner_motions` at designs nearby.
+TEST(MotionDerivatives, AgreeWithDifferencesOfMotions) {
+  Suspension suspension = pushrod_corner();
+  suspension.rockers[0].length = 0.301;
+  suspension.elements = {
+      {.name = "damper",
+       .first = {{0.01, 0.03, 0.48}, {PartKind::body}},
+       .second = {{0.02, 0.21, 0.5}, {PartKind::rocker, 0}}},
+      {.name = "torsion_bar", .first = {}, .second = {}, .turn = CornerPart{PartKind::link, 0}}};
+  std::vector<DesignNumber> numbers = hard_points(suspension);
+  for (const DesignKind kind : {DesignKind::element_first, DesignKind::element_second})
+    for (int axis = 0; axis < 3; ++axis) numbers.push_back({kind, 0, 0, axis});
+  const Driver driver = Driver::contact_z;  // held, while rates are by the height of the wheel centre
+  const CornerInput input{0.02, 0.005};
+  const auto position_of = [&](const CornerPlan& plan) {
+    return solve_position(plan, driver, input, reference_position(plan, driver));
+  };
+  const auto motions_of = [&](const Suspension& at) {
+    const DerivativePlan plan = prepare_derivatives(at, {});
+    return corner_motions(plan, position_of(plan.plan));
+  };
+  const MotionPlan plan = prepare_motions(suspension, numbers);
+  const MotionDerivatives found = motion_derivatives(plan, position_of(plan.plan));
+  ASSERT_EQ(found.status, Status::done);
+  ASSERT_EQ(found.by.size(), numbers.size());
+  const CornerMotions here = motions_of(suspension);
+  using Pick = std::function<TravelRates(const CornerMotions&)>;
+  using Same = std::function<TravelRates(const MotionRates&)>;
+  const std::vector<std::pair<Pick, Same>> parts{
+      {[](const CornerMotions& m) { return *m.spring; }, [](const MotionRates& m) { return m.spring; }},
+      {[](const CornerMotions& m) { return m.rockers[0]; },
+       [](const MotionRates& m) { return m.rockers[0]; }},
+      {[](const CornerMotions& m) { return m.rockers[1]; },
+       [](const MotionRates& m) { return m.rockers[1]; }},
+      {[](const CornerMotions& m) { return m.elements[0]; },
+       [](const MotionRates& m) { return m.elements[0]; }},
+      {[](const CornerMotions& m) { return m.elements[1]; },
+       [](const MotionRates& m) { return m.elements[1]; }}};
+  for (const auto& [pick, same] : parts)
+    for (double TravelRates::*of : {&TravelRates::value, &TravelRates::ratio, &TravelRates::by_travel})
+      EXPECT_NEAR(same(found.motions).*of, pick(here).*of, 1e-10 * (1 + std::abs(pick(here).*of)));
+  EXPECT_NEAR(found.motions.spring_drawn, norm(suspension.spring->moving - suspension.spring->body), 1e-15);
+  const double h = 1e-4;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    SCOPED_TRACE(label(suspension, numbers[k]));
+    std::array<CornerMotions, 4> at;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Suspension moved = suspension;
+      design_value(moved, numbers[k]) += std::array{-2 * h, -h, h, 2 * h}[i];
+      at[i] = motions_of(moved);
+    }
+    for (const auto& [pick, same] : parts)
+      for (double TravelRates::*of : {&TravelRates::value, &TravelRates::ratio, &TravelRates::by_travel}) {
+        const double slope =
+            (8 * (pick(at[2]).*of - pick(at[1]).*of) - (pick(at[3]).*of - pick(at[0]).*of)) / (12 * h);
+        EXPECT_NEAR(same(found.by[k]).*of, slope, 2e-6 * (1 + std::abs(slope)));
+      }
+  }
 }
 
 }  // namespace

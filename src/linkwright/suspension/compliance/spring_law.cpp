@@ -61,7 +61,8 @@ SpringForce force_of(const ForceCurve& curve, double compression) {
   const double from = slope(curve, i), to = slope(curve, i + 1);
   // Hermite's cubic by its end slopes.
   const double c2 = 3 * rise - 2 * from - to, c3 = from + to - 2 * rise;
-  return {curve.force[i] + h * t * (from + t * (c2 + t * c3)), from + t * (2 * c2 + 3 * t * c3)};
+  return {curve.force[i] + h * t * (from + t * (c2 + t * c3)), from + t * (2 * c2 + 3 * t * c3),
+          (2 * c2 + 6 * t * c3) / h};
 }
 
 std::optional<double> compression_of(const ForceCurve& curve, double force) {

@@ -18,7 +18,8 @@ struct ForceCurve {
 /// A force and its slope at a compression.
 struct SpringForce {
   double force = 0,   ///< N, > 0: it pushes its ends apart
-      stiffness = 0;  ///< N/m, the slope by compression
+      stiffness = 0,  ///< N/m, the slope by compression
+      bend = 0;       ///< N/m2, the slope of the stiffness
 };
 
 /// Checks the points of a characteristic.

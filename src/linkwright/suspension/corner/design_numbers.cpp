@@ -7,6 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
+#include "linkwright/math/mixed_dual.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -71,6 +72,13 @@ T* find(Suspension& suspension, const DesignNumber& number) {
       auto* rocker = entry(suspension.rockers, number.index);
       return rocker && rocker->length ? &*rocker->length : nullptr;
     }
+    case DesignKind::element_first:
+    case DesignKind::element_second: {
+      auto* element = entry(suspension.elements, number.index);
+      if (!element || element->turn) return nullptr;
+      return coordinate<T>(number.kind == DesignKind::element_first ? element->first.at : element->second.at,
+                           number.axis);
+    }
     case DesignKind::wheel_centre:
       return coordinate<T>(suspension.wheel.centre, number.axis);
     case DesignKind::wheel_toe:
@@ -97,6 +105,7 @@ T& design_value(BasicSuspension<T>& suspension, const DesignNumber& number) {
 }
 template double& design_value(Suspension&, const DesignNumber&);
 template math::Dual<4>& design_value(BasicSuspension<math::Dual<4>>&, const DesignNumber&);
+template math::MixedDual<4>& design_value(BasicSuspension<math::MixedDual<4>>&, const DesignNumber&);
 
 double design_value(const Suspension& suspension, const DesignNumber& number) {
   return found<const double>(suspension, number);
@@ -137,6 +146,10 @@ std::string label(const Suspension& suspension, const DesignNumber& number) {
                          axes[number.axis]);
     case DesignKind::rocker_length:
       return rocker_label(suspension, number.index) + ".rod_length";
+    case DesignKind::element_first:
+    case DesignKind::element_second:
+      return fmt::format("{}.{}_{}", suspension.elements.at(static_cast<std::size_t>(number.index)).name,
+                         number.kind == DesignKind::element_first ? "body" : "moving", axes[number.axis]);
     case DesignKind::wheel_centre:
       return fmt::format("wheel.centre_{}", axes[number.axis]);
     case DesignKind::wheel_toe:

@@ -22,11 +22,13 @@ enum class DesignKind {
   rocker_axis,
   rocker_rod,
   rocker_length,
+  element_first,
+  element_second,
   wheel_centre,
   wheel_toe,
   wheel_camber,
 };
-constexpr std::array<EnumName<DesignKind>, 14> names(DesignKind) {
+constexpr std::array<EnumName<DesignKind>, 16> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
            {DesignKind::length, "length", "prescribed length of a link"},
@@ -38,6 +40,8 @@ constexpr std::array<EnumName<DesignKind>, 14> names(DesignKind) {
            {DesignKind::rocker_axis, "rocker_axis", "coordinate of a point of a rocker's axis"},
            {DesignKind::rocker_rod, "rocker_rod", "coordinate of an end of a rocker's rod"},
            {DesignKind::rocker_length, "rocker_length", "prescribed length of a rocker's rod"},
+           {DesignKind::element_first, "element_first", "coordinate of the end of an element at the body"},
+           {DesignKind::element_second, "element_second", "coordinate of the other end of an element"},
            {DesignKind::wheel_centre, "wheel_centre", "coordinate of the wheel centre"},
            {DesignKind::wheel_toe, "wheel_toe", "toe at the reference"},
            {DesignKind::wheel_camber, "wheel_camber", "camber at the reference"}}};
@@ -46,7 +50,7 @@ constexpr std::array<EnumName<DesignKind>, 14> names(DesignKind) {
 /// One number of a wheel suspension (m; rad for angles; a share for the fraction of a coupler).
 struct DesignNumber {
   DesignKind kind = DesignKind::body;
-  int index = 0;  ///< index of the link, coupler or rocker
+  int index = 0;  ///< index of the link, coupler, rocker or element
   /// Index among the link's body or carrier points, or those of a rocker's axis; of a rod 0 is its end on the
   /// part that drives the rocker, 1 that on the rocker. Of a length of an RS or SR link 0 or 1.
   int point = 0;

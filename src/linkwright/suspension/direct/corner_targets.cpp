@@ -49,13 +49,14 @@ TargetPositions target_positions(std::span<const TargetObjective> objectives, Dr
     const std::size_t before = out.rows.size();
     for (std::size_t c = 0; c < objective.curves.size(); ++c) {
       const TargetCurve& curve = objective.curves[c];
-      if (row_of(curve.quantity).extent == Extent::all) out.extent = Extent::all;
+      if (!curve.motion && row_of(curve.quantity).extent == Extent::all) out.extent = Extent::all;
       for (std::size_t p = 0; p < curve.points.size(); ++p) {
         const TargetPoint& point = curve.points[p];
         LINKWRIGHT_REQUIRE(point.tolerance > 0 && std::isfinite(point.tolerance) && point.weight >= 0 &&
                                std::isfinite(point.weight) && std::isfinite(point.value),
                            "objective '{}', {}: value {}, tolerance {}, weight {}", objective.name,
-                           name_of(curve.quantity), point.value, point.tolerance, point.weight);
+                           curve.motion ? "a spring" : name_of(curve.quantity), point.value, point.tolerance,
+                           point.weight);
         LINKWRIGHT_REQUIRE(std::isfinite(point.input.value) && std::isfinite(point.input.rack),
                            "objective '{}': input {} m, rack {} m", objective.name, point.input.value,
                            point.input.rack);
@@ -134,6 +135,26 @@ TargetAnswer answer(const Suspension& suspension, std::span<const TargetObjectiv
     parameters[i] = exact[i].parameters;
   }
 
+  const bool moving = std::any_of(objectives.begin(), objectives.end(), [](const TargetObjective& o) {
+    return std::any_of(o.curves.begin(), o.curves.end(), [](const TargetCurve& c) { return c.motion; });
+  });
+  std::vector<MotionDerivatives> motions;
+  if (moving) {
+    const MotionPlan of_motions = prepare_motions(suspension, numbers);
+    for (const CornerPosition& position : out.positions) {
+      motions.push_back(motion_derivatives(of_motions, position));
+      if (motions.back().status != Status::done) return out;
+    }
+  }
+  const auto value_at = [&](const TargetCurve& curve, int position) {
+    return curve.motion ? value_of(*curve.motion, motions[position].motions)
+                        : value_of(parameters[position], curve.quantity);
+  };
+  const auto derivative_at = [&](const TargetCurve& curve, int position, std::size_t j) {
+    return curve.motion ? derivative_of(*curve.motion, motions[position].motions, motions[position].by[j])
+                        : value_of(exact[position].by[j], curve.quantity);
+  };
+
   const std::size_t n = numbers.size();
   out.achieved.resize(at.rows.size());
   out.deviations.resize(at.rows.size());
@@ -143,16 +164,16 @@ TargetAnswer answer(const Suspension& suspension, std::span<const TargetObjectiv
     const auto& row = at.rows[r];
     const TargetCurve& curve = objectives[row.objective].curves[row.curve];
     const TargetPoint& point = curve.points[row.point];
-    const double value = value_of(parameters[row.position], curve.quantity);
-    const double before = row.reference < 0 ? 0 : value_of(parameters[row.reference], curve.quantity);
+    const double value = value_at(curve, row.position);
+    const double before = row.reference < 0 ? 0 : value_at(curve, row.reference);
     const bool relative = curve.measure == TargetMeasure::relative_change;
     out.achieved[r] = relative ? value / before - 1 : value - before;
     const double scale = point.weight / point.tolerance;
     out.deviations[r] = scale * (out.achieved[r] - point.value);
     finite = finite && std::isfinite(out.deviations[r]);
     for (std::size_t j = 0; j < n; ++j) {
-      const double by = value_of(exact[row.position].by[j], curve.quantity);
-      const double of_before = row.reference < 0 ? 0 : value_of(exact[row.reference].by[j], curve.quantity);
+      const double by = derivative_at(curve, row.position, j);
+      const double of_before = row.reference < 0 ? 0 : derivative_at(curve, row.reference, j);
       const double change = relative ? (by - value / before * of_before) / before : by - of_before;
       out.by[r * n + j] = scale * change;
       finite = finite && std::isfinite(change);

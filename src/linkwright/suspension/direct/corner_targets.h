@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/direct/motion_quantity.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
@@ -45,6 +47,7 @@ struct TargetPoint {
 /// Values that a quantity is to take at some inputs, which are positions of one driver.
 struct TargetCurve {
   WheelQuantity quantity = WheelQuantity::toe;
+  std::optional<MotionQuantity> motion = {};  ///< number of a spring, damper or bar instead of the quantity
   TargetMeasure measure = TargetMeasure::value;
   CornerInput reference;  ///< input of the position that changes are measured from, of the same design
   std::vector<TargetPoint> points;

@@ -21,6 +21,7 @@ namespace linkwright::suspension {
 /// One curve of `[[target.curve]]` as read; what its numbers measure depends on the quantity.
 struct CurveForm {
   const CornerColumn* column = nullptr;
+  std::optional<MotionQuantity> motion;  ///< number of a spring, damper or bar that the column shows
   TargetMeasure measure = TargetMeasure::value;
   std::string objective;               ///< curves of one objective count together
   std::vector<double> travels, racks;  ///< m, one for each value
@@ -29,7 +30,8 @@ struct CurveForm {
   double weight = 1;
 };
 
-/// `[[design]]`: a point that may lie in a box around where it is, or the length of a link.
+/// `[[design]]`: a point that may lie in a box around where it is, or the length of a link or of a rocker's
+/// rod.
 struct DesignForm {
   std::string point;
   std::optional<Edges> box;
@@ -39,7 +41,10 @@ struct DesignForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignForm& d) {
-  visit(field::entry("point", "of a link: \"tie rod.body\", \"lower wishbone.body_2\""), d.point);
+  visit(field::entry("point",
+                     "of a link, a rocker or a spring: \"tie rod.body\", \"lower wishbone.body_2\", "
+                     "\"rocker.rod_2\", \"spring.moving\""),
+        d.point);
   visit(field::length("box", "edge of the box around the point, or its three edges").between(0, 1e3), d.box);
   visit(field::entry("given", "coordinates that stay as they are"), d.given);
   visit(field::entry("link", "a US link whose length is a design variable"), d.link);

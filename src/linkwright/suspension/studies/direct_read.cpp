@@ -17,7 +17,9 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/design_variables.h"
+#include "linkwright/suspension/studies/design_points.h"
 #include "linkwright/suspension/studies/direct.h"
+#include "linkwright/suspension/studies/motion_columns.h"
 #include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
@@ -38,8 +40,9 @@ std::string point_label(const CornerLink& link, bool carrier, std::size_t point)
                      count > 1 ? fmt::format("_{}", point + 1) : std::string());
 }
 
-std::optional<PointAddress> find_point(study::ObjectReader& table, const Suspension& suspension,
-                                       const std::string& label) {
+std::optional<PointAddress> find_point(study::ObjectReader& table, const CornerDescription& description,
+                                       const std::string& label, bool others = true) {
+  const Suspension& suspension = description.suspension;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < suspension.links.size(); ++i)
     for (const bool carrier : {false, true})
@@ -48,6 +51,8 @@ std::optional<PointAddress> find_point(study::ObjectReader& table, const Suspens
         known.push_back(point_label(suspension.links[i], carrier, k));
         if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
       }
+  if (others)
+    for (const OtherPoint& other : other_points(description)) known.push_back(other.name);
   const std::vector<std::string_view> words(known.begin(), known.end());
   table.no_such("point", "point", label, words);
   return std::nullopt;
@@ -120,6 +125,7 @@ class TargetReader {
     std::vector<std::string> bases;
     for (const CornerColumn& column : corner_columns())
       if (quantity_of(column, s_.lock)) bases.push_back(study::base_of(column.key));
+    for (const CornerColumn& column : motion_columns()) bases.push_back(study::base_of(column.key));
     std::vector<Word> words;
     for (const std::string& b : bases) words.push_back({b});
     const auto which = table.word(field::entry("quantity").required(), words);
@@ -131,9 +137,19 @@ class TargetReader {
       return std::nullopt;
     }
     c.column = corner_column(bases[*which]);
-    if (!s_.description.suspension.links.empty())
-      if (const std::string why = why_missing(s_.description.suspension, *c.column); !why.empty())
-        table.error("quantity", fmt::format("this suspension has no '{}': {}", bases[*which], why));
+    std::string why;
+    if (!c.column) {
+      c.column = motion_column(bases[*which]);
+      c.motion = motion_quantity(s_.description, *c.column, why);
+    } else if (!s_.description.suspension.links.empty()) {
+      why = why_missing(s_.description.suspension, *c.column);
+    }
+    if (!why.empty() && !s_.description.suspension.links.empty())
+      table.error("quantity", fmt::format("this suspension has no '{}': {}", bases[*which], why));
+    if (motion_column(bases[*which]) && !c.motion) {
+      table.members();
+      return std::nullopt;
+    }
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
     const auto number = [&](std::string_view key, double least) {
@@ -198,6 +214,21 @@ class TargetReader {
   std::optional<Table> table_;
 };
 
+/// The open coordinates of a point of a rocker, a spring or a damper.
+void add_other_point(study::ObjectReader& table, const DesignForm& d, const OtherPoint& point,
+                     DirectStudy& s) {
+  const PointBox box = box_of(point.at, *d.box, {}, d.given);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = component(box.lower, axis), high = component(box.upper, axis);
+    const DesignNumber number{point.kind, point.index, point.point, axis};
+    if (!(low < high)) continue;
+    if (std::any_of(s.task.designed.begin(), s.task.designed.end(),
+                    [&](const DesignVariable& v) { return v.number == number; }))
+      return table.error("point", fmt::format("'{}' is designed twice", point.name), "keep one of them");
+    s.task.designed.push_back({number, low, high});
+  }
+}
+
 void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<DesignForm>& kept) {
   std::vector<DesignForm> forms;
   document(field::entry("design"), forms);
@@ -212,15 +243,34 @@ void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<Des
       continue;
     }
     if (!d.point.empty()) {
-      const auto at = find_point(table, suspension, d.point);
       if (!d.box)
         table.error("box", "this key is missing", "write box_mm = 40.0 for a cube around the point");
+      if (const auto other = other_point(s.description, d.point)) {
+        if (!d.box) continue;
+        add_other_point(table, d, *other, s);
+        kept.push_back(d);
+        continue;
+      }
+      const auto at = find_point(table, s.description, d.point);
       if (!at || !d.box) continue;
       LinkTask& task = s.description.links[static_cast<std::size_t>(at->link)];
       const CornerLink& link = suspension.links[static_cast<std::size_t>(at->link)];
       const auto point = static_cast<std::size_t>(at->point);
       (at->carrier ? task.carrier : task.body)[point] =
           box_of((at->carrier ? link.carrier : link.body)[point], *d.box, {}, d.given);
+      continue;
+    }
+    if (const auto rocker = designed_rod(s.description, d.link)) {
+      if (!d.length || d.length->fixed()) {
+        table.error("length", "has no range", "write length_mm = { min = 200.0, max = 300.0 }");
+        continue;
+      }
+      Rocker& of = suspension.rockers[static_cast<std::size_t>(*rocker)];
+      if (!of.length)
+        of.length = std::clamp(norm(of.rod - of.driven_by.at), d.length->lower, d.length->upper);
+      s.task.designed.push_back(
+          {{DesignKind::rocker_length, *rocker, 0, 0}, d.length->lower, d.length->upper});
+      kept.push_back(d);
       continue;
     }
     const auto link = find_link(table, "link", suspension, d.link);
@@ -288,7 +338,7 @@ void add_limit(study::ObjectReader& table, const BoxClearanceConstraint& c, Dire
   if (link) s.task.limits.boxes.push_back({*link, box_of(c.x, c.y, c.z), c.min});
 }
 void add_limit(study::ObjectReader& table, const KeepOutConstraint& c, DirectStudy& s) {
-  if (const auto at = find_point(table, s.description.suspension, c.point))
+  if (const auto at = find_point(table, s.description, c.point, false))
     s.task.limits.keep_out.push_back({at->link, at->carrier, at->point, box_of(c.x, c.y, c.z)});
 }
 
@@ -301,8 +351,8 @@ void set_objectives(DirectStudy& s) {
       s.task.objectives.push_back({c.objective, {}});
       objective = std::prev(s.task.objectives.end());
     }
-    TargetCurve curve{
-        .quantity = *quantity_of(*c.column, s.lock), .measure = c.measure, .reference = {}, .points = {}};
+    TargetCurve curve{.motion = c.motion, .measure = c.measure, .reference = {}, .points = {}};
+    if (!c.motion) curve.quantity = *quantity_of(*c.column, s.lock);
     for (std::size_t i = 0; i < c.values.size(); ++i)
       curve.points.push_back(
           {{c.travels[i], c.racks[i]}, c.values[i], tolerance_of(c.tolerance, c.values[i]), c.weight});
@@ -397,8 +447,14 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
     canonical["design"] = Value::array();
     for (const DesignForm& d : lengths) {
       Value design;
-      design["link"] = d.link;
-      design["length_m"] = study::ObjectWriter::to_value(*d.length);
+      if (d.point.empty()) {
+        design["link"] = d.link;
+        design["length_m"] = study::ObjectWriter::to_value(*d.length);
+      } else {
+        design["point"] = d.point;
+        design["box_m"] = write_value(*d.box);
+        if (!d.given.empty()) design["given"] = study::ObjectWriter::to_value(d.given);
+      }
       canonical["design"].push_back(std::move(design));
     }
   }
@@ -429,7 +485,8 @@ study::Kind direct_kind() {
     curve.property(field::length("travel", "one or a list"), numbers);
     curve.property(field::length("rack", "one or a list"), numbers);
     for (const Dimension dimension :
-         {Dimension::none, Dimension::length, Dimension::angle, Dimension::angle_by_length}) {
+         {Dimension::none, Dimension::length, Dimension::angle, Dimension::angle_by_length, Dimension::force,
+          Dimension::stiffness, Dimension::damping}) {
       curve.property(field::of(dimension, "value", "one or a list"), numbers);
       curve.property(field::of(dimension, "tolerance", "by which a value may be missed"),
                      study::schema_number());

@@ -183,6 +183,21 @@ Table direct_sweep_table(const DirectStudy& s, const Suspension& suspension, std
     if (std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }))
       table.add(std::string(c.key), std::string(c.label), std::move(values));
   }
+  if (std::any_of(s.curves.begin(), s.curves.end(), [](const CurveForm& c) { return c.motion; })) {
+    const MotionPlan plan = prepare_motions(suspension, {});
+    std::vector<MotionDerivatives> motions;
+    for (const CornerPosition& p : grid.positions)
+      motions.push_back(p.status == Status::done ? motion_derivatives(plan, p)
+                                                 : MotionDerivatives{.status = p.status});
+    for (const CurveForm& c : s.curves) {
+      if (!c.motion || table.find(c.column->key)) continue;
+      std::vector<double> values;
+      for (const MotionDerivatives& m : motions)
+        values.push_back(m.status == Status::done ? value_of(*c.motion, m.motions)
+                                                  : WheelParameters::missing);
+      table.add(std::string(c.column->key), std::string(c.column->label), std::move(values));
+    }
+  }
   for (const CornerPosition& p : grid.positions) table.status.emplace_back(to_string(p.status));
   return table;
 }
@@ -229,7 +244,8 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
            {"half_track_change_m", "Half-track change over travel"},
            {"roll_centre_height_m", "Roll-centre height over travel"},
            {"caster_rad", "Caster over travel"},
-           {"motion_ratio", "Motion ratio of the spring over travel"}})
+           {"motion_ratio", "Motion ratio of the spring over travel"},
+           {"wheel_rate_N_per_m", "Wheel rate over travel"}})
     plot(std::string("sweep-") + key, title, {key});
   const GridPositions grid =
       solve_grid(prepare_suspension(best.suspension), s.task.driver, range.travels, range.racks);

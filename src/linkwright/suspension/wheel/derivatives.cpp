@@ -16,45 +16,50 @@ namespace {
 constexpr int W = derivative_width;
 using T = math::Dual<W>;
 
-Vector3<T> constant(const Vec3& a) { return {T(a.x), T(a.y), T(a.z)}; }
-std::vector<Vector3<T>> constants(const std::vector<Vec3>& points) {
-  std::vector<Vector3<T>> out;
-  for (const Vec3& point : points) out.push_back(constant(point));
+template <class D>
+Vector3<D> constant(const Vec3& a) {
+  return {D(a.x), D(a.y), D(a.z)};
+}
+template <class D>
+std::vector<Vector3<D>> constants(const std::vector<Vec3>& points) {
+  std::vector<Vector3<D>> out;
+  for (const Vec3& point : points) out.push_back(constant<D>(point));
   return out;
 }
 
-BasicSuspension<T> constant(const Suspension& suspension) {
-  BasicSuspension<T> out{.side = suspension.side,
-                         .wheel = {constant(suspension.wheel.centre), T(suspension.wheel.toe),
-                                   T(suspension.wheel.camber), suspension.wheel.tyre_diameter},
+template <class D>
+BasicSuspension<D> constant(const Suspension& suspension) {
+  BasicSuspension<D> out{.side = suspension.side,
+                         .wheel = {constant<D>(suspension.wheel.centre), D(suspension.wheel.toe),
+                                   D(suspension.wheel.camber), suspension.wheel.tyre_diameter},
                          .rack_direction = suspension.rack_direction};
   for (const CornerLink& link : suspension.links) {
     out.links.push_back({.type = link.type,
-                         .body = constants(link.body),
-                         .carrier = constants(link.carrier),
+                         .body = constants<D>(link.body),
+                         .carrier = constants<D>(link.carrier),
                          .moved_by_rack = link.moved_by_rack,
                          .cross_axis = link.cross_axis});
-    if (link.length) out.links.back().length = T(*link.length);
-    if (link.made) out.links.back().made = {T((*link.made)[0]), T((*link.made)[1])};
+    if (link.length) out.links.back().length = D(*link.length);
+    if (link.made) out.links.back().made = {D((*link.made)[0]), D((*link.made)[1])};
   }
   for (const Coupler& coupler : suspension.couplers) {
     out.couplers.push_back({.first = coupler.first,
-                            .fraction = T(coupler.fraction),
+                            .fraction = D(coupler.fraction),
                             .second = coupler.second,
-                            .point = constant(coupler.point)});
-    if (coupler.begin) out.couplers.back().begin = constant(*coupler.begin);
+                            .point = constant<D>(coupler.point)});
+    if (coupler.begin) out.couplers.back().begin = constant<D>(*coupler.begin);
   }
   if (suspension.spring)
-    out.spring = {constant(suspension.spring->body), constant(suspension.spring->moving),
+    out.spring = {constant<D>(suspension.spring->body), constant<D>(suspension.spring->moving),
                   suspension.spring->link, suspension.spring->rocker, suspension.spring->body_part};
   const auto fixed = [](const FixedPoint& point) {
-    return BasicFixedPoint<T>{constant(point.at), point.part};
+    return BasicFixedPoint<D>{constant<D>(point.at), point.part};
   };
   for (const Rocker& rocker : suspension.rockers) {
-    out.rockers.push_back({.axis = {constant(rocker.axis[0]), constant(rocker.axis[1])},
-                           .rod = constant(rocker.rod),
+    out.rockers.push_back({.axis = {constant<D>(rocker.axis[0]), constant<D>(rocker.axis[1])},
+                           .rod = constant<D>(rocker.rod),
                            .driven_by = fixed(rocker.driven_by)});
-    if (rocker.length) out.rockers.back().length = T(*rocker.length);
+    if (rocker.length) out.rockers.back().length = D(*rocker.length);
   }
   for (const CornerElement& element : suspension.elements)
     out.elements.push_back({.first = fixed(element.first),
@@ -66,8 +71,8 @@ BasicSuspension<T> constant(const Suspension& suspension) {
 
 BasicCornerPlace<T> constant(const CornerPlace& place) {
   BasicCornerPlace<T> out;
-  out.carrier.centre = constant(place.carrier.centre);
-  for (int i = 0; i < 3; ++i) out.carrier.rotation.row[i] = constant(place.carrier.rotation.row[i]);
+  out.carrier.centre = constant<T>(place.carrier.centre);
+  for (int i = 0; i < 3; ++i) out.carrier.rotation.row[i] = constant<T>(place.carrier.rotation.row[i]);
   out.arm = T(place.arm);
   return out;
 }
@@ -360,11 +365,147 @@ CornerMotions motions(const DerivativePlan& plan, const CornerPosition& position
   return out;
 }
 
+/// Numbers with the derivatives of one pass, and those along the travel of the wheel.
+using M = math::MixedDual<W>;
+
+Vector3<M> mixed(const Vector3<T>& value, const Vector3<T>& by) {
+  return {M(value.x, by.x), M(value.y, by.y), M(value.z, by.z)};
+}
+
+/// The place with its derivatives by numbers, and its motion along the travel with those of the motion.
+BasicCornerPlace<M> mixed(const BasicCornerPlace<T>& place, const BasicTwist<T>& motion) {
+  BasicCornerPlace<M> out;
+  out.carrier.centre = mixed(place.carrier.centre, motion.velocity);
+  const auto& [x, y, z] = place.carrier.rotation.row;
+  const Vector3<T>& turn = motion.turning;
+  auto& rows = out.carrier.rotation.row;
+  rows[0] = mixed(x, turn.y * z - turn.z * y);
+  rows[1] = mixed(y, turn.z * x - turn.x * z);
+  rows[2] = mixed(z, turn.x * y - turn.y * x);
+  out.arm = M(place.arm, motion.arm);
+  return out;
+}
+
+template <int N>
+BasicTwist<T> dual_twist(const Column<N>& x, const Columns<N>& by) {
+  std::array<T, N> dual;
+  for (int i = 0; i < N; ++i) {
+    dual[i].value = x[i];
+    for (int k = 0; k < W; ++k) dual[i].by[k] = by[i][k];
+  }
+  BasicTwist<T> out{{dual[0], dual[1], dual[2]}, {dual[3], dual[4], dual[5]}};
+  if constexpr (N == 7) out.arm = dual[6];
+  return out;
+}
+
+/// A pass of `motions_by_numbers`: the place, the motion x of J x = b along the travel and its change x' of J
+/// x' = -J' x, all with their derivatives by the numbers of the pass.
+template <int N>
+void motions_of_pass(const BasicCornerPlan<M>& pass, const CornerPosition& position, Driver travel,
+                     const math::SmallLu<N>& by_travel, const math::SmallLu<N>& by_driver,
+                     const Column<N>& motion, std::size_t count, std::size_t first, MotionDerivatives& out) {
+  const M rack(position.input.rack);
+  BasicCornerEquations<M> equations;
+  const BasicTwist<T> still;
+  kernel::evaluate(pass, mixed(constant(position.place), still), rack, position.driver,
+                   M(position.input.value), equations);
+  Columns<N> right{};
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < W; ++k) right[i][k] = -equations.residual[i].value.by[k];
+  const BasicCornerPlace<T> shifted = moved<N>(position, by_driver.solve(right));
+
+  kernel::evaluate(pass, mixed(shifted, still), rack, travel, M(0), equations);
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < W; ++k) {
+      right[i][k] = 0;
+      for (int j = 0; j < N; ++j) right[i][k] -= equations.jacobian[i][j].value.by[k] * motion[j];
+    }
+  const Columns<N> motion_by = by_travel.solve(right);
+  const BasicTwist<T> twist = dual_twist<N>(motion, motion_by);
+
+  const BasicCornerPlace<M> place = mixed(shifted, twist);
+  kernel::evaluate(pass, place, rack, travel, M(0), equations);
+  Column<N> bend{};
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) bend[i] -= equations.jacobian[i][j].by.value * motion[j];
+  const Column<N> change = by_travel.solve(bend);
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < W; ++k) {
+      right[i][k] = 0;
+      for (int j = 0; j < N; ++j) {
+        const M& entry = equations.jacobian[i][j];
+        right[i][k] -=
+            entry.by.by[k] * motion[j] + entry.by.value * motion_by[j][k] + entry.value.by[k] * change[j];
+      }
+    }
+  const BasicTwist<T> turn = dual_twist<N>(change, by_travel.solve(right));
+  const BasicTwist<M> both{mixed(twist.velocity, turn.velocity), mixed(twist.turning, turn.turning),
+                           M(twist.arm, turn.arm)};
+
+  const kernel::Placed<M> placed{pass, place, rack};
+  // Values, and derivatives by the numbers of this pass.
+  const auto take = [&](auto&& value_of, TravelRates& value, auto&& of) {
+    std::array<M, max_unknowns> by{};
+    M by_rack(0);
+    kernel::Row<M> row{by, by_rack};
+    const M length = value_of(row), rate = kernel::rate_of(row, both, 0);
+    value = {length.value.value, rate.value.value, rate.by.value};
+    for (std::size_t k = 0; k < count; ++k)
+      of(out.by[first + k]) = {length.value.by[k], rate.value.by[k], rate.by.by[k]};
+  };
+  for (std::size_t r = 0; r < pass.rockers.size(); ++r)
+    take(
+        [&](kernel::Row<M>& row) {
+          const auto pose = kernel::rocker_pose(placed, pass.rockers[r]);
+          kernel::add_rocker_angle(placed, pass.rockers[r], pose, M(1), row);
+          return atan2(pose.sine, pose.cosine);
+        },
+        out.motions.rockers[r], [r](MotionRates& rates) -> TravelRates& { return rates.rockers[r]; });
+  for (std::size_t e = 0; e < pass.elements.size(); ++e)
+    take([&](kernel::Row<M>& row) { return kernel::element_value(placed, pass.elements[e], row); },
+         out.motions.elements[e], [e](MotionRates& rates) -> TravelRates& { return rates.elements[e]; });
+  if (!pass.spring) return;
+  take([&](kernel::Row<M>& row) { return kernel::spring_length(placed, row); }, out.motions.spring,
+       [](MotionRates& rates) -> TravelRates& { return rates.spring; });
+  out.motions.spring_drawn = pass.spring->length.value.value;
+  for (std::size_t k = 0; k < count; ++k) out.by[first + k].spring_drawn = pass.spring->length.value.by[k];
+}
+
+template <int N>
+MotionDerivatives motions_by_numbers(const MotionPlan& plan, const CornerPosition& position, Driver travel) {
+  MotionDerivatives out;
+  out.motions.rockers.resize(plan.plan.rockers.size());
+  out.motions.elements.resize(plan.plan.elements.size());
+  out.by.resize(plan.numbers, out.motions);
+  CornerEquations equations;
+  const auto factors = [&](Driver driver) {
+    evaluate(plan.plan, position.place, position.input.rack, driver, 0, equations);
+    math::SmallLu<N> lu;
+    lu.factor(equations.jacobian);
+    return lu;
+  };
+  const math::SmallLu<N> by_travel = factors(travel);
+  const math::SmallLu<N> by_driver = position.driver == travel ? by_travel : factors(position.driver);
+  Column<N> unit_travel{};
+  unit_travel[N - 1] = 1;
+  const Column<N> motion = by_travel.solve(unit_travel);
+  if (!slow_enough(motion)) {
+    out.status = Status::singular;
+    return out;
+  }
+  for (std::size_t i = 0; i < plan.passes.size(); ++i) {
+    const std::size_t first = i * W,
+                      count = std::min<std::size_t>(W, plan.numbers - std::min(first, plan.numbers));
+    motions_of_pass<N>(plan.passes[i], position, travel, by_travel, by_driver, motion, count, first, out);
+  }
+  return out;
+}
+
 }  // namespace
 
 DerivativePlan prepare_derivatives(const Suspension& suspension, std::vector<DesignNumber> numbers) {
   DerivativePlan out{.plan = prepare_suspension(suspension), .numbers = std::move(numbers)};
-  const auto constants = constant(suspension);
+  const auto constants = constant<T>(suspension);
   for (std::size_t first = 0; first < out.numbers.size(); first += derivative_width) {
     auto varied = constants;
     for (std::size_t k = first; k < out.numbers.size() && k < first + derivative_width; ++k)
@@ -387,6 +528,23 @@ InputDerivatives input_derivatives(const DerivativePlan& plan, const CornerPosit
 
 CornerMotions corner_motions(const DerivativePlan& plan, const CornerPosition& position, Driver travel) {
   return plan.plan.unknowns == 7 ? motions<7>(plan, position, travel) : motions<6>(plan, position, travel);
+}
+
+MotionPlan prepare_motions(const Suspension& suspension, std::span<const DesignNumber> numbers) {
+  MotionPlan out{.plan = prepare_suspension(suspension), .numbers = numbers.size(), .passes = {}};
+  const auto constants = constant<M>(suspension);
+  for (std::size_t first = 0; first == 0 || first < numbers.size(); first += derivative_width) {
+    auto varied = constants;
+    for (std::size_t k = first; k < numbers.size() && k < first + derivative_width; ++k)
+      design_value(varied, numbers[k]).value.by[k - first] = 1;
+    out.passes.push_back(kernel::prepare(varied));
+  }
+  return out;
+}
+
+MotionDerivatives motion_derivatives(const MotionPlan& plan, const CornerPosition& position, Driver travel) {
+  return plan.plan.unknowns == 7 ? motions_by_numbers<7>(plan, position, travel)
+                                 : motions_by_numbers<6>(plan, position, travel);
 }
 
 }  // namespace linkwright::suspension

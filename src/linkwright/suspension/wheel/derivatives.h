@@ -3,9 +3,11 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "linkwright/math/dual.h"
+#include "linkwright/math/mixed_dual.h"
 #include "linkwright/suspension/corner/design_numbers.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
@@ -79,5 +81,47 @@ struct CornerMotions {
 /// @returns the motions; singular where the wheel has no motion along its travel
 CornerMotions corner_motions(const DerivativePlan& plan, const CornerPosition& position,
                              Driver travel = Driver::wheel_centre_z);
+
+/// Lengths and angles along the travel of the wheel, or derivatives of them by a number of the design.
+struct MotionRates {
+  std::vector<TravelRates> rockers,  ///< angle of each rocker
+      elements;                      ///< length or angle of each element
+  TravelRates spring;                ///< length of the spring; NaN without one
+  double spring_drawn = 0;           ///< length of the spring as drawn, m
+};
+
+/// A suspension and the numbers that derivatives of its motions are asked for. Make it with
+/// `prepare_motions`.
+struct MotionPlan {
+  CornerPlan plan;                                                         ///< the suspension in numbers
+  std::size_t numbers = 0;                                                 ///< how many numbers of the design
+  std::vector<BasicCornerPlan<math::MixedDual<derivative_width>>> passes;  ///< some of the numbers each
+};
+
+/// Makes a suspension ready for derivatives of its motions.
+///
+/// @param suspension the suspension
+/// @param numbers numbers of the design; may be none
+/// @returns the plan
+/// @throws ContractError as `prepare_derivatives` does
+MotionPlan prepare_motions(const Suspension& suspension, std::span<const DesignNumber> numbers);
+
+/// The motions at a position and their derivatives.
+struct MotionDerivatives {
+  Status status = Status::done;  ///< singular where the wheel has no motion along its travel
+  MotionRates motions;           ///< what `corner_motions` has
+  std::vector<MotionRates>
+      by;  ///< [number]: derivatives, the value of the position's driver and the rack held
+};
+
+/// Motions along the travel with their derivatives by numbers of the design: the mixed third derivatives of
+/// the position by travel, travel and number among them, exact by implicit differentiation.
+///
+/// @param plan the plan
+/// @param position a position of `plan.plan`
+/// @param travel coordinate that the rates refer to; not the spring
+/// @returns motions and derivatives
+MotionDerivatives motion_derivatives(const MotionPlan& plan, const CornerPosition& position,
+                                     Driver travel = Driver::wheel_centre_z);
 
 }  // namespace linkwright::suspension
