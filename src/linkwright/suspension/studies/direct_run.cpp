@@ -117,6 +117,28 @@ std::vector<std::vector<std::size_t>> rows_of_curves(const DirectStudy& s, const
   return out;
 }
 
+/// The diagram of a target's table, against the rack if that alone moves, else against the travel.
+study::Plot target_plot(const Table& table, const std::string& quantity, std::string_view words,
+                        const CurveForm& c) {
+  const auto varies = [](const std::vector<double>& v) {
+    return std::any_of(v.begin(), v.end(), [&](double x) { return x != v.front(); });
+  };
+  const bool by_rack = varies(c.racks) && !varies(c.travels);
+  const auto& x = by_rack ? c.racks : c.travels;
+  const bool one_curve = !(varies(c.racks) && varies(c.travels)) && std::is_sorted(x.begin(), x.end());
+  study::Plot plot{
+      .name = table.name,
+      .title = fmt::format("{} over {}: target, achieved and initial", words, by_rack ? "rack" : "travel"),
+      .table = table.name,
+      .x = by_rack ? "rack_m" : "travel_m",
+      .y = {quantity, "target_" + quantity, "initial_" + quantity},
+      .style = one_curve ? study::Plot::Style::line : study::Plot::Style::points,
+      .scene = "solution-1",
+      .bands = {}};
+  if (one_curve) plot.bands.push_back({"lower_" + quantity, "upper_" + quantity, "tolerance"});
+  return plot;
+}
+
 void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthesis& best,
                 const DirectSynthesis& before) {
   const auto rows = rows_of_curves(s, best.positions);
@@ -148,23 +170,8 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
     add("upper_" + name + unit, words + ", most allowed", upper);
     add("deviation", "deviation in tolerances", deviation);
     add("initial_" + name + unit, words + ", initial design", initial);
-    const auto varies = [](const std::vector<double>& v) {
-      return std::any_of(v.begin(), v.end(), [&](double x) { return x != v.front(); });
-    };
-    const bool by_rack = varies(c.racks) && !varies(c.travels);
-    const auto& x = by_rack ? c.racks : c.travels;
-    const bool one_curve = !(varies(c.racks) && varies(c.travels)) && std::is_sorted(x.begin(), x.end());
-    result.plots.push_back(
-        {.name = table.name,
-         .title = fmt::format("{} over {}: target, achieved and initial", words, by_rack ? "rack" : "travel"),
-         .table = table.name,
-         .x = by_rack ? "rack_m" : "travel_m",
-         .y = {name + unit, "target_" + name + unit, "initial_" + name + unit},
-         .style = one_curve ? study::Plot::Style::line : study::Plot::Style::points,
-         .scene = "solution-1",
-         .bands = {}});
-    if (one_curve)
-      result.plots.back().bands.push_back({"lower_" + name + unit, "upper_" + name + unit, "tolerance"});
+    // A target at one position is a row of its table, not a curve.
+    if (c.values.size() > 1) result.plots.push_back(target_plot(table, name + unit, words, c));
     result.tables.push_back(std::move(table));
   }
 }
