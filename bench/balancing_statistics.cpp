@@ -23,7 +23,7 @@
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/four_bar_synthesis.h"
 
 namespace {

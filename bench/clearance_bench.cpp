@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "linkwright/clearance/automatic_contact.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/joint_orbit.h"
 #include "linkwright/clearance/mass_synthesis.h"
-#include "linkwright/clearance/published_clearance.h"
 #include "linkwright/clearance/sensitivity.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"

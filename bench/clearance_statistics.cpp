@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "linkwright/clearance/published_clearance.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"

@@ -6,7 +6,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/linkage/sweep.h"
 

@@ -3,7 +3,7 @@
 
 #include "linkwright/suspension/compliance/compliance.h"
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/parameters.h"

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/corner_deviations.h"
 #include "linkwright/suspension/indirect/published_suspensions.h"
 #include "linkwright/suspension/indirect/synthesis.h"

@@ -6,7 +6,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/direct/published_targets.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
 #include "linkwright/suspension/indirect/seven_poses.h"

@@ -12,7 +12,6 @@
 #include "linkwright/app/sha256.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/planar/path/checkpoint.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/study/study.h"
 

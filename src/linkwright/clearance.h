@@ -11,5 +11,3 @@
 /// Linkages with clearance in their joints.
 
 #include "linkwright/clearance/four_bar_clearance.h"
-#include "linkwright/clearance/four_bar_clearance_motion.h"
-#include "linkwright/clearance/published_clearance.h"

@@ -14,7 +14,6 @@
 /// | `linkwright/parameter_study.h` | @ref parameter_study |
 /// | `linkwright/core.h` | @ref core |
 /// | `linkwright/math.h` | @ref math |
-/// | `linkwright/optimise.h` | @ref optimise |
 /// | `linkwright/studies.h` | @ref studies |
 ///
 /// `linkwright/linkwright.h` includes all of them but `linkwright/studies.h`. Quantities are in SI units,
@@ -25,7 +24,6 @@
 #include "linkwright/core.h"
 #include "linkwright/flexible.h"
 #include "linkwright/math.h"
-#include "linkwright/optimise.h"
 #include "linkwright/parallel.h"
 #include "linkwright/parameter_study.h"
 #include "linkwright/planar.h"

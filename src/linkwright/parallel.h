@@ -9,7 +9,6 @@
 /// @namespace linkwright::parallel
 /// Parallel robots and paths of their tools.
 
-#include "linkwright/parallel/robot/jacobians.h"
 #include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/tool/motion.h"
 #include "linkwright/parallel/tool/path.h"

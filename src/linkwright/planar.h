@@ -13,10 +13,7 @@
 /// Planar mechanisms.
 
 #include "linkwright/planar/balancing/four_bar.h"
-#include "linkwright/planar/balancing/four_bar_samples.h"
-#include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/build.h"
@@ -24,8 +21,6 @@
 #include "linkwright/planar/linkage/linkage.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/plan.h"
-#include "linkwright/planar/linkage/reactions.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/path/task.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"

@@ -14,7 +14,6 @@
 /// Kinds of studies of all domains.
 
 #include "linkwright/app/catalogue.h"
-#include "linkwright/study/display_units.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/study/result.h"
 #include "linkwright/study/scene.h"

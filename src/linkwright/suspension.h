@@ -9,11 +9,8 @@
 /// @namespace linkwright::suspension
 /// Wheel suspensions.
 
-#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/former_names.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/suspension.h"
-#include "linkwright/suspension/corner/wheel.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/parameters.h"

@@ -15,7 +15,7 @@
 #include "linkwright/app/view.h"
 #include "linkwright/core/sentence.h"
 #include "linkwright/report/view_data.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"
 #include "support/message.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/clearance/four_bar_clearance_motion.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"

@@ -9,7 +9,7 @@
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
-#include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/samples.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clearance/contact_cases.h"
-#include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"

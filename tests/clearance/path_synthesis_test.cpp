@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "clearance/published_four_bar.h"
-#include "linkwright/clearance/published_clearance.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/optimise/minimise.h"
 #include "support/message.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/clearance/published_clearance.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "clearance/published_four_bar.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 
 namespace linkwright::clearance {
 namespace {

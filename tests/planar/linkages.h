@@ -10,7 +10,7 @@
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/planar/linkage/build.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::test {}

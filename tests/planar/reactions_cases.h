@@ -8,7 +8,7 @@
 #include <complex>
 #include <string_view>
 
-#include "linkwright/planar/four_bar/reactions.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/four_bars.h"
 #include "support/published.h"
 

@@ -11,7 +11,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 
 namespace linkwright::report {
 namespace {

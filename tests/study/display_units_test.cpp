@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/display_units.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_output_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 #include "support/message.h"

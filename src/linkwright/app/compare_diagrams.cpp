@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "linkwright/core/units.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/result_units.h"
 
 namespace linkwright::app {

@@ -11,7 +11,7 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/design.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/overrides.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"

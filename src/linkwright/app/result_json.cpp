@@ -14,7 +14,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/answer.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/write.h"
 

@@ -2,7 +2,7 @@
 #include "linkwright/app/samples.h"
 
 #include "linkwright/planar/linkage/samples.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::app {
 

@@ -18,7 +18,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/view_data.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/overrides.h"
 #include "linkwright/study/result_units.h"
 #include "linkwright/study/study.h"

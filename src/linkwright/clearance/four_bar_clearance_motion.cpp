@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/clearance/four_bar_clearance_motion.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -13,7 +13,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -206,7 +206,7 @@ optimise::Problem clearance_mass_problem(const ClearanceMassProblem& p) {
     }
   };
   out.explain = [p](std::span<const double> x) {
-    std::vector<optimise::Violation> found;
+    std::vector<Violation> found;
     if (!std::isfinite(transient_phase_error(p, x))) found.push_back({"rotates_fully", 1});
     return found;
   };

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/path_synthesis.h"
 
 // Masses of coupler and rocker that make the clearance link turn as it should: the second stage of Varedi et

@@ -82,8 +82,8 @@ Amounts amounts(const ClearancePathProblem& p, std::span<const double> x, double
       out.order += std::max(0.0, crank_angle(p, x, k - 1) - crank_angle(p, x, k));
   return out;
 }
-std::vector<optimise::Violation> violations(const Amounts& a) {
-  std::vector<optimise::Violation> out;
+std::vector<Violation> violations(const Amounts& a) {
+  std::vector<Violation> out;
   const auto add = [&](const char* reason, double amount) {
     if (amount > 0) out.push_back({reason, amount});
   };

@@ -58,7 +58,7 @@ struct ClearancePathDesign {
   std::vector<double> crank_angles;
   double objective = 0;  ///< m: root of the sum of squared distances over the number of points, Eq. (23)
   double rms = 0;        ///< m: root of the mean squared distance; both infinite where it does not assemble
-  std::vector<optimise::Violation> violations;  ///< empty = feasible
+  std::vector<Violation> violations;  ///< empty = feasible
 };
 /// The design that the variables describe, with its path error.
 ClearancePathDesign clearance_path_design(const ClearancePathProblem& problem, std::span<const double> x);

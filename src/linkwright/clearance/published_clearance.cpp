@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/clearance/published_clearance.h"
-
 #include <cmath>
 #include <complex>
 #include <span>
+#include <vector>
 
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/mass_synthesis.h"
 #include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/core/numbers.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/clearance/path_synthesis.h"
-#include "linkwright/clearance/published_clearance.h"
 #include "linkwright/clearance/studies/published.h"
 #include "linkwright/core/numbers.h"
 

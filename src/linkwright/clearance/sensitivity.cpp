@@ -17,8 +17,8 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/optimise/pieces.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/quality.h"
-#include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "linkwright/core/field.h"
@@ -43,5 +44,26 @@ constexpr std::array<EnumName<Status>, 12> names(Status) {
 /// @param status any status
 /// @returns the name used in files and tables: "no_assembly"
 constexpr std::string_view to_string(Status status) { return name_of(status); }
+
+/// One reason why a candidate is not feasible; amounts are dimensionless and comparable, 0 = met.
+struct Violation {
+  std::string reason;  ///< name of the constraint: "crank_rotates_fully"
+  double amount = 0;   ///< dimensionless, >= 0
+};
+
+/// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
+/// by violation.
+///
+/// @param cost_a cost of the one
+/// @param violation_a sum of its violations, 0 = feasible
+/// @param cost_b cost of the other
+/// @param violation_b sum of its violations
+/// @returns true if the one is better
+inline bool better(double cost_a, double violation_a, double cost_b, double violation_b) {
+  if (violation_a > 0 || violation_b > 0) {
+    if (violation_a != violation_b) return violation_a < violation_b;
+  }
+  return cost_a < cost_b;
+}
 
 }  // namespace linkwright

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "linkwright/core/sentence.h"
+#include "linkwright/core/status.h"
 
 namespace linkwright::optimise {
+
+using linkwright::better;
 
 /// Read-only matrix of candidates, one row per variable, so that a vector register holds one variable of
 /// several candidates. Rows start at multiples of 64 bytes and may be read (not used) up to `stride`.
@@ -109,12 +112,6 @@ struct Variable {
   double upper = 1;  ///< upper bound
 };
 
-/// One reason why a candidate is not feasible; amounts are dimensionless and comparable, 0 = met.
-struct Violation {
-  std::string reason;  ///< name of the constraint: "crank_rotates_fully"
-  double amount = 0;   ///< dimensionless, >= 0
-};
-
 /// A violation in words: "violates crank_rotates_fully by 0.02".
 ///
 /// @param violation the violation
@@ -149,21 +146,6 @@ struct Problem {
   /// that instead of `evaluate`, for the objectives of what it finds.
   std::shared_ptr<const Combination> combination;
 };
-
-/// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
-/// by violation.
-///
-/// @param cost_a cost of the one
-/// @param violation_a sum of its violations, 0 = feasible
-/// @param cost_b cost of the other
-/// @param violation_b sum of its violations
-/// @returns true if the one is better
-inline bool better(double cost_a, double violation_a, double cost_b, double violation_b) {
-  if (violation_a > 0 || violation_b > 0) {
-    if (violation_a != violation_b) return violation_a < violation_b;
-  }
-  return cost_a < cost_b;
-}
 
 /// "Better" by all objectives of a and b, as many: both feasible and every cost of a less, or else less
 /// violation (Boskovic 2018, Algorithm 2.5, with the conjunction that its text asks for). With one objective

@@ -17,7 +17,7 @@
 #include "linkwright/planar/dyads/solve.h"
 #include "linkwright/planar/exact/designs.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/objective.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/path/mechanism.h"
 #include "linkwright/planar/path/slider_crank/samples.h"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/study/display_units.h"
 #include "linkwright/study/extremes.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/scene.h"
 
 /// The common base of SVG, DXF and HTML for drawing a scene.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "linkwright/core/number_lists.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::report {

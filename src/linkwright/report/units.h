@@ -9,7 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/units.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 
 /// Units in which numbers are shown: SI in the data, in diagrams those that were chosen, or else degrees and
 /// millimetres. The viewer receives them (shown_suffixes).

@@ -4,7 +4,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/value.h"
 #include "linkwright/study/bind.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 
 // How `units` of `[output]` is read, written and described.
 namespace linkwright::study {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "linkwright/core/value.h"
-#include "linkwright/study/display_units.h"
+#include "linkwright/study/kind.h"
 #include "linkwright/study/result.h"
 
 // Found designs as studies to continue with: Solution::study.

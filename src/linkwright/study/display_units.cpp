@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/study/display_units.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,12 +6,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_output_units.h"
 #include "linkwright/study/bind_schema.h"
+#include "linkwright/study/kind.h"
 
 namespace linkwright::study {
 namespace {

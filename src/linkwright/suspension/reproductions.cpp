@@ -14,7 +14,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/direct/published_targets.h"
 #include "linkwright/suspension/indirect/corner_deviations.h"
 #include "linkwright/suspension/indirect/published_suspensions.h"

@@ -8,7 +8,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/parallel/robot/jacobians.h"
+#include "linkwright/parallel/robot/robot.h"
 #include "linkwright/parallel/workspace/prescribed_region.h"
 #include "support/allocations.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/robot/jacobians.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "linkwright/core/random.h"
+#include "linkwright/parallel/robot/robot.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {

@@ -6,7 +6,6 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
-#include "linkwright/parallel/robot/jacobians.h"
 #include "linkwright/parallel/robot/robot.h"
 #include "parallel/random_vector.h"
 #include "parallel/robots.h"

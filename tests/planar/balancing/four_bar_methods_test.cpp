@@ -11,7 +11,7 @@
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "planar/balancing_cases.h"
 
 namespace linkwright::planar {

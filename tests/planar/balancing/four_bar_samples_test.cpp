@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/four_bar_samples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "linkwright/planar/balancing/four_bar.h"
 #include "planar/balancing_cases.h"
 #include "support/message.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "planar/balancing_cases.h"
 
 namespace linkwright::planar {

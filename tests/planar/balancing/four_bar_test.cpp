@@ -10,7 +10,6 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/smooth_problem.h"
-#include "linkwright/planar/balancing/four_bar_samples.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/balancing_cases.h"
 #include "support/allocations.h"

@@ -11,7 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/columns.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/reactions_cases.h"

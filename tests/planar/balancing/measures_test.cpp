@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/measures.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <vector>
 
+#include "linkwright/planar/balancing/four_bar.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/reactions.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,6 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/reactions_cases.h"
 #include "support/message.h"
 

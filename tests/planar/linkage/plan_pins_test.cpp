@@ -8,7 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/sweep.h"
 #include "planar/linkage_cases.h"
 

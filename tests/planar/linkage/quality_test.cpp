@@ -7,7 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/kernel.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"
 

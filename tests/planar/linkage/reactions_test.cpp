@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/linkage/reactions.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -8,8 +6,9 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
-#include "linkwright/planar/four_bar/reactions.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/general.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "planar/linkage_changes.h"
 #include "planar/linkages.h"
 #include "planar/reactions_cases.h"

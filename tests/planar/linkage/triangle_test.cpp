@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "planar/linkage_sweeps.h"
 #include "tests/planar/linkage_cases.h"
 

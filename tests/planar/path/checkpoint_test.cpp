@@ -8,7 +8,6 @@
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
 #include "linkwright/planar/path/four_bar/problem.h"
 #include "planar/path_cases.h"
 

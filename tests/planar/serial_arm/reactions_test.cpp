@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/serial_arm/samples.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/serial_arm_cases.h"

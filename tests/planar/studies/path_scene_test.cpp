@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "linkwright/planar/studies/four_bar_path.h"
 #include "linkwright/planar/studies/path_run.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "suspension/suspensions.h"
 
 namespace linkwright::suspension {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
 
 namespace linkwright::suspension {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "linkwright/suspension/compliance/statics.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/link_poses.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"

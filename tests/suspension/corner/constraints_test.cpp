@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/constraints.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
 
 namespace linkwright::suspension {

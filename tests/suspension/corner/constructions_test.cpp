@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "linkwright/suspension/corner/constraints.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/position.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "tests/suspension/suspensions.h"
 

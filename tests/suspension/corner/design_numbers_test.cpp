@@ -6,7 +6,7 @@
 #include <set>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "linkwright/suspension/corner/hard_point_list.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
 #include "support/study_text.h"
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 namespace linkwright::suspension {

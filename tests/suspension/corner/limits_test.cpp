@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {

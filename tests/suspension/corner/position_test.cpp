@@ -6,8 +6,8 @@
 
 #include <tuple>
 
-#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/allocations.h"
 #include "support/message.h"
 #include "suspension/pushrod_corner.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/samples.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"
 

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "linkwright/suspension/corner/samples.h"
 #include "suspension/pushrod_corner.h"
 
 namespace linkwright::suspension {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/wheel.h"
-
 #include <gtest/gtest.h>
 
+#include "linkwright/suspension/corner/suspension.h"
 #include "suspension/suspensions.h"
 
 namespace linkwright::suspension {

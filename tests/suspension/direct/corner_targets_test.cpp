@@ -8,7 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "tests/suspension/direct_cases.h"
 
 namespace linkwright::suspension {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "suspension/suspensions.h"
 
 namespace linkwright::suspension {

@@ -7,7 +7,7 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {

@@ -7,8 +7,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/indirect/corner_deviations.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
 #include "linkwright/suspension/indirect/published_suspensions.h"

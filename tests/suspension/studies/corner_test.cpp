@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "suspension/studies.h"
 

@@ -8,8 +8,7 @@
 #include <regex>
 #include <string>
 
-#include "linkwright/suspension/corner/samples.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
 #include "support/resumed.h"
 #include "suspension/studies.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {

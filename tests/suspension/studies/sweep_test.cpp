@@ -11,7 +11,7 @@
 
 #include "linkwright/core/looks.h"
 #include "linkwright/core/memory.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/corner_columns.h"
 #include "suspension/studies.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/looks.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "linkwright/core/units.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 #include "suspension/pushrod_corner.h"
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "suspension/suspensions.h"
 
 namespace linkwright::suspension {

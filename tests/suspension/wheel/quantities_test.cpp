@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"

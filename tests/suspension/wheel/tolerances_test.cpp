@@ -8,7 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/looks.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/memory_checkpoint.h"
 

@@ -206,7 +206,7 @@ class DesignReporter {
       if (n.upper > n.lower && (n.value <= n.lower + close || n.value >= n.upper - close))
         out.classification["active_bounds"].push_back(n.name.key);
     }
-    for (const auto& v : d_.presumed.violations) out.defects.push_back(violation_text(v));
+    for (const auto& v : d_.presumed.violations) out.defects.push_back(optimise::violation_text(v));
     if (s_.has_masses() && lost(d_)) out.defects.push_back("contact is lost");
     out.scene = "motion";
     if (!d_.rows.empty()) out.study = design_study(s_, d_);
@@ -375,7 +375,7 @@ class DesignReporter {
   }
 
   void warnings() {
-    for (const auto& v : d_.presumed.violations) warn("the design " + violation_text(v));
+    for (const auto& v : d_.presumed.violations) warn("the design " + optimise::violation_text(v));
     if (!turns_fully(d_.model))
       warn("the crank does not rotate fully with the pin anywhere in its bush",
            "lengthen coupler and rocker, or take a shorter crank");

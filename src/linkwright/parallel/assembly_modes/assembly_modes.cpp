@@ -16,7 +16,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/assembly_modes/platform_paths.h"
 #include "linkwright/parallel/assembly_modes/platform_proof.h"
-#include "linkwright/parallel/robot/jacobians.h"
+#include "linkwright/parallel/robot/robot.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "linkwright/parallel/robot/jacobians.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// The constraint that keeps the platform of a DELTA from turning. Each of its legs has two rods, joined to
 /// elbow and platform at +-h along the axis t of the arm. With the arms locked half the difference of the two

@@ -7,7 +7,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
-#include "linkwright/parallel/robot/jacobians.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// The drives of a robot's arms: motors at their pivots, or Pi-joints whose screws set their diagonals
 /// (Milutinovic et al. 2014). A drive's value is the arm angle (rad) or the diagonal (m), and its effort the

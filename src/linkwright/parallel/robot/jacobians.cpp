@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/parallel/robot/jacobians.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -12,6 +12,7 @@
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/detail/legs_kernel.h"
+#include "linkwright/parallel/robot/robot.h"
 
 namespace linkwright::parallel {
 

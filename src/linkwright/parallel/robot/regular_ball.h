@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "linkwright/parallel/robot/jacobians.h"
+#include "linkwright/parallel/robot/robot.h"
 
 /// The size of a ball around a pose in which nothing is singular: bounds instead of samples. Poses on both
 /// sides of a singularity may look alike, and a path may cross two between any two instants.

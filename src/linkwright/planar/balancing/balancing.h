@@ -12,7 +12,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/table.h"
 #include "linkwright/optimise/smooth_problem.h"
-#include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/balancing/four_bar.h"
 
 // Balancing as a problem of numbers: measures of the columns of a mechanism's table, relative to a reference,
 // are minimised.

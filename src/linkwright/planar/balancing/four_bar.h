@@ -12,11 +12,118 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/link_mass.h"
+
+namespace linkwright::planar {
+
+/// Root of the sum of squares, divided by the number of intervals, which is one less than that of the
+/// samples: (1/n) sqrt(sum over i = 0 ... n of x_i^2), Boskovic 2018, Eqs. (2.37), (2.80) taken literally. It
+/// depends on the mesh: it falls like 1/sqrt(n).
+///
+/// @param samples the quantity, at least 2 samples
+/// @returns the measure, in the unit of the samples; NaN if a sample is NaN
+/// @throws ContractError if there are too few samples
+double rss_over_n(std::span<const double> samples);
+
+/// Root of the mean of the squares. A periodic quantity must hold each sample once.
+///
+/// @param samples the quantity, at least 1 sample
+/// @returns the measure, in the unit of the samples; NaN if a sample is NaN
+/// @throws ContractError if there is no sample
+double rms(std::span<const double> samples);
+
+/// Mean of the absolute values.
+///
+/// @param samples the quantity, at least 1 sample
+/// @returns the measure, in the unit of the samples; NaN if a sample is NaN
+/// @throws ContractError if there is no sample
+double mean_abs(std::span<const double> samples);
+
+/// Largest absolute value.
+///
+/// @param samples the quantity, at least 1 sample
+/// @returns the measure, in the unit of the samples; NaN if a sample is NaN
+/// @throws ContractError if there is no sample
+double max_abs(std::span<const double> samples);
+
+/// The measures by name.
+enum class Measure {
+  rss_over_n,  ///< root of the sum of squares over the number of intervals
+  rms,         ///< root mean square
+  mean_abs,    ///< mean of the absolute values
+  max_abs,     ///< largest absolute value
+  maximum,     ///< largest value
+  minimum,     ///< smallest value
+  range        ///< from the smallest to the largest value
+};
+constexpr std::array<EnumName<Measure>, 7> names(Measure) {
+  return {{{Measure::rss_over_n, "rss_over_n", "root of the sum of squares over the number of intervals"},
+           {Measure::rms, "rms", "root mean square"},
+           {Measure::mean_abs, "mean_abs", "mean of the absolute values"},
+           {Measure::max_abs, "max_abs", "largest absolute value"},
+           {Measure::maximum, "maximum", "largest value"},
+           {Measure::minimum, "minimum", "smallest value"},
+           {Measure::range, "range", "from the smallest to the largest value"}}};
+}
+
+/// A measure of a sampled quantity.
+///
+/// @param measure the measure
+/// @param samples the quantity
+/// @returns its value, in the unit of the samples
+/// @throws ContractError if there are too few samples
+double measure(Measure measure, std::span<const double> samples);
+
+/// A measure of a quantity over a period. When the samples close, the last one is the first one again, and
+/// means count one of the two. rss_over_n keeps both, as it is defined.
+///
+/// @param measure the measure
+/// @param samples the quantity
+/// @param closes true if the last sample is the first one again
+/// @returns its value, in the unit of the samples
+/// @throws ContractError if there are too few samples
+double measure(Measure measure, std::span<const double> samples, bool closes);
+
+/// Number of the samples of a period that count, from the first one on.
+///
+/// @param measure the measure
+/// @param n number of samples
+/// @param closes true if the last sample is the first one again
+/// @returns n or n - 1
+constexpr std::size_t counted(Measure measure, std::size_t n, bool closes) {
+  return closes && n > 1 && (measure == Measure::rms || measure == Measure::mean_abs) ? n - 1 : n;
+}
+
+/// The properties of a measure that searches may build on.
+struct MeasureProperties {
+  /// True for a norm of the samples: it is convex, the same for x and -x, and zero only where all are.
+  bool norm = false;
+  bool quadratic = false;  ///< root of a sum of squares: smooth but at zero
+};
+
+/// The properties of a measure.
+///
+/// @param measure the measure
+/// @returns its properties
+constexpr MeasureProperties properties(Measure measure) {
+  switch (measure) {
+    case Measure::rss_over_n:
+    case Measure::rms:
+      return {.norm = true, .quadratic = true};
+    case Measure::mean_abs:
+    case Measure::max_abs:
+      return {.norm = true};
+    case Measure::maximum:
+    case Measure::minimum:
+    case Measure::range:
+      break;
+  }
+  return {};
+}
+
+}  // namespace linkwright::planar
 
 namespace linkwright::optimise {
 struct SmoothProblem;
@@ -204,10 +311,6 @@ void set_references(FourBarBalancing& balancing, const FourBarMachine& machine);
 /// @throws ContractError as require_valid does, and unless softening is finite and not negative
 optimise::SmoothProblem balancing_problem(const FourBarBalancing& balancing, double softening = 0);
 
-}  // namespace linkwright::planar
-
-namespace linkwright::planar {
-
 /// First moments (kg m) in the frames of the links: own joint in the origin, link line along x.
 struct ForceBalance {
   std::complex<double> crank,  ///< own joint O
@@ -259,5 +362,33 @@ Counterweights balancing_counterweights(const FourBar& linkage, const FourBarMas
 /// @returns the inertia of the links with the counterweights fixed to them
 /// @throws ContractError as `with_attached` does
 FourBarMasses with_counterweights(const FourBarMasses& masses, const Counterweights& weights);
+
+/// A balancing problem of Boskovic 2018 with the design that the source found best for it.
+struct PublishedBalancing {
+  std::string_view name;     ///< "sp-fa", "case1", "case2", "case3", "case3x"
+  FourBarBalancing problem;  ///< references are those of the original machine
+  /// Design by the hybrid of cuckoo search and fireflies; that of "sp-fa" by fireflies in two populations.
+  FourBarMachine published;
+};
+
+/// The original machine: Boskovic 2018, Table 2.4, first column. Its coupler's inertia lies outside the
+/// bounds.
+///
+/// @returns the machine with its masses
+FourBarMachine balancing_original();
+
+/// The five problems: "sp-fa" of Table 2.2, cases 1 to 3 of Table 2.4 and case 3 in the wider bounds of Table
+/// 2.6; 300 rpm, 201 samples over a turn, Eq. (2.136). "sp-fa" has the shaking moment of the joint forces
+/// alone, case 3 that with the drive.
+///
+/// @returns the problems in this order
+std::vector<PublishedBalancing> published_balancings();
+
+/// One of the published problems.
+///
+/// @param name its name
+/// @returns the problem
+/// @throws ContractError if there is no problem of that name
+PublishedBalancing published_balancing(std::string_view name);
 
 }  // namespace linkwright::planar

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/four_bar_samples.h"
-
 #include <array>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/balancing/four_bar.h"
 
 namespace linkwright::planar {
 namespace {

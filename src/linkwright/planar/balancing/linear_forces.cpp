@@ -14,7 +14,6 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 
 namespace linkwright::planar {

@@ -13,8 +13,8 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/linear_forces.h"
-#include "linkwright/planar/balancing/measures.h"
 
 // Balancing by the distribution of masses alone: lengths and motion stay, so that every force is linear in
 // the base parameters of the links and every measure of it convex. The best masses are the answer of a cone

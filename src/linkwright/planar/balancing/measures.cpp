@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/balancing/measures.h"
-
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/balancing/four_bar.h"
 
 namespace linkwright::planar {
 namespace {

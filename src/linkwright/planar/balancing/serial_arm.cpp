@@ -337,7 +337,7 @@ optimise::Problem arm_problem(const ArmTask& task, const ArmDesign& design) {
               },
           .explain =
               [violation](std::span<const double> x) {
-                std::vector<optimise::Violation> out;
+                std::vector<Violation> out;
                 if (const double v = violation(x); v > 0) out.push_back({"largest_coefficient", v});
                 return out;
               }};

@@ -12,8 +12,8 @@
 #include "linkwright/optimise/nlopt_bridge.h"
 #include "linkwright/optimise/optimiser.h"
 #include "linkwright/optimise/problem.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/mass_redistribution.h"
-#include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 
 // Joint forces of a serial arm made small by the laws of motion of its drives, by counterweights, or by both

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "linkwright/planar/four_bar/reactions.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/linkage.h"
 
 // The four-bar by its parameters: a shorthand for a linkage.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/four_bar/reactions.h"
-
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/vector2.h"
 #include "linkwright/planar/four_bar/detail/forces_kernel.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 
 namespace linkwright::planar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/sentence.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 // Columns of the tables that studies of linkages write.
 namespace linkwright::planar {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/elimination.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

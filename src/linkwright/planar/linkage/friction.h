@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

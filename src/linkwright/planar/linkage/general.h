@@ -4,7 +4,6 @@
 #include <span>
 
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/linkage/reactions.h"
 
 // A group without closed form: Newton's method on the places of its parts. The Jacobian has one row a joint
 // equation, in terms of velocities of part origins and angular speeds; the same matrix gives velocities and

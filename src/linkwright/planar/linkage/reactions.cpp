@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/linkage/reactions.h"
-
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -10,6 +10,7 @@
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {

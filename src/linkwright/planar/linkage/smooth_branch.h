@@ -6,7 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

@@ -10,7 +10,7 @@
 #include "linkwright/core/kernels.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/sweep_input.h"
 
 namespace linkwright::planar {

@@ -12,7 +12,6 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/status.h"
-#include "linkwright/optimise/problem.h"
 
 namespace linkwright::planar {
 
@@ -270,7 +269,7 @@ struct TracedPath {
   /// and beyond the tolerances; infinite when the tracing point does not exist at a target.
   double error = 0;
   /// Constraints of the problem that are not met; empty = feasible.
-  std::vector<optimise::Violation> violations;
+  std::vector<Violation> violations;
   std::vector<std::string> active_bounds;  ///< names of parameters at a bound
 };
 
@@ -292,7 +291,7 @@ double total_violation(const TracedPath<Mechanism>& design) {
 /// @returns true if `a` is better
 template <class Mechanism>
 bool better_design(const TracedPath<Mechanism>& a, const TracedPath<Mechanism>& b) {
-  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
+  return linkwright::better(a.error, total_violation(a), b.error, total_violation(b));
 }
 
 /// Options of the recommended method.

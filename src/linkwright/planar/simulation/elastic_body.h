@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/simulation/simulation.h"
 
 // Flexible bodies of a linkage: couplers, rods, rockers. A slender uniform beam between two points of a body

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

@@ -12,7 +12,7 @@
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage/limits.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

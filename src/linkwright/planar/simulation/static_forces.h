@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/assembly.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 

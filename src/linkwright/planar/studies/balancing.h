@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linkwright/planar/balancing/balancing.h"
-#include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/balancing/search.h"
 #include "linkwright/study/design_variables.h"
 #include "linkwright/study/kind.h"

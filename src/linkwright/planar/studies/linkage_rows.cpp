@@ -10,7 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage_holding.h"

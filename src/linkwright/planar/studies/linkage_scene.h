@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/scene.h"
 

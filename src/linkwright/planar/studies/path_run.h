@@ -264,7 +264,7 @@ void add_path_solution(study::Result& result, const typename D::Problem& p, cons
   Value bounds = Value::array();
   for (const std::string& bound : d.active_bounds) bounds.push_back(bound);
   D::classify_design(p, d, std::move(bounds), out);
-  for (const auto& violation : d.violations) out.defects.push_back(violation_text(violation));
+  for (const auto& violation : d.violations) out.defects.push_back(optimise::violation_text(violation));
   for (const Defect& defect : defects(p, d))
     out.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
   if (number <= D::max_drawn) {
@@ -288,7 +288,7 @@ void add_exact_solution(study::Result& result, const typename D::Problem& p, con
     solution.defects.push_back(say("{}: {}", name_of(defect.kind), defect.text));
   if (exact.defects.empty())
     for (const auto& violation : exact.design.violations)
-      solution.defects.push_back(violation_text(violation));
+      solution.defects.push_back(optimise::violation_text(violation));
 }
 
 /// A diagram of a motion.

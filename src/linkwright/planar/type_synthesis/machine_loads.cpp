@@ -9,7 +9,6 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/plan.h"
-#include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/sweep.h"
 
 namespace linkwright::planar {

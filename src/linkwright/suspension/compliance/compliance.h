@@ -9,7 +9,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/compliance/elasticity.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 /// Elasto-kinematics: how a wheel moves under load because the joints of its links yield. Small motions of
 /// the carrier and of every link as rigid bodies about a position of the rigid suspension; joints with six

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "linkwright/suspension/compliance/elasticity.h"
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 /// The bodies and elastic elements of a suspension at a position, as `solve_compliance` puts them together.
 namespace linkwright::suspension {

@@ -8,7 +8,6 @@
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/core/table.h"
 #include "linkwright/suspension/corner/suspension.h"
-#include "linkwright/suspension/corner/wheel.h"
 
 namespace linkwright::suspension {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/constraints.h"
-
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/corner/detail/constraints_kernel.h"
+#include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/structure.h"
 
 namespace linkwright::suspension {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 namespace linkwright::suspension {
 

@@ -4,9 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/suspension.h"
 
 /// @file

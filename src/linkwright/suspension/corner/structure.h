@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 namespace linkwright::suspension {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/corner/wheel.h"
-
 #include "linkwright/suspension/corner/detail/wheel_kernel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/structure.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 /// Poses of the links for a given pose of the carrier.
 namespace linkwright::suspension {

@@ -59,11 +59,10 @@ optimise::Problem problem_of(const CornerErrors& errors, ErrorTotal total) {
   problem.explain = [pool](std::span<const double> x) {
     auto evaluator = pool->take();
     std::vector<double> rows(evaluator->rows());
-    std::vector<optimise::Violation> out;
+    std::vector<Violation> out;
     if (!evaluator->evaluate(x, rows, {})) {
       const double shortfall = evaluator->shortfall();
-      out.push_back(shortfall > 0 ? optimise::Violation{"dyad_assembles", shortfall}
-                                  : optimise::Violation{"points_apart", 1});
+      out.push_back(shortfall > 0 ? Violation{"dyad_assembles", shortfall} : Violation{"points_apart", 1});
     }
     pool->give_back(std::move(evaluator));
     return out;

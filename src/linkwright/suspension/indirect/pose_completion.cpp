@@ -8,7 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 namespace {

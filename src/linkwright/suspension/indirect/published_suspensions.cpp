@@ -7,7 +7,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/samples.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 namespace {

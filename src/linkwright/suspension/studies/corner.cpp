@@ -14,8 +14,8 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/trade_words.h"
 #include "linkwright/suspension/corner/plausibility.h"
-#include "linkwright/suspension/corner/samples.h"
 #include "linkwright/suspension/corner/structure.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/studies/spring_parts.h"
 
 namespace linkwright::suspension {

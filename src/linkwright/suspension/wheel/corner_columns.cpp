@@ -5,7 +5,7 @@
 #include <array>
 
 #include "linkwright/core/units.h"
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 namespace linkwright::suspension {
 namespace {

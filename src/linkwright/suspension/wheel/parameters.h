@@ -6,7 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/suspension/corner/position.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 namespace linkwright::suspension {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "linkwright/planar/path/four_bar/problem.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {

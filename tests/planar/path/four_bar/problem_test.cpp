@@ -12,6 +12,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/path/four_bar/objective.h"
 #include "linkwright/planar/path/mechanism.h"
 #include "planar/four_bars.h"
 #include "planar/path_cases.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {
 

@@ -31,6 +31,17 @@ struct PathObjective : TargetLayout {
   double size = 1;            ///< size of the path (m)
 };
 
+/// The ten-unknown problem (nine when the angles are given; 9 + points when timing is free, then every crank
+/// angle is an unknown) on one branch and sense, for population methods; cost = sum of squared distances
+/// (m2), evaluated by SIMD kernels. Boskovic 2018, Eqs. (4.2)-(4.4).
+///
+/// @param problem the problem
+/// @param branch the branch that is searched
+/// @param sense the sense of crank rotation, +1 or -1
+/// @returns the problem for a population method
+/// @throws ContractError as require_valid does
+optimise::Problem path_population_problem(const PathProblem& problem, Branch branch, double sense);
+
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense);
 
 /// Costs (m2) and violations of a population; the variables are those of `path_population_problem`. Chooses

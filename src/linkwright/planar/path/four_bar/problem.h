@@ -203,17 +203,6 @@ bool same_linkage(const FourBar& a, const FourBar& b);
 /// @param designs the designs
 void rank(std::vector<PathDesign>& designs);
 
-/// The ten-unknown problem (nine when the angles are given; 9 + points when timing is free, then every crank
-/// angle is an unknown) on one branch and sense, for population methods; cost = sum of squared distances
-/// (m2), evaluated by SIMD kernels. Boskovic 2018, Eqs. (4.2)-(4.4).
-///
-/// @param problem the problem
-/// @param branch the branch that is searched
-/// @param sense the sense of crank rotation, +1 or -1
-/// @returns the problem for a population method
-/// @throws ContractError as require_valid does
-optimise::Problem path_population_problem(const PathProblem& problem, Branch branch, double sense);
-
 /// The outcome of one seed of the synthesis of four-bars.
 using PathSynthesis = PathAnswer<FourBarPath>;
 
@@ -231,5 +220,27 @@ using PathSynthesis = PathAnswer<FourBarPath>;
 /// @throws ContractError as require_valid does, and unless starts >= 0 and max_solutions >= 1
 PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOptions& options,
                               RunContext& context);
+
+/// A design as a publication prints it, for the path it was made for.
+struct PublishedPathDesign {
+  std::string label;           ///< source, "Boskovic 2018"
+  FourBar linkage;             ///< the four-bar as printed, or corrected
+  double start_angle = 0;      ///< rad
+  double published_error = 0;  ///< sum of squared distances (m2) as printed
+  std::string verdict;         ///< "reproduced", "corrected" or "not reproduced"
+  std::string note;            ///< reason for the verdict
+};
+
+/// The closed path of 18 points with 20 degree crank steps: Boskovic 2018, Eqs. (4.28)-(4.30), bounds
+/// included. The source prints lengths without unit; they are read as metres.
+///
+/// @returns the problem
+PathProblem eighteen_points();
+
+/// The six designs of Boskovic 2018, Table 4.1, branch open, sense +1, and a seventh entry: the design of
+/// Cabrera 2007 with its shifted columns corrected. Verdicts from re-evaluation.
+///
+/// @returns the designs with the errors as printed
+std::vector<PublishedPathDesign> eighteen_point_designs();
 
 }  // namespace linkwright::planar

@@ -4,7 +4,7 @@
 #include <complex>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/path/four_bar/eighteen_points.h"
+#include "linkwright/planar/path/four_bar/problem.h"
 
 namespace linkwright::planar {
 

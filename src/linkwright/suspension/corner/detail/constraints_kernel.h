@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "linkwright/math/scalar.h"
-#include "linkwright/suspension/corner/constraints.h"
 #include "linkwright/suspension/corner/detail/rockers_kernel.h"
 #include "linkwright/suspension/corner/detail/wheel_kernel.h"
+#include "linkwright/suspension/corner/position.h"
 
 /// The equations of a wheel suspension, written once for numbers and for numbers with derivatives.
 namespace linkwright::suspension::kernel {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "linkwright/math/scalar.h"
-#include "linkwright/suspension/corner/constraints.h"
+#include "linkwright/suspension/corner/position.h"
 
 /// Points of links and of the carrier in a pose, and how they move.
 namespace linkwright::suspension::kernel {

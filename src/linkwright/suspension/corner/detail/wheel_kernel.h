@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 
 /// The wheel's formulas, written once for numbers and for numbers with derivatives.
 namespace linkwright::suspension::kernel {
