@@ -135,6 +135,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
             "  serve       open the workbench: a page of this machine, with this program behind it\n"
             "  examples    list the examples that come with the program, or copy one\n"
             "  new         write a study of a kind, to start from\n"
+            "  sketch      write the study of a linkage that a drawing shows\n"
             "  catalogue   list the kinds of studies\n"
             "  samples     list the built-in linkages and wheel suspensions\n"
             "  columns     list the columns of tables that a study will give, without running it\n"
@@ -147,7 +148,7 @@ TEST(Arguments, WithoutACommandTheyAreListed) {
 
 TEST(Arguments, CommandsDescribeThemselves) {
   const std::vector<CommandHelp> commands = command_help();
-  ASSERT_EQ(commands.size(), 14u);
+  ASSERT_EQ(commands.size(), 15u);
   const CommandHelp& run = commands.front();
   EXPECT_EQ(run.name, "run");
   ASSERT_EQ(run.positionals.size(), 1u);

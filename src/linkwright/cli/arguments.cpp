@@ -159,6 +159,16 @@ class Grammar {
         ->required();
     value(make, "-o,--out,FILE", arguments_.file,
           "file to make (default: named after the kind; - = standard output)", "FILE");
+    CLI::App& sketch = add("sketch", "write the study of a linkage that a drawing shows", Command::sketch);
+    value(
+        sketch, "DRAWING", arguments_.drawing,
+        "ASCII DXF or SVG: lines are bars, closed polylines plates, ends that meet pins; the layers ground, "
+        "slide, drive, trace and construction say what else lines are")
+        ->required();
+    value(sketch, "-o,--out", arguments_.file,
+          "file to make (default: named after the drawing; - = standard output)", "FILE");
+    value(sketch, "--tolerance", arguments_.tolerance, "largest distance of ends that meet (default: 0.01mm)",
+          "LENGTH");
   }
 
   void list_commands() {

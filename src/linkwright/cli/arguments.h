@@ -18,6 +18,7 @@ struct Arguments {
     compare,
     merge,
     make,
+    sketch,
     examples,
     samples,
     catalogue,
@@ -32,7 +33,10 @@ struct Arguments {
 
   std::string study;  ///< run, check: the file, "-" = standard input; serve: empty = none
   std::string kind;   ///< make, schema, columns (or a study file)
-  std::string file;   ///< make: empty = named after the kind, "-" = standard output
+  std::string file;   ///< make, sketch: empty = named after the kind or drawing, "-" = standard output
+
+  std::string drawing;               ///< sketch: the file
+  std::string tolerance = "0.01mm";  ///< option of sketch: largest distance of ends that meet
 
   std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders
   std::vector<std::string> words;   ///< catalogue, samples, examples: what each line of the list must hold;

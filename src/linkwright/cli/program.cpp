@@ -27,6 +27,7 @@
 #include "linkwright/cli/plug_ins.h"
 #include "linkwright/cli/progress.h"
 #include "linkwright/cli/ranks.h"
+#include "linkwright/cli/sketch.h"
 #include "linkwright/cli/summary.h"
 #include "linkwright/cli/terminal.h"
 #include "linkwright/cli/workbench.h"
@@ -406,6 +407,8 @@ int answer(int argc, const char* const* argv, std::span<const study::Kind> kinds
       return merge(arguments, kinds);
     case Command::make:
       return make_study(arguments, kinds);
+    case Command::sketch:
+      return sketch(arguments, kinds);
     case Command::examples:
       return list_examples(arguments);
     case Command::samples:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/drawing/drawing.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,6 +55,14 @@ DrawnLine tidied(const drawing::Line& line) {
   return out;
 }
 
+Diagnostic diagnostic_of(const drawing::Fault& fault, const std::string& file) {
+  return {.file = file,
+          .position = {.line = fault.line, .column = fault.line > 0 ? 1 : 0},
+          .key = {},
+          .message = fault.message,
+          .hint = fault.hint};
+}
+
 }  // namespace
 
 DrawingFormat drawing_format(std::string_view text) {
@@ -89,11 +99,41 @@ std::optional<DrawnLine> read_drawing(std::string_view text, const std::string& 
                              "save the path as plain SVG, or as an ASCII DXF"};
     }
   } catch (const drawing::Fault& fault) {
-    diagnostics.push_back({.file = file,
-                           .position = {.line = fault.line, .column = fault.line > 0 ? 1 : 0},
-                           .key = {},
-                           .message = fault.message,
-                           .hint = fault.hint});
+    diagnostics.push_back(diagnostic_of(fault, file));
+  }
+  return std::nullopt;
+}
+
+std::optional<Drawing> read_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+  try {
+    Drawing out;
+    const DrawingFormat format = drawing_format(text);
+    if (format != DrawingFormat::svg && format != DrawingFormat::dxf)
+      throw drawing::Fault{0, "this is neither an SVG file nor an ASCII DXF drawing",
+                           "save the drawing as plain SVG, or as an ASCII DXF"};
+    std::vector<drawing::Line> lines = format == DrawingFormat::svg
+                                           ? drawing::svg_file_lines(text, out.has_unit)
+                                           : drawing::dxf_file_lines(text, out.has_unit);
+    for (drawing::Line& line : lines) {
+      DrawnShape shape{.points = {},
+                       .closed = line.closed,
+                       .centre = millimetre * line.centre,
+                       .radius = millimetre * line.radius,
+                       .layer = std::move(line.layer),
+                       .name = std::move(line.name)};
+      if (shape.radius == 0)
+        for (const std::complex<double>& p : line.points) shape.points.push_back(millimetre * p);
+      std::vector<std::complex<double>> places = shape.points;
+      if (shape.radius > 0) places = {shape.centre, shape.centre + shape.radius};
+      for (const std::complex<double>& p : places)
+        if (!std::isfinite(p.real()) || !std::isfinite(p.imag()))
+          throw drawing::Fault{0, fmt::format("{} lies too far away to be drawn", shape.name),
+                               "check the unit of the drawing"};
+      out.shapes.push_back(std::move(shape));
+    }
+    return out;
+  } catch (const drawing::Fault& fault) {
+    diagnostics.push_back(diagnostic_of(fault, file));
   }
   return std::nullopt;
 }

@@ -45,4 +45,26 @@ DrawingFormat drawing_format(std::string_view text);
 std::optional<DrawnLine> read_drawing(std::string_view text, const std::string& file,
                                       Diagnostics& diagnostics);
 
+/// Something that a drawing holds.
+struct DrawnShape {
+  std::vector<std::complex<double>> points;  ///< corners, m, y upwards; curves are points as in DrawnLine
+  bool closed = false;                       ///< the last point is followed by the first
+  std::complex<double> centre{};             ///< of a circle, m
+  double radius = 0;                         ///< of a circle, m; 0: another shape
+  std::string layer;                         ///< layer of DXF, innermost named group of SVG
+  std::string name;                          ///< in messages: "LINE in line 12"
+};
+/// Everything that a drawing holds.
+struct Drawing {
+  std::vector<DrawnShape> shapes;  ///< in the order of the file
+  bool has_unit = true;  ///< the drawing says in which unit its numbers are; without one they are mm
+};
+
+/// Reads the shapes of a drawing one by one, of the same elements as `read_drawing`.
+/// @param text text in UTF-8, without a byte order mark: an SVG file or an ASCII DXF
+/// @param file name of the file in diagnostics
+/// @param diagnostics receives the error, with its line where there is one
+/// @returns the drawing; none, with one error in `diagnostics`, where nothing is drawn
+std::optional<Drawing> read_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics);
+
 }  // namespace linkwright::planar

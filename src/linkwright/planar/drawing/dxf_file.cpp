@@ -168,6 +168,12 @@ Point place_at(const Entity& entity, int code) {
   return {x, number_of(entity, code + 10)};
 }
 
+std::string layer_of(const Entity& entity) {
+  for (const Group& group : entity.groups)
+    if (group.code == 8) return shown(group.value, 60);
+  return "0";
+}
+
 /// A bit of the flags of an entity.
 bool has_flag(const Entity& entity, unsigned flag) {
   const double flags = number_or(entity, 70, 0);
@@ -276,6 +282,8 @@ Line whole_circle(const Entity& entity, std::size_t per_turn) {
   const double radius = radius_of(entity);
   add_ellipse(centre, radius, {0, radius}, 0, full_turn, per_turn, out.points);
   out.points.pop_back();
+  out.centre = centre;
+  out.radius = radius;
   return out;
 }
 
@@ -316,8 +324,9 @@ Line straight(const Entity& entity) {
 /// The line of an entity; none of one that draws none.
 std::optional<Line> line_of(const Entity& entity, std::size_t per_turn) {
   const auto seen = [&](Line line) {
-    if (is_below(entity))
-      for (Point& p : line.points) p = -std::conj(p);
+    if (!is_below(entity)) return line;
+    for (Point& p : line.points) p = -std::conj(p);
+    line.centre = -std::conj(line.centre);
     return line;
   };
   if (entity.type == "LINE") return straight(entity);
@@ -381,7 +390,7 @@ Fault no_entity(const std::map<std::string_view, int>& others) {
 
 }  // namespace
 
-Line dxf_file_line(std::string_view text, bool& has_unit) {
+std::vector<Line> dxf_file_lines(std::string_view text, bool& has_unit) {
   const std::vector<Group> groups = groups_of(text);
   const std::optional<double> unit = unit_of_drawing(groups);
   has_unit = unit.has_value();
@@ -402,11 +411,18 @@ Line dxf_file_line(std::string_view text, bool& has_unit) {
       continue;
     }
     for (Point& p : line->points) p *= unit.value_or(1);
+    line->centre *= unit.value_or(1);
+    line->radius *= unit.value_or(1);
     line->name = name_of_entity(entity);
+    line->layer = layer_of(entity);
     lines.push_back(std::move(*line));
   }
   if (lines.empty()) throw no_entity(others);
-  return one_line(std::move(lines), "the DXF drawing",
+  return lines;
+}
+
+Line dxf_file_line(std::string_view text, bool& has_unit) {
+  return one_line(dxf_file_lines(text, has_unit), "the DXF drawing",
                   "delete the others, or join the ends of the lines in the CAD program");
 }
 

@@ -315,18 +315,29 @@ struct Level {
   int line = 0;
   PlaneMap map;
   bool drawn = true;
+  std::string layer = {};
 };
 
 struct Shape {
   std::vector<PathCommand> commands;
   PlaneMap map;
-  std::string name;
+  std::string name, layer;
+  Point centre{};     ///< of a circle, before the map
+  double radius = 0;  ///< likewise; 0: another shape
 };
+
+/// The name of a group: the one that Inkscape shows, else its id.
+std::string layer_of(const XmlTag& tag) {
+  for (const char* key : {"inkscape:label", "id"})
+    if (const std::optional<std::string> name = tag.value(key); name && !name->empty())
+      return shown(*name, 60);
+  return {};
+}
 
 /// Goes through the elements of a file.
 class SvgReader {
  public:
-  Line read(std::string_view text) {
+  std::vector<Line> read(std::string_view text) {
     XmlTags tags(text);
     for (XmlTag tag; tags.next(tag);) {
       if (tag.kind == TagKind::end)
@@ -346,8 +357,7 @@ class SvgReader {
     const std::size_t steps = curve_steps(curves, most_curve_steps_of_a_file);
     std::vector<Line> all;
     for (const Shape& shape : shapes_) add_lines(shape, steps, all);
-    return one_line(std::move(all), "the SVG file",
-                    "delete the others, or join them end to end, or keep one path");
+    return all;
   }
   bool has_unit() const { return page_.has_unit; }
 
@@ -369,7 +379,12 @@ class SvgReader {
     const Level level = level_of(tag);
     if (level.drawn && is_among(tag.name, shapes)) {
       std::vector<PathCommand> commands = commands_of(tag, page_);
-      if (!commands.empty()) shapes_.push_back({std::move(commands), level.map, name_of_tag(tag)});
+      if (commands.empty()) return;
+      Shape& shape =
+          shapes_.emplace_back(Shape{std::move(commands), level.map, name_of_tag(tag), level.layer});
+      if (tag.name != "circle") return;
+      shape.centre = {user_length(tag, "cx", page_).value_or(0), user_length(tag, "cy", page_).value_or(0)};
+      shape.radius = user_length(tag, "r", page_).value_or(0);
     } else if (level.drawn && is_among(tag.name, others_that_draw)) {
       others_.insert(fmt::format("<{}>", tag.name));
     }
@@ -384,6 +399,9 @@ class SvgReader {
     const bool hidden = is_among(tag.name, stores) || tag.value("display") == "none" ||
                         style_sets(tag.value("style").value_or(""), "display", "none");
     Level out{.name = tag.name, .line = tag.line, .map = {}};
+    if (!open_.empty()) out.layer = open_.back().layer;
+    if (tag.name == "g")
+      if (std::string name = layer_of(tag); !name.empty()) out.layer = std::move(name);
     out.drawn = !hidden && (open_.empty() || open_.back().drawn);
     if (!out.drawn) return out;
     out.map = (open_.empty() ? page_.map : open_.back().map) * transform_of(tag);
@@ -402,6 +420,9 @@ class SvgReader {
     std::vector<Line> lines = path_lines(shape.commands, steps);
     for (std::size_t k = 0; k < lines.size(); ++k) {
       for (Point& p : lines[k].points) p = std::conj(shape.map(p));
+      lines[k].layer = shape.layer;
+      lines[k].centre = std::conj(shape.map(shape.centre));
+      lines[k].radius = std::abs(std::conj(shape.map(shape.centre + shape.radius)) - lines[k].centre);
       lines[k].name = lines.size() > 1 ? fmt::format("part {} of {}", k + 1, shape.name) : shape.name;
       out.push_back(std::move(lines[k]));
     }
@@ -426,11 +447,16 @@ class SvgReader {
 
 }  // namespace
 
-Line svg_file_line(std::string_view text, bool& has_unit) {
+std::vector<Line> svg_file_lines(std::string_view text, bool& has_unit) {
   SvgReader reader;
-  Line out = reader.read(text);
+  std::vector<Line> out = reader.read(text);
   has_unit = reader.has_unit();
   return out;
+}
+
+Line svg_file_line(std::string_view text, bool& has_unit) {
+  return one_line(svg_file_lines(text, has_unit), "the SVG file",
+                  "delete the others, or join them end to end, or keep one path");
 }
 
 }  // namespace linkwright::planar::drawing

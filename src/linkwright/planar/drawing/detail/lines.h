@@ -13,7 +13,10 @@ namespace linkwright::planar::drawing {
 struct Line {
   std::vector<std::complex<double>> points;
   bool closed = false;
-  std::string name;  ///< in messages: "<path> in line 3"
+  std::string name;               ///< in messages: "<path> in line 3"
+  std::string layer = {};         ///< layer of DXF, or the innermost group of SVG that has a name
+  std::complex<double> centre{};  ///< of a circle
+  double radius = 0;              ///< of a circle; 0: another line
 };
 
 /// Points of each curve of a drawing: at most `most`, and fewer where there are very many curves, but 2.

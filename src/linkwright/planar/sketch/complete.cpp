@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/sketch/detail/sketch_points.h"
+#include "linkwright/planar/sketch/sketch.h"
+
+namespace linkwright::planar {
+namespace {
+
+/// Points of the two lowest free ends, else of the two lowest pins.
+std::vector<std::size_t> lowest(const Sketch& sketch) {
+  std::vector<std::size_t> joints_at(sketch.points.size()), free_ends, pins;
+  for (const SketchJoint& joint : sketch.joints) ++joints_at[joint.point];
+  for (std::size_t point = 0; point < sketch.points.size(); ++point) {
+    if (joints_at[point] > 0) {
+      pins.push_back(point);
+      continue;
+    }
+    for (const SketchBody& body : sketch.bodies)
+      if (body.type == SketchBodyType::bar &&
+          std::find(body.points.begin(), body.points.end(), point) != body.points.end())
+        free_ends.push_back(point);
+  }
+  std::vector<std::size_t>& chosen = free_ends.size() >= 2 ? free_ends : pins;
+  std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
+    return sketch.points[a].at.imag() < sketch.points[b].at.imag();
+  });
+  chosen.resize(std::min<std::size_t>(2, chosen.size()));
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+void fix(Sketch& sketch, const std::vector<std::size_t>& points) {
+  sketch.bodies.insert(sketch.bodies.begin(), {SketchBodyType::ground, {}, points});
+  for (SketchJoint& joint : sketch.joints) ++joint.first, ++joint.second;
+  std::vector<SketchJoint> pins;
+  for (const std::size_t point : points)
+    for (std::size_t body = 1; body < sketch.bodies.size(); ++body) {
+      const auto& of_body = sketch.bodies[body].points;
+      if (std::find(of_body.begin(), of_body.end(), point) == of_body.end()) continue;
+      pins.push_back({JointType::revolute, {}, 0, body, point, 0});
+      break;
+    }
+  sketch.joints.insert(sketch.joints.begin(), pins.begin(), pins.end());
+  sketching::name_sketch(sketch);
+}
+
+/// The greatest distance of two points of a body.
+double size_of(const Sketch& sketch, const SketchBody& body) {
+  double size = 0;
+  for (const std::size_t a : body.points)
+    for (const std::size_t b : body.points)
+      size = std::max(size, std::abs(sketch.points[a].at - sketch.points[b].at));
+  return size;
+}
+
+}  // namespace
+
+std::size_t complete(Sketch& sketch) {
+  if (sketch.bodies.empty() || sketch.bodies[0].type != SketchBodyType::ground) {
+    const std::vector<std::size_t> points = lowest(sketch);
+    std::string names;
+    for (const std::size_t point : points)
+      names += fmt::format("{}{}", names.empty() ? "" : " and ", sketch.points[point].name);
+    fix(sketch, points);
+    sketch.questions.push_back({"no layer is called ground: which points are fixed?", names});
+  }
+  const auto moves = [&](const SketchJoint& joint) {
+    return joint.first == 0 && joint.type != JointType::fixed;
+  };
+  std::size_t chosen = sketch.joints.size();
+  for (std::size_t k = 0; k < sketch.joints.size(); ++k) {
+    const SketchJoint& joint = sketch.joints[k];
+    const bool drawn =
+        std::find(sketch.driven.begin(), sketch.driven.end(), joint.point) != sketch.driven.end();
+    if (drawn && joint.type != JointType::fixed) return k;
+  }
+  // The shortest bar at the ground turns most easily; a slide is driven where nothing turns.
+  double shortest = infinity;
+  for (const JointType type : {JointType::revolute, JointType::prismatic})
+    for (std::size_t k = 0; k < sketch.joints.size() && (type == JointType::revolute || shortest == infinity);
+         ++k) {
+      const SketchJoint& joint = sketch.joints[k];
+      if (!moves(joint) || joint.type != type) continue;
+      const double size = size_of(sketch, sketch.bodies[joint.second]);
+      if (chosen < sketch.joints.size() && !(size < shortest)) continue;
+      chosen = k;
+      shortest = size;
+    }
+  const std::string assumed =
+      chosen < sketch.joints.size()
+          ? fmt::format("{}, the joint of the shortest bar at the ground", sketch.joints[chosen].name)
+          : "none";
+  sketch.questions.push_back({"no circle lies on a layer called drive: which pin is driven?", assumed});
+  return chosen;
+}
+
+namespace {
+
+double mm(double metres) { return std::round(metres * 1e9) / 1e6 + 0.0; }
+
+std::string point_name(const Sketch& sketch, std::size_t body, std::size_t point) {
+  return fmt::format("\"{}.{}\"", sketch.bodies[body].name, sketch.points[point].name);
+}
+
+std::string text_of_bodies(const Sketch& sketch) {
+  std::string out;
+  for (const SketchBody& body : sketch.bodies) {
+    std::string points;
+    for (const std::size_t point : body.points) {
+      const SketchPoint& p = sketch.points[point];
+      points += fmt::format("{}{} = [{}, {}]", points.empty() ? "" : ", ", p.name, mm(p.at.real()),
+                            mm(p.at.imag()));
+    }
+    out += fmt::format("\n[[mechanism.body]]\nname      = \"{}\"\npoints_mm = {{ {} }}\n", body.name, points);
+  }
+  return out;
+}
+
+std::string text_of_joints(const Sketch& sketch) {
+  std::string out;
+  for (const SketchJoint& joint : sketch.joints) {
+    out += fmt::format("\n[[mechanism.joint]]\nname   = \"{}\"\n", joint.name);
+    if (joint.type != JointType::revolute) out += fmt::format("type   = \"{}\"\n", name_of(joint.type));
+    out += fmt::format("first  = {}\nsecond = {}\n", point_name(sketch, joint.first, joint.point),
+                       point_name(sketch, joint.second, joint.point));
+    if (joint.type == JointType::prismatic)
+      out += fmt::format("direction_deg = {}\n", std::round(joint.direction * 180 / pi * 1e9) / 1e9 + 0.0);
+  }
+  return out;
+}
+
+/// A sentence as a comment of a file: without line breaks, which the name of a layer may have.
+std::string comment(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return "# " + text + "\n";
+}
+
+}  // namespace
+
+std::string sketch_study(const Sketch& sketch, std::size_t driven, const std::string& title) {
+  std::string out = comment("linkwright study: " + title);
+  for (const SketchQuestion& question : sketch.questions)
+    out += comment(fmt::format("Open question: {} Assumed: {}.", question.text, question.assumed));
+  for (const std::string& sentence : sketch.left_out) out += comment("Not read: " + sentence + ".");
+  out += "schema = 1\nkind   = \"analysis\"\n\n[mechanism]\ntype  = \"planar.linkage\"\ndrawn = true\n";
+  out += text_of_bodies(sketch) + text_of_joints(sketch);
+  if (driven < sketch.joints.size()) {
+    const SketchJoint& joint = sketch.joints[driven];
+    const bool turns = joint.type == JointType::revolute;
+    double size = 0;
+    for (const SketchBody& body : sketch.bodies) size = std::max(size, size_of(sketch, body));
+    out += fmt::format("\n[[drive]]\njoint     = \"{}\"\n{}\n", joint.name,
+                       turns ? "speed_rpm = 10" : "speed_mm_per_s = 10");
+    out +=
+        "\n# The range in which the linkage assembles, around the drawing.\n[sweep]\ntype  = \"grid\"\n"
+        "range = \"assembled\"\n\n[[sweep.input]]\n";
+    out += fmt::format("joint    = \"{}\"\n", joint.name);
+    out += turns ? std::string("from_deg = -180\nto_deg   = 180\n")
+                 : fmt::format("from_mm  = {}\nto_mm    = {}\n", -mm(size), mm(size));
+    out += "samples  = 361\n";
+  }
+  for (const std::size_t point : sketch.traced)
+    for (std::size_t body = 0; body < sketch.bodies.size(); ++body) {
+      const SketchBody& b = sketch.bodies[body];
+      if (b.type == SketchBodyType::ground ||
+          std::find(b.points.begin(), b.points.end(), point) == b.points.end())
+        continue;
+      out += fmt::format("\n[[trace]]\npoint = {}\n", point_name(sketch, body, point));
+      break;
+    }
+  return out;
+}
+
+}  // namespace linkwright::planar
