@@ -35,7 +35,7 @@ BASE, STUDIES = "", "studies"
 FOLDERS = {
     "planar": [[BASE], ["linkage", "serial_arm", "chains", "drawing", "cam"], ["four_bar", "sketch"],
                ["simulation", "path", "balancing", "dyads", "type_synthesis"], ["function", "exact"]],
-    "suspension": [["corner"], ["wheel", "indirect"], ["compliance"], ["direct"]],
+    "suspension": [["corner"], ["wheel", "indirect"], ["compliance", "dependent"], ["direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
     "clearance": [[BASE]],
     "parameter_study": [[BASE]],
