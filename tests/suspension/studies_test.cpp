@@ -11,15 +11,15 @@
 namespace linkwright::suspension {
 namespace {
 
-TEST(Studies, AreThoseOfWheelGuides) {
+TEST(Studies, AreThoseOfCornersAndRigidAxles) {
   std::vector<std::string> names, seeded;
   for (const study::Kind& kind : studies()) {
     names.push_back(study::name_of(kind));
     if (kind.seeded) seeded.push_back(names.back());
   }
-  EXPECT_THAT(
-      names, ::testing::ElementsAre("analysis/suspension.corner", "synthesis/suspension.corner/carrier_poses",
-                                    "synthesis/suspension.corner/wheel_parameters"));
+  EXPECT_THAT(names, ::testing::ElementsAre(
+                         "analysis/suspension.corner", "synthesis/suspension.corner/carrier_poses",
+                         "synthesis/suspension.corner/wheel_parameters", "analysis/suspension.rigid_axle"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.corner/carrier_poses",
                                              "synthesis/suspension.corner/wheel_parameters"));
 }

@@ -3,10 +3,13 @@
 
 #include "linkwright/suspension/studies/direct.h"
 #include "linkwright/suspension/studies/indirect.h"
+#include "linkwright/suspension/studies/rigid_axle.h"
 #include "linkwright/suspension/studies/sweep.h"
 
 namespace linkwright::suspension {
 
-std::vector<study::Kind> studies() { return {sweep_kind(), indirect_kind(), direct_kind()}; }
+std::vector<study::Kind> studies() {
+  return {sweep_kind(), indirect_kind(), direct_kind(), rigid_axle_kind()};
+}
 
 }  // namespace linkwright::suspension
