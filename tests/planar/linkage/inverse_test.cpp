@@ -68,7 +68,7 @@ FollowedPoint followed(const Linkage& l, std::string_view name,
                        FollowedCoordinates coordinates = FollowedCoordinates::point) {
   const BodyPoint p = point_named(l, name);
   FollowedPoint out{p.body, l.bodies[index(p.body)].points[index(p.point)].at, coordinates, {}};
-  out.drives.resize(count_of(coordinates));
+  out.drives.resize(drives_of(coordinates));
   std::iota(out.drives.begin(), out.drives.end(), 0u);
   return out;
 }
@@ -86,7 +86,7 @@ std::vector<InputMotion> drawn(const LinkagePlan& plan) {
 }
 
 PathDrives along(const Linkage& l, const LinkagePlan& plan, const FollowedPoint& point,
-                 const PathMotion& path, std::vector<double> times) {
+                 const PointPathMotion& path, std::vector<double> times) {
   const std::vector<InputMotion> from = drawn(plan);
   const auto start = path_start(plan, point, from, from, path(0));
   EXPECT_TRUE(start);
@@ -101,7 +101,7 @@ TEST(LinkageInverse, BoomAndStickFollowALineAsInTheReference) {
   const LinkagePlan plan = planned(l);
   ASSERT_EQ(plan.drawn_inputs.size(), 2u);
   const FollowedPoint point = followed(l, "stick.T");
-  const PathMotion path(line_to({2.6, -1.6}, 4), {4.2, -0.5}, 0);
+  const PointPathMotion path(line_to({2.6, -1.6}, 4), {4.2, -0.5}, 0);
   const PathDrives found = along(l, plan, point, path, {0, 1, 2, 3.3, 4});
   ASSERT_EQ(found.status, Status::done);
   ASSERT_EQ(found.rows.size(), 5u);
@@ -139,7 +139,7 @@ TEST(LinkageInverse, RatesAndPowerAgreeWithSecondRoutes) {
         BodyMass{.mass = 40.0 + 10 * static_cast<double>(b), .inertia = 7, .centre = {0.4, 0.1}};
   const LinkagePlan plan = planned(l);
   const FollowedPoint point = followed(l, "stick.T");
-  const PathMotion path(line_to({2.6, -1.6}, 4), {4.2, -0.5}, 0);
+  const PointPathMotion path(line_to({2.6, -1.6}, 4), {4.2, -0.5}, 0);
   constexpr double h = 1e-4;
   const PathDrives found = along(l, plan, point, path, {1.1 - h, 1.1, 1.1 + h, 2.7 - h, 2.7, 2.7 + h});
   ASSERT_EQ(found.rows.size(), 6u);
@@ -170,7 +170,7 @@ TEST(LinkageInverse, PathThatLeavesTheReachEndsWhereTheArmIsStretched) {
     const Linkage l = arm(side * 20 * degree, -side * 60 * degree);
     const LinkagePlan plan = planned(l);
     const FollowedPoint point = followed(l, "stick.T");
-    const PathMotion path(line_to({5.2, 0}, 2), {4.2, 0}, 0);
+    const PointPathMotion path(line_to({5.2, 0}, 2), {4.2, 0}, 0);
     std::vector<double> times;
     for (int i = 0; i <= 200; ++i) times.push_back(0.01 * i);
     const PathDrives found = along(l, plan, point, path, times);
@@ -191,7 +191,7 @@ TEST(LinkageInverse, PathThatLeavesTheReachEndsWhereTheArmIsStretched) {
 TEST(LinkageInverse, FoldedArmIsNamed) {
   const Linkage l = arm(20 * degree, 160 * degree);
   const LinkagePlan plan = planned(l);
-  const PathMotion path(line_to({0.8, 0}, 1), {2.2, 0}, 0);
+  const PointPathMotion path(line_to({0.8, 0}, 1), {2.2, 0}, 0);
   const PathDrives found = along(l, plan, followed(l, "stick.T"), path, {0, 0.25, 0.5, 0.75, 1});
   EXPECT_EQ(found.status, Status::limit_reached);
   EXPECT_NEAR(found.last.position.x, 1.2, 1e-11);
@@ -218,7 +218,7 @@ TEST(LinkageInverse, PistonTurnsTheCrankOnTheSideOfTheDrawing) {
     set_start(l, "piston", x, 0);
     const LinkagePlan plan = planned(l);
     const FollowedPoint point = followed(l, "piston.B", FollowedCoordinates::x);
-    const PathMotion path(line_to({0.21, 0}, 1), {0.18, 0}, 0);
+    const PointPathMotion path(line_to({0.21, 0}, 1), {0.18, 0}, 0);
     const PathDrives found = along(l, plan, point, path, {0, 0.2, 0.4, 0.6, 0.8, 1});
     EXPECT_NEAR(found.rows[0].inputs[0].value / degree, numbers(at(c, "computed.crank_deg"))[side], 1e-11);
     EXPECT_EQ(found.status, Status::limit_reached);
@@ -267,7 +267,7 @@ TEST(LinkageInverse, PlatformIsLedWithItsAngle) {
   PointPath path;
   const Vec2 to = at_home.position + Vec2{0.02 * plan.size, 0.01 * plan.size};
   path.steps.push_back({PathLine{{to.x, to.y}, angle + 0.05, {1.0, {}}}});
-  const PathMotion led(path, at_home.position, angle);
+  const PointPathMotion led(path, at_home.position, angle);
   const std::vector<std::optional<math::MotionCurve>> laws(3);
   const auto start = path_start(plan, point, home, home, led(0));
   ASSERT_TRUE(start);

@@ -30,7 +30,7 @@ TEST(PointPath, RatesAreThoseOfItsPlaces) {
     PointPath p = all_steps();
     p.law = law;
     ASSERT_FALSE(problem(p, {0, 0}));
-    const PathMotion path(p, {0, 0}, 0);
+    const PointPathMotion path(p, {0, 0}, 0);
     const std::vector<double> breaks = path.breaks();
     ASSERT_EQ(breaks.size(), 6u);
     constexpr double h = 1e-4;
@@ -51,7 +51,7 @@ TEST(PointPath, RatesAreThoseOfItsPlaces) {
 }
 
 TEST(PointPath, MeetsItsPlaces) {
-  const PathMotion path(all_steps(), {0, 0}, 0);
+  const PointPathMotion path(all_steps(), {0, 0}, 0);
   const std::vector<double> t = path.breaks();
   EXPECT_NEAR(norm(path(t[1]).position - Vec2{1, 0}), 0, 1e-15);
   EXPECT_NEAR(norm(path((t[1] + t[2]) / 2).position - Vec2{2, 1}), 0, 1e-15);  // half of the half circle
@@ -72,7 +72,7 @@ TEST(PointPath, CurveThroughACircleIsNearlyOne) {
   for (int i = 1; i <= 48; ++i) curve.points.push_back({std::cos(i * pi / 24), std::sin(i * pi / 24)});
   curve.points.back() = {1, 0};
   curve.pace.speed = 1;
-  const PathMotion path({{{curve}}, PathLaw::constant_speed}, {1, 0}, 0);
+  const PointPathMotion path({{{curve}}, PathLaw::constant_speed}, {1, 0}, 0);
   EXPECT_NEAR(path.length(), full_turn, 1e-6);
   for (const double t : {0.3, 2.0, 5.9}) {
     const PathState s = path(t);

@@ -59,8 +59,8 @@ PathState target_between(const PathState& a, const PathState& b, double share) {
 
 LinkageInverse::LinkageInverse(const LinkagePlan& plan, FollowedPoint point)
     : motion(plan), plan_(plan), point_(std::move(point)), trial_(plan.inputs()), unit_(plan.inputs()) {
-  LINKWRIGHT_REQUIRE(point_.drives.size() == count_of(point_.followed),
-                     "{} coordinates are followed by {} drives", count_of(point_.followed),
+  LINKWRIGHT_REQUIRE(point_.drives.size() == drives_of(point_.followed),
+                     "{} coordinates are followed by {} drives", drives_of(point_.followed),
                      point_.drives.size());
   for (const std::size_t k : point_.drives) {
     LINKWRIGHT_REQUIRE(k < plan.inputs(), "there is no input {} of {}", k, plan.inputs());
@@ -334,7 +334,7 @@ std::optional<std::vector<InputMotion>> path_start(const LinkagePlan& plan, cons
 }
 
 PathDrives follow_path(const Linkage& linkage, const LinkagePlan& plan, const FollowedPoint& point,
-                       const PathMotion& path, std::span<const std::optional<math::MotionCurve>> laws,
+                       const PointPathMotion& path, std::span<const std::optional<math::MotionCurve>> laws,
                        std::span<const InputMotion> start, std::span<const double> times) {
   PathDrives out;
   const auto target = [&](double time, std::span<InputMotion> inputs) {

@@ -41,7 +41,7 @@ constexpr std::array<EnumName<FollowedCoordinates>, 5> names(FollowedCoordinates
 ///
 /// @param followed coordinates that are followed
 /// @returns 1 to 3
-constexpr std::size_t count_of(FollowedCoordinates followed) {
+constexpr std::size_t drives_of(FollowedCoordinates followed) {
   return followed == FollowedCoordinates::point ? 2 : followed == FollowedCoordinates::pose ? 3 : 1;
 }
 
@@ -152,7 +152,7 @@ std::optional<std::vector<InputMotion>> path_start(const LinkagePlan& plan, cons
 /// @param times times of the rows (s), rising from 0
 /// @returns the rows, and where and why the path ends
 PathDrives follow_path(const Linkage& linkage, const LinkagePlan& plan, const FollowedPoint& point,
-                       const PathMotion& path, std::span<const std::optional<math::MotionCurve>> laws,
+                       const PointPathMotion& path, std::span<const std::optional<math::MotionCurve>> laws,
                        std::span<const InputMotion> start, std::span<const double> times);
 
 }  // namespace linkwright::planar

@@ -218,17 +218,18 @@ std::optional<Wrong> step_problem(const PathStep& step, Vec2 start, bool first, 
 
 }  // namespace
 
-std::optional<PathProblem> problem(const PointPath& path, Vec2 start) {
+std::optional<PointPathProblem> problem(const PointPath& path, Vec2 start) {
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
     if (auto wrong = step_problem(path.steps[i], start, i == 0, path.steps.size() == 1))
-      return PathProblem{static_cast<int>(i), wrong->key,
-                         fmt::format("{}: {}", name_of_step(path.steps[i], i), wrong->message), wrong->hint};
+      return PointPathProblem{static_cast<int>(i), wrong->key,
+                              fmt::format("{}: {}", name_of_step(path.steps[i], i), wrong->message),
+                              wrong->hint};
     start = end_of(path.steps[i], start);
   }
   return std::nullopt;
 }
 
-PathMotion::PathMotion(const PointPath& path, Vec2 start, double angle) {
+PointPathMotion::PointPathMotion(const PointPath& path, Vec2 start, double angle) {
   const auto wrong = problem(path, start);
   LINKWRIGHT_REQUIRE(!wrong, "{}", wrong->message);
   for (const PathStep& step : path.steps) {
@@ -296,7 +297,7 @@ PathMotion::PathMotion(const PointPath& path, Vec2 start, double angle) {
   }
 }
 
-PathState PathMotion::on(const Piece& piece, double time) {
+PathState PointPathMotion::on(const Piece& piece, double time) {
   const double t = std::clamp(time - piece.start, 0.0, piece.duration);
   const math::Motion share = piece.law ? (*piece.law)(t) : math::Motion{};
   const double s = piece.length * share.value, v = piece.length * share.rate,
@@ -352,7 +353,7 @@ PathState PathMotion::on(const Piece& piece, double time) {
   return out;
 }
 
-PathState PathMotion::operator()(double time) const {
+PathState PointPathMotion::operator()(double time) const {
   std::size_t i = 0;
   while (i + 1 < pieces_.size() && time >= pieces_[i + 1].start) ++i;
   PathState out = on(pieces_[i], time);
@@ -360,12 +361,12 @@ PathState PathMotion::operator()(double time) const {
   return out;
 }
 
-double PathMotion::share(double time) const {
+double PointPathMotion::share(double time) const {
   const double share = length_ > 0 ? (*this)(time).length / length_ : time / duration_;
   return std::clamp(share, 0.0, 1.0);
 }
 
-std::vector<double> PathMotion::breaks() const {
+std::vector<double> PointPathMotion::breaks() const {
   std::vector<double> out;
   for (const Piece& p : pieces_) out.push_back(p.start);
   out.push_back(duration_);

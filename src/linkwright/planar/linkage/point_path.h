@@ -83,7 +83,7 @@ struct PointPath {
 };
 
 /// The reason why a path is not a motion.
-struct PathProblem {
+struct PointPathProblem {
   int step = 0;          ///< from 0
   std::string_view key;  ///< key of the wrong field, without unit
   std::string message;   ///< message with the step by number and kind: "step 3 (arc): ..."
@@ -95,7 +95,7 @@ struct PathProblem {
 /// @param path the path
 /// @param start place where it begins (m)
 /// @returns the problem; nothing if there is none
-std::optional<PathProblem> problem(const PointPath& path, math::Vec2 start);
+std::optional<PointPathProblem> problem(const PointPath& path, math::Vec2 start);
 
 /// The target at an instant: place and angle, and how they move.
 struct PathState {
@@ -110,7 +110,7 @@ struct PathState {
 };
 
 /// A path that is ready to be evaluated.
-class PathMotion {
+class PointPathMotion {
  public:
   /// Prepares a path.
   ///
@@ -118,7 +118,7 @@ class PathMotion {
   /// @param start place where it begins (m)
   /// @param angle angle of the body there (rad)
   /// @throws ContractError with the text of `problem` if there is one
-  PathMotion(const PointPath& path, math::Vec2 start, double angle);
+  PointPathMotion(const PointPath& path, math::Vec2 start, double angle);
 
   /// The target at an instant; at the end of a step that of the next one.
   ///

@@ -12,7 +12,9 @@
 #include "linkwright/planar/four_bar/as_linkage.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/form.h"
+#include "linkwright/planar/linkage/inverse.h"
 #include "linkwright/planar/linkage/limits.h"
+#include "linkwright/planar/linkage/motor.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/slider_crank.h"
 #include "linkwright/study/bind.h"
@@ -24,11 +26,28 @@
 // and reported. `planar.four_bar` and `planar.slider_crank` are shorthands: linkages by a few parameters.
 namespace linkwright::planar {
 
+/// The limits of a drive, which are reported and change no motion; and where it is at the start of a path.
+struct LinkageDriveLimits {
+  std::optional<double> lowest, highest;              ///< rad or m
+  std::optional<double> speed, acceleration, effort;  ///< sizes; effort in N m or N
+  std::optional<double> start;                        ///< rad or m, about
+};
 /// The motion of a driven joint: over a grid its rate and acceleration, over time its law.
 struct LinkageDrive {
   std::string joint;
   double rate = 0, acceleration = 0;
   std::optional<math::MotionLaw> law;
+  LinkageDriveLimits limits;
+};
+/// `[path]`: a point that the drives without a law take along a path.
+struct LinkagePath {
+  PointPath form;
+  FollowedPoint point;
+  BodyPoint traced;
+  math::Vec2 from{0, 0};           ///< place where it begins
+  double angle = 0;                ///< angle of the body there
+  std::vector<InputMotion> start;  ///< all inputs there
+  int samples = 0;
 };
 /// One axis of a grid.
 struct InputSamples {
@@ -80,6 +99,8 @@ struct LinkageStudy {
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
   std::optional<LinkageHolding> holding;
+  std::optional<LinkagePath> path;  ///< of a sweep over time
+  std::vector<Motor> motors;        ///< catalogue of which the drives take theirs
   LinkageQuantities quantities;
   std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
   study::DisplayUnits units;                 ///< units of its messages
@@ -104,6 +125,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
 struct LinkageRows {
   std::vector<double> time;
   std::vector<std::vector<InputMotion>> inputs;  ///< inputs of each row
+  std::optional<PathDrives> path;                ///< of a path: its rows, and where it ends
 };
 LinkageRows rows_of(const LinkageStudy& study);
 
@@ -147,10 +169,11 @@ struct LinkageDescription {
   std::vector<double> sample_from;           ///< and the inputs where its motion begins
 };
 /// Reads and plans; nothing when there are problems, which go to the reader in the given units.
-/// `lists_quantities`: the study may list quantities that need no masses.
+/// `lists_quantities`: the study may list quantities that need no masses. `follows_path`: it may have
+/// `[path]`.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
                                                bool needs_masses, const study::DisplayUnits& units,
-                                               bool lists_quantities = false);
+                                               bool lists_quantities = false, bool follows_path = false);
 /// Adds to the facts the inertias and mass centres that the study leaves out, as they were taken.
 void report_assumed_masses(const Linkage& linkage, study::Result& result);
 /// True if every body has its mass; says which do not.
@@ -178,6 +201,20 @@ template <class Visitor>
 void joint_fields(Visitor&& visit, bool rotary, LinkageDrive& d) {
   visit(drive_field(rotary, 1, "speed", "rate at every position of a grid"), d.rate);
   visit(drive_field(rotary, 2, "acceleration", "acceleration at every position of a grid"), d.acceleration);
+}
+template <class Visitor>
+void joint_fields(Visitor&& visit, bool rotary, LinkageDriveLimits& d) {
+  visit(drive_field(rotary, 0, "lowest", "least value that the drive can take"), d.lowest);
+  visit(drive_field(rotary, 0, "highest", "greatest value that the drive can take"), d.highest);
+  visit(drive_field(rotary, 1, "speed_limit", "greatest speed of the drive").positive(), d.speed);
+  visit(drive_field(rotary, 2, "acceleration_limit", "greatest acceleration of the drive").positive(),
+        d.acceleration);
+  if (rotary)
+    visit(field::torque("torque_limit", "greatest torque of the drive").positive(), d.effort);
+  else
+    visit(field::force("force_limit", "greatest force of the drive").positive(), d.effort);
+  visit(drive_field(rotary, 0, "start", "value from which the drive goes to the beginning of a path"),
+        d.start);
 }
 template <class Visitor>
 void joint_fields(Visitor&& visit, bool rotary, InputSamples& a, bool required = true) {

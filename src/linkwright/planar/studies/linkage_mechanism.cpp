@@ -15,6 +15,7 @@
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_path.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -277,7 +278,7 @@ void read_traced_points(std::vector<study::ObjectReader>& traces, const Linkage&
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
                                                bool needs_masses, const study::DisplayUnits& units,
-                                               bool lists_quantities) {
+                                               bool lists_quantities, bool follows_path) {
   LinkageDescription out;
   auto mechanism = document.table(field::entry("mechanism").required());
   LinkageEnvironment environment;
@@ -293,7 +294,9 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
                     : mechanism->has(sample_field)    ? read_sample(*mechanism, traced, out)
                                                       : read_form(*mechanism, l);
   if (!good) return std::nullopt;
+  const bool own_drives = !l.driven.empty();
   read_driven_joints(drives, l);
+  if (follows_path) read_path_drives(document, l, own_drives);
   read_traced_points(traces, l, out.traces);
   // A sample brings its own gravity.
   if (surroundings || out.sample.empty()) {

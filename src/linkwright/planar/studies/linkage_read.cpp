@@ -13,7 +13,9 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_drives.h"
 #include "linkwright/planar/studies/linkage_holding.h"
+#include "linkwright/planar/studies/linkage_path.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
@@ -62,9 +64,15 @@ constexpr std::array<EnumName<DriveInput>, 1> names(DriveInput) {
 }
 constexpr Field input_field = field::entry("input", "link of a four-bar that is driven");
 
-// The kinds of a sweep share the reading of drives: rates over a grid, laws over time.
+bool follows(const LinkagePath& path, std::size_t input) {
+  const std::vector<std::size_t>& drives = path.point.drives;
+  return std::find(drives.begin(), drives.end(), input) != drives.end();
+}
+
+// The kinds of a sweep share the reading of drives: rates over a grid, laws over time; on a path the drives
+// that follow it have none.
 void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType type, bool over_time,
-                 LinkageStudy& s, Value::Array& canonical) {
+                 LinkageStudy& s, Value::Array& canonical, bool limited) {
   s.drives.resize(l.driven.size());
   canonical.assign(l.driven.size(), Value::object());
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
@@ -81,15 +89,21 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
     if (DriveInput link{}; type == LinkageType::four_bar) drive(input_field, link);
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     LinkageDrive& d = s.drives[*input];
+    if (limited) joint_fields(drive, rotary, d.limits);
     if (!over_time) {
       joint_fields(drive, rotary, d);
-    } else {
+    } else if (!s.path || !follows(*s.path, *input)) {
       d.law = read_law(drive, rotary, true, canonical[*input]);
+    } else if (drive.has("law")) {
+      drive.unreadable("law", fmt::format("joint '{}' follows the path, and has a law", d.joint),
+                       "leave one out; `drives` of [path] names those that follow");
     }
   }
   for (std::size_t i = 0; i < s.drives.size(); ++i) {
+    study::ObjectWriter limits(canonical[i]);
+    joint_fields(limits, input_joint(l, i).type == JointType::revolute, s.drives[i].limits);
     if (over_time) {
-      if (!s.drives[i].law && !document.document().has_errors())
+      if (!s.drives[i].law && !(s.path && follows(*s.path, i)) && !document.document().has_errors())
         document.error("drive", fmt::format("joint '{}' has no motion law", s.drives[i].joint),
                        "add a [[drive]] with joint and law");
       continue;
@@ -262,6 +276,27 @@ void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQualit
       table->error("centrodes", fmt::format("there is no moving body '{}'", body), {});
 }
 
+// The motion by a path: its drives, their laws, and its beginning.
+void take_path(study::ObjectReader& document, const study::Common& common, LinkageType type,
+               LinkageDescription& description, LinkageStudy& s, Value::Array& drives, Value& canonical) {
+  LinkagePathForm form;
+  s.path = read_path(document, common, description.linkage, description.plan, form);
+  if (!s.path) {
+    for (study::ObjectReader& drive : drive_tables(document)) drive.members();
+    return;
+  }
+  read_drives(document, description.linkage, type, true, s, drives, true);
+  if (document.document().has_errors()) return;
+  if (!find_path_start(document, description, s.drives, form, *s.path)) return;
+  s.sweep = study::TimeSamples{0, PointPathMotion(s.path->form, s.path->from, s.path->angle).duration(),
+                               s.path->samples};
+  const BodyPoint& traced = s.path->traced;
+  const auto is_it = [&](const BodyPoint& t) { return t.body == traced.body && t.point == traced.point; };
+  if (std::none_of(description.traces.begin(), description.traces.end(), is_it))
+    description.traces.push_back(traced);
+  canonical = study::write_fields(form);
+}
+
 }  // namespace
 
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
@@ -271,7 +306,9 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   s.quantities = chosen_quantities(common.output.quantities);
   s.units = common.units;
   const bool optional = without_masses == WithoutMasses::motion_alone && common.output.quantities.empty();
-  auto description = read_linkage(document, type, s.quantities.dynamic() && !optional, common.units, true);
+  const bool on_path = canonical && document.has("path");
+  auto description =
+      read_linkage(document, type, s.quantities.dynamic() && !optional, common.units, true, on_path);
   if (description && optional && !leave_out_forces(document, type, *description, s.quantities))
     description = {};
   auto sweep = document.table("sweep");
@@ -282,14 +319,24 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     if (sweep) sweep->members();
     if (auto quality = document.table("quality")) quality->members();
     if (auto holding = document.table("holding")) holding->members();
+    if (on_path) document.table("path")->members();
+    for (study::ObjectReader& motor : document.tables("motor")) motor.members();
     for (study::ObjectReader& drive : drive_tables(document)) drive.members();
     return std::nullopt;
   }
   const Linkage& l = description->linkage;
   Value::Array drives;
-  Value canonical_sweep;
-  if (!sweep && description->sample.empty()) {
-    if (turn(document, l, s, canonical_sweep)) read_drives(document, l, type, false, s, drives);
+  Value canonical_sweep, canonical_path;
+  if (on_path) {
+    if (sweep) {
+      sweep->members();
+      sweep->error("", "the path gives the motion and its rows",
+                   "leave [sweep] out; samples of [path] says how many rows");
+    }
+    take_path(document, common, type, *description, s, drives, canonical_path);
+  } else if (!sweep && description->sample.empty()) {
+    if (turn(document, l, s, canonical_sweep))
+      read_drives(document, l, type, false, s, drives, canonical != nullptr);
   } else if (!sweep) {  // a sample knows what motion to look at
     const LinkageSample& sample = linkage_sample(description->sample);
     InputGrid grid;
@@ -300,7 +347,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       document.error("sweep", fmt::format("the sample '{}' has {} inputs", sample.name, grid.inputs.size()),
                      "add [sweep] with a [[sweep.input]] for each");
     s.sweep = std::move(grid);
-    read_drives(document, l, type, false, s, drives);
+    read_drives(document, l, type, false, s, drives, canonical != nullptr);
     if (!document.has("drive"))
       for (std::size_t i = 0; i < l.driven.size(); ++i) {
         s.drives[i].rate = i == 0 ? sample.speed : 0.0;
@@ -309,7 +356,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       }
   } else if (how == SweepType::grid) {
     read_grid(*sweep, l, description->plan, type, common.units, s, canonical_sweep);
-    read_drives(document, l, type, false, s, drives);
+    read_drives(document, l, type, false, s, drives, canonical != nullptr);
   } else {
     study::TimeSamples times;
     if (auto table = sweep->table(field::entry("time").required())) {
@@ -320,22 +367,27 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     canonical_sweep["type"] = "time";
     canonical_sweep["time"] = study::write_fields(times);
     s.sweep = times;
-    read_drives(document, l, type, true, s, drives);
+    read_drives(document, l, type, true, s, drives, canonical != nullptr);
   }
   read_quality(document, l, s.quality);
   Value canonical_holding;
   s.holding = read_holding(document, l, description->plan, canonical ? &canonical_holding : nullptr);
+  if (canonical) s.motors = read_motors(document, s);
   if (canonical) say_what_is_not_known(document, description->plan, common.output.quantities, s.quality);
   if (canonical) {
     write_linkage(*description, *canonical);
     if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
     if (s.holding) (*canonical)["holding"] = std::move(canonical_holding);
+    for (const Motor& motor : s.motors) (*canonical)["motor"].push_back(study::write_fields(motor));
     // A four-bar names no drive where nothing depends on its speed; joints of other linkages say which are
     // driven.
     if (type != LinkageType::four_bar || s.quantities.rates || s.quantities.dynamic() ||
         document.has("drive"))
       (*canonical)["drive"] = Value(std::move(drives));
-    (*canonical)["sweep"] = std::move(canonical_sweep);
+    if (on_path)
+      (*canonical)["path"] = std::move(canonical_path);
+    else
+      (*canonical)["sweep"] = std::move(canonical_sweep);
   }
   s.four_bar = std::move(description->four_bar);
   s.linkage = std::move(description->linkage);
@@ -351,6 +403,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (auto s = read_linkage_study(document, common, type, &prepared.canonical, WithoutMasses::motion_alone)) {
     Table& sweep = prepared.tables.emplace_back(Table{.name = "sweep"});
     for (const LinkageColumn& c : columns_of(*s)) sweep.add(c.key, c.label);
+    if (s->path) prepared.tables.push_back(empty_path_table());
     prepared.run = [s = std::move(*s)](RunContext& context) { return run_linkage_study(s, context); };
   }
   return prepared;
@@ -364,6 +417,7 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   drive(field::entry("joint", "driven joint"), std::string());
   drive(field::entry("law", "motion law, for a sweep over time"), std::optional<study::AnyLaw>());
   describe_joint_fields<LinkageDrive>(drive);
+  if (at_change_point) describe_joint_fields<LinkageDriveLimits>(drive);
   if (type == LinkageType::four_bar) drive(input_field, std::optional<DriveInput>());
   describe_drives(document, "how driven joints move", std::move(drive));
   study::SchemaWriter axis;
@@ -392,6 +446,8 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   document.property(field::entry("quality", "what is computed beyond the table"),
                     study::schema_fields<LinkageQuality>());
   describe_holding(document);
+  describe_path(document);
+  describe_motors(document);
 }
 
 study::Kind kind_of(LinkageType type) {

@@ -14,6 +14,7 @@
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage_holding.h"
+#include "linkwright/planar/studies/linkage_path.h"
 
 namespace linkwright::planar {
 namespace {
@@ -37,11 +38,13 @@ std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::nothing;
   for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
     out.push_back(std::move(c));
+  if (s.path) add_drive_motion_columns(s, out);
   if (s.holding) add_holding_columns(s, out);
   return out;
 }
 
 LinkageRows rows_of(const LinkageStudy& s) {
+  if (s.path) return path_rows(s);
   LinkageRows rows;
   if (const auto* times = std::get_if<study::TimeSamples>(&s.sweep)) {
     std::vector<math::MotionCurve> curves;
@@ -151,6 +154,7 @@ Status RowSolver::solve(std::size_t r) {
            limit_at_change(s_.plan, *branch, now.inputs[0].value, now.inputs[0], motion,
                            dynamic && !kink ? &s_.linkage : nullptr, forces);
   if (passed && kink) forget_rates();
+  if (rows_.path && rows_.path->rows[r].singular) motion.status = Status::singular;
   return motion.status != Status::done ? motion.status
          : passed && kink              ? Status::singular
          : dynamic                     ? forces.status

@@ -25,7 +25,9 @@
 #include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/linkage/strut.h"
+#include "linkwright/planar/studies/linkage_drives.h"
 #include "linkwright/planar/studies/linkage_holding.h"
+#include "linkwright/planar/studies/linkage_path.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/extremes.h"
@@ -96,8 +98,10 @@ class Runner {
     plots();
     facts();
     if (s_.holding) add_holding_facts(s_, result_);
+    add_drives(s_, history_, result_);
     warnings();
     headline();
+    if (s_.path) add_path(s_, rows_, result_);
     return std::move(result_);
   }
 
@@ -146,6 +150,7 @@ class Runner {
       if (r < shown_rows())
         recorded_.push_back(record(dynamic, over_time() ? now.time : now.inputs[scene_axis()].value));
       collect(r, motion, forces, dynamic && status == Status::done);
+      if (status == Status::done) history_.add(s_, now, dynamic, solver_.motion);
       if (r % 256 == 255 && context_.interrupted()) {
         interruption_ = context_.interruption();
         break;
@@ -230,6 +235,7 @@ class Runner {
     if (q.drive) {
       plot("torque", "Drive torque", columns_ending("_drive_torque_N_m", 6));
       plot("drive-force", "Drive force", columns_ending("_drive_force_N", 6));
+      plot("drive-power", "Power of each drive", columns_ending("_drive_power_W", 6));
     }
     if (q.reactions) {
       std::vector<std::string> sizes;
@@ -279,6 +285,8 @@ class Runner {
           speeds.push_back(identifier(b.name) + "_speed_rad_per_s");
           accelerations.push_back(identifier(b.name) + "_acceleration_rad_per_s2");
         }
+      plot("drive-speeds", "Speeds of the drives that turn", columns_ending("_drive_speed_rad_per_s", 6));
+      plot("drive-slides", "Speeds of the drives that slide", columns_ending("_drive_speed_m_per_s", 6));
       plot("speeds", "Angular speeds", speeds);
       plot("accelerations", "Angular accelerations", accelerations);
     }
@@ -449,7 +457,10 @@ class Runner {
       const std::string group = f.group >= 0 ? s_.plan.groups[at(f.group)].name : std::string();
       const Sentence place =
           say("{} of {} positions, the first at {}", f.rows, statuses_.size(), where(f.first));
-      if (s == Status::singular)
+      if (s == Status::singular && group.empty())
+        warn(
+            say("{} are at a singular place of the path: speeds and forces are not determined there", place));
+      else if (s == Status::singular)
         warn(say("{} are at a dead point of {}: speeds and forces are not determined there", place, group));
       else if (s == Status::no_assembly)
         warn(f.gap > 0 ? say("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
@@ -597,6 +608,7 @@ class Runner {
   std::vector<Status> statuses_;
   std::vector<bool> passed_;  // rows at change points that hold what is known there
   std::vector<LinkageRecord> recorded_;
+  DriveHistory history_;
   Status interruption_ = Status::done;
   Failures failures_;
   study::Extreme nearest_, closure_, transmission_, shaking_, power_, balance_;
