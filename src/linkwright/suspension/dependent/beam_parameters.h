@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/corner/wheel.h"
+#include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/dependent/beam_position.h"
 #include "linkwright/suspension/wheel/axle.h"
 
