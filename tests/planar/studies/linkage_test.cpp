@@ -574,5 +574,55 @@ quantities = ["position", "rates"]
   }
 }
 
+/// An engine of 50 and 150 mm with a bore of 80 mm, without masses and gravity, under 2 MPa at 30 degrees.
+std::string engine(const std::string& gas, double guide = 0, const std::string& branch = "forward") {
+  return fmt::format(R"(schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.slider_crank"
+branch = "{}"
+[mechanism.parameters]
+crank_mm = 50
+rod_mm = 150
+guide_angle_deg = {}
+[mechanism.mass]
+crank = {{ mass_kg = 0, inertia_kg_m2 = 0, centre_distance_mm = 0 }}
+rod = {{ mass_kg = 0, inertia_kg_m2 = 0, centre_distance_mm = 0 }}
+slider_kg = 0
+[mechanism.gas_pressure]
+{}
+[[drive]]
+speed_rpm = 3000
+[sweep]
+type = "grid"
+[[sweep.input]]
+from_deg = {}
+to_deg = {}
+samples = 2
+)",
+                     branch, guide, gas, 30 + guide + (branch == "forward" ? 0 : 180),
+                     60 + guide + (branch == "forward" ? 0 : 180));
+}
+
+TEST(LinkageStudy, GasPushesThePistonOfAnEngine) {
+  const std::string gas = "bore_mm = 80\ncrank_deg = [0, 30, 60, 720]\npressure_MPa = [3, 2, 1, 3]";
+  // The torque of the drive holds the crank against the gas, whatever the direction of the guide.
+  for (const auto& [guide, branch] : {std::pair{0.0, "forward"}, {90.0, "forward"}, {0.0, "backward"}}) {
+    const study::Result r = run_text(engine(gas, guide, branch));
+    ASSERT_EQ(r.status, Status::done);
+    const Table& sweep = r.tables[0];
+    EXPECT_NEAR(sweep.find("O_drive_torque_N_m")->values.at(0), -324.908544282692, 1e-9);
+    EXPECT_NEAR(sweep.find("guide_N")->values.at(0), 1699.2834545953694, 1e-8);
+  }
+  // A table of two turns repeats after them: at 750 degrees it is where it was at 30.
+  std::string later = engine(gas);
+  later = replaced(replaced(later, "from_deg = 30", "from_deg = 750"), "to_deg = 60", "to_deg = 780");
+  EXPECT_NEAR(run_text(later).tables[0].find("O_drive_torque_N_m")->values.at(0), -324.908544282692, 1e-9);
+  EXPECT_THAT(problems_of(engine("bore_mm = 80\ncrank_deg = [0, 30, 20]\npressure_MPa = [1, 2, 3]")),
+              HasSubstr("mechanism.gas_pressure.crank_deg: the angles do not rise behind the place 2"));
+  EXPECT_THAT(problems_of(engine("bore_mm = 80\ncrank_deg = [0, 30]\npressure_MPa = [1]")),
+              HasSubstr("there are 1 pressures for 2 angles of the crank"));
+}
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -5,9 +5,24 @@
 
 #include <complex>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {
+namespace {
+
+/// The force of the gas on the slider, against the angle of the crank from the x axis.
+PointForce gas_force(const SliderCrankMechanism& mechanism, const GasPressure& gas) {
+  const bool forward = mechanism.branch == SliderSide::forward;
+  const double outer = mechanism.parameters.guide_angle + (forward ? 0 : pi);
+  PointForce out{
+      .name = "gas", .point = {3, 0}, .force = -0.25 * pi * gas.bore * gas.bore * std::polar(1.0, outer)};
+  out.factor = {LoadArgument::input, gas.crank, gas.pressure};
+  for (double& angle : out.factor.argument) angle += outer;
+  return out;
+}
+
+}  // namespace
 
 Linkage slider_crank(const SliderCrankMechanism& mechanism) {
   const SliderCrankForm& s = mechanism.parameters;
@@ -40,6 +55,7 @@ Linkage slider_crank(const SliderCrankMechanism& mechanism) {
     set(l.bodies[2], masses->rod);
     l.bodies[3].mass = BodyMass{masses->slider, 0, 0};
   }
+  if (mechanism.gas) l.forces.push_back(gas_force(mechanism, *mechanism.gas));
   return l;
 }
 

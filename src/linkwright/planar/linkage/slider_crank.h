@@ -36,10 +36,17 @@ constexpr std::array<EnumName<SliderSide>, 2> names(SliderSide) {
   return {{{SliderSide::forward, "forward", "the slider ahead of the crank pin along the guide direction"},
            {SliderSide::backward, "backward", "the slider behind the crank pin"}}};
 }
+/// `[mechanism.gas_pressure]`: what pushes the slider as a piston towards the crank.
+struct GasPressure {
+  double bore = 0;               ///< diameter of the piston, m
+  std::vector<double> crank;     ///< rising angles of the crank, rad, 0 with crank and guide in line
+  std::vector<double> pressure;  ///< above that on the other side of the piston, Pa, as many
+};
 struct SliderCrankMechanism {
   SliderSide branch = SliderSide::forward;
   SliderCrankForm parameters;
   std::optional<SliderCrankMasses> masses;
+  std::optional<GasPressure> gas = {};
 };
 /// The linkage of it, with bodies crank, rod and slider and joints O (driven), A, B and guide.
 Linkage slider_crank(const SliderCrankMechanism& mechanism);
@@ -72,10 +79,24 @@ void fields(Visitor&& visit, SliderCrankMasses& m) {
 }
 
 template <class Visitor>
+void fields(Visitor&& visit, GasPressure& g) {
+  visit(field::length("bore", "diameter of the piston").positive().required(), g.bore);
+  visit(
+      field::angle("crank",
+                   "rising angles of the crank from the outer dead centre of a guide without offset; a table "
+                   "of whole turns repeats, such as 720 deg of a four-stroke engine")
+          .required(),
+      g.crank);
+  visit(field::pressure("pressure", "pressure at each of them, above that on the other side of the piston")
+            .required(),
+        g.pressure);
+}
+template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMechanism& m) {
   visit(field::entry("branch", "assembly mode"), m.branch);
   visit(field::entry("parameters", "the linkage in numbers").required(), m.parameters);
   visit(field::entry("mass", "masses of the links; only forces and torques need them"), m.masses);
+  visit(field::entry("gas_pressure", "pressure of the gas on the slider, which is a piston"), m.gas);
 }
 
 }  // namespace linkwright::planar

@@ -165,11 +165,27 @@ bool looks_drawn(const LinkageForm& form) {
   return away > 0;
 }
 
+void check_gas(study::ObjectReader& mechanism, const GasPressure& gas) {
+  auto table = mechanism.table("gas_pressure");
+  if (!table) return;
+  if (gas.crank.size() < 2 || gas.pressure.size() != gas.crank.size())
+    return table->error("pressure",
+                        fmt::format("there are {} pressures for {} angles of the crank", gas.pressure.size(),
+                                    gas.crank.size()),
+                        "give two or more angles, and a pressure at each of them");
+  for (std::size_t i = 0; i + 1 < gas.crank.size(); ++i)
+    if (!(gas.crank[i] < gas.crank[i + 1]))
+      return table->error("crank", fmt::format("the angles do not rise behind the place {}", i + 1),
+                          "sort the table by the angle of the crank");
+}
+
 // Each of these reads [mechanism] as one type of linkage, with the traces where the file has none; false
 // where it does not describe one.
 bool read_slider_crank(study::ObjectReader& mechanism, bool traced, LinkageDescription& out) {
   SliderCrankMechanism m;
   mechanism.read(m);
+  if (m.gas) check_gas(mechanism, *m.gas);
+  if (mechanism.document().has_errors()) return false;
   out.linkage = slider_crank(m);
   out.shorthand = study::write_fields(m);
   // The point of the rod is of interest when it is given.
