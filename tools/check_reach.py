@@ -57,6 +57,7 @@ REASONS = {
     "planar/pole_geometry": LIBRARY,
     "planar/reactions_newton_euler": ROUTE,
     "planar/reactions_redundant": ROUTE,
+    "planar/rms_of_steps": LIBRARY,
     "planar/slider_path_kernel_name": KERNEL,
     "planar/sweep_kernel_name": KERNEL,
     "planar/transmission_ranges": LIBRARY,

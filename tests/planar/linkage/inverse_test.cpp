@@ -188,6 +188,19 @@ TEST(LinkageInverse, PathThatLeavesTheReachEndsWhereTheArmIsStretched) {
   }
 }
 
+// A path that ends at the edge of the reach is whole; its last row has no rates.
+TEST(LinkageInverse, PathMayEndWhereTheArmIsStretched) {
+  const Linkage l = arm(20 * degree, -60 * degree);
+  const LinkagePlan plan = planned(l);
+  const PointPathMotion path(line_to({4.8, 0}, 1), {4.2, 0}, 0);
+  const PathDrives found = along(l, plan, followed(l, "stick.T"), path, {0, 0.5, 1});
+  EXPECT_EQ(found.status, Status::done);
+  ASSERT_EQ(found.rows.size(), 3u);
+  EXPECT_FALSE(found.rows[1].singular);
+  EXPECT_TRUE(found.rows[2].singular);
+  EXPECT_EQ(found.share, 1);
+}
+
 TEST(LinkageInverse, FoldedArmIsNamed) {
   const Linkage l = arm(20 * degree, 160 * degree);
   const LinkagePlan plan = planned(l);

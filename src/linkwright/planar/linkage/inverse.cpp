@@ -209,10 +209,12 @@ class PathFollower {
   double now = 0;
 
   bool begin(double at) {
+    if (!parts_.empty()) restore();
     now = at;
     const PathState target = target_(at, inputs);
     if (inverse.place(target, inputs) != Status::done) return false;
     side_ = inverse.determinant();
+    keep();
     return true;
   }
 
@@ -231,22 +233,39 @@ class PathFollower {
     return true;
   }
 
-  // A place near `now` on the same side; leaves `now`.
+  // A place near `now` on the same side; leaves `now`. Determinants that are nothing but rounding have no
+  // side: a path may touch, or end at, a singular position.
   bool step_to(double next) {
+    constexpr double touching = 1e-7;
+    restore();
     std::vector<InputMotion> trial = inputs;
     const PathState target = target_(next, trial);
     if (inverse.place(target, trial) != Status::done) return false;
     if (inverse.distance(inputs, trial) > largest_step) return false;
-    if (inverse.determinant() * side_ < 0) return false;
-    if (side_ == 0) side_ = inverse.determinant();
+    const double determinant = inverse.determinant();
+    if (determinant * side_ < 0 && std::abs(determinant) > touching) return false;
+    if (std::abs(side_) <= touching) side_ = determinant;
     inputs = std::move(trial);
     now = next;
+    keep();
     return true;
   }
 
  private:
+  // A trial that fails leaves groups without closed form, and turns, where the next search is not to start.
+  void keep() {
+    parts_ = inverse.motion.parts;
+    turns_ = inverse.motion.loop_angles;
+  }
+  void restore() {
+    inverse.motion.parts = parts_;
+    inverse.motion.loop_angles = turns_;
+  }
+
   TargetAt target_;
   double side_ = 0;
+  std::vector<PartState<double>> parts_;
+  std::vector<double> turns_;
 };
 
 // The end of what is reached, where the determinant vanishes as the root of the path that is left: by the
@@ -366,11 +385,8 @@ PathDrives follow_path(const Linkage& linkage, const LinkagePlan& plan, const Fo
   }
   out.end = follower.now;
   if (out.status == Status::limit_reached) {
-    const std::optional<std::string> line = [&] {
-      std::vector<InputMotion> inputs = follower.inputs;
-      follower.inverse.place(target(follower.now, inputs), inputs);
-      return bodies_in_line(linkage, plan, follower.inverse.motion, point);
-    }();
+    follower.begin(follower.now);
+    const auto line = bodies_in_line(linkage, plan, follower.inverse.motion, point);
     const double determinant = std::abs(follower.inverse.determinant());
     if (line) {
       out.reason = *line;

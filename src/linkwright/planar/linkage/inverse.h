@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
-#include "linkwright/core/run_context.h"
 #include "linkwright/core/sentence.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/linkage/motion.h"
@@ -86,13 +85,17 @@ class LinkageInverse {
   /// @returns place, angle and rates of the last position
   PathState state() const;
 
-  /// Determinant of the Jacobian at the last place, without dimension.
+  /// @returns determinant of the Jacobian at the last place, without dimension
   double determinant() const { return determinant_; }
-  /// Least singular value of the Jacobian there, without dimension.
+  /// @returns least singular value of the Jacobian there, without dimension
   double least() const { return least_; }
-  /// Least over greatest singular value of the Jacobian there.
+  /// @returns least over greatest singular value of the Jacobian there
   double conditioning() const { return conditioning_; }
-  /// Place of the drives in units of the Jacobian, for steps along a path.
+  /// The largest change of a drive between two places, in radians or sizes of the linkage.
+  ///
+  /// @param a inputs of one place
+  /// @param b inputs of the other
+  /// @returns the largest change
   double distance(std::span<const InputMotion> a, std::span<const InputMotion> b) const;
 
   LinkageMotion motion;  ///< the last position
