@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/linkage/redundant.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/dense.h"
+#include "linkwright/planar/linkage/kernel.h"
+
+namespace linkwright::planar {
+namespace {
+
+using math::Vec2;
+
+constexpr double rank_tolerance = 1e-9, stress_rounding = 1e-6, closed_gap = 1e-10;
+
+// One equation: x, y and turn of the first body and of the second.
+struct ConstraintRow {
+  int joint, first, second;
+  std::array<double, 3> of_first, of_second;
+};
+
+// The equation of the second body's point along a direction of the first one's frame, at a place.
+ConstraintRow along(int joint, const LinkageJoint& j, std::span<const PartState<double>> bodies, Vec2 place,
+                    Vec2 direction, double size) {
+  const Vec2 a = place - bodies[at(j.first.body)].origin, b = place - bodies[at(j.second.body)].origin;
+  return {joint,
+          j.first.body,
+          j.second.body,
+          {-direction.x, -direction.y, -cross(a, direction) / size},
+          {direction.x, direction.y, cross(b, direction) / size}};
+}
+
+std::optional<std::vector<ConstraintRow>> rows_of_joints(const Linkage& l, double size,
+                                                         std::span<const PartState<double>> bodies,
+                                                         std::span<const int> as_pins) {
+  if (!l.belts.empty()) return std::nullopt;
+  std::vector<ConstraintRow> out;
+  for (int k = 0; k < static_cast<int>(l.joints.size()); ++k) {
+    const LinkageJoint& j = l.joints[at(k)];
+    if (has_teeth(j.type)) return std::nullopt;
+    const PartState<double>& second = bodies[at(j.second.body)];
+    const Vec2 place = point_on(second, math::vec(l.bodies[at(j.second.body)].points[at(j.second.point)].at));
+    const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));
+    const bool pin = j.type == JointType::revolute || j.type == JointType::fixed ||
+                     std::find(as_pins.begin(), as_pins.end(), k) != as_pins.end();
+    if (pin) {
+      out.push_back(along(k, j, bodies, place, {1, 0}, size));
+      out.push_back(along(k, j, bodies, place, {0, 1}, size));
+    } else {
+      out.push_back(along(k, j, bodies, place, perpendicular(slide), size));
+    }
+    if (j.type == JointType::prismatic || j.type == JointType::fixed)
+      out.push_back({k, j.first.body, j.second.body, {0, 0, -1}, {0, 0, 1}});
+  }
+  return out;
+}
+
+std::vector<PartState<double>> drawn_bodies(const Linkage& l) {
+  std::vector<PartState<double>> out;
+  for (std::size_t b = 0; b < l.bodies.size(); ++b) {
+    PartState<double> state{{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
+    if (b > 0 && !l.bodies[b].start) return {};
+    if (b > 0) {
+      state.origin = {l.bodies[b].start->x, l.bodies[b].start->y};
+      state.direction = math::unit(l.bodies[b].start->angle);
+    }
+    out.push_back(state);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<int> ConstraintRank::joints_in_stress() const {
+  std::vector<int> out;
+  for (const std::vector<double>& stress : self_stress)
+    for (std::size_t i = 0; i < stress.size(); ++i)
+      if (std::abs(stress[i]) > stress_rounding) out.push_back(joint[i]);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::optional<ConstraintRank> constraint_rank(const Linkage& l, double size,
+                                              std::span<const PartState<double>> bodies,
+                                              std::span<const int> as_pins) {
+  const auto rows = rows_of_joints(l, size, bodies, as_pins);
+  if (!rows) return std::nullopt;
+  ConstraintRank out{.coordinates = 3 * (static_cast<int>(l.bodies.size()) - 1),
+                     .equations = static_cast<int>(rows->size())};
+  // Transposed: one column an equation, so that the null space is that of forces which balance each other.
+  const auto n = at(out.coordinates), m = rows->size();
+  std::vector<double> matrix(n * m, 0.0);
+  for (std::size_t c = 0; c < m; ++c) {
+    const ConstraintRow& row = (*rows)[c];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (row.first > 0) matrix[c * n + 3 * (at(row.first) - 1) + k] += row.of_first[k];
+      if (row.second > 0) matrix[c * n + 3 * (at(row.second) - 1) + k] += row.of_second[k];
+    }
+    out.joint.push_back(row.joint);
+  }
+  const math::SingularVectors found = math::singular_vectors(matrix, m);
+  const double greatest = found.values.empty() ? 0 : found.values.front();
+  for (const double value : found.values) out.rank += value > rank_tolerance * greatest ? 1 : 0;
+  for (std::size_t k = at(out.rank); k < m; ++k)
+    out.self_stress.emplace_back(found.right.begin() + static_cast<std::ptrdiff_t>(k * m),
+                                 found.right.begin() + static_cast<std::ptrdiff_t>((k + 1) * m));
+  return out;
+}
+
+double relaxed_gap(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, int joint) {
+  const auto place = [&](const BodyPoint& p) {
+    return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
+  };
+  return norm(place(l.joints[at(joint)].second) - place(l.joints[at(joint)].first));
+}
+
+namespace {
+
+// The greatest gap of the pin at steps of the inputs about the drawing, both ways; infinite where it does not
+// assemble.
+double gap_in_motion(const Linkage& l, const LinkagePlan& plan, int joint) {
+  if (plan.drawn_inputs.empty()) return infinity;
+  LinkageMotion motion(plan);
+  double worst = 0;
+  for (std::size_t k = 0; k < plan.inputs(); ++k)
+    for (const double step : {0.0, 1e-3, 2e-3, 3e-3, -1e-3, -2e-3, -3e-3}) {
+      std::vector<InputMotion> inputs;
+      for (const double value : plan.drawn_inputs) inputs.push_back({value, 0, 0});
+      inputs[k].value += step * (plan.rotary[k] ? 1 : plan.size);
+      solve_position(plan, inputs, motion);
+      if (motion.status != Status::done) return infinity;
+      worst = std::max(worst, relaxed_gap(l, plan, motion, joint));
+    }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<RelaxedLinkage> relax_redundant(const Linkage& linkage, std::string& why) {
+  const std::vector<PartState<double>> bodies = drawn_bodies(linkage);
+  if (bodies.empty()) return std::nullopt;
+  const double size = size_of(linkage);
+  auto rank = constraint_rank(linkage, size, bodies);
+  if (!rank || rank->redundant() == 0) return std::nullopt;
+  const std::vector<int> candidates = rank->joints_in_stress();
+  double least = infinity;
+  // Those that close loops last come first.
+  for (auto k = candidates.rbegin(); k != candidates.rend(); ++k) {
+    const LinkageJoint& pin = linkage.joints[at(*k)];
+    const bool is_driven =
+        std::find(linkage.driven.begin(), linkage.driven.end(), *k) != linkage.driven.end();
+    if (pin.type != JointType::revolute || is_driven || pin.friction > 0) continue;
+    for (const bool swapped : {false, true}) {
+      const BodyPoint slot = swapped ? pin.second : pin.first, other = swapped ? pin.first : pin.second;
+      for (const LinkageJoint& beside : linkage.joints) {
+        if (&beside == &pin || slot.body == 0) continue;
+        const BodyPoint* near = beside.first.body == slot.body    ? &beside.first
+                                : beside.second.body == slot.body ? &beside.second
+                                                                  : nullptr;
+        if (!near) continue;
+        const std::vector<LinkagePoint>& points = linkage.bodies[at(slot.body)].points;
+        const std::complex<double> way = points[at(slot.point)].at - points[at(near->point)].at;
+        if (std::abs(way) < 1e-9 * size) continue;
+        RelaxedLinkage out{.linkage = linkage, .joint = *k, .drawn = *rank};
+        LinkageJoint& relaxed = out.linkage.joints[at(*k)];
+        relaxed.type = JointType::pin_in_slot;
+        relaxed.first = slot, relaxed.second = other;
+        relaxed.slide_first = std::arg(way), relaxed.slide_second = 0;
+        PlanResult planned = plan_linkage(out.linkage);
+        if (!planned.problems.empty()) continue;
+        out.plan = std::move(planned.plan);
+        const double gap = gap_in_motion(out.linkage, out.plan, *k);
+        if (gap <= closed_gap * size) return out;
+        if (gap < least) {
+          least = gap;
+          why = fmt::format(
+              "the linkage cannot move: with the drive 0.003 away from the drawing (rad, or sizes of the "
+              "linkage) "
+              "joint '{}' would be open by {:.4g} mm",
+              pin.name, 1e3 * gap);
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void spread_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, int joint,
+                   LinkageForces& forces) {
+  if (forces.status != Status::done) return;
+  std::vector<PartState<double>> bodies;
+  for (int b = 0; b < static_cast<int>(l.bodies.size()); ++b) bodies.push_back(body_state(plan, motion, b));
+  const int pins[] = {joint};
+  const auto rank = constraint_rank(l, plan.size, bodies, pins);
+  if (!rank) return;
+  // The forces of the joints in the order of the equations; moments by the size.
+  const auto visit = [&](auto&& each) {
+    for (std::size_t i = 0; i < rank->joint.size();) {
+      const LinkageJoint& j = l.joints[at(rank->joint[i])];
+      JointReaction& r = forces.joints[at(rank->joint[i])];
+      const bool pin = j.type == JointType::revolute || j.type == JointType::fixed || rank->joint[i] == joint;
+      if (pin) {
+        each(i++, Vec2{1, 0}, &r.force, nullptr);
+        each(i++, Vec2{0, 1}, &r.force, nullptr);
+      } else {
+        const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));
+        each(i++, perpendicular(slide), &r.force, nullptr);
+      }
+      if (j.type == JointType::prismatic || j.type == JointType::fixed)
+        each(i++, Vec2{0, 0}, nullptr, &r.moment);
+    }
+  };
+  for (const std::vector<double>& stress : rank->self_stress) {
+    double share = 0;
+    visit([&](std::size_t i, Vec2 direction, const Vec2* force, const double* moment) {
+      share += stress[i] * (force ? dot(direction, *force) : *moment / plan.size);
+    });
+    visit([&](std::size_t i, Vec2 direction, Vec2* force, double* moment) {
+      if (force)
+        *force = *force - (share * stress[i]) * direction;
+      else
+        *moment -= share * stress[i] * plan.size;
+    });
+  }
+}
+
+}  // namespace linkwright::planar
