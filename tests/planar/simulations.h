@@ -21,7 +21,8 @@ struct SimulationRun {
     std::vector<InputMotion> inputs;
     double kinetic, potential, work, drift;
     std::vector<PartState<double>> parts;
-    std::optional<LinkageForces> held;  // while friction holds the linkage
+    std::optional<LinkageForces> held;  // while joints stick
+    double friction_loss = 0;
   };
   SimulationReport report;
   std::vector<Row> rows;
@@ -44,7 +45,8 @@ inline SimulationRun simulated(const Linkage& l, const LinkagePlan& plan,
                             now.work,
                             now.drift,
                             now.motion->parts,
-                            now.held ? std::optional(*now.held) : std::nullopt});
+                            now.held ? std::optional(*now.held) : std::nullopt,
+                            now.friction_loss});
         return true;
       },
       nullptr);

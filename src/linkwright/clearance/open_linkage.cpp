@@ -89,7 +89,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& pro
   for (std::size_t j = 0; j < l.joints.size(); ++j) {
     const bool has_coordinate =
         l.joints[j].type == JointType::revolute || l.joints[j].type == JointType::prismatic;
-    if (has_coordinate && l.joints[j].friction == 0 &&
+    if (has_coordinate && !has_friction(l.joints[j]) &&
         std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) == l.driven.end())
       candidates.push_back(static_cast<int>(j));
   }
@@ -141,7 +141,7 @@ void require_free_pins(const Linkage& l, std::span<const int> joints) {
     LINKWRIGHT_REQUIRE(joints[k] >= 0 && at(joints[k]) < l.joints.size(), "there is no joint {} among {}",
                        joints[k], l.joints.size());
     const LinkageJoint& j = l.joints[at(joints[k])];
-    LINKWRIGHT_REQUIRE(j.type == JointType::revolute && j.friction == 0 &&
+    LINKWRIGHT_REQUIRE(j.type == JointType::revolute && !has_friction(j) &&
                            std::find(l.driven.begin(), l.driven.end(), joints[k]) == l.driven.end(),
                        "joint '{}' must be a revolute joint without drive and friction", j.name);
     LINKWRIGHT_REQUIRE(std::count(joints.begin(), joints.end(), joints[k]) == 1, "joint '{}' is given twice",

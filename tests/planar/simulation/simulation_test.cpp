@@ -328,8 +328,7 @@ TEST(Simulate, ComesToRestByFriction) {
   EXPECT_EQ(run.report.status, Status::at_rest);
   EXPECT_THAT(to_string(run.report.message),
               ::testing::HasSubstr("friction holds the linkage at rest from 0.67"));
-  // Friction turns round within the last step, so that its end is not known to the tolerance.
-  EXPECT_NEAR(run.report.time, 2 / (0.3 * 9.81), 1e-6);
+  EXPECT_NEAR(run.report.time, 2 / (0.3 * 9.81), 1e-10);
   EXPECT_NEAR(run.rows.back().work, -2 * 0.3 * 9.81 * run.rows.back().inputs[0].value, 1e-8);
 }
 
@@ -466,20 +465,6 @@ TEST(Simulate, AuditsTorsionSpringsByTheirSpeeds) {
   EXPECT_GT(wrong.report.largest_drift, 1);
   for (const auto& row : wrong.rows)
     EXPECT_NEAR(row.potential, row.inputs[0].value * row.inputs[0].value, 1e-9);
-}
-
-// Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is reported soon, by name.
-TEST(Simulate, NamesAJointThatSticksWhileOthersMove) {
-  Linkage l = pendulum(2);
-  const std::size_t elbow = 1;
-  l.joints[elbow].friction = 1;
-  l.joints[elbow].pin_radius = 0.1;
-  const LinkagePlan p = planned(l);
-  const SimulationRun run = simulated(l, p, {{{}, 0.3, 0}, {{}, 0.2, 0.5}}, evenly(0, 5, 51));
-  EXPECT_EQ(run.report.status, Status::limit_reached);
-  EXPECT_THAT(to_string(run.report.message),
-              ::testing::HasSubstr("the friction of joint '" + l.joints[elbow].name + "' holds it"));
-  EXPECT_LT(run.report.steps, 20000);
 }
 
 // A cycloidal law ends at 0.5 s with a step of its jerk: the motion behind it is that of a start there.

@@ -192,7 +192,7 @@ std::optional<int> joint_of(study::ObjectReader& table, const PinForm& form, con
                 "put the [[drive]] at another joint");
     return std::nullopt;
   }
-  if (l.joints[at(*j)].friction > 0) {
+  if (has_friction(l.joints[at(*j)])) {
     table.error("joint", fmt::format("joint '{}' has friction of its own", form.joint),
                 "write friction in this table instead, for the contact");
     return std::nullopt;

@@ -181,7 +181,7 @@ void require_linear(const Linkage& linkage, const LinkagePlan& plan) {
     LINKWRIGHT_REQUIRE(j.efficiency == 1,
                        "gear '{}' has losses, with which forces are not linear in the masses", j.name);
   for (const LinkageJoint& j : linkage.joints)
-    LINKWRIGHT_REQUIRE(j.friction == 0,
+    LINKWRIGHT_REQUIRE(!has_friction(j),
                        "joint '{}' has friction, with which forces are not linear in the masses", j.name);
   for (const LinkageJoint& j : linkage.joints)
     LINKWRIGHT_REQUIRE((j.type != JointType::rack && !j.curve) || j.pressure_angle == 0,

@@ -100,8 +100,7 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
 }
 
 AccelerationRoute cheaper_route(const Linkage& linkage, const LinkagePlan& plan, std::size_t free) {
-  const bool friction = std::any_of(linkage.joints.begin(), linkage.joints.end(),
-                                    [](const LinkageJoint& j) { return j.friction > 0; });
+  const bool friction = std::any_of(linkage.joints.begin(), linkage.joints.end(), has_friction);
   return free < many_inputs || friction || !LinkageElimination::takes(plan) ? AccelerationRoute::mass_matrix
                                                                             : AccelerationRoute::joint_forces;
 }
@@ -119,8 +118,7 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
   }
   is_free_ = free;
   prescribed_ = free_.size() < free.size();
-  friction_ = std::any_of(linkage.joints.begin(), linkage.joints.end(),
-                          [](const LinkageJoint& j) { return j.friction > 0; });
+  friction_ = std::any_of(linkage.joints.begin(), linkage.joints.end(), has_friction);
   const auto damped = [](const auto& s) { return s.damping != 0; };
   damped_ = std::any_of(linkage.springs.begin(), linkage.springs.end(), damped) ||
             std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped) ||
@@ -204,9 +202,12 @@ Status LinkageDynamics::settle_friction(double time, std::span<InputMotion> inpu
     for (std::size_t j = 0; j < free_.size(); ++j) inputs[free_[j]].acceleration += right_[j];
     solve_acceleration(plan_, inputs, motion);
   };
-  solve_forces(linkage_, plan_, motion, time, inputs[0].value, forces_, answer);
+  solve_forces(linkage_, plan_, motion, time, inputs[0].value, forces_, answer, states ? &*states : nullptr);
   if (forces_.status != Status::done) return forces_.status;
   power = lasting_power(linkage_, plan_, motion, forces_.loads);
+  friction_power = 0;  // its loads come after those of needed_wrenches
+  for (std::size_t i = loads_.size(); i < forces_.loads.size(); ++i)
+    friction_power -= power_of(plan_, motion, forces_.loads[i]);
   for (const std::size_t k : all_)
     if (!is_free_[k]) power += forces_.drives[k] * inputs[k].rate;
   return std::isfinite(power) ? Status::done : Status::not_converged;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/elimination.h"
+#include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
@@ -61,6 +62,12 @@ class LinkageDynamics {
   /// are there after solve_acceleration with the inputs that `solve` filled in.
   LinkageMotion motion;
   double power = 0;  ///< W at the last `solve`: of the prescribed drives and lasting_power of the loads
+  /// States of the joints with friction, which `solve` takes and fills in; nothing: the signs of their rates.
+  std::optional<FrictionStates> states;
+  /// W: what friction takes at the last `solve`.
+  double friction_power = 0;
+  /// Joint forces at the last `solve` of a linkage with friction.
+  const LinkageForces& forces() const { return forces_; }
   /// M_jk over the free inputs at the last `solve`, row by row (kg m2, kg m or kg); empty by the
   /// route of the joint forces.
   std::span<const double> inertia() const { return mass_; }

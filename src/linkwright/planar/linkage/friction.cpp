@@ -7,34 +7,46 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/quality.h"
+#include "linkwright/planar/linkage/stick_efforts.h"
 
 namespace linkwright::planar {
 namespace {
 
 double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
-// The load that the friction of a joint is proportional to, times its coefficient: N m of a pin or gear,
-// N of a slide.
-double friction_size(const LinkageJoint& j, const JointReaction& r, const math::Vec2& along, double sense) {
-  // The second wheel gets the share of what the first one gives, or gives more than the first one gets.
-  if (j.type == JointType::gear)
-    return std::abs(r.moment) * (r.moment * sense > 0 ? 1 - j.efficiency : 1 / j.efficiency - 1);
-  if (j.type == JointType::revolute) return j.friction * j.pin_radius * norm(r.force);
-  const double normal = cross(along, r.force);
-  if (j.guide_length > 0)
-    return j.friction * (std::abs(normal / 2 + r.moment / j.guide_length) +
-                         std::abs(normal / 2 - r.moment / j.guide_length));
-  return j.friction * std::abs(normal);
-}
-
-// Joints with friction that slide, and gears with losses that turn, in which sense.
+// Joints with friction that slide or stick, and gears with losses that turn, in which sense. The friction of
+// a joint that sticks may have either sign; its sense is 1.
 struct Sliding {
   std::size_t joint;
   double sense;
-  math::Vec2 along;  // direction of a slide
+  math::Vec2 along;     // direction of a slide
+  double speed = 0;     // in the sense of the joint; of a pin at its rim
+  bool sticks = false;  // then its friction is that at rest
 };
+
+double coefficient(const LinkageJoint& j, const Sliding& s) {
+  return s.sticks ? std::max(j.friction, j.friction_static) : friction_coefficient(j, s.speed);
+}
+
+// Friction of a sliding joint, or what a sticking one can bear: N m of a pin or gear, N of a slide.
+double friction_size(const LinkageJoint& j, const JointReaction& r, const Sliding& s) {
+  const auto& [joint, sense, along, speed, sticks] = s;
+  // The second wheel gets the share of what the first one gives, or gives more than the first one gets.
+  if (j.type == JointType::gear)
+    return std::abs(r.moment) * (r.moment * sense > 0 ? 1 - j.efficiency : 1 / j.efficiency - 1);
+  const double mu = coefficient(j, s);
+  if (j.type == JointType::revolute) return mu * j.pin_radius * norm(r.force) + j.friction_effort;
+  const double normal = cross(along, r.force);
+  if (j.guide_length > 0)
+    return mu * (std::abs(normal / 2 + r.moment / j.guide_length) +
+                 std::abs(normal / 2 - r.moment / j.guide_length)) +
+           j.friction_effort;
+  return mu * std::abs(normal) + j.friction_effort;
+}
+
 std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                                    const std::vector<JointReaction>& joints) {
+                                    const std::vector<JointReaction>& joints, const FrictionStates* states) {
   const auto part_of = [&](int body) -> const PartState<double>& {
     return motion.parts[at(plan.bodies[at(body)].part)];
   };
@@ -48,12 +60,18 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
       continue;
     }
     const PartState<double>&first = part_of(j.first.body), &second = part_of(j.second.body);
-    Sliding s{k, sign_of(second.speed - first.speed), {0, 0}};
+    Sliding s{k, 0, {0, 0}};
+    double rate = second.speed - first.speed;
     if (j.type != JointType::revolute) {
       s.along = rotate(body_state(plan, motion, j.first.body).direction, math::unit(j.slide_first));
-      s.sense =
-          sign_of(dot(s.along, velocity_at(second, joints[k].point) - velocity_at(first, joints[k].point)));
+      rate = dot(s.along, velocity_at(second, joints[k].point) - velocity_at(first, joints[k].point));
     }
+    s.sense = sign_of(rate);
+    if (states && !std::isnan(states->senses[k])) {
+      s.sticks = states->senses[k] == 0;
+      s.sense = s.sticks ? 1 : states->senses[k];
+    }
+    s.speed = s.sense * rate * (j.type == JointType::revolute ? j.pin_radius : 1);
     if (s.sense != 0) out.push_back(s);
   }
   return out;
@@ -82,11 +100,22 @@ double largest_force(const LinkageForces& f) {
 // The sizes z of the frictions: z = t g(z) with t = 1, where g is of the joint forces that z makes.
 class Frictions {
  public:
-  Frictions(const Linkage& l, std::vector<Sliding> sliding, const std::function<void()>& balance,
-            LinkageForces& f)
-      : l_(l), sliding_(std::move(sliding)), balance_(balance), f_(f), others_(f.loads.size()), z_(count()) {
+  Frictions(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+            std::vector<Sliding> sliding, const std::function<void()>& balance, LinkageForces& f,
+            FrictionStates* states)
+      : l_(l),
+        plan_(plan),
+        motion_(motion),
+        sliding_(std::move(sliding)),
+        balance_(balance),
+        f_(f),
+        states_(states),
+        others_(f.loads.size()),
+        z_(count()) {
     base_ = f.joints;
     measure_ = largest_force(f) > 0 ? largest_force(f) : 1;
+    const bool sticks = any_sticks();
+    if (sticks) base_rates_ = accelerations();
     for (std::size_t k = 0; k < count(); ++k) {
       std::vector<double> one(count(), 0.0);
       one[k] = measure_;
@@ -97,17 +126,154 @@ class Frictions {
         r.force = (1 / measure_) * (r.force - base_[j].force);
         r.moment = (r.moment - base_[j].moment) / measure_;
       }
+      if (!sticks) continue;
+      unit_rates_.push_back(accelerations());
+      for (std::size_t m = 0; m < count(); ++m)
+        unit_rates_[k][m] = (unit_rates_[k][m] - base_rates_[m]) / measure_;
     }
+    if (sticks) drop_fixed();
   }
 
   Status settle() {
+    if (states_ && states_->decide && any_sticks())
+      for (std::size_t pass = 0; pass <= count() && decide() && any_sticks(); ++pass) continue;
     if (!by_passes() && !by_growth()) return Status::self_locking;
     put(z_);
+    if (states_) record();
     return Status::done;
   }
 
  private:
   std::size_t count() const { return sliding_.size(); }
+  bool any_sticks() const {
+    return std::any_of(sliding_.begin(), sliding_.end(), [](const Sliding& s) { return s.sticks; });
+  }
+  bool only_sticks() const {
+    return std::all_of(sliding_.begin(), sliding_.end(), [](const Sliding& s) { return s.sticks; });
+  }
+  bool turns(std::size_t k) const { return l_.joints[sliding_[k].joint].type == JointType::revolute; }
+
+  // Accelerations of the joints along their coordinates, as balance() left them.
+  std::vector<double> accelerations() const {
+    std::vector<double> out;
+    for (const Sliding& s : sliding_)
+      out.push_back(joint_motion(l_, plan_, motion_, static_cast<int>(s.joint)).acceleration);
+    return out;
+  }
+  double acceleration_at(std::size_t k, const std::vector<double>& z) const {
+    double sum = base_rates_[k];
+    for (std::size_t i = 0; i < count(); ++i) sum += z[i] * unit_rates_[i][k];
+    return sum;
+  }
+  // What a unit of a joint's friction takes from its own acceleration; 0 where nothing can change that.
+  double mobility(std::size_t k) const { return fixed_[k] ? 0 : -unit_rates_[k][k] * sliding_[k].sense; }
+
+  // Joints that no free input moves: their mobility is that of rounding.
+  void drop_fixed() {
+    fixed_.assign(count(), false);
+    std::vector<double> alike;
+    for (std::size_t k = 0; k < count(); ++k)
+      alike.push_back(mobility(k) * (turns(k) ? 1 : 1 / (plan_.size * plan_.size)));
+    const double most = *std::max_element(alike.begin(), alike.end());
+    for (std::size_t k = 0; k < count(); ++k) fixed_[k] = !(alike[k] > 1e-13 * most);
+  }
+
+  // The joints that stick, and how their accelerations depend on their efforts.
+  std::vector<std::size_t> stuck() const {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < count(); ++k)
+      if (sliding_[k].sticks) out.push_back(k);
+    return out;
+  }
+  std::vector<double> stick_matrix(const std::vector<std::size_t>& joints) const {
+    std::vector<double> out;
+    for (const std::size_t k : joints)
+      for (const std::size_t i : joints) out.push_back(fixed_[k] || fixed_[i] ? 0.0 : -unit_rates_[i][k]);
+    return out;
+  }
+
+  // The accelerations of Gauss' principle, with friction of joints at rest within what they bear: efforts are
+  // improved one at a time, which always converges while what they bear does not depend on them much. Joints
+  // that are accelerated begin to slide. Returns true if there are any.
+  bool decide() {
+    std::fill(z_.begin(), z_.end(), 0.0);
+    const auto bears = [&](std::size_t k) {
+      const std::size_t joint = sliding_[k].joint;
+      return size_at(k, z_) * (states_->reserve.empty() ? 1 : states_->reserve[joint]);
+    };
+    for (int pass = 0; pass < 20000; ++pass) {
+      double change = 0;
+      for (std::size_t k = 0; k < count(); ++k) {
+        double next = 0;
+        if (!sliding_[k].sticks)
+          next = size_at(k, z_);
+        else if (const double bound = bears(k); !fixed_[k])
+          next = std::clamp(z_[k] + acceleration_at(k, z_) / mobility(k), -bound, bound);
+        change = std::max(change, std::abs(next - z_[k]));
+        z_[k] = next;
+      }
+      if (!std::isfinite(change) || change > 1e6 * measure_) break;
+      if (change <= 1e-15 * largest(z_)) break;
+    }
+    bool slides = false;
+    double fastest = 0;
+    for (std::size_t k = 0; k < count(); ++k)
+      fastest = std::max(fastest, std::abs(acceleration_at(k, z_)) * (turns(k) ? plan_.size : 1));
+    std::vector<double> senses(count(), 0.0);
+    for (std::size_t k = 0; k < count(); ++k) {
+      if (!sliding_[k].sticks) continue;
+      const double a = acceleration_at(k, z_);
+      double terms = std::abs(base_rates_[k]);
+      for (std::size_t i = 0; i < count(); ++i) terms += std::abs(z_[i] * unit_rates_[i][k]);
+      const double zero = fixed_[k] ? 1e-7 * fastest / (turns(k) ? plan_.size : 1)
+                                    : 1e-10 * mobility(k) * bears(k) + 1e-13 * terms;
+      if (std::abs(a) > zero) senses[k] = sign_of(a);
+    }
+    for (std::size_t k = 0; k < count(); ++k) {
+      if (senses[k] == 0) continue;
+      slides = true;
+      Sliding& s = sliding_[k];
+      s.sticks = false;
+      s.speed = 0;
+      states_->senses[s.joint] = senses[k];
+      if (senses[k] == s.sense) continue;
+      s.sense = senses[k];
+      for (JointReaction& r : unit_[k]) r.force = -r.force, r.moment = -r.moment;
+      for (double& a : unit_rates_[k]) a = -a;
+    }
+    std::fill(z_.begin(), z_.end(), 0.0);
+    return slides;
+  }
+
+  // What is known of the joints with these frictions.
+  void record() {
+    std::fill(states_->shares.begin(), states_->shares.end(), nan);
+    std::fill(states_->normals.begin(), states_->normals.end(), nan);
+    for (std::size_t k = 0; k < count(); ++k) {
+      const Sliding& s = sliding_[k];
+      const LinkageJoint& j = l_.joints[s.joint];
+      if (j.type == JointType::prismatic || j.type == JointType::pin_in_slot)
+        states_->normals[s.joint] = cross(s.along, f_.joints[s.joint].force);
+      if (!s.sticks) continue;
+      const double bound = size_at(k, z_), effort = std::abs(z_[k]);
+      constexpr double most = 1e6;
+      const bool none = effort <= 1e-13 * measure_;
+      states_->shares[s.joint] = none ? 0 : bound > 0 ? std::min(effort / bound, most) : most;
+    }
+    const std::vector<std::size_t> joints = stuck();
+    states_->held = joints.empty() ? 0 : stuck_motions(stick_matrix(joints), joints.size());
+  }
+
+  // The efforts of the joints that stick, for the sizes of the others in z.
+  void stick(std::vector<double>& z) const {
+    const std::vector<std::size_t> joints = stuck();
+    std::vector<double> wanted, bears;
+    for (const std::size_t k : joints) bears.push_back(size_at(k, z));
+    for (const std::size_t k : joints) z[k] = 0;
+    for (const std::size_t k : joints) wanted.push_back(acceleration_at(k, z));
+    const std::vector<double> efforts = stick_efforts(stick_matrix(joints), wanted, bears);
+    for (std::size_t i = 0; i < joints.size(); ++i) z[joints[i]] = efforts[i];
+  }
   void put(const std::vector<double>& z) {
     f_.loads.resize(others_);
     for (std::size_t k = 0; k < count(); ++k)
@@ -122,7 +288,7 @@ class Frictions {
       r.force = r.force + z[i] * unit_[i][joint].force;
       r.moment += z[i] * unit_[i][joint].moment;
     }
-    return friction_size(l_.joints[joint], r, sliding_[k].along, sliding_[k].sense);
+    return friction_size(l_.joints[joint], r, sliding_[k]);
   }
   double largest(const std::vector<double>& z) const {
     double out = measure_;
@@ -133,17 +299,17 @@ class Frictions {
   // The friction of the last sizes, again and again: a contraction while friction is moderate.
   bool by_passes() {
     std::vector<double> next(count());
+    const bool sticks = any_sticks();
     for (f_.iterations = 1; f_.iterations <= 200; ++f_.iterations) {
       double change = 0;
-      for (std::size_t k = 0; k < count(); ++k) {
-        next[k] = size_at(k, z_);
-        change = std::max(change, std::abs(next[k] - z_[k]));
-      }
+      for (std::size_t k = 0; k < count(); ++k) next[k] = sliding_[k].sticks ? z_[k] : size_at(k, z_);
+      if (sticks) stick(next);
+      for (std::size_t k = 0; k < count(); ++k) change = std::max(change, std::abs(next[k] - z_[k]));
       z_ = next;
       if (!std::isfinite(change) || change > 1e6 * measure_) return false;
       if (change <= 1e-14 * largest(z_)) return true;
     }
-    return false;
+    return sticks && only_sticks();  // they hold, however the force is shared
   }
 
   // From t = 0, without friction, z is followed as the coefficients grow together; Newton's method takes each
@@ -155,8 +321,8 @@ class Frictions {
       const double next = std::min(1.0, t + step);
       std::vector<double> trial = z_;
       double determinant = 0;
-      const bool good = newton(next, trial, determinant) && determinant > 0 &&
-                        std::all_of(trial.begin(), trial.end(), [](double v) { return v >= 0; });
+      bool good = newton(next, trial, determinant) && determinant > 0;
+      for (std::size_t k = 0; k < count(); ++k) good = good && (sliding_[k].sticks || trial[k] >= 0);
       if (good) {
         z_ = std::move(trial);
         t = next;
@@ -175,8 +341,13 @@ class Frictions {
     for (int i = 0; i < 50; ++i) {
       const double size = largest(z);
       for (std::size_t k = 0; k < n; ++k) {
-        right[k] = t * size_at(k, z) - z[k];
+        const bool sticks = sliding_[k].sticks && !fixed_[k];
+        right[k] = sticks ? acceleration_at(k, z) / mobility(k) : t * size_at(k, z) - z[k];
         for (std::size_t m = 0; m < n; ++m) {
+          if (sticks) {
+            matrix[k * n + m] = -unit_rates_[m][k] / mobility(k);
+            continue;
+          }
           std::vector<double> more = z, less = z;
           const double h = 1e-6 * size;
           more[m] += h, less[m] -= h;
@@ -215,23 +386,42 @@ class Frictions {
   }
 
   const Linkage& l_;
+  const LinkagePlan& plan_;
+  const LinkageMotion& motion_;
   std::vector<Sliding> sliding_;
   const std::function<void()>& balance_;
   LinkageForces& f_;
+  FrictionStates* states_;
   std::size_t others_;
   double measure_ = 1;
   std::vector<JointReaction> base_;               // without friction
   std::vector<std::vector<JointReaction>> unit_;  // forces added by a unit of each friction
+  std::vector<double> base_rates_;  // accelerations of the joints without friction, if any sticks
+  std::vector<std::vector<double>> unit_rates_;  // accelerations added by a unit of each friction
+  std::vector<bool> fixed_;                      // joints that no free input moves
   std::vector<double> z_;
 };
 
 }  // namespace
 
+FrictionStates::FrictionStates(std::size_t joints)
+    : senses(joints, nan), reserve(joints, 1.0), shares(joints, nan), normals(joints, nan) {}
+
+double friction_coefficient(const LinkageJoint& joint, double speed) {
+  if (joint.friction_speed == 0) return joint.friction;
+  // Just beyond a change of sense the curve goes on smoothly, so that steps end at it as accurately as
+  // elsewhere.
+  const double ratio = std::max(speed / joint.friction_speed, -0.5),
+               left =
+                   joint.friction_fall == FrictionFall::stribeck ? std::exp(-ratio * ratio) : 1 / (1 + ratio);
+  return joint.friction + (joint.friction_static - joint.friction) * left;
+}
+
 Status settle_friction(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                       const std::function<void()>& balance, LinkageForces& f) {
-  std::vector<Sliding> sliding = sliding_joints(l, plan, motion, f.joints);
+                       const std::function<void()>& balance, LinkageForces& f, FrictionStates* states) {
+  std::vector<Sliding> sliding = sliding_joints(l, plan, motion, f.joints, states);
   if (sliding.empty()) return Status::done;
-  return Frictions(l, std::move(sliding), balance, f).settle();
+  return Frictions(l, plan, motion, std::move(sliding), balance, f, states).settle();
 }
 
 }  // namespace linkwright::planar

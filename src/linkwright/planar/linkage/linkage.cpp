@@ -95,10 +95,22 @@ class Checker {
     if (!(j.friction >= 0 && j.pin_radius >= 0 && j.guide_length >= 0 &&
           std::isfinite(j.friction + j.pin_radius + j.guide_length)))
       error(key, "friction, pin radius and guide length must be finite and not negative", {});
-    else if (j.friction > 0 && (gear || rack || j.type == JointType::fixed))
+    else if (has_friction(j) && (gear || rack || j.type == JointType::fixed))
       error(key, fmt::format("a {} joint has no friction", words_[static_cast<std::size_t>(j.type)]), {});
-    else if (j.friction > 0 && j.type == JointType::revolute && j.pin_radius == 0)
-      error(key, "has friction but no pin radius: its torque would be zero", "give the radius of the pin");
+    else if (std::max(j.friction, j.friction_static) > 0 && j.type == JointType::revolute &&
+             j.pin_radius == 0)
+      error(key, "has friction but no pin radius: its torque would be zero",
+            "give the radius of the pin, or a friction torque");
+    if (!(j.friction_static >= 0 && j.friction_effort >= 0 && j.friction_speed >= 0 &&
+          std::isfinite(j.friction_static + j.friction_effort + j.friction_speed)))
+      error(key, "friction at rest, its effort and its speed must be finite and not negative", {});
+    else if (j.friction_static > 0 && j.friction_static < j.friction)
+      error(key,
+            fmt::format("its friction at rest, {}, is below its friction in motion, {}", j.friction_static,
+                        j.friction),
+            "friction_static is the larger of the two");
+    else if (j.friction_speed > 0 && j.friction_static == 0)
+      error(key, "its friction falls with the speed, but has no value at rest", "give friction_static");
     if (rack && !(std::isfinite(j.radius) && j.radius != 0))
       error(key, fmt::format("its pinion has the radius {}", j.radius),
             "give the distance of its centre from the pitch line, negative to the right of its direction");

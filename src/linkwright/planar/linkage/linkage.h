@@ -97,6 +97,17 @@ struct Screw {
   bool left_hand = false;      ///< a positive turn moves the nut backward
 };
 
+/// The curve along which a coefficient of friction falls with the speed v from its value at rest, mu_s, to
+/// that of fast motion, mu.
+enum class FrictionFall {
+  stribeck,   ///< mu + (mu_s - mu) exp(-(v / v_s)^2)
+  hyperbolic  ///< mu + (mu_s - mu) / (1 + v / v_s)
+};
+constexpr std::array<EnumName<FrictionFall>, 2> names(FrictionFall) {
+  return {{{FrictionFall::stribeck, "stribeck", "the difference falls as exp(-(v / speed)^2)"},
+           {FrictionFall::hyperbolic, "hyperbolic", "the difference falls as 1 / (1 + v / speed)"}}};
+}
+
 /// A joint between two bodies. Its coordinate is what a drive prescribes: of a revolute joint the angle of
 /// the frame of the second body from that of the first (rad, counter-clockwise), of a prismatic joint the
 /// displacement of the second point from the first along the slide (m). Its reaction is the force (and
@@ -135,6 +146,15 @@ struct LinkageJoint {
   double friction = 0;
   double pin_radius = 0;    ///< m, >= 0
   double guide_length = 0;  ///< m, >= 0
+  /// Coefficient of friction of the joint at rest, >= `friction`; 0: the same as in motion.
+  double friction_static = 0;
+  /// Friction that no joint force changes, as of a brake, a clutch or a seal: torque of a pin (N m), force of
+  /// a slide or slot (N), >= 0. It adds to that of the coefficients.
+  double friction_effort = 0;
+  /// Speed with which the coefficient falls from that at rest to that of motion (m/s; of a pin at its rim);
+  /// 0: it falls at once.
+  double friction_speed = 0;
+  FrictionFall friction_fall = FrictionFall::stribeck;  ///< curve along which the coefficient falls
 };
 
 /// The assembly mode of a pair of bodies, one of two. The bodies are those of a dyad: `first` and `second`
@@ -372,11 +392,19 @@ double size_of(const Linkage& linkage);
 /// @returns its kind and name, as "rack 'teeth'"; empty if there is none
 std::string first_rolling_pair(const Linkage& linkage);
 
+/// True if a joint has friction, by a coefficient or by an effort of its own.
+///
+/// @param joint the joint
+/// @returns true if it has
+inline bool has_friction(const LinkageJoint& joint) {
+  return joint.friction > 0 || joint.friction_static > 0 || joint.friction_effort > 0;
+}
+
 /// True if a joint loses power: by friction, or by the efficiency of a gear.
 ///
 /// @param joint the joint
 /// @returns true if it does
-inline bool loses_power(const LinkageJoint& joint) { return joint.friction > 0 || joint.efficiency < 1; }
+inline bool loses_power(const LinkageJoint& joint) { return has_friction(joint) || joint.efficiency < 1; }
 
 /// Checks the description by itself: indices, names given twice, numbers that are not finite, negative
 /// masses, links of no length, springs between a body and itself, tables that do not rise. Keys of the

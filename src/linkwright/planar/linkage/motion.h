@@ -184,6 +184,8 @@ FollowReport follow(const LinkagePlan& plan, std::span<const double> from, std::
 /// @param status the reason
 void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status);
 
+struct FrictionStates;
+
 /// The load that a joint carries: force (N, global frame) and moment (N m) of its first body on its second.
 /// Revolute joints and pins in slots have no moment; that of a driven joint includes the torque or force of
 /// its drive. The moment of a gear is what it turns its second body with; its force is that of the teeth at
@@ -269,10 +271,12 @@ using FreeAccelerations = std::function<void(std::span<const double> drives)>;
 /// @param forces receives the forces; use one again and again
 /// @param answer for inputs that no drive prescribes: their accelerations give way to friction; empty if all
 ///   are driven
+/// @param states states of the joints with friction; null: the signs of their rates
 /// @throws ContractError when a body has no mass (see LinkagePlan::massless)
 ///
 /// @throws ContractError if a body has no mass (see LinkagePlan::massless)
 void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
-                  double input, LinkageForces& forces, const FreeAccelerations& answer = {});
+                  double input, LinkageForces& forces, const FreeAccelerations& answer = {},
+                  FrictionStates* states = nullptr);
 
 }  // namespace linkwright::planar

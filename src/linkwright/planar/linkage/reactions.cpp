@@ -336,7 +336,7 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
 }
 
 void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
-                  double input, LinkageForces& f, const FreeAccelerations& answer) {
+                  double input, LinkageForces& f, const FreeAccelerations& answer, FrictionStates* states) {
   LINKWRIGHT_REQUIRE(plan.has_masses, "forces need the mass of every body: '{}' has none", plan.massless[0]);
   f.status = motion.status;
   f.joints.resize(l.joints.size());
@@ -370,7 +370,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   };
   balance();
   if (std::any_of(l.joints.begin(), l.joints.end(), loses_power)) {
-    f.status = settle_friction(l, plan, motion, balance, f);
+    f.status = settle_friction(l, plan, motion, balance, f, states);
     if (f.status != Status::done) return nothing(f);
   }
   add_preloads(plan, motion, f);

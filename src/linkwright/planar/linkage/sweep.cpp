@@ -27,7 +27,7 @@ bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (!forces) return true;
   return l.springs.empty() && l.torsion_springs.empty() && l.forces.empty() && l.torques.empty() &&
          l.struts.empty() && std::all_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) {
-           return j.friction == 0 && j.type != JointType::fixed;
+           return !has_friction(j) && j.type != JointType::fixed;
          });
 }
 

@@ -17,8 +17,7 @@ bool in_unstable_balance(const Linkage& l, const LinkagePlan& plan, std::span<co
   constexpr double tried = 1e-4, balanced = 1e-9;
   const bool at_rest =
       std::all_of(drives.begin(), drives.end(), [](const InputDrive& d) { return !d.law && d.rate == 0; });
-  const bool friction =
-      std::any_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) { return j.friction > 0; });
+  const bool friction = std::any_of(l.joints.begin(), l.joints.end(), has_friction);
   if (!at_rest || friction) return false;
   const std::size_t n = plan.inputs();
   LinkageDynamics dynamics(l, plan, std::vector<bool>(n, true));

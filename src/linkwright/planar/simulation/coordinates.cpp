@@ -55,7 +55,7 @@ class Coordinates {
     LINKWRIGHT_REQUIRE(options.method != math::OdeMethod::adams, "method {} takes no projection",
                        name_of(options.method));
     for (const LinkageJoint& j : l.joints)
-      LINKWRIGHT_REQUIRE(j.friction == 0, "joint '{}' has friction, which all coordinates do not take",
+      LINKWRIGHT_REQUIRE(!has_friction(j), "joint '{}' has friction, which all coordinates do not take",
                          j.name);
     LINKWRIGHT_REQUIRE(first_rolling_pair(l).empty(), "all coordinates do not take {}",
                        first_rolling_pair(l));

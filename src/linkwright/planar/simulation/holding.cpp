@@ -22,7 +22,10 @@ void HoldingForces::set_friction(double factor) {
   constexpr double least_efficiency = 1e-3;
   for (std::size_t j = 0; j < l_.joints.size(); ++j) {
     const LinkageJoint& j0 = original_.joints[j];
-    l_.joints[j].friction = factor * j0.friction;
+    // About to move, a joint has its friction at rest.
+    l_.joints[j].friction = factor * std::max(j0.friction, j0.friction_static);
+    l_.joints[j].friction_static = l_.joints[j].friction_speed = 0;
+    l_.joints[j].friction_effort = factor * j0.friction_effort;
     if (j0.efficiency < 1)
       l_.joints[j].efficiency = std::max(least_efficiency, 1 - factor * (1 - j0.efficiency));
   }

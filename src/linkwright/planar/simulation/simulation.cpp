@@ -47,8 +47,7 @@ Simulation::Simulation(const Linkage& l, const LinkagePlan& plan, std::span<cons
   for (const std::size_t k : free)
     LINKWRIGHT_REQUIRE(std::isfinite(inputs_[k].value + inputs_[k].rate), "start {} with rate {}",
                        inputs_[k].value, inputs_[k].rate);
-  friction_ =
-      std::any_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) { return j.friction > 0; });
+  friction_ = std::any_of(l.joints.begin(), l.joints.end(), has_friction);
 }
 
 SimulationReport Simulation::run(std::span<const double> times, const RunContext* context) {
@@ -62,18 +61,11 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
       const double asked = options_.absolute_tolerance * (plan_.rotary[free[i]] ? 1 : plan_.size);
       tolerances.push_back(coarser.empty() ? asked : std::max(asked, coarser[i]));
     }
-  tolerances.push_back(work_tolerance());
+  tolerances.resize(y.size(), work_tolerance());
   std::vector<math::OdeEvent> events;
   if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});
-  if (watches_rest()) {
-    events.push_back({.crossing = math::OdeCrossing::either});
-    events.push_back({.crossing = math::OdeCrossing::rising});
-  }
-  if (friction_ && !watches_rest())
-    for (std::size_t j = 0; j < l_.joints.size(); ++j)
-      if (l_.joints[j].friction > 0) rubbing_.push_back(static_cast<int>(j));
-  rates_.assign(rubbing_.size(), 1.0);
-  events.resize(events.size() + rubbing_.size(), {.crossing = math::OdeCrossing::either});
+  for (std::size_t i = 0; i < rubbing_.size(); ++i)
+    events.resize(events.size() + 2, {.crossing = math::OdeCrossing::either});
   first_watched_ = events.size();
   events.resize(first_watched_ + watch_.count);
   watched_.assign(watch_.count, 1);
@@ -89,14 +81,7 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
         values[i++] = std::min(now[0] - below_, 1.0);
         values[i++] = std::min(above_ - now[0], 1.0);
       }
-      if (watches_rest()) {
-        values[i] = resting_ ? 1 : now[1];
-        put(t, now);
-        values[i + 1] = resting_ ? push_from_rest(t).acceleration : -1;
-      }
-      if (!rubbing_.empty()) rubbing_rates(t, now);
-      std::copy(rates_.begin(), rates_.end(),
-                values.begin() + static_cast<std::ptrdiff_t>(first_watched_ - rates_.size()));
+      if (friction_) friction_values(t, now, values.subspan(i, 2 * rubbing_.size()));
       // Beyond what can be placed they stay what they were.
       if (watch_.count > 0 && watched(t, now).status == Status::done) watch_.values(instant_, watched_);
       std::copy(watched_.begin(), watched_.end(),
@@ -106,6 +91,11 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
       return act(t, which, now);
     };
   }
+  if (friction_ && options_.method != math::OdeMethod::adams)
+    hooks.project = [&](double t, std::span<double> now) {
+      if (any_sticks()) still(t, now);
+      return true;
+    };
   if (stuck_) {  // from the start on
     show(times.front(), y);
     finish({.t = times.front()}, y);
@@ -129,6 +119,7 @@ std::vector<double> Simulation::state() const {
   for (const std::size_t k : dynamics_.free()) y.push_back(inputs_[k].value);
   for (const std::size_t k : dynamics_.free()) y.push_back(inputs_[k].rate);
   y.push_back(0);
+  if (friction_) y.push_back(0);
   return y;
 }
 
@@ -151,11 +142,10 @@ double Simulation::work_tolerance() const {
 }
 
 Simulation::Answer Simulation::solve(double t) {
-  if (resting_) return solve_at_rest(t);
   if (!branch_) {
     const Status status = dynamics_.solve(t, inputs_);
     return {status == Status::done && changed_side() ? Status::branch_lost : status, dynamics_.power,
-            first_inertia()};
+            first_inertia(), dynamics_.friction_power};
   }
   const double value = inputs_[0].value;
   if (branch_->has_change_points()) {
@@ -165,7 +155,7 @@ Simulation::Answer Simulation::solve(double t) {
     branch_->set_modes(value, dynamics_.motion);
   }
   const Status status = dynamics_.solve(t, inputs_);
-  return {status, dynamics_.power, first_inertia()};
+  return {status, dynamics_.power, first_inertia(), dynamics_.friction_power};
 }
 
 bool Simulation::slope(double t, std::span<const double> y, std::span<double> rate) {
@@ -178,12 +168,14 @@ bool Simulation::slope(double t, std::span<const double> y, std::span<double> ra
     restore();
     return false;
   }
+  if (friction_) still_inputs();
   const auto free = dynamics_.free();
   for (std::size_t i = 0; i < free.size(); ++i) {
     rate[i] = inputs_[free[i]].rate;
     rate[free.size() + i] = inputs_[free[i]].acceleration;
   }
   rate[2 * free.size()] = answer.power;
+  if (friction_) rate[2 * free.size() + 1] = answer.friction_power;
   return true;
 }
 
@@ -225,15 +217,8 @@ bool Simulation::start(double t) {
       return false;
     }
   }
-  Answer answer = solve(t);
-  if (watches_rest() && inputs_[dynamics_.free()[0]].rate == 0) {
-    const InputMotion here = free_input();
-    resting_ = holds(t);
-    free_input() = here;
-    stuck_ = resting_ && !may_be_freed(t);
-    resting_since_ = t;
-    answer = solve(t);
-  }
+  if (friction_ && !start_friction(t)) return false;
+  const Answer answer = solve(t);
   if (answer.status != Status::done) {
     report_.status = answer.status;
     report_.group = dynamics_.motion.failed_group;
@@ -268,11 +253,17 @@ bool Simulation::show(double t, std::span<const double> y) {
   put(t, y);
   const Answer answer = solve(t);
   if (answer.status != Status::done) return true;  // beyond what the step hook will end
+  SimulationInstant now{.time = t, .inputs = inputs_};
+  if (any_sticks()) now.held = forces_with_friction(t);
+  if (friction_) {
+    still_inputs();
+    now.friction_loss = y.back();
+    now.friction_senses = dynamics_.states->senses;
+  }
   const LinkageMotion& motion = placed();
-  SimulationInstant now{.time = t, .status = motion.status, .inputs = inputs_, .motion = &motion};
-  if (resting_ && motion.status == Status::done) now.held = &forces_at_rest(t);
+  now.status = motion.status, now.inputs = inputs_, now.motion = &motion;
   now.kinetic = kinetic(answer.inertia);
-  now.work = y.back() + kinks_;
+  now.work = y[2 * dynamics_.free().size()] + kinks_;
   if (motion.status == Status::done || motion.status == Status::singular) {
     now.potential = motion.status == Status::done ? audited_potential(t) : interpolated_potential();
     now.drift = (now.kinetic - start_kinetic_) + (now.potential - start_potential_) - now.work;
@@ -308,7 +299,10 @@ double Simulation::audited_potential(double t) const {
 
 const SimulationInstant& Simulation::watched(double t, std::span<const double> y) {
   put(t, y);
-  instant_ = {.time = t, .status = solve(t).status, .inputs = inputs_, .work = y.back() + kinks_};
+  instant_ = {.time = t,
+              .status = solve(t).status,
+              .inputs = inputs_,
+              .work = y[2 * dynamics_.free().size()] + kinks_};
   if (instant_.status == Status::done) {
     instant_.motion = &placed();
     instant_.status = instant_.motion->status;
@@ -329,7 +323,7 @@ bool Simulation::after_step(double t, std::span<const double> y) {
   last_time_ = t;
   last_ = inputs_[0];
   report_.time = t;
-  if (friction_ && !resting_ && chatters(t)) return false;
+  if (friction_ && jams(t)) return false;
   if (branch_ && branch_->path().period > 0) {
     note_passages(time_before, before);
     return true;
@@ -386,28 +380,14 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
       if (event >= first_watched_) crossed.push_back(event - first_watched_);
     if (watched(t, y).status == Status::done && !watch_.note(instant_, crossed)) return math::OdeAction::stop;
   }
+  std::vector<std::size_t> rubbed;
+  for (const std::size_t event : which)
+    if (event >= first_friction_event() && event < first_watched_)
+      rubbed.push_back(event - first_friction_event());
+  if (!rubbed.empty()) action = friction_event(t, rubbed, y);
+  if (action == math::OdeAction::stop) return action;
   for (const std::size_t event : which) {
-    if (event >= first_watched_) continue;
-    if (!rubbing_.empty()) {
-      const int joint = rubbing_[event];
-      put(t, y);
-      if (sticks(t, joint)) {
-        chattering_ = joint;
-        rests_ = fastest() < 1e-5 * largest_rate_;
-        return math::OdeAction::stop;
-      }
-      action = math::OdeAction::restart;  // friction changes its sign
-      continue;
-    }
-    if (event >= stop_event()) {
-      action = math::OdeAction::restart;  // friction changes its sign, or begins or ends to hold
-      put(t, y);
-      if (event > stop_event())
-        set_free(t, y);
-      else if (holds(t) && come_to_rest(t, y) == math::OdeAction::stop)
-        return math::OdeAction::stop;
-      continue;
-    }
+    if (event >= first_friction_event()) continue;
     const double value = event == 0 ? below_ : above_, sense = event == 0 ? -1 : 1;
     const SmoothBranch::Near here = branch_->nearest(value);
     if (options_.at_change_point == AtChangePoint::stop) {

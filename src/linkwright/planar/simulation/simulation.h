@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/sentence.h"
 #include "linkwright/math/motion_law.h"
@@ -50,8 +52,12 @@ struct SimulationInstant {
   double work = 0;
   double drift = 0;  ///< J: kinetic + potential - work less its value at the start; zero but for errors
   const LinkageMotion* motion = nullptr;  ///< velocities and accelerations included
-  /// Joint forces while friction holds the linkage at rest, which do not follow from its motion; else null.
+  /// Joint forces while joints stick by friction, which do not follow from the motion; else null.
   const LinkageForces* held = nullptr;
+  double friction_loss = 0;  ///< J: what friction has taken since the start
+  /// States of the joints, one a joint: 1 and -1 slide with and against their coordinate, 0 sticks; NaN:
+  /// without friction. Empty where no joint has friction.
+  std::span<const double> friction_senses = {};
 };
 /// A function that receives the rows; false ends the simulation.
 using SimulationOutput = std::function<bool(const SimulationInstant&)>;
@@ -75,6 +81,28 @@ struct ChangePassage {
   double energy_lost = 0;   ///< J: in the kink of `keep_sign`
 };
 
+/// A change of the state of a joint with friction.
+enum class FrictionChange {
+  sticks,        ///< its speed has come to zero, and friction at rest holds it
+  slips,         ///< it begins to slide
+  reverses,      ///< its speed changes its sign
+  changes_flank  ///< the normal force of a slide changes its sign
+};
+constexpr std::array<EnumName<FrictionChange>, 4> names(FrictionChange) {
+  return {{{FrictionChange::sticks, "sticks", "its speed has come to zero, and friction holds it"},
+           {FrictionChange::slips, "slips", "it begins to slide"},
+           {FrictionChange::reverses, "reverses", "its speed changes its sign"},
+           {FrictionChange::changes_flank, "changes flank", "its normal force changes its sign"}}};
+}
+/// An event of a joint with friction.
+struct FrictionEvent {
+  double time = 0;  ///< s
+  int joint = 0;    ///< index of the joint
+  FrictionChange change = FrictionChange::sticks;
+  double value = 0;  ///< coordinate of the joint (rad or m)
+  double sense = 0;  ///< state from here on: 1, -1 slides, 0 sticks
+};
+
 /// Times during which friction holds a linkage at rest although a load over time or a drive may free it.
 struct FrictionRests {
   long count = 0;         ///< number of rests
@@ -86,7 +114,7 @@ struct FrictionRests {
 /// The outcome of a simulation.
 struct SimulationReport {
   /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
-  /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
+  /// with `stop`; no_assembly, singular: the start has
   /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and nothing can
   /// free it later; self_locking: friction jams it while it moves (see settle_friction); not_converged;
   /// cancelled, deadline. Rows so far are kept.
@@ -96,11 +124,13 @@ struct SimulationReport {
   int group = -1;            ///< index of the group in the plan where a limit or start failed
   double largest_drift = 0;  ///< J, over the rows
   double peak_energy = 0;    ///< J: largest kinetic energy, change of potential energy or work of a row
-  std::vector<ChangePassage> passages;  ///< the first 1000
-  long passage_count = 0;               ///< number of all passages
-  FrictionRests rests;                  ///< rests by friction
-  long steps = 0,                       ///< of the integration
-      evaluations = 0;                  ///< of the equations of motion
+  std::vector<ChangePassage> passages;         ///< the first 1000
+  long passage_count = 0;                      ///< number of all passages
+  FrictionRests rests;                         ///< rests by friction
+  std::vector<FrictionEvent> friction_events;  ///< the first 10000
+  long friction_event_count = 0;               ///< number of all of them
+  long steps = 0,                              ///< of the integration
+      evaluations = 0;                         ///< of the equations of motion
 };
 
 /// Motion of a linkage under forces: integrates the equations of LinkageDynamics over `times` and calls
@@ -115,9 +145,11 @@ struct SimulationReport {
 /// forms lose digits, the acceleration is interpolated between positions on both sides, to about 1e-11. With
 /// more inputs, and in general groups, change points count as limits.
 ///
-/// With one free input, a linkage that friction holds at rest waits there while loads over time or drives may
-/// still free it, and moves on when the force along the free input passes what friction can hold. Where
-/// several joints hold it, each bears the same part of what its friction could bear.
+/// Joints with friction slide or stick (see FrictionStates). A joint whose speed comes to zero sticks when
+/// its friction at rest can bear the effort that keeps it there; it slides on, back or at a later time
+/// otherwise. Where several joints hold the same motion, the largest share of what one of them can bear is
+/// the least possible. Changes of states are found within the steps and reported. A run ends `at_rest` when
+/// friction holds the whole linkage and neither drives nor loads over time can free it.
 ///
 /// @param linkage the linkage, with masses and loads
 /// @param plan its plan

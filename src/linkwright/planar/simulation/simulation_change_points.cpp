@@ -29,6 +29,7 @@ Simulation::Answer Simulation::interpolated(double t, double centre, double x) {
     acceleration += weights[i] * inputs_[0].acceleration;
     out.power += weights[i] * dynamics_.power;
     out.inertia += weights[i] * first_inertia();
+    out.friction_power += weights[i] * dynamics_.friction_power;
   }
   inputs_[0].value = value;
   inputs_[0].acceleration = acceleration;

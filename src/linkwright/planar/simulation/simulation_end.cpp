@@ -16,7 +16,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::string_view jams = "it jams, for no finite joint forces go with motion in this sense";
+constexpr std::string_view jams_text = "it jams, for no finite joint forces go with motion in this sense";
 
 Sentence place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
   return say("{} at {}", l.joints[at(l.driven[input])].name,
@@ -34,7 +34,7 @@ Sentence Simulation::start_message(Status status) const {
   if (status == Status::singular)
     return "a free joint moves no mass, so its motion does not follow from the forces";
   if (status == Status::self_locking)
-    return say("friction locks the linkage at the start, with {}: {}", stands(), jams);
+    return say("friction locks the linkage at the start, with {}: {}", stands(), jams_text);
   if (status == Status::not_converged) return "the joint forces of the start do not settle";
   return "the start does not work";
 }
@@ -45,26 +45,19 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   report_.time = ode.t;
   put(ode.t, y);
   const Sentence where = say("{} with {}", seconds(at_limit_ ? limit_time_ : ode.t, 6), stands());
-  if (chattering_ < 0 && friction_ && ode.status != Status::done && ode.status != Status::cancelled &&
-      ode.status != Status::deadline && !turns_.empty()) {
-    // Steps that became too short before the window was full.
-    const auto most = std::max_element(turns_.begin(), turns_.end());
-    if (*most >= 5) chattering_ = static_cast<int>(most - turns_.begin());
-  }
   if (resting_ && !stuck_) end_rest(ode.t);
-  if (stuck_ || (chattering_ >= 0 && rests_ && !may_be_freed(ode.t))) {
+  if (stuck_) {
     report_.status = Status::at_rest;
     report_.message = say("friction holds the linkage at rest from {} on", where);
   } else if (jammed_) {
     report_.status = Status::self_locking;
-    report_.message = say("friction locks the linkage at {}: {}", where, jams);
+    report_.message = say("friction locks the linkage at {}: {}", where, jams_text);
   } else if (chattering_ >= 0) {
-    report_.status = Status::limit_reached;
+    report_.status = Status::not_converged;
     report_.message =
-        say("the motion cannot be followed beyond {}: the friction of joint '{}' holds it while {} "
-            "(sticking joints are not computed)",
-            where, l_.joints[at(chattering_)].name,
-            rests_ ? "loads or drives may free it later" : "others move on");
+        say("the motion cannot be followed beyond {}: joint '{}' sticks and slides in turn while no "
+            "time passes",
+            where, l_.joints[at(chattering_)].name);
   } else if (at_change_) {
     report_.status = Status::limit_reached;
     report_.message =
@@ -80,7 +73,7 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
     const bool kept = last_status_ == Status::not_converged || last_status_ == Status::self_locking;
     report_.status = kept ? last_status_ : Status::limit_reached;
     if (last_status_ == Status::self_locking)
-      report_.message = say("friction locks the linkage at {}: {}", where, jams);
+      report_.message = say("friction locks the linkage at {}: {}", where, jams_text);
     else if (report_.group >= 0)
       limit(where);
     else if (const Sentence stroke = end_of_stroke(); !stroke.empty())

@@ -5,48 +5,298 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/simulation/detail/simulation_run.h"
 
-// Friction in a simulation: joints that stick, chatter or lock.
+// Friction in a simulation: joints that slide, stick and lock.
 namespace linkwright::planar {
 namespace {
 
-// Friction chatters when a joint turns round in a tenth of so many steps, and these take so small a share of
-// the time.
-constexpr long chatter_steps = 100;
-constexpr double chatter_share = 1e-5;
+// So many steps that take so small a share of the time are looked at for friction that locks.
+constexpr long jam_steps = 100;
+constexpr double jam_share = 1e-5;
+// Events that follow each other this closely (share of the span) are counted, and so many end the run.
+constexpr double quick_share = 1e-12;
+constexpr long most_quick_events = 200;
+constexpr std::size_t kept_events = 10000;
+
+// A sticking joint is at its limit from this share of what it can bear on; there a decision counts on less,
+// so that it begins to slide.
+constexpr double at_limit_share = 1 - 1e-9, reserve_at_limit = 1 - 1e-6;
+constexpr double rounding_share = 1e-12;
+// A rate is zero below this share of the largest one of the joint.
+constexpr double zero_rate = 1e-10;
+// Share of the largest joint force that a normal force passes zero by before it is another flank.
+constexpr double flank_share = 1e-11;
 
 }  // namespace
 
-bool Simulation::chatters(double t) {
-  if (senses_.empty()) {
-    senses_.assign(l_.joints.size(), 0.0);
-    turns_.assign(l_.joints.size(), 0);
-    window_ = t;
+double Simulation::rate_of(int joint) const { return joint_motion(l_, plan_, dynamics_.motion, joint).rate; }
+
+std::vector<double> Simulation::shares_of(int joint) {
+  std::vector<InputMotion> one = inputs_;
+  for (InputMotion& i : one) i.rate = i.acceleration = 0;
+  std::vector<double> out;
+  for (const std::size_t k : dynamics_.free()) {
+    one[k].rate = 1;
+    solve_velocity(plan_, one, dynamics_.motion);
+    out.push_back(rate_of(joint));
+    one[k].rate = 0;
   }
-  solve(t);
-  const double largest = fastest();
-  largest_rate_ = std::max(largest_rate_, largest);
+  return out;
+}
+
+Status Simulation::solve_here(double t) {
+  if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
+  const Status status = dynamics_.solve(t, inputs_);
+  if (status != Status::done) restore();
+  return status;
+}
+
+bool Simulation::any_sticks() const {
+  return dynamics_.states && std::any_of(rubbing_.begin(), rubbing_.end(), [&](const Rubbing& r) {
+           return dynamics_.states->senses[at(r.joint)] == 0;
+         });
+}
+
+bool Simulation::start_friction(double t) {
+  const auto moved_by_inputs = [&](int joint) {
+    const std::vector<double> shares = shares_of(joint);
+    return std::any_of(shares.begin(), shares.end(), [](double s) { return std::abs(s) > 1e-12; });
+  };
+  // A joint may be at its dead point just here: a place beside it tells, too.
+  std::vector<bool> moved(l_.joints.size(), laws_.empty());
+  if (!laws_.empty()) {
+    const std::vector<InputMotion> here = inputs_;
+    for (const double aside : {0.0, 0.01}) {
+      inputs_ = here;
+      for (const std::size_t k : dynamics_.free())
+        inputs_[k].value += aside * (plan_.rotary[k] ? 1 : plan_.size);
+      solve_position(plan_, inputs_, dynamics_.motion);
+      if (dynamics_.motion.status != Status::done) continue;
+      for (std::size_t j = 0; j < l_.joints.size(); ++j)
+        moved[j] = moved[j] || (has_friction(l_.joints[j]) && moved_by_inputs(static_cast<int>(j)));
+    }
+    inputs_ = here;
+    restore();
+  }
+  solve_position(plan_, inputs_, dynamics_.motion);
+  if (dynamics_.motion.status != Status::done) return true;  // the start itself says why
+  solve_velocity(plan_, inputs_, dynamics_.motion);
+  FrictionStates& states = dynamics_.states.emplace(l_.joints.size());
+  std::vector<bool> stops;
   for (std::size_t j = 0; j < l_.joints.size(); ++j) {
-    if (l_.joints[j].friction == 0) continue;
-    const double rate = joint_motion(l_, plan_, dynamics_.motion, static_cast<int>(j)).rate;
-    const double sense = rate > 0 ? 1 : rate < 0 ? -1 : 0;
-    turns_[j] += senses_[j] * sense < 0;
-    senses_[j] = sense;
+    const LinkageJoint& joint = l_.joints[j];
+    if (!has_friction(joint) || !moved[j]) continue;
+    const bool slide = joint.type != JointType::revolute;
+    Rubbing r{
+        .joint = static_cast<int>(j),
+        .slide = slide && joint.guide_length == 0 && std::max(joint.friction, joint.friction_static) > 0};
+    const double rate = rate_of(r.joint);
+    r.largest = std::abs(rate);
+    states.senses[j] = rate > 0 ? 1 : -1;
+    stops.push_back(std::abs(rate) <= 1e-12 * (slide ? plan_.size : 1));
+    rubbing_.push_back(r);
   }
-  if (++steps_ % chatter_steps != 0) return false;
-  const auto most = std::max_element(turns_.begin(), turns_.end());
-  const bool creeps = t - window_ < chatter_share * span_, still = creeps && *most >= chatter_steps / 10;
-  jammed_ = creeps && !still && locks_ahead(t);
-  if (still) {
-    chattering_ = static_cast<int>(most - turns_.begin());
-    rests_ = largest < 1e-5 * largest_rate_;
+  decide(t, stops);
+  report_.friction_events.clear();
+  report_.friction_event_count = 0;
+  keep_states(t);
+  stuck_ = resting_ && !may_be_freed(t);
+  if (!resting_) return true;
+  for (const std::size_t k : dynamics_.free())
+    if (laws_.empty()) inputs_[k].rate = 0;
+  return true;
+}
+
+void Simulation::friction_values(double t, std::span<const double> y, std::span<double> values) {
+  put(t, y);
+  const FrictionStates& states = *dynamics_.states;
+  const bool forces =
+      any_sticks() || std::any_of(rubbing_.begin(), rubbing_.end(), [](const Rubbing& r) { return r.slide; });
+  bool placed = false;
+  if (forces) {
+    placed = solve_here(t) == Status::done;
+  } else {
+    if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
+    solve_position(plan_, inputs_, dynamics_.motion);
+    placed = dynamics_.motion.status == Status::done;
+    if (placed)
+      solve_velocity(plan_, inputs_, dynamics_.motion);
+    else
+      restore();
   }
+  double largest = 0;
+  if (forces && placed)
+    for (const JointReaction& r : dynamics_.forces().joints) largest = std::max(largest, norm(r.force));
+  for (std::size_t i = 0; i < rubbing_.size(); ++i) {
+    Rubbing& r = rubbing_[i];
+    const std::size_t j = at(r.joint);
+    if (placed) r.stays = states.senses[j] == 0 ? 1 + r.margin - states.shares[j] : rate_of(r.joint);
+    if (placed && r.slide) r.stays_flank = r.flank * states.normals[j] / largest + flank_share;
+    values[2 * i] = r.stays;
+    values[2 * i + 1] = r.slide && largest > 0 && std::isfinite(r.stays_flank) ? r.stays_flank : 1;
+  }
+}
+
+bool Simulation::decide(double t, const std::vector<bool>& stops) {
+  FrictionStates& states = *dynamics_.states;
+  const std::vector<double> before = states.senses;
+  for (std::size_t i = 0; i < rubbing_.size(); ++i)
+    if (stops[i]) states.senses[at(rubbing_[i].joint)] = 0;
+  states.decide = true;
+  const Status status = solve_here(t);
+  states.decide = false;
+  std::fill(states.reserve.begin(), states.reserve.end(), 1.0);
+  if (status != Status::done) {
+    for (std::size_t i = 0; i < rubbing_.size(); ++i) {  // as it was; what follows says why it cannot go on
+      double& sense = states.senses[at(rubbing_[i].joint)];
+      if (stops[i]) sense = before[at(rubbing_[i].joint)];
+    }
+    return false;
+  }
+  for (const Rubbing& r : rubbing_) {
+    const double was = before[at(r.joint)], sense = states.senses[at(r.joint)];
+    if (was == sense) continue;
+    double value = joint_motion(l_, plan_, dynamics_.motion, r.joint).value;
+    for (std::size_t k = 0; k < l_.driven.size(); ++k)
+      if (l_.driven[k] == r.joint) value = inputs_[k].value;
+    ++report_.friction_event_count;
+    if (report_.friction_events.size() < kept_events)
+      report_.friction_events.push_back({t, r.joint,
+                                         sense == 0 ? FrictionChange::sticks
+                                         : was == 0 ? FrictionChange::slips
+                                                    : FrictionChange::reverses,
+                                         value, sense});
+  }
+  return true;
+}
+
+void Simulation::keep_states(double t) {
+  const FrictionStates& states = *dynamics_.states;
+  for (Rubbing& r : rubbing_) {
+    const double share = states.shares[at(r.joint)], normal = states.normals[at(r.joint)];
+    r.margin = rounding_share + (share > 1 ? share - 1 : 0);
+    if (r.slide && std::isfinite(normal)) r.flank = normal < 0 ? -1 : 1;
+  }
+  const bool rests = states.held > 0 && states.held == dynamics_.free().size();
+  if (rests && !resting_) resting_since_ = t;
+  if (!rests && resting_) end_rest(t);
+  resting_ = rests;
+}
+
+math::OdeAction Simulation::friction_event(double t, std::span<const std::size_t> which,
+                                           std::span<double> y) {
+  put(t, y);
+  FrictionStates& states = *dynamics_.states;
+  if (solve_here(t) != Status::done) return math::OdeAction::restart;
+  if (t - event_time_ > quick_share * std::max(span_, std::abs(t))) quick_events_ = 0, event_time_ = t;
+  std::vector<bool> stops(rubbing_.size(), false);
+  bool gives_way = false, decides = false;
+  for (const std::size_t event : which) {
+    Rubbing& r = rubbing_[event / 2];
+    const std::size_t j = at(r.joint);
+    if (++quick_events_ > most_quick_events) {
+      chattering_ = r.joint;
+      return math::OdeAction::stop;
+    }
+    if (event % 2 == 1) {  // the other flank: the size of its friction has a corner
+      r.flank = -r.flank;
+      ++report_.friction_event_count;
+      if (report_.friction_events.size() < kept_events)
+        report_.friction_events.push_back({t, r.joint, FrictionChange::changes_flank,
+                                           joint_motion(l_, plan_, dynamics_.motion, r.joint).value,
+                                           states.senses[j]});
+      continue;
+    }
+    decides = true;
+    if (states.senses[j] == 0) {
+      gives_way = true;
+      states.reserve[j] = reserve_at_limit;
+    } else {
+      stops[event / 2] = true;
+    }
+  }
+  if (!decides) return math::OdeAction::restart;
+  for (std::size_t i = 0; i < rubbing_.size(); ++i) {
+    Rubbing& r = rubbing_[i];
+    const std::size_t j = at(r.joint);
+    const double rate = std::abs(rate_of(r.joint));
+    r.largest = std::max(r.largest, rate);
+    if (states.senses[j] != 0)
+      stops[i] = stops[i] || rate <= zero_rate * r.largest;
+    else if (gives_way && states.shares[j] >= at_limit_share)
+      states.reserve[j] = reserve_at_limit;
+  }
+  if (!decide(t, stops)) return math::OdeAction::restart;
+  if (any_sticks()) still(t, y);
+  keep_states(t);
+  stuck_ = resting_ && !may_be_freed(t);
+  return stuck_ ? math::OdeAction::stop : math::OdeAction::restart;
+}
+
+void Simulation::still(double t, std::span<double> y) {
+  constexpr int passes = 30;
+  put(t, y);
+  const auto free = dynamics_.free();
+  std::span<double> rates = y.subspan(free.size(), free.size());
+  if (dynamics_.states->held == free.size() && laws_.empty()) {
+    std::fill(rates.begin(), rates.end(), 0.0);
+    return;
+  }
+  std::vector<int> others;
+  for (const Rubbing& r : rubbing_) {
+    if (dynamics_.states->senses[at(r.joint)] != 0) continue;
+    bool input = false;
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (l_.driven[free[i]] == r.joint) rates[i] = 0, input = true;
+    if (!input) others.push_back(r.joint);
+  }
+  if (others.empty()) return;
+  put(t, y);
+  if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
+  solve_position(plan_, inputs_, dynamics_.motion);
+  if (dynamics_.motion.status != Status::done) return restore();
+  std::vector<std::vector<double>> shares;
+  std::vector<double> bias;
+  for (const int joint : others) {
+    shares.push_back(shares_of(joint));
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (dynamics_.states->senses[at(l_.driven[free[i]])] == 0) shares.back()[i] = 0;
+    std::vector<InputMotion> prescribed = inputs_;
+    for (const std::size_t k : free) prescribed[k].rate = 0;
+    solve_velocity(plan_, prescribed, dynamics_.motion);
+    bias.push_back(rate_of(joint));
+  }
+  for (int pass = 0; pass < passes; ++pass)
+    for (std::size_t s = 0; s < others.size(); ++s) {
+      double rate = bias[s], square = 0;
+      for (std::size_t i = 0; i < free.size(); ++i)
+        rate += shares[s][i] * rates[i], square += shares[s][i] * shares[s][i];
+      if (square < 1e-16) continue;
+      for (std::size_t i = 0; i < free.size(); ++i) rates[i] -= rate * shares[s][i] / square;
+    }
+}
+
+void Simulation::still_inputs() {
+  const bool rests = resting_ && laws_.empty();
+  for (const std::size_t k : dynamics_.free())
+    if (rests || dynamics_.states->senses[at(l_.driven[k])] == 0) inputs_[k].acceleration = 0;
+}
+
+const LinkageForces* Simulation::forces_with_friction(double t) {
+  const std::vector<InputMotion> here = inputs_;
+  if (solve_here(t) == Status::done) held_ = dynamics_.forces();
+  inputs_ = here;
+  return &held_;
+}
+
+bool Simulation::jams(double t) {
+  if (++steps_ % jam_steps != 0) return false;
+  const bool creeps = t - window_ < jam_share * span_;
   window_ = t;
-  std::fill(turns_.begin(), turns_.end(), 0);
-  return still || jammed_;
+  jammed_ = creeps && locks_ahead(t);
+  return jammed_;
 }
 
 bool Simulation::locks_ahead(double t) {
@@ -59,71 +309,6 @@ bool Simulation::locks_ahead(double t) {
   return locks;
 }
 
-double Simulation::fastest() const {
-  double largest = 0;
-  for (const std::size_t k : dynamics_.free()) largest = std::max(largest, std::abs(inputs_[k].rate));
-  return largest;
-}
-
-void Simulation::rubbing_rates(double t, std::span<const double> y) {
-  put(t, y);
-  LinkageMotion& motion = dynamics_.motion;
-  solve_position(plan_, inputs_, motion);
-  if (motion.status != Status::done) return restore();
-  solve_velocity(plan_, inputs_, motion);
-  for (std::size_t i = 0; i < rubbing_.size(); ++i)
-    rates_[i] = joint_motion(l_, plan_, motion, rubbing_[i]).rate;
-}
-
-bool Simulation::sticks(double t, int joint) {
-  const std::vector<InputMotion> here = inputs_;
-  LinkageMotion& motion = dynamics_.motion;
-  const auto rate_of = [&](std::span<const InputMotion> inputs) {
-    solve_velocity(plan_, inputs, motion);
-    return joint_motion(l_, plan_, motion, joint).rate;
-  };
-  solve_position(plan_, here, motion);
-  const double rate = rate_of(here);
-  std::vector<double> share;
-  double square = 0;
-  for (const std::size_t k : dynamics_.free()) {
-    std::vector<InputMotion> one = here;
-    for (InputMotion& i : one) i.rate = 0;
-    one[k].rate = 1;
-    share.push_back(rate_of(one));
-    square += share.back() * share.back();
-  }
-  if (!(square > 1e-12)) return false;  // the joint is at rest whatever moves
-  bool stopped = true;
-  for (const double sense : {1.0, -1.0}) {
-    inputs_ = here;
-    const double wanted = sense * 1e-9 - rate;
-    for (std::size_t i = 0; i < share.size(); ++i)
-      inputs_[dynamics_.free()[i]].rate += wanted * share[i] / square;
-    if (solve(t).status != Status::done) continue;  // it cannot move in this sense
-    solve_motion(plan_, inputs_, motion);
-    stopped = stopped && joint_motion(l_, plan_, motion, joint).acceleration * sense < 0;
-  }
-  inputs_ = here;
-  return stopped;
-}
-
-Simulation::Push Simulation::push_from_rest(double t) {
-  const std::vector<InputMotion> here = inputs_;
-  const bool resting = std::exchange(resting_, false);
-  Push most{-1, 0};  // without an answer it cannot move in this sense
-  for (const double sense : {1.0, -1.0}) {
-    inputs_ = here;
-    free_input() = {free_input().value, sense * slowest(), 0};
-    if (solve(t).status != Status::done) continue;
-    const double acceleration = free_input().acceleration * sense;
-    if (most.sense == 0 || acceleration > most.acceleration) most = {acceleration, sense};
-  }
-  resting_ = resting;
-  inputs_ = here;
-  return most;
-}
-
 bool Simulation::may_be_freed(double t) const {
   const auto changes = [&](const auto& load) {
     const LoadFactor& f = load.factor;
@@ -134,78 +319,10 @@ bool Simulation::may_be_freed(double t) const {
          std::any_of(l_.struts.begin(), l_.struts.end(), changes);
 }
 
-math::OdeAction Simulation::come_to_rest(double t, std::span<double> y) {
-  resting_ = true;
-  resting_since_ = t;
-  y[1] = 0;
-  stuck_ = !may_be_freed(t);
-  return stuck_ ? math::OdeAction::stop : math::OdeAction::restart;
-}
-
-void Simulation::set_free(double t, std::span<double> y) {
-  const double sense = push_from_rest(t).sense;
-  end_rest(t);
-  resting_ = false;
-  y[1] = sense * slowest();
-}
-
 void Simulation::end_rest(double t) {
   FrictionRests& rests = report_.rests;
   if (++rests.count == 1) rests.first_from = resting_since_, rests.first_to = t;
   rests.total += t - resting_since_;
-}
-
-Simulation::Answer Simulation::solve_at_rest(double t) {
-  free_input() = {free_input().value, 0, 0};
-  if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
-  solve_motion(plan_, inputs_, dynamics_.motion);
-  Answer answer{dynamics_.motion.status, 0, first_inertia()};
-  if (answer.status != Status::done || laws_.empty()) return answer;
-  const LinkageForces& forces = forces_at_rest(t);
-  answer.status = forces.status;
-  answer.power = lasting_power(l_, plan_, dynamics_.motion, forces.loads);
-  for (const auto& law : laws_) answer.power += forces.drives[law.input] * inputs_[law.input].rate;
-  return answer;
-}
-
-const LinkageForces& Simulation::forces_at_rest(double t) {
-  if (!yielding_) yielding_.emplace(l_);
-  const std::vector<InputMotion> here = inputs_;
-  const std::size_t k = dynamics_.free()[0];
-  LinkageMotion& motion = dynamics_.motion;
-  for (InputMotion& i : inputs_) i.rate = 0;
-  inputs_[k].rate = 1;
-  solve_velocity(plan_, inputs_, motion);
-  std::vector<int> holding;
-  for (std::size_t j = 0; j < l_.joints.size(); ++j)
-    if (l_.joints[j].friction > 0 && joint_motion(l_, plan_, motion, static_cast<int>(j)).rate != 0)
-      holding.push_back(static_cast<int>(j));
-  inputs_ = here;
-
-  // The force that a drive of the free input would have to add, with a part of the friction.
-  const auto missing = [&](double part, double sense) {
-    for (const int j : holding) yielding_->joints[at(j)].friction = part * l_.joints[at(j)].friction;
-    inputs_[k] = {here[k].value, sense * slowest(), 0};
-    solve_motion(plan_, inputs_, motion);
-    solve_forces(*yielding_, plan_, motion, t, inputs_[0].value, held_);
-    return held_.drives[k];
-  };
-  const double without = missing(0, 0);
-  if (without == 0) return held_;  // nothing pushes
-  const double sense = without > 0 ? -1 : 1;
-  const double with_all = missing(1, sense);
-  // At the moment at which friction gives way rounding may leave it too small by a digit.
-  if (held_.status == Status::done && (with_all < 0) != (without < 0)) {
-    // Friction that locks holds, too.
-    const auto left = [&](double part) {
-      const double force = missing(part, sense);
-      return held_.status == Status::done ? force : with_all;
-    };
-    missing(math::zero_between(left, 0, 1), sense);
-  }
-  inputs_ = here;
-  solve_motion(plan_, inputs_, motion);
-  return held_;
 }
 
 }  // namespace linkwright::planar

@@ -234,7 +234,7 @@ class Maker {
       return false;
     }
     for (const LinkageJoint& j : study->linkage.joints)
-      if (j.friction > 0) {
+      if (has_friction(j)) {
         why_ = fmt::format("joint '{}' has friction, which is not linear in the masses", j.name);
         return false;
       }

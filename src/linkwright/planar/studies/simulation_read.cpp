@@ -194,7 +194,7 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
   }
   if (s.route == SimulationRoute::all_coordinates)
     for (const LinkageJoint& j : description->linkage.joints)
-      if (j.friction > 0)
+      if (has_friction(j))
         document.error("simulation",
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");

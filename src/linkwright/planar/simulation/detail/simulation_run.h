@@ -39,12 +39,8 @@ class Simulation {
   bool stops_at_changes() const {
     return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
   }
-  bool watches_rest() const { return friction_ && dynamics_.free().size() == 1; }
-  // Events of rest come after those of change points: the free input stops, friction lets it go.
-  std::size_t stop_event() const { return stops_at_changes() ? 2 : 0; }
-  InputMotion& free_input() { return inputs_[dynamics_.free()[0]]; }
-  // A rate that gives friction a sense and is as good as none.
-  double slowest() const { return 1e-9 * (plan_.rotary[dynamics_.free()[0]] ? 1 : plan_.size); }
+  // Events of friction come after those of change points.
+  std::size_t first_friction_event() const { return stops_at_changes() ? 2 : 0; }
 
   // ---- state: values and rates of the free inputs, work -------------------------------------------------
 
@@ -58,7 +54,7 @@ class Simulation {
 
   struct Answer {
     Status status = Status::done;
-    double power = 0, inertia = 0;
+    double power = 0, inertia = 0, friction_power = 0;
   };
   // Accelerations of the free inputs, in inputs_.
   Answer solve(double t);
@@ -119,38 +115,45 @@ class Simulation {
 
   // ---- friction -----------------------------------------------------------------------------------------
 
-  // True if a joint sticks while others move: friction reverses again and again while time hardly passes,
-  // since the equations of joints that slide have no motion there. Before the place where friction locks
-  // forces grow without bound, and time hardly passes either.
-  bool chatters(double t);
+  // The joints with friction: events are that one of them stops sliding, or that a sticking one is asked for
+  // more than it can bear, and that a slide comes to lie on its other flank.
+  struct Rubbing {
+    int joint;
+    bool slide;              // has two flanks
+    double margin = 0;       // by which rounding exceeds what it can bear when it begins to stick
+    double flank = 1;        // sign of the normal force of a slide
+    double largest = 0;      // of its rates so far
+    double stays = 1;        // last value of its event
+    double stays_flank = 1;  // last value of the event of its flank
+  };
 
+  // Finds the joints with friction, and their states at the start.
+  bool start_friction(double t);
+  // Rates of joint `joint` for a unit rate of each free input, the others at rest.
+  std::vector<double> shares_of(int joint);
+  double rate_of(int joint) const;
+  // Solves at the place of the inputs itself, also near change points.
+  Status solve_here(double t);
+  void friction_values(double t, std::span<const double> y, std::span<double> values);
+  math::OdeAction friction_event(double t, std::span<const std::size_t> which, std::span<double> y);
+  // States of the joints that stick and of those given by `stops`; reports what changes.
+  bool decide(double t, const std::vector<bool>& stops);
+  // What is remembered of the states from here on.
+  void keep_states(double t);
+  // Sets the rates of sticking joints to zero, by the least change of the rates in y.
+  void still(double t, std::span<double> y);
+  // Sticking joints whose coordinate is a free input have exactly no acceleration.
+  void still_inputs();
+  bool any_sticks() const;
+  // Friction that grows without bound before the place where it locks: time hardly passes any more.
+  bool jams(double t);
   // True if friction locks a millionth of a radian, or of the linkage's size, further on.
   bool locks_ahead(double t);
-  double fastest() const;
-  // Rates of the joints with friction; beyond what can be placed they stay what they were.
-  void rubbing_rates(double t, std::span<const double> y);
-  // A joint that has come to rest sticks when friction stops it in both directions. inputs_ are those of the
-  // moment.
-  bool sticks(double t, int joint);
-
-  // The acceleration from rest in the sense that is easier: acceleration of the free input in that sense,
-  // negative when friction stops motion in both directions.
-  struct Push {
-    double acceleration, sense;
-  };
-  Push push_from_rest(double t);
-  bool holds(double t) { return push_from_rest(t).acceleration < 0; }
   // True if something changes with time while the linkage is at rest.
   bool may_be_freed(double t) const;
-  // Starts a rest held by friction: to the end, or until something frees it.
-  math::OdeAction come_to_rest(double t, std::span<double> y);
-  void set_free(double t, std::span<double> y);
   void end_rest(double t);
-  // Solves with the free input at rest; drives may move the others.
-  Answer solve_at_rest(double t);
-  // Joint forces at rest: of the joints that the free input moves, each bears the same part of the friction
-  // that it could bear.
-  const LinkageForces& forces_at_rest(double t);
+  // Joint forces of this instant, by the states of the joints.
+  const LinkageForces* forces_with_friction(double t);
 
   // ---- end ----------------------------------------------------------------------------------------------
 
@@ -189,19 +192,16 @@ class Simulation {
   double below_ = -infinity, above_ = infinity;
   double changed_at_ = 0;  // value of the input at the last change point
   bool at_limit_ = false, at_change_ = false;
-  bool resting_ = false;  // friction holds the free input
-  bool stuck_ = false;    // for good
+  std::vector<Rubbing> rubbing_;  // joints with friction
+  bool resting_ = false;          // sticking joints hold all free inputs
+  bool stuck_ = false;            // for good
   double resting_since_ = 0;
-  std::optional<Linkage> yielding_;  // the linkage with a part of its friction
   LinkageForces held_;
-  std::vector<int> rubbing_;             // joints with friction, when several inputs are free
-  std::vector<double> rates_;            // rates of these joints
-  std::vector<double> breaks_, senses_;  // senses of joints with friction, one a joint
-  std::vector<long> turns_;              // reversals of the senses, within the window
-  double span_ = 1, window_ = 0, largest_rate_ = 0;
-  long steps_ = 0;
+  std::vector<double> breaks_;
+  double span_ = 1, window_ = 0;
+  long steps_ = 0, quick_events_ = 0;
+  double event_time_ = -infinity;
   int chattering_ = -1;  // joint
-  bool rests_ = false;
   bool jammed_ = false;  // friction locks
   Status last_status_ = Status::done;
   int failed_group_ = -1;
