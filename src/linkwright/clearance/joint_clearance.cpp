@@ -179,7 +179,7 @@ class Watcher {
 
  private:
   void solve(const planar::SimulationInstant& i) {
-    planar::solve_forces(cleared_.linkage, cleared_.plan, *i.motion, i.time, i.inputs[0].value, forces_);
+    planar::solve_forces(cleared_.linkage, cleared_.plan, i, forces_);
   }
   double tension(const planar::SimulationInstant& i, std::size_t k) const {
     const ClearanceBar& bar = cleared_.bars[k];

@@ -79,7 +79,15 @@ TEST(LinkageCheck, WantsJointsBetweenTwoBodies) {
 TEST(LinkageCheck, WantsFrictionThatCanAct) {
   EXPECT_THAT(after([](Linkage& l) { l.joints[1].friction = 0.1; }),
               ElementsAre("joint.A: has friction but no pin radius: its torque would be zero; give the "
-                          "radius of the pin"));
+                          "radius of the pin, or a friction torque"));
+  EXPECT_THAT(after([](Linkage& l) {
+                l.joints[1].friction = 0.3, l.joints[1].friction_static = 0.2, l.joints[1].pin_radius = 0.01;
+              }),
+              ElementsAre("joint.A: its friction at rest, 0.2, is below its friction in motion, 0.3; "
+                          "friction_static is the larger of the two"));
+  EXPECT_THAT(after([](Linkage& l) { l.joints[1].friction_effort = 2, l.joints[1].friction_speed = 0.1; }),
+              ElementsAre("joint.A: its friction falls with the speed, but has no value at rest; give "
+                          "friction_static"));
   EXPECT_THAT(
       after([](Linkage& l) { l.joints[1].friction = -0.1; }),
       ElementsAre("joint.A: friction, pin radius and guide length must be finite and not negative; "));

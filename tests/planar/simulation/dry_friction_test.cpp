@@ -339,5 +339,88 @@ TEST(DryFriction, AnElbowThatRubsHardSticksAndSlips) {
   EXPECT_NEAR(run.rows.back().friction_loss, -run.rows.back().work, 1e-7);
 }
 
+// A five-bar with a brake in a pin that is no input: while it sticks, its two bars are one bent bar of a
+// four-bar.
+TEST(DryFriction, APinThatIsNoInputSticks) {
+  const double crank = 2.0, other = 1.2;
+  const math::Vec2 knee = math::unit(crank), far = math::Vec2{1, 0} + math::unit(other), across = far - knee;
+  const double half = norm(across) / 2, height = std::sqrt(1.2 * 1.2 - half * half);
+  const math::Vec2 top = knee + 0.5 * across + (height / (2 * half)) * perpendicular(across);
+  const auto angle = [](const math::Vec2& v) { return std::atan2(v.y, v.x); };
+  const auto start = [](Linkage& l, std::size_t body, const math::Vec2& at, double turned) {
+    l.bodies[body].start = math::Pose{at.x, at.y, turned};
+  };
+  Linkage five = grounded({{"A", {0, 0}}, {"B", {1, 0}}});
+  for (const char* n : {"left", "right"}) add_bar(five, n, "from", "to", 1);
+  for (const char* n : {"left rod", "right rod"}) add_bar(five, n, "from", "to", 1.2);
+  for (const char* n : {"left", "right", "left rod", "right rod"}) set_uniform(five, n, 1);
+  add_pin(five, "A", "ground.A", "left.from");
+  add_pin(five, "B", "ground.B", "right.from");
+  add_pin(five, "knee", "left.to", "left rod.from");
+  add_pin(five, "elbow", "right.to", "right rod.from");
+  add_pin(five, "top", "left rod.to", "right rod.to");
+  add_drive(five, "A");
+  add_drive(five, "B");
+  five.joints[2].friction_effort = 1000;
+  start(five, 1, {0, 0}, crank);
+  start(five, 2, {1, 0}, other);
+  start(five, 3, knee, angle(top - knee));
+  start(five, 4, far, angle(top - far));
+  // The bent bar in the frame of its first part.
+  const double bend = angle(top - knee) - crank;
+  const math::Vec2 end = math::Vec2{1, 0} + 1.2 * math::unit(bend), first{0.5, 0},
+                   second = math::Vec2{1, 0} + 0.6 * math::unit(bend), centre = 0.5 * (first + second);
+  Linkage four = grounded({{"A", {0, 0}}, {"B", {1, 0}}});
+  add_body(four, "bent", {{"from", {0, 0}}, {"to", {end.x, end.y}}});
+  four.bodies[1].mass = BodyMass{
+      2,
+      1.0 / 12 + 1.2 * 1.2 / 12 + dot(first - centre, first - centre) + dot(second - centre, second - centre),
+      {centre.x, centre.y}};
+  add_bar(four, "right", "from", "to", 1);
+  add_bar(four, "right rod", "from", "to", 1.2);
+  set_uniform(four, "right", 1), set_uniform(four, "right rod", 1);
+  add_pin(four, "A", "ground.A", "bent.from");
+  add_pin(four, "B", "ground.B", "right.from");
+  add_pin(four, "elbow", "right.to", "right rod.from");
+  add_pin(four, "top", "bent.to", "right rod.to");
+  add_drive(four, "A");
+  start(four, 1, {0, 0}, crank);
+  start(four, 2, {1, 0}, other);
+  start(four, 3, far, angle(top - far));
+  const std::vector<double> times = evenly(0, 0.3, 7);
+  const SimulationRun stuck = simulated(five, planned(five), {{{}, crank, 0}, {{}, other, 0}}, times),
+                      bent = simulated(four, planned(four), {{{}, crank, 0}}, times);
+  ASSERT_EQ(stuck.report.status, Status::done) << to_string(stuck.report.message);
+  ASSERT_EQ(bent.report.status, Status::done) << to_string(bent.report.message);
+  EXPECT_EQ(stuck.report.friction_event_count, 0);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(stuck.rows[i].inputs[0].value, bent.rows[i].inputs[0].value, 1e-8) << times[i];
+    EXPECT_NEAR(stuck.rows[i].inputs[0].acceleration, bent.rows[i].inputs[0].acceleration, 1e-6) << times[i];
+  }
+  EXPECT_GT(std::abs(stuck.rows.back().inputs[0].value - crank), 0.01);
+}
+
+// The mirror image of a machine has the mirror image of its motion, events at the same times among them.
+TEST(DryFriction, AMirrorImageStaysOne) {
+  std::vector<SimulationRun> runs;
+  for (const double side : {1.0, -1.0}) {
+    Linkage l = pendulum(3);
+    for (LinkageJoint& j : l.joints) j.friction = 0.2, j.friction_static = 0.3, j.pin_radius = 0.05;
+    const double down = -pi / 2;
+    runs.push_back(simulated(l, planned(l),
+                             {{{}, down + side * 0.9, 0}, {{}, side * 0.4, side}, {{}, side * 0.3, 0}},
+                             evenly(0, 3, 31)));
+  }
+  ASSERT_EQ(runs[0].report.friction_events.size(), runs[1].report.friction_events.size());
+  ASSERT_GT(runs[0].report.friction_events.size(), 5u);
+  for (std::size_t i = 0; i < runs[0].report.friction_events.size(); ++i) {
+    const FrictionEvent &a = runs[0].report.friction_events[i], &b = runs[1].report.friction_events[i];
+    EXPECT_EQ(a.joint, b.joint);
+    EXPECT_EQ(a.change, b.change);
+    EXPECT_EQ(a.sense, -b.sense);
+    EXPECT_NEAR(a.time, b.time, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::planar

@@ -182,6 +182,80 @@ samples = 21
   EXPECT_EQ(fact(r, "held by friction"), "from 0 s to 0.5886 s, 0.5886 s in all");
 }
 
+std::string brake(const std::string& keys, const std::string& type = "revolute") {
+  return R"(
+schema = 1
+kind = "simulation"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name = "ground"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name = "disc"
+points_mm = { O = [0, 0] }
+mass_kg = 1
+inertia_kg_m2 = 2
+centre_mm = [0, 0]
+[[mechanism.joint]]
+name = "axle"
+type = ")" +
+         type + R"("
+first = "ground.O"
+second = "disc.O"
+)" + keys +
+         R"(
+[[drive]]
+joint = "axle"
+free = true
+)" + (type == "revolute" ? "start_speed_rad_per_s = 10" : "start_speed_m_per_s = 10") +
+         R"(
+[simulation]
+to_s = 20
+samples = 21
+)";
+}
+
+// A disc of 2 kg m2 at 10 rad/s under a brake of 4 N m stops after 5 s, having lost its 100 J.
+TEST(LinkageSimulationStudy, ListsWhenJointsStickAndWhatFrictionTakes) {
+  const study::Result r = run_text(brake("friction_torque_N_m = 4"));
+  ASSERT_EQ(r.status, Status::at_rest) << to_string(r.headline);
+  EXPECT_EQ(fact(r, "energy taken by friction"), "100 J");
+  EXPECT_EQ(fact(r, "changes of friction"), "1; the first: axle sticks at 5 s");
+  ASSERT_EQ(r.tables.size(), 2u);
+  const Table& t = r.tables[1];
+  EXPECT_EQ(t.name, "friction");
+  EXPECT_EQ(t.names, std::vector<std::string>{"axle sticks"});
+  EXPECT_NEAR(t.find("time_s")->values[0], 5, 1e-9);
+  EXPECT_NEAR(t.find("joint_angle_rad")->values[0], 25, 1e-8);
+  EXPECT_TRUE(std::isnan(t.find("joint_displacement_m")->values[0]));
+  EXPECT_EQ(t.find("friction_state")->values[0], 0);
+  EXPECT_EQ(r.tables[0].find("axle_friction_state")->values[0], 1);
+  EXPECT_THAT(to_csv(t), HasSubstr("axle sticks,"));
+}
+
+TEST(LinkageSimulationStudy, SaysWhichFrictionDoesNotFitTheJoint) {
+  EXPECT_THAT(
+      problems_of(brake("friction_force_N = 4")),
+      HasSubstr(
+          "joint 'axle' is not a slide or slot, and has a friction force; a pin has a friction_torque"));
+  EXPECT_THAT(
+      problems_of(brake("friction_torque_N_m = 4", "prismatic")),
+      HasSubstr(
+          "joint 'axle' is not a pin, and has a friction torque; a slide or slot has a friction_force"));
+  EXPECT_THAT(
+      problems_of(brake("friction = 0.3\npin_radius_mm = 5\nfriction_static = 0.2")),
+      HasSubstr("friction_static 0.2 of joint 'axle' is below its friction 0.3; friction_static is the "
+                "larger of the two"));
+  EXPECT_THAT(
+      problems_of(brake("friction = 0.3\npin_radius_mm = 5\nstribeck_speed_mm_per_s = 20")),
+      HasSubstr("the friction of joint 'axle' falls with the speed from no value; give friction_static"));
+  EXPECT_THAT(problems_of(brake("friction_static = 0.3\npin_radius_mm = 5\nfriction_fall = \"hyperbolic\"")),
+              HasSubstr("joint 'axle' has a curve of friction without a speed; give stribeck_speed"));
+  EXPECT_THAT(problems_of(brake("friction = 0.3")),
+              HasSubstr("give the radius of the pin, or a friction torque"));
+}
+
 // Both routes, from the file.
 TEST(LinkageSimulationStudy, TakesEitherRoute) {
   const std::string text =
@@ -284,7 +358,8 @@ samples = 201
 }
 
 TEST(LinkageSimulationStudy, ExamplesPassTheirChecks) {
-  for (const char* name : {"andrews-squeezer", "four-bar-chain-2", "four-bar-chain-40", "double-pendulum"}) {
+  for (const char* name : {"andrews-squeezer", "four-bar-chain-2", "four-bar-chain-40", "double-pendulum",
+                           "stick-slip-oscillator"}) {
     SCOPED_TRACE(name);
     const auto study = test::prepare_example(test::kinds(), std::string(name) + ".toml");
     ASSERT_TRUE(study);

@@ -114,7 +114,7 @@ bool ClearanceRows::add(const JointClearanceRow& c) {
                   .potential = i.potential,
                   .work = i.work,
                   .drift = i.drift};
-  planar::solve_forces(cleared_->linkage, cleared_->plan, *i.motion, i.time, i.inputs[0].value, forces_);
+  planar::solve_forces(cleared_->linkage, cleared_->plan, i, forces_);
   for (std::size_t k = 0; k < c.joints.size(); ++k) {
     const ClearanceState& state = c.joints[k];
     const planar::LinkageJoint& joint = s_.linkage.joints[at(s_.joint_of(k))];

@@ -496,6 +496,37 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
   return f;
 }
 
+// Friction at rest, of falling curves and without load.
+void set_friction(LinkageJoint& j, const JointForm& f, Names& names) {
+  if (f.friction_torque && j.type != JointType::revolute)
+    names.problem("friction_torque_N_m",
+                  fmt::format("joint '{}' is not a pin, and has a friction torque", f.name),
+                  "a slide or slot has a friction_force");
+  if (f.friction_force && j.type != JointType::prismatic && j.type != JointType::pin_in_slot)
+    names.problem("friction_force_N",
+                  fmt::format("joint '{}' is not a slide or slot, and has a friction force", f.name),
+                  "a pin has a friction_torque");
+  if (j.screw && (f.friction_static || f.friction_force || f.stribeck_speed))
+    names.problem("friction", fmt::format("screw '{}' has friction of a slide", f.name),
+                  "the friction of its thread is `friction` alone");
+  if (f.friction_static && *f.friction_static < f.friction)
+    names.problem("friction_static",
+                  fmt::format("friction_static {} of joint '{}' is below its friction {}", *f.friction_static,
+                              f.name, f.friction),
+                  "friction_static is the larger of the two");
+  if (f.stribeck_speed && !f.friction_static)
+    names.problem("stribeck_speed",
+                  fmt::format("the friction of joint '{}' falls with the speed from no value", f.name),
+                  "give friction_static, the value at rest");
+  if (f.friction_fall && !f.stribeck_speed)
+    names.problem("friction_fall", fmt::format("joint '{}' has a curve of friction without a speed", f.name),
+                  "give stribeck_speed");
+  j.friction_static = f.friction_static.value_or(0);
+  j.friction_effort = f.friction_torque.value_or(0) + f.friction_force.value_or(0);
+  j.friction_speed = f.stribeck_speed.value_or(0);
+  j.friction_fall = f.friction_fall.value_or(FrictionFall::stribeck);
+}
+
 LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
   LinkageJoint j{.name = f.name, .type = f.type};
   if (f.type == JointType::gear) {
@@ -530,6 +561,7 @@ LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
     if (f.pressure_angle) j.pressure_angle = *f.pressure_angle;
   }
   j.friction = j.screw ? 0 : f.friction, j.pin_radius = f.pin_radius, j.guide_length = f.guide_length;
+  set_friction(j, f, names);
   return j;
 }
 
@@ -652,6 +684,13 @@ LinkageForm form_of(const Linkage& l) {
     }
     f.friction = j.screw ? j.screw->friction : j.friction, f.pin_radius = j.pin_radius,
     f.guide_length = j.guide_length;
+    if (j.friction_static > 0) f.friction_static = j.friction_static;
+    if (j.friction_effort > 0)
+      (j.type == JointType::revolute ? f.friction_torque : f.friction_force) = j.friction_effort;
+    if (j.friction_speed > 0) {
+      f.stribeck_speed = j.friction_speed;
+      if (j.friction_fall != FrictionFall::stribeck) f.friction_fall = j.friction_fall;
+    }
     form.joints.push_back(std::move(f));
   }
   for (const DyadMode& m : l.modes) form.assembly.push_back({{body(m.first), body(m.second)}, m.mode});

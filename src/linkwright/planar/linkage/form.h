@@ -77,6 +77,8 @@ struct JointForm {
   std::optional<double> lead, pitch_diameter, flank_angle, spindle_inertia;
   std::optional<ThreadHand> hand;
   double friction = 0, pin_radius = 0, guide_length = 0;
+  std::optional<double> friction_static, friction_torque, friction_force, stribeck_speed;
+  std::optional<FrictionFall> friction_fall;
 };
 /// The side of a belt on which a wheel lies.
 enum class BeltSide {
@@ -292,6 +294,24 @@ void fields(Visitor&& visit, JointForm& j) {
   visit(field::length("pin_radius", "radius of the pin, for its friction").not_negative(), j.pin_radius);
   visit(field::length("guide_length", "length of the slide, for the friction of its moment").not_negative(),
         j.guide_length);
+  visit(field::entry("friction_static",
+                     "coefficient of friction of the joint at rest, not below `friction`; if absent the same")
+            .between(0, 10),
+        j.friction_static);
+  visit(field::torque("friction_torque",
+                      "pin: friction that no load changes, as of a brake, a clutch or a seal; if absent none")
+            .not_negative(),
+        j.friction_torque);
+  visit(field::force("friction_force", "slide, slot: friction that no load changes; if absent none")
+            .not_negative(),
+        j.friction_force);
+  visit(field::speed("stribeck_speed",
+                     "speed with which friction falls from `friction_static` to `friction`, of a pin at its "
+                     "rim; if absent it falls at once")
+            .positive(),
+        j.stribeck_speed);
+  visit(field::entry("friction_fall", "curve along which it falls with `stribeck_speed`; if absent stribeck"),
+        j.friction_fall);
 }
 template <class Visitor>
 void fields(Visitor&& visit, BeltWheelForm& w) {

@@ -304,6 +304,7 @@ const SimulationInstant& Simulation::watched(double t, std::span<const double> y
               .inputs = inputs_,
               .work = y[2 * dynamics_.free().size()] + kinks_};
   if (instant_.status == Status::done) {
+    if (any_sticks()) instant_.held = forces_with_friction(t);
     instant_.motion = &placed();
     instant_.status = instant_.motion->status;
   }
@@ -465,6 +466,14 @@ math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, do
     options.max_steps = std::max(1L, options.max_steps - piece.steps);
   }
   return sum;
+}
+
+void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const SimulationInstant& instant,
+                  LinkageForces& forces) {
+  if (instant.held)
+    forces = *instant.held;
+  else
+    solve_forces(linkage, plan, *instant.motion, instant.time, instant.inputs[0].value, forces);
 }
 
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,

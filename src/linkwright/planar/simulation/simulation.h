@@ -59,6 +59,16 @@ struct SimulationInstant {
   /// without friction. Empty where no joint has friction.
   std::span<const double> friction_senses = {};
 };
+/// All joint forces of an instant: `held` where joints stick, else those of solve_forces.
+///
+/// @param linkage the linkage, with masses and loads
+/// @param plan its plan
+/// @param instant an instant with a motion
+/// @param forces receives the forces; use one again and again
+/// @throws ContractError if a body has no mass
+void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const SimulationInstant& instant,
+                  LinkageForces& forces);
+
 /// A function that receives the rows; false ends the simulation.
 using SimulationOutput = std::function<bool(const SimulationInstant&)>;
 

@@ -132,10 +132,14 @@ void Simulation::friction_values(double t, std::span<const double> y, std::span<
   for (std::size_t i = 0; i < rubbing_.size(); ++i) {
     Rubbing& r = rubbing_[i];
     const std::size_t j = at(r.joint);
-    if (placed) r.stays = states.senses[j] == 0 ? 1 + r.margin - states.shares[j] : rate_of(r.joint);
-    if (placed && r.slide) r.stays_flank = r.flank * states.normals[j] / largest + flank_share;
-    values[2 * i] = r.stays;
-    values[2 * i + 1] = r.slide && largest > 0 && std::isfinite(r.stays_flank) ? r.stays_flank : 1;
+    // Where they are not known they stay what they were.
+    const auto keep = [placed](double& last, double value) {
+      if (placed && std::isfinite(value)) last = value;
+      return last;
+    };
+    values[2 * i] = keep(r.stays, states.senses[j] == 0 ? 1 + r.margin - states.shares[j] : rate_of(r.joint));
+    values[2 * i + 1] =
+        r.slide ? keep(r.stays_flank, r.flank * states.normals[j] / largest + flank_share) : 1;
   }
 }
 

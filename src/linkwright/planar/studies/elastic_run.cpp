@@ -235,9 +235,7 @@ class ElasticRecorder {
   }
   void add(const SimulationInstant& now) {
     const bool done = now.status == Status::done;
-    if (done)
-      solve_forces(out_.elastic.linkage, out_.elastic.plan, *now.motion, now.time, now.inputs[0].value,
-                   forces_);
+    if (done) solve_forces(out_.elastic.linkage, out_.elastic.plan, now, forces_);
     const bool known = done && forces_.status == Status::done;
     out_.times.push_back(now.time);
     statuses_.emplace_back(to_string(done ? forces_.status : now.status));

@@ -22,11 +22,15 @@ class SimulationRunner {
  public:
   SimulationRunner(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {
     columns_ = driven_columns(s.linkage, s.plan, s.quantities, s.traces, s.drives);
+    for (std::size_t j = 0; j < s.linkage.joints.size(); ++j)
+      if (has_friction(s.linkage.joints[j])) rubbing_.push_back(j);
+    senses_.resize(rubbing_.size());
   }
 
   study::Result run() {
     integrate();
     finish_table();
+    friction_table();
     result_.scenes.push_back(linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, "time_s", "time"));
     plots();
     facts();
@@ -51,10 +55,7 @@ class SimulationRunner {
 
   bool add(const SimulationInstant& now) {
     const bool dynamic = s_.quantities.dynamic() && now.status == Status::done;
-    if (dynamic && now.held)
-      forces_ = *now.held;
-    else if (dynamic)
-      solve_forces(s_.linkage, s_.plan, *now.motion, now.time, now.inputs[0].value, forces_);
+    if (dynamic) solve_forces(s_.linkage, s_.plan, now, forces_);
     const Status status = dynamic ? forces_.status : now.status;
     times_.push_back(now.time);
     statuses_.push_back(status);
@@ -66,6 +67,9 @@ class SimulationRunner {
     kinetic_.push_back(now.kinetic);
     potential_.push_back(now.potential);
     work_.push_back(now.work);
+    loss_.push_back(now.friction_loss);
+    for (std::size_t i = 0; i < rubbing_.size() && !now.friction_senses.empty(); ++i)
+      senses_[i].push_back(now.friction_senses[rubbing_[i]]);
     drift_.push_back(now.drift);
     const LinkageInstant instant{now.time, {now.inputs.begin(), now.inputs.end()}, now.motion, &forces_};
     for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -83,11 +87,38 @@ class SimulationRunner {
     table.add("potential_energy_J", "potential energy of weight and springs (J)", potential_);
     table.add("work_J", "work of drives and loads (J)", work_);
     table.add("energy_drift_J", "energy drift (J)", drift_);
+    if (!rubbing_.empty()) table.add("friction_loss_J", "energy taken by friction (J)", loss_);
+    for (std::size_t i = 0; i < rubbing_.size(); ++i) {
+      const std::string& name = s_.linkage.joints[rubbing_[i]].name;
+      table.add(identifier(name) + "_friction_state", name + " friction state (1, -1 slides, 0 sticks)",
+                senses_[i]);
+    }
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       unwrap(columns_[c], values_[c]);
       table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
     }
     for (const Status s : statuses_) table.status.emplace_back(to_string(s));
+    result_.tables.push_back(std::move(table));
+  }
+
+  // The changes of the joints with friction, in their order.
+  void friction_table() {
+    if (report_.friction_events.empty()) return;
+    Table table{.name = "friction"};
+    std::vector<double> times, angles, displacements, states;
+    for (const FrictionEvent& e : report_.friction_events) {
+      const LinkageJoint& j = s_.linkage.joints[at(e.joint)];
+      const bool pin = j.type == JointType::revolute;
+      table.names.push_back(fmt::format("{} {}", j.name, name_of(e.change)));
+      times.push_back(e.time);
+      angles.push_back(pin ? e.value : nan);
+      displacements.push_back(pin ? nan : e.value);
+      states.push_back(e.sense);
+    }
+    table.add("time_s", "time (s)", times);
+    table.add("joint_angle_rad", "joint angle (rad)", angles);
+    table.add("joint_displacement_m", "joint displacement (m)", displacements);
+    table.add("friction_state", "friction state from then on (1, -1 slides, 0 sticks)", states);
     result_.tables.push_back(std::move(table));
   }
 
@@ -106,7 +137,9 @@ class SimulationRunner {
            values);
       plot(rotary ? "joint-speeds" : "slide-speeds", rotary ? "Joint speeds" : "Slide speeds", rates);
     }
-    plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
+    std::vector<std::string> energies{"kinetic_energy_J", "potential_energy_J", "work_J"};
+    if (!rubbing_.empty()) energies.emplace_back("friction_loss_J");
+    plot("energies", "Energies", energies);
     plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
     std::vector<std::string> drives, forces, sizes, paths, angles;
     for (std::size_t k = 0; k < s_.plan.inputs() && drives.size() < 6; ++k)
@@ -158,6 +191,13 @@ class SimulationRunner {
           "the linkage starts at rest in unstable balance: rounding decides when it leaves it and to which "
           "side",
           "start it a little beside the balance, or with a small speed");
+    if (!rubbing_.empty() && !loss_.empty()) fact("energy taken by friction", measured("J", loss_.back(), 4));
+    if (report_.friction_event_count > 0) {
+      const FrictionEvent& first = report_.friction_events.front();
+      fact("changes of friction", say("{}; the first: {} {} at {}", report_.friction_event_count,
+                                      s_.linkage.joints[at(first.joint)].name, name_of(first.change),
+                                      at_place("time", seconds(first.time))));
+    }
     if (const FrictionRests& rests = report_.rests; rests.count > 0) {
       const Sentence first = say("from {} to {}", at_place("from", seconds(rests.first_from, 6)),
                                  at_place("to", seconds(rests.first_to, 6)));
@@ -213,7 +253,9 @@ class SimulationRunner {
   const LinkageSimulationStudy& s_;
   RunContext& context_;
   std::vector<LinkageColumn> columns_;
-  std::vector<double> times_, kinetic_, potential_, work_, drift_;
+  std::vector<double> times_, kinetic_, potential_, work_, loss_, drift_;
+  std::vector<std::size_t> rubbing_;         // joints with friction
+  std::vector<std::vector<double>> senses_;  // their states, one row a joint
   std::vector<std::vector<double>> inputs_, values_;
   std::vector<Status> statuses_;
   std::vector<LinkageRecord> recorded_;
