@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/linkage/reactions.h"
 
 /// @file
 /// Linkages that move although they have a joint too many, since their dimensions agree: coupled wheels, a
