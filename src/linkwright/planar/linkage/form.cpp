@@ -183,7 +183,8 @@ struct Wheels {
   const LinkageJoint& gear;
   std::vector<PinAxis> axes;
 
-  bool first_named() const { return body_index(l, form.first) < 0; }
+  // The first point of a Geneva drive is its pin, not an axis.
+  bool first_named() const { return !gear.geneva && body_index(l, form.first) < 0; }
   bool second_named() const { return body_index(l, form.second) < 0; }
   bool turns_on(const BodyPoint& wheel, bool named, const PinAxis& axis) const {
     return std::any_of(axis.points.begin(), axis.points.end(), [&](const BodyPoint& p) {
@@ -541,6 +542,20 @@ LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
     j.first = names.point("first", f.first);
     j.second = names.point("second", f.second);
   }
+  if (f.type == JointType::geneva) {
+    const InternalWheel internal = f.internal.value_or(InternalWheel::none);
+    if (internal == InternalWheel::first)
+      names.problem("internal", fmt::format("the pin of Geneva drive '{}' is on its first body", f.name),
+                    "write second, where the crank turns within the wheel");
+    if (!f.slots)
+      names.problem("slots", fmt::format("the wheel of Geneva drive '{}' has no slots", f.name),
+                    "give their number, such as slots = 4");
+    j.type = JointType::gear;
+    j.pressure_angle = 0;
+    j.geneva = Geneva{{f.slots.value_or(4), internal == InternalWheel::second}, f.slot_angle};
+    if (!drawn && !f.slot_angle) j.geneva->slot = 0;
+    if (f.carrier) j.carrier = names.body("carrier", *f.carrier);
+  }
   if (f.type == JointType::screw) {
     if (!f.lead)
       names.problem("lead_mm", fmt::format("screw '{}' has no lead", f.name),
@@ -619,7 +634,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     names.at("joint", i);
     if (form.joints[i].type == JointType::rack)
       measure_rack(l, form.joints[i], form.drawn, l.joints[i], names);
-    if (form.joints[i].type != JointType::gear) continue;
+    if (l.joints[i].type != JointType::gear) continue;
     const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
     if (!form.joints[i].carrier) l.joints[i].carrier = carrier_of(wheels, names);
     l.joints[i].pressure_angle = working_angle(wheels, names);
@@ -666,13 +681,19 @@ LinkageForm form_of(const Linkage& l) {
   for (const LinkageJoint& j : l.joints) {
     JointForm f{.name = j.name, .type = j.type};
     const bool gear = j.type == JointType::gear;
-    f.first = gear ? body(j.first.body) : point(j.first);
-    f.second = gear ? body(j.second.body) : point(j.second);
+    f.first = gear && !j.geneva ? body(j.first.body) : point(j.first);
+    f.second = gear && !j.geneva ? body(j.second.body) : point(j.second);
     f.direction = j.type == JointType::rack ? j.slide_second : j.slide_first;
     if (j.type == JointType::prismatic || j.type == JointType::fixed) f.direction_second = j.slide_second;
     f.phase = j.phase;
     if (gear) f.ratio = j.ratio, f.carrier = body(j.carrier), f.pressure_angle = j.pressure_angle;
     if (j.efficiency < 1) f.efficiency = j.efficiency;
+    if (j.geneva) {
+      f.type = JointType::geneva;
+      f.slots = j.geneva->slots.count, f.slot_angle = j.geneva->slot;
+      if (j.geneva->slots.internal) f.internal = InternalWheel::second;
+      f.ratio.reset(), f.pressure_angle.reset();
+    }
     if (j.curve) f.ratio_curve = RatioCurveForm{j.curve->first, j.curve->second}, f.ratio.reset();
     if (j.type == JointType::rack) f.radius = j.radius, f.pressure_angle = j.pressure_angle;
     if (j.screw) {

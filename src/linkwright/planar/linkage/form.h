@@ -76,6 +76,8 @@ struct JointForm {
   std::optional<RatioCurveForm> ratio_curve;
   std::optional<double> lead, pitch_diameter, flank_angle, spindle_inertia;
   std::optional<ThreadHand> hand;
+  std::optional<int> slots;
+  std::optional<double> slot_angle;
   double friction = 0, pin_radius = 0, guide_length = 0;
   std::optional<double> friction_static, friction_torque, friction_force, stribeck_speed;
   std::optional<FrictionFall> friction_fall;
@@ -247,7 +249,10 @@ void fields(Visitor&& visit, JointForm& j) {
             .between(-1e6, 1e6),
         j.ratio);
   visit(field::entry("teeth", "gear: teeth of both wheels, instead of `ratio`").between(1, 1000000), j.teeth);
-  visit(field::entry("internal", "gear: wheel that is a ring with its teeth inside"), j.internal);
+  visit(field::entry("internal",
+                     "gear: wheel that is a ring with its teeth inside; Geneva drive: second, where the "
+                     "crank turns within the wheel"),
+        j.internal);
   visit(field::length("module",
                       "gear: module of the teeth; the distance of the centres then gives the pressure "
                       "angle at which they work")
@@ -288,6 +293,13 @@ void fields(Visitor&& visit, JointForm& j) {
             .not_negative(),
         j.spindle_inertia);
   visit(field::entry("hand", "screw: hand of the thread; if absent right"), j.hand);
+  visit(field::entry("slots", "Geneva drive: slots of the wheel").between(3, 1000), j.slots);
+  visit(
+      field::angle(
+          "slot_angle",
+          "Geneva drive: direction of a slot in the frame of the wheel; if absent 0, or as the wheel stands "
+          "in a drawn linkage"),
+      j.slot_angle);
   visit(field::entry("friction", "coefficient of Coulomb friction; of a screw that of its thread")
             .between(0, 10),
         j.friction);

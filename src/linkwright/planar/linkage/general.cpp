@@ -328,8 +328,24 @@ JointReaction strand_force(const StrandPair& strand, const LinkageMotion& motion
   const StrandLine line = strand_line(strand, motion.parts);
   return {line.second, -tension * line.along, 0, tension, 0};
 }
-// The load of wheels that are not circular, which turns the second one with `torque`; their radii change.
+// The load of the pin of a Geneva drive on its slot: across the slot, which leads from the axis of the wheel
+// to the pin.
+JointReaction pin_force(const CurvePair& pair, const LinkageMotion& motion, double torque) {
+  const math::Vec2 axis = point_on(motion.parts[at(pair.second)], pair.mesh->second.at),
+                   pin = point_on(motion.parts[at(pair.first)], pair.pin.at);
+  const double distance = norm(pin - axis);
+  JointReaction out;
+  out.point = pin;
+  out.moment = torque;
+  out.force = torque / (distance * distance) * perpendicular(pin - axis);
+  out.tangential = torque / distance;
+  out.separating = 0;
+  return out;
+}
+// The load of wheels that are not circular, which turns the second one with `torque`; their radii change. A
+// locked Geneva wheel rests on the crank, with a force through its axis, as a ratio of 0 gives it.
 JointReaction curve_force(const CurvePair& pair, const LinkageMotion& motion, double torque, double ratio) {
+  if (pair.mesh && pair.geneva && ratio != 0) return pin_force(pair, motion, torque);
   if (!pair.mesh || std::abs(1 - ratio) < tolerance::feasibility)
     return {motion.parts[at(pair.second)].origin, {0, 0}, torque, nan, nan};
   GearMesh mesh = *pair.mesh;

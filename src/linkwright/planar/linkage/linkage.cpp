@@ -119,7 +119,11 @@ class Checker {
             "write 20 deg, as most gears have, or 0 for the tangential force alone");
     if (j.type == JointType::screw)
       error(key, "a screw of a model is a prismatic joint with its thread", "set its type to prismatic");
+    if (j.type == JointType::geneva)
+      error(key, "a Geneva drive of a model is a gear with its slots", "set its type to gear");
     if (j.screw) screw(key, *j.screw);
+    if (gear && j.geneva && !(j.geneva->slots.count >= 3 && j.geneva->slots.count <= 1000))
+      error(key, fmt::format("its wheel has {} slots", j.geneva->slots.count), "give 3 or more, 4 as usual");
     if (gear && !(j.efficiency > 0 && j.efficiency <= 1))
       error(key, fmt::format("an efficiency of {}", j.efficiency),
             "it is more than 0, up to 1 without losses");
@@ -316,8 +320,8 @@ class Checker {
   }
   const std::string& name(int body) const { return l_.bodies[static_cast<std::size_t>(body)].name; }
 
-  static constexpr std::array<std::string_view, 7> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
-                                                          "gear",     "rack",      "screw"};
+  static constexpr std::array<std::string_view, 8> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
+                                                          "gear",     "rack",      "screw",       "geneva"};
   const Linkage& l_;
   Diagnostics found_;
 };
@@ -354,6 +358,7 @@ std::string first_rolling_pair(const Linkage& linkage) {
   for (const LinkageJoint& j : linkage.joints) {
     if (j.type == JointType::rack) return fmt::format("rack '{}'", j.name);
     if (j.type == JointType::gear && j.curve) return fmt::format("gear '{}' with a ratio curve", j.name);
+    if (j.type == JointType::gear && j.geneva) return fmt::format("Geneva drive '{}'", j.name);
   }
   return linkage.belts.empty() ? std::string() : fmt::format("belt '{}'", linkage.belts[0].name);
 }

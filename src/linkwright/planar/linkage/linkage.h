@@ -56,16 +56,18 @@ enum class JointType {
   fixed,        ///< the second body is welded to the first
   gear,         ///< the second body turns `ratio` times as fast as the first, both seen from the carrier
   rack,         ///< the first body, a pinion, rolls on a line of the second
-  screw         ///< of files: a prismatic joint with LinkageJoint::screw
+  screw,        ///< of files: a prismatic joint with LinkageJoint::screw
+  geneva        ///< of files: a gear with LinkageJoint::geneva
 };
-constexpr std::array<EnumName<JointType>, 7> names(JointType) {
+constexpr std::array<EnumName<JointType>, 8> names(JointType) {
   return {{{JointType::revolute, "revolute", "the two points coincide"},
            {JointType::prismatic, "prismatic", "the second body slides along a line of the first"},
            {JointType::pin_in_slot, "pin_in_slot", "a point of the second body lies on a line of the first"},
            {JointType::fixed, "fixed", "the second body is welded to the first"},
            {JointType::gear, "gear", "the second body turns `ratio` times as fast as the first"},
            {JointType::rack, "rack", "the first body is a pinion on the rack of the second"},
-           {JointType::screw, "screw", "a slide that a spindle with a thread drives"}}};
+           {JointType::screw, "screw", "a slide that a spindle with a thread drives"},
+           {JointType::geneva, "geneva", "a pin of the first body turns the slotted wheel of the second"}}};
 }
 
 /// True for the joints whose force is that of teeth.
@@ -85,6 +87,20 @@ struct BodyPoint {
 struct RatioCurve {
   std::vector<double> first;   ///< rising, over one turn, after which the curve repeats, or a sector (rad)
   std::vector<double> second;  ///< rising or falling, as many (rad)
+};
+
+/// The slots of the wheel of a Geneva drive.
+struct GenevaSlots {
+  int count = 4;          ///< number of slots, at least 3
+  bool internal = false;  ///< the crank turns within the wheel, which turns with it; else against it
+};
+
+/// The pin of a Geneva drive, a point of the first body, in the slots of its wheel, the second body.
+struct Geneva {
+  GenevaSlots slots;  ///< slots of the wheel
+  /// Direction of a slot in the frame of the wheel (rad); nothing: as the bodies are turned where all their
+  /// angles are 0, which is a drawing.
+  std::optional<double> slot = {};
 };
 
 /// The screw that drives a slide. Its spindle turns by 2 pi for each lead of the displacement.
@@ -128,6 +144,8 @@ struct LinkageJoint {
   /// gear of wheels that are not circular, instead of `ratio`: (second - carrier) = curve(first - carrier) +
   /// phase
   std::optional<RatioCurve> curve = {};
+  /// gear of a pin and slots, instead of `ratio`; `first` is the pin, `second` the axis of the wheel
+  std::optional<Geneva> geneva = {};
   /// gear: share of the rolling power, seen from the carrier, that the driven wheel gets, more than 0 up to 1
   double efficiency = 1;
   int carrier = 0;  ///< body that carries both axes

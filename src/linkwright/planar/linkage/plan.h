@@ -113,8 +113,8 @@ struct StrandPair {
   double reference = 0;     ///< direction of the strand in the drawing, rad: turns are counted from there
 };
 
-/// Two wheels that are not circular: the angle of the second from the carrier, plus its offset, is a curve of
-/// that of the first.
+/// Two wheels that are not circular, or pin and slots of a Geneva drive: the angle of the second from the
+/// carrier, plus its offset, is a curve of that of the first.
 struct CurvePair {
   int first = 0,                    ///< part of the first wheel
       second = 0,                   ///< part of the second wheel
@@ -123,6 +123,8 @@ struct CurvePair {
   double second_offset = 0;         ///< rad
   math::PiecewisePolynomial curve;  ///< rad
   bool around = false;  ///< the curve covers a turn of the first wheel and repeats; else it is a sector
+  std::optional<GenevaSlots> geneva = {};  ///< instead of the curve
+  PartPoint pin;                           ///< of a Geneva drive
   /// The mesh, whose radii are those of a ratio of 0: the second one is the distance of the centres.
   std::optional<GearMesh> mesh = {};
   double scale = 1;  ///< length (m) by which the equation is multiplied

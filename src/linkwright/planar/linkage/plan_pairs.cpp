@@ -170,6 +170,73 @@ void add_curve(PlanDraft& d, int joint) {
   add_pair(d, joint, -1, pair, {pair.first, pair.second, pair.carrier}, key, j.name);
 }
 
+namespace {
+
+// The axis on which a part turns on another one, as a place of each; the first of several.
+struct PlacedAxis {
+  math::Vec2 on_first, on_second;
+};
+std::optional<PlacedAxis> axis_between(const PlanDraft& d, int first, int second) {
+  for (const PartJoint& joint : d.joints) {
+    if (joint.slide) continue;
+    if (joint.first.part == first && joint.second.part == second)
+      return PlacedAxis{joint.first.at, joint.second.at};
+    if (joint.first.part == second && joint.second.part == first)
+      return PlacedAxis{joint.second.at, joint.first.at};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_geneva(PlanDraft& d, int joint) {
+  constexpr double typed = 1e-4;  // in distances of the axes, by which a radius that is typed may miss
+  const LinkageJoint& j = d.model(joint);
+  const Geneva& g = *j.geneva;
+  const std::string key = "joint." + j.name;
+  const auto offset = [&](int body) { return angle_of(d.plan().bodies[at(body)].turn); };
+  CurvePair pair{.first = d.plan().bodies[at(j.first.body)].part,
+                 .second = d.plan().bodies[at(j.second.body)].part,
+                 .carrier = d.plan().bodies[at(j.carrier)].part,
+                 .around = true,
+                 .geneva = g.slots,
+                 .pin = on_part(d, j.first, 0),
+                 .scale = d.plan().size};
+  const auto crank = axis_between(d, pair.first, pair.carrier),
+             wheel = axis_between(d, pair.second, pair.carrier);
+  if (!crank || !wheel)
+    return d.error(
+        key,
+        fmt::format("'{}' has no pin on '{}'", d.body_name(crank ? j.second.body : j.first.body),
+                    d.body_name(j.carrier)),
+        "the crank and the wheel of a Geneva drive turn on one body: join both to it, and name it as "
+        "`carrier`");
+  const math::Vec2 arm = pair.pin.at - crank->on_first;
+  const math::Vec2 to_crank = crank->on_second - wheel->on_second;  // in the frame of the carrier
+  const double distance = norm(to_crank), radius = geneva_crank(g.slots, distance);
+  if (!(std::abs(norm(arm) - radius) <= typed * distance))
+    return d.error(
+        key,
+        fmt::format("the pin of '{}' is {:.8g} mm from its axis: it would not enter {} slots along them",
+                    d.body_name(j.first.body), norm(arm) * 1e3, g.slots.count),
+        fmt::format("the axes are {:.8g} mm apart, which takes a radius of {:.8g} mm", distance * 1e3,
+                    radius * 1e3));
+  // The crank angle counts from where the pin lies between the axes, or beyond the crank's axis of an
+  // internal wheel.
+  const double line = angle_of(g.slots.internal ? to_crank : -to_crank), slot = angle_of(to_crank);
+  pair.first_offset = angle_of(arm) - line;
+  const double wheel_offset = offset(j.second.body) - offset(j.carrier);
+  if (g.slot) {
+    // A slot points at the pin where the crank angle is 0.
+    pair.second_offset = wheel_offset - (slot - offset(j.carrier)) + *g.slot;
+  } else {
+    const double drawn = offset(j.carrier) - offset(j.first.body) + pair.first_offset;
+    pair.second_offset = geneva_motion(g.slots, math::wrap_angle(drawn))[0] + wheel_offset;
+    pair.first_offset += math::wrap_angle(drawn) - drawn;
+  }
+  add_pair(d, joint, -1, pair, {pair.first, pair.second, pair.carrier}, key, j.name);
+}
+
 void add_belts(PlanDraft& d) {
   for (int k = 0; k < static_cast<int>(d.linkage.belts.size()); ++k) {
     const Belt& b = d.linkage.belts[at(k)];
@@ -216,6 +283,7 @@ void check_left_pairs(PlanDraft& d) {
       continue;
     const char* what = pair.pair.joint < 0                                ? "the rope"
                        : d.model(pair.pair.joint).type == JointType::rack ? "the rack"
+                       : d.model(pair.pair.joint).geneva                  ? "the Geneva drive"
                                                                           : "the gear";
     if (pair.pair.joint < 0 && d.linkage.belts[at(d.plan().strands[at(pair.pair.strand)].belt)].closed)
       d.error(

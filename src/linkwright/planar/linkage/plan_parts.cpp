@@ -94,8 +94,8 @@ void join_parts(PlanDraft& d) {
     const auto driven = std::find(d.linkage.driven.begin(), d.linkage.driven.end(), k);
     const int input =
         driven == d.linkage.driven.end() ? -1 : static_cast<int>(driven - d.linkage.driven.begin());
-    if (j.type == JointType::gear && j.curve) {
-      add_curve(d, k);
+    if (j.type == JointType::gear && (j.curve || j.geneva)) {
+      if (j.curve) add_curve(d, k);
       continue;
     }
     if (j.type == JointType::gear) {
@@ -143,6 +143,8 @@ void join_parts(PlanDraft& d) {
     d.joints.push_back({first, {block, {0, 0}, {1, 0}}, true, -1, -1});
     d.joints.push_back({{block, {0, 0}, {1, 0}}, second, false, k, -1});
   }
+  for (int k = 0; k < static_cast<int>(d.linkage.joints.size()); ++k)
+    if (d.model(k).type == JointType::gear && d.model(k).geneva) add_geneva(d, k);
   add_belts(d);
   for (int k : d.linkage.driven) d.plan().rotary.push_back(d.model(k).type == JointType::revolute);
 }

@@ -176,7 +176,7 @@ void find_meshes(PlanDraft& d) {
     };
     const int first = d.plan().bodies[at(j.first.body)].part,
               second = d.plan().bodies[at(j.second.body)].part, carrier = d.plan().bodies[at(j.carrier)].part;
-    const double ratio = j.curve ? 0 : j.ratio;
+    const double ratio = j.curve || j.geneva ? 0 : j.ratio;
     const LinksAtPin *a = axis_of(pins, first, carrier), *b = axis_of(pins, second, carrier);
     if (!a || !b)
       return torque_alone(fmt::format("'{}' has no single pin on '{}'",

@@ -10,6 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/geneva.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/motion.h"
 
@@ -117,6 +118,7 @@ PairRow pair_row(const StrandPair& s, const std::vector<PartState<double>>& part
 }
 // The angle of the second wheel by that of the first, with three derivatives; NaN beyond a sector.
 inline std::array<double, 4> ratio_at(const CurvePair& c, double angle) {
+  if (c.geneva) return geneva_motion(*c.geneva, angle);
   const double first = c.curve.knots.front(), last = c.curve.knots.back();
   if (!c.around) {
     if (!(angle >= first - 1e-9 && angle <= last + 1e-9)) return {nan, nan, nan, nan};

@@ -82,6 +82,7 @@ void check_left_gears(PlanDraft& d);
 // are left over.
 void add_rack(PlanDraft& d, int joint);
 void add_curve(PlanDraft& d, int joint);
+void add_geneva(PlanDraft& d, int joint);
 void add_belts(PlanDraft& d);
 bool find_follower(PlanDraft& d);
 void check_left_pairs(PlanDraft& d);
