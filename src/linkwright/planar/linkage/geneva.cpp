@@ -26,10 +26,6 @@ double geneva_crank(const GenevaSlots& slots, double distance) {
   return distance * std::sin(pi / slots.count);
 }
 
-bool geneva_moves(const GenevaSlots& slots, double crank) {
-  return std::abs(passage_at(crank).from_middle) < entry(slots);
-}
-
 std::array<double, 4> geneva_motion(const GenevaSlots& slots, double crank) {
   const auto [t, before] = passage_at(crank);
   const double sense = slots.internal ? 1 : -1, step = full_turn / slots.count;

@@ -25,10 +25,4 @@ double geneva_crank(const GenevaSlots& slots, double distance);
 /// @returns angle of the wheel (rad, rad/rad, ...), 0 at the crank angle 0
 std::array<double, 4> geneva_motion(const GenevaSlots& slots, double crank);
 
-/// True where the pin is in a slot; see geneva_motion.
-/// @param slots slots of the wheel
-/// @param crank angle of the crank (rad)
-/// @returns false where the wheel is locked
-bool geneva_moves(const GenevaSlots& slots, double crank);
-
 }  // namespace linkwright::planar

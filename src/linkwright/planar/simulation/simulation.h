@@ -106,11 +106,11 @@ constexpr std::array<EnumName<FrictionChange>, 4> names(FrictionChange) {
 }
 /// An event of a joint with friction.
 struct FrictionEvent {
-  double time = 0;  ///< s
-  int joint = 0;    ///< index of the joint
-  FrictionChange change = FrictionChange::sticks;
-  double value = 0;  ///< coordinate of the joint (rad or m)
-  double sense = 0;  ///< state from here on: 1, -1 slides, 0 sticks
+  double time = 0;                                 ///< s
+  int joint = 0;                                   ///< index of the joint
+  FrictionChange change = FrictionChange::sticks;  ///< what it does
+  double value = 0;                                ///< coordinate of the joint (rad or m)
+  double sense = 0;                                ///< state from here on: 1, -1 slides, 0 sticks
 };
 
 /// Times during which friction holds a linkage at rest although a load over time or a drive may free it.

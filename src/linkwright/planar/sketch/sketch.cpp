@@ -23,8 +23,8 @@
 namespace linkwright::planar {
 namespace {
 
-using sketching::distance, sketching::least_corner, sketching::Nodes, sketching::pieces_of, sketching::Place,
-    sketching::Segment, sketching::shown_place, sketching::turn_at;
+using sketching::distance, sketching::least_corner, sketching::left_below, sketching::Nodes,
+    sketching::pieces_of, sketching::Place, sketching::Segment, sketching::shown_place, sketching::turn_at;
 
 /// What the layer of a shape says about it.
 enum class Role { link, ground, slide, drive, trace, construction, wheel };
@@ -189,10 +189,11 @@ class Reader {
   /// Sorts the bodies by their places, so that the order of the drawing does not matter.
   void sort_bodies() {
     const auto key = [](const Outline& body) {
-      std::vector<std::pair<double, double>> places;
-      for (const Place& p : body.corners) places.emplace_back(p.real(), p.imag());
-      std::sort(places.begin(), places.end());
-      return std::pair(body.type, places);
+      std::vector<Place> places = body.corners;
+      std::sort(places.begin(), places.end(), left_below);
+      std::vector<double> numbers;
+      for (const Place& p : places) numbers.insert(numbers.end(), {p.real(), p.imag()});
+      return std::pair(body.type, numbers);
     };
     std::sort(bodies_.begin(), bodies_.end(),
               [&](const Outline& a, const Outline& b) { return key(a) < key(b); });

@@ -99,8 +99,7 @@ void Nodes::unite_asked(double tolerance, std::vector<SketchQuestion>& questions
 }
 
 void Nodes::join(double tolerance, std::vector<SketchQuestion>& questions) {
-  std::sort(raw_.begin(), raw_.end(),
-            [](Place a, Place b) { return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag()); });
+  std::sort(raw_.begin(), raw_.end(), left_below);
   raw_.erase(std::unique(raw_.begin(), raw_.end()), raw_.end());
   group_.resize(raw_.size());
   std::iota(group_.begin(), group_.end(), std::size_t{0});
@@ -122,9 +121,7 @@ void Nodes::join(double tolerance, std::vector<SketchQuestion>& questions) {
 }
 
 std::size_t Nodes::at(Place place) const {
-  const auto found = std::lower_bound(raw_.begin(), raw_.end(), place, [](Place a, Place b) {
-    return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
-  });
+  const auto found = std::lower_bound(raw_.begin(), raw_.end(), place, left_below);
   return group_of_raw_[static_cast<std::size_t>(found - raw_.begin())];
 }
 

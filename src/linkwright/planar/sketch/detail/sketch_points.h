@@ -23,6 +23,11 @@ struct Segment {
   bool straight = true;
 };
 
+/// The order of places from left to right, and of those on one vertical from below.
+inline bool left_below(Place a, Place b) {
+  return a.real() < b.real() || (a.real() == b.real() && a.imag() < b.imag());
+}
+
 /// The distance of a place from a straight line between two ends (m).
 double distance(Place p, Place a, Place b);
 
