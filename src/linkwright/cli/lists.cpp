@@ -93,8 +93,9 @@ constexpr std::array concepts{
             "a linkage are not modelled. Nearest: a motion law of a joint ([[drive]] law = ... in "
             "simulations and "
             "serial arms), a dwell (synthesis/planar.six_bar/dwell)"},
-    Concept{"geneva maltese ratchet",
-            "step mechanisms are not modelled. Nearest: a dwell (synthesis/planar.six_bar/dwell)"},
+    Concept{"geneva maltese",
+            "a Geneva drive is a joint of type \"geneva\" in analysis/planar.linkage, as in the example geneva-drive"},
+    Concept{"ratchet", "ratchets are not modelled. Nearest: a dwell (synthesis/planar.six_bar/dwell)"},
     Concept{"gear gears gearing gearbox",
             "a pair of gears is a joint of type \"gear\" in analysis/planar.linkage and "
             "simulation/planar.linkage, "

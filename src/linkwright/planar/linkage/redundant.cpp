@@ -18,7 +18,7 @@ namespace {
 
 using math::Vec2;
 
-constexpr double rank_tolerance = 1e-9, stress_rounding = 1e-6, closed_gap = 1e-10;
+constexpr double redundant_rank = 1e-9, stress_rounding = 1e-6, closed_gap = 1e-10;
 
 // One equation: x, y and turn of the first body and of the second.
 struct ConstraintRow {
@@ -108,7 +108,7 @@ std::optional<ConstraintRank> constraint_rank(const Linkage& l, double size,
   }
   const math::SingularVectors found = math::singular_vectors(matrix, m);
   const double greatest = found.values.empty() ? 0 : found.values.front();
-  for (const double value : found.values) out.rank += value > rank_tolerance * greatest ? 1 : 0;
+  for (const double value : found.values) out.rank += value > redundant_rank * greatest ? 1 : 0;
   for (std::size_t k = at(out.rank); k < m; ++k)
     out.self_stress.emplace_back(found.right.begin() + static_cast<std::ptrdiff_t>(k * m),
                                  found.right.begin() + static_cast<std::ptrdiff_t>((k + 1) * m));
