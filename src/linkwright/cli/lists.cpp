@@ -94,7 +94,8 @@ constexpr std::array concepts{
             "simulations and "
             "serial arms), a dwell (synthesis/planar.six_bar/dwell)"},
     Concept{"geneva maltese",
-            "a Geneva drive is a joint of type \"geneva\" in analysis/planar.linkage, as in the example geneva-drive"},
+            "a Geneva drive is a joint of type \"geneva\" in analysis/planar.linkage, as in the example "
+            "geneva-drive"},
     Concept{"ratchet", "ratchets are not modelled. Nearest: a dwell (synthesis/planar.six_bar/dwell)"},
     Concept{"gear gears gearing gearbox",
             "a pair of gears is a joint of type \"gear\" in analysis/planar.linkage and "

@@ -270,7 +270,8 @@ class Reader {
   void add_slides() {
     for (const Segment& line : slides_) {
       std::vector<std::size_t> sliding;
-      std::optional<std::size_t> owner;
+      constexpr std::size_t none = -1;
+      std::size_t owner = none;
       for (std::size_t node = 0; node < members_.size(); ++node) {
         const Place at = nodes_.places()[node];
         const auto moving = std::find_if(members_[node].begin(), members_[node].end(), [&](std::size_t body) {
@@ -279,17 +280,17 @@ class Reader {
         });
         if (moving == members_[node].end() || distance(at, line.from, line.to) > tolerance_) continue;
         const bool at_end = std::abs(at - line.from) <= tolerance_ || std::abs(at - line.to) <= tolerance_;
-        if (at_end && !owner)
+        if (at_end && owner == none)
           owner = *moving;
         else
           sliding.push_back(node);
       }
-      if (sliding.empty() && owner) {
+      if (sliding.empty() && owner != none) {
         // The line begins at the pin that slides.
         for (std::size_t node = 0; node < members_.size(); ++node)
-          if (has(node, *owner) && distance(nodes_.places()[node], line.from, line.to) <= tolerance_)
+          if (has(node, owner) && distance(nodes_.places()[node], line.from, line.to) <= tolerance_)
             sliding.push_back(node);
-        owner.reset();
+        owner = none;
       }
       if (sliding.empty()) {
         out_.left_out.push_back(fmt::format("the slide from {} to {} passes through no pin or end",
@@ -301,14 +302,14 @@ class Reader {
             {fmt::format("the slide from {} to {} passes through {} points: which slide?",
                          shown_place(line.from), shown_place(line.to), sliding.size()),
              "each has a block"});
-      if (!owner) owner = ground();
+      if (owner == none) owner = ground();
       for (const std::size_t node : sliding) {
         const std::size_t block = add_body(SketchBodyType::block, {});
         join(block, node);
         double direction = std::arg(line.to - line.from);
         if (direction <= -pi / 2 || direction > pi / 2) direction = std::arg(line.from - line.to);
-        out_.joints.push_back({JointType::prismatic, {}, *owner, block, node, direction});
-        slide_owners_[node].push_back(*owner);
+        out_.joints.push_back({JointType::prismatic, {}, owner, block, node, direction});
+        slide_owners_[node].push_back(owner);
       }
     }
   }
