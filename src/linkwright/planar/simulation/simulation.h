@@ -108,7 +108,7 @@ constexpr std::array<EnumName<FrictionChange>, 4> names(FrictionChange) {
 struct FrictionEvent {
   double time = 0;                                 ///< s
   int joint = 0;                                   ///< index of the joint
-  FrictionChange change = FrictionChange::sticks;  ///< what it does
+  FrictionChange change = FrictionChange::sticks;  ///< what happens
   double value = 0;                                ///< coordinate of the joint (rad or m)
   double sense = 0;                                ///< state from here on: 1, -1 slides, 0 sticks
 };
