@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -420,6 +420,43 @@ TEST(DryFriction, AMirrorImageStaysOne) {
     EXPECT_EQ(a.sense, -b.sense);
     EXPECT_NEAR(a.time, b.time, 1e-7);
   }
+}
+
+// Pendulums of two to four bars with friction of every kind in some of their pins, others driven or without:
+// the energies close, and friction only takes.
+TEST(DryFriction, TakesEnergyFromRandomPendulums) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(0, 1);
+  long changes = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    SCOPED_TRACE(trial);
+    const int links = 2 + trial % 3;
+    Linkage l = pendulum(links);
+    for (LinkageJoint& j : l.joints) {
+      const double kind = share(random), size = share(random);
+      if (kind < 0.3) continue;
+      if (kind < 0.6) {
+        j.friction_effort = 2 * size;
+        continue;
+      }
+      j.friction = 0.5 * size, j.pin_radius = 0.05;
+      if (kind > 0.7) j.friction_static = j.friction + 0.2;
+      if (kind > 0.85) j.friction_speed = 0.05;
+    }
+    std::vector<InputDrive> drives;
+    for (int k = 0; k < links; ++k)
+      drives.push_back(k > 0 && share(random) < 0.25
+                           ? InputDrive{math::HarmonicMotion{0, 0.3, 1, 0}, 0, 0}
+                           : InputDrive{{}, 2 * share(random) - 1.5, share(random)});
+    const SimulationRun run = simulated(l, planned(l), drives, evenly(0, 6, 61));
+    EXPECT_TRUE(run.report.status == Status::done || run.report.status == Status::at_rest)
+        << to_string(run.report.message);
+    EXPECT_LT(run.report.largest_drift, 1e-8 * (1 + run.report.peak_energy));
+    for (std::size_t i = 1; i < run.rows.size(); ++i)
+      EXPECT_GE(run.rows[i].friction_loss, run.rows[i - 1].friction_loss - 1e-9);
+    changes += run.report.friction_event_count;
+  }
+  EXPECT_GT(changes, 300);
 }
 
 }  // namespace
