@@ -12,6 +12,7 @@
 #include <string>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/write.h"
 #include "planar/studies.h"
 #include "support/published.h"
 
@@ -189,6 +190,22 @@ TEST(LinkagePath, PathOutOfReachNamesShareAndPlace) {
               HasSubstr("The path is reached to 60 %, (4800 mm, 0 mm): 'boom' and 'stick' are stretched."));
   ASSERT_FALSE(result.troubles.empty());
   EXPECT_LT(result.table("sweep")->rows(), 101u);
+}
+
+// The study as it was read is read again alike.
+TEST(LinkagePath, CanonicalStudyIsReadAlike) {
+  std::string messages;
+  for (const std::string& text :
+       {boom_and_stick({}),
+        two_links({{"3",
+                    "[[path.step]]\ntype = \"table\"\ntimes_s = [0, 1, 2]\npoints_mm = [[4200, 0], [3900, "
+                    "200], [3800, 0]]\n[[drive]]\njoint = \"O\"\nhighest_deg = 90\nstart_deg = 1\n"}})}) {
+    const auto first = prepare(text, messages);
+    ASSERT_TRUE(first) << messages;
+    const auto second = prepare(study::to_toml(first->canonical), messages);
+    ASSERT_TRUE(second) << messages;
+    EXPECT_EQ(first->canonical, second->canonical);
+  }
 }
 
 // Drive power, row by row, is the rate of the energy of the moving masses.

@@ -88,6 +88,13 @@ struct LinkageHolding {
   std::optional<std::size_t> load;  ///< index of the force that is unknown; nothing: the drive is
 };
 
+/// A pin with one direction too many in a linkage that moves since its dimensions agree. It is a pin in a
+/// slot in the linkage of the study, see relax_redundant.
+struct RedundantJoint {
+  int joint = -1;
+  int equations = 0, rank = 0;  ///< of all joints in the drawn position
+};
+
 /// A study of a linkage as read.
 struct LinkageStudy {
   Linkage linkage;
@@ -102,6 +109,7 @@ struct LinkageStudy {
   std::optional<LinkagePath> path;  ///< of a sweep over time
   std::vector<Motor> motors;        ///< catalogue of which the drives take theirs
   LinkageQuantities quantities;
+  std::optional<RedundantJoint> redundant;
   std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
   study::DisplayUnits units;                 ///< units of its messages
 };
@@ -167,6 +175,7 @@ struct LinkageDescription {
   std::optional<FourBarMechanism> four_bar;  ///< four-bar as which it was written
   std::string sample;                        ///< its name when the mechanism is a built-in one
   std::vector<double> sample_from;           ///< and the inputs where its motion begins
+  std::optional<RedundantJoint> redundant;
 };
 /// Reads and plans; nothing when there are problems, which go to the reader in the given units.
 /// `lists_quantities`: the study may list quantities that need no masses. `follows_path`: it may have

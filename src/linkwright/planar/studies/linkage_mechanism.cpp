@@ -13,6 +13,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/redundant.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_path.h"
@@ -290,6 +291,43 @@ void read_traced_points(std::vector<study::ObjectReader>& traces, const Linkage&
   }
 }
 
+// The mechanism as a study writes it, without struts where it has none.
+Value form_value(const Linkage& linkage) {
+  Value form = study::write_fields(form_of(linkage));
+  if (linkage.struts.empty())
+    std::erase_if(form.as_object(), [](const Value::Member& m) { return m.key == "strut"; });
+  return form;
+}
+
+// A linkage without a plan that moves since its dimensions agree gets one; false, and the problem reported,
+// where it locks.
+bool take_redundant(study::ObjectReader& mechanism, PlanResult& planned, LinkageDescription& out) {
+  Linkage& l = out.linkage;
+  std::string why;
+  auto relaxed = relax_redundant(l, why);
+  if (!relaxed && !why.empty()) {
+    mechanism.error("joint", why,
+                    "correct the dimensions so that it moves, or leave out one of the joints or links");
+    return false;
+  }
+  if (!relaxed) return true;
+  std::string joints;
+  for (const int j : relaxed->drawn.joints_in_stress())
+    joints += (joints.empty() ? "" : ", ") + l.joints[static_cast<std::size_t>(j)].name;
+  mechanism.warning(
+      "joint",
+      fmt::format("one of the joints {} holds one direction too many; the linkage moves since its "
+                  "dimensions agree ({} equations of rank {} for {} coordinates)",
+                  joints, relaxed->drawn.equations, relaxed->drawn.rank, relaxed->drawn.coordinates),
+      "joint forces are those of least squares; play and errors of make add to them");
+  out.shorthand = form_value(l);
+  out.redundant = RedundantJoint{relaxed->joint, relaxed->drawn.equations, relaxed->drawn.rank};
+  l = std::move(relaxed->linkage);
+  planned.plan = std::move(relaxed->plan);
+  planned.problems.clear();
+  return true;
+}
+
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
@@ -322,6 +360,9 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   }
   if (document.document().has_errors()) return std::nullopt;
   PlanResult planned = plan_linkage(l);
+  if (!planned.problems.empty() && type == LinkageType::linkage && out.sample.empty() &&
+      !take_redundant(*mechanism, planned, out))
+    return std::nullopt;
   if (!planned.problems.empty()) {
     report(document, *mechanism, planned.problems);
     return std::nullopt;
@@ -369,16 +410,6 @@ bool require_masses(study::ObjectReader& document, LinkageType type, const Linka
                                           : ""));
   return false;
 }
-
-namespace {
-// The mechanism as a study writes it, without struts where it has none.
-Value form_value(const Linkage& linkage) {
-  Value form = study::write_fields(form_of(linkage));
-  if (linkage.struts.empty())
-    std::erase_if(form.as_object(), [](const Value::Member& m) { return m.key == "strut"; });
-  return form;
-}
-}  // namespace
 
 void write_linkage(const LinkageDescription& d, Value& canonical) {
   canonical["mechanism"] = d.shorthand.is_null() ? form_value(d.linkage) : d.shorthand;

@@ -389,6 +389,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     else
       (*canonical)["sweep"] = std::move(canonical_sweep);
   }
+  s.redundant = description->redundant;
   s.four_bar = std::move(description->four_bar);
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);

@@ -11,6 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/redundant.h"
 #include "linkwright/planar/linkage/scan.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage_holding.h"
@@ -145,8 +146,10 @@ Status RowSolver::solve(std::size_t r) {
     solve_velocity(s_.plan, now.inputs, motion);
     solve_acceleration(s_.plan, now.inputs, motion);
   }
+  if (there && s_.redundant && motion.status == Status::done) check_redundant();
   const bool dynamic = s_.quantities.dynamic();
   if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
+  if (dynamic && s_.redundant) spread_forces(s_.linkage, s_.plan, motion, s_.redundant->joint, forces);
   // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
   // none.
   const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
@@ -159,6 +162,16 @@ Status RowSolver::solve(std::size_t r) {
          : passed && kink              ? Status::singular
          : dynamic                     ? forces.status
                                        : Status::done;
+}
+
+// Where the joint that is left out of the plan opens, the linkage does not assemble.
+void RowSolver::check_redundant() {
+  const double gap = relaxed_gap(s_.linkage, s_.plan, motion, s_.redundant->joint);
+  motion.closure_residual = std::max(motion.closure_residual, gap);
+  if (gap <= 1e-9 * s_.plan.size) return;
+  motion.status = Status::no_assembly;
+  motion.failed_group = -1;
+  motion.gap = gap;
 }
 
 bool RowSolver::at_change() const {

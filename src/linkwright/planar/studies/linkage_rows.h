@@ -37,6 +37,7 @@ class RowSolver {
  private:
   bool at_change() const;
   void forget_rates();
+  void check_redundant();
   void find_circuit(double low, double high);
   bool on_other_circuit(double value) const;
 

@@ -312,6 +312,10 @@ class Runner {
                        : fmt::format("{}, {}", in_words(c.type), name_of(s_.four_bar->linkage.branch)));
     }
     fact("degrees of freedom", say("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
+    if (s_.redundant)
+      fact("redundant constraints",
+           say("{}: {} equations of rank {}", s_.redundant->equations - s_.redundant->rank,
+               s_.redundant->equations, s_.redundant->rank));
     std::string order;
     for (const Group& g : s_.plan.groups)
       order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, traits_of(g).name,
