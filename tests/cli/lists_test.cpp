@@ -103,7 +103,7 @@ TEST_F(Lists, TheCatalogueSaysWhatThereIsUnderAnotherName) {
                                      {"gear", "is a joint of type \"gear\""},
                                      {"Rack", "is moved_by = \"rack\" of a link"},
                                      {"stewart", "are not modelled. Nearest: analysis/parallel.hexa"},
-                                     {"Panhard", "are analysis/suspension.rigid_axle"},
+                                     {"Panhard", "and links, are analysis/suspension.beam_axle"},
                                      {"scara", "is analysis/planar.serial_arm with two revolute links"}}) {
     EXPECT_EQ(run({"catalogue", word}), 0) << word;
     EXPECT_THAT(out_, ::testing::HasSubstr(answer));

@@ -224,7 +224,7 @@ std::vector<Row> suspensions() {
        {},
        "s.toml:7:8: error: mechanism.type: is 'macpherson', must be one of: planar.four_bar, planar.linkage, "
        "planar.slider_crank, planar.serial_arm, planar.cam, suspension.corner, "
-       "suspension.rigid_axle, parallel.pi_joint, parallel.delta, "
+       "suspension.beam_axle, parallel.pi_joint, parallel.delta, "
        "parallel.hexa, parallel.five_bar, parallel.constant_orientation, parallel.serial_pi_arm, "
        "flexible.hub_link, clearance.linkage; did you mean 'suspension.corner'?\n"},
       {"sample double wishbone",

@@ -67,7 +67,7 @@ std::vector<Row> keys_and_values() {
        {{"\"planar.four_bar\"", "\"fourbar\""}},
        {},
        "s.toml:7:10: error: mechanism.type: is 'fourbar', must be one of: planar.four_bar, planar.linkage, "
-       "planar.slider_crank, planar.serial_arm, planar.cam, suspension.corner, suspension.rigid_axle, "
+       "planar.slider_crank, planar.serial_arm, planar.cam, suspension.corner, suspension.beam_axle, "
        "parallel.pi_joint, "
        "parallel.delta, "
        "parallel.hexa, parallel.five_bar, parallel.constant_orientation, parallel.serial_pi_arm, "
@@ -78,7 +78,7 @@ std::vector<Row> keys_and_values() {
        {},
        "s.toml:7:10: error: mechanism.type: is 'planar.4bar', must be one of: planar.four_bar, "
        "planar.linkage, planar.slider_crank, planar.serial_arm, planar.cam, suspension.corner, "
-       "suspension.rigid_axle, parallel.pi_joint, "
+       "suspension.beam_axle, parallel.pi_joint, "
        "parallel.delta, parallel.hexa, parallel.five_bar, parallel.constant_orientation, "
        "parallel.serial_pi_arm, flexible.hub_link, clearance.linkage; did you mean 'planar.four_bar'?\n"},
       {"samples 1",

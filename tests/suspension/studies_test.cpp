@@ -11,7 +11,7 @@
 namespace linkwright::suspension {
 namespace {
 
-TEST(Studies, AreThoseOfCornersAndRigidAxles) {
+TEST(Studies, AreThoseOfCornersAndBeamAxles) {
   std::vector<std::string> names, seeded;
   for (const study::Kind& kind : studies()) {
     names.push_back(study::name_of(kind));
@@ -19,7 +19,7 @@ TEST(Studies, AreThoseOfCornersAndRigidAxles) {
   }
   EXPECT_THAT(names, ::testing::ElementsAre(
                          "analysis/suspension.corner", "synthesis/suspension.corner/carrier_poses",
-                         "synthesis/suspension.corner/wheel_parameters", "analysis/suspension.rigid_axle"));
+                         "synthesis/suspension.corner/wheel_parameters", "analysis/suspension.beam_axle"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.corner/carrier_poses",
                                              "synthesis/suspension.corner/wheel_parameters"));
 }

@@ -123,11 +123,9 @@ constexpr std::array concepts{
         "drawer drawers telescope",
         "what is drawn out is a joint of type \"prismatic\", one for each stage (analysis/planar.linkage)"},
     Concept{
-        "panhard watt dedion",
-        "rigid axles with Panhard rods, Watt linkages, A-arms and links are analysis/suspension.rigid_axle"},
-    Concept{
-        "twistbeam torsionbeam",
-        "twist beams are not modelled. Nearest: analysis/suspension.rigid_axle, an axle whose beam is rigid"},
+        "panhard watt dedion twistbeam torsionbeam",
+        "live axles, de Dion axles and twist beams, with Panhard rods, Watt linkages, A-arms and links, are "
+        "analysis/suspension.beam_axle"},
     Concept{"stewart gough hexapod",
             "platforms on six legs of variable length are not modelled. Nearest: analysis/parallel.hexa, six "
             "arms with "

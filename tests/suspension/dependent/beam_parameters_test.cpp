@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "suspension/rigid_axles.h"
+#include "suspension/beam_axles.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -17,10 +17,11 @@ using test::four_link_axle;
 using test::panhard_axle;
 using test::planar_axle;
 using test::position_at;
+using test::twist_axle;
 using test::watt_axle;
 
-BeamParameters parameters(const RigidAxle& axle, double heave = 0, double roll = 0) {
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+BeamParameters parameters(const BeamAxle& axle, double heave = 0, double roll = 0) {
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   return beam_parameters(plan, position_at(plan, heave, roll));
 }
 
@@ -32,7 +33,7 @@ std::array<double, 2> in_middle(const AxleRod& rod) {
 }
 
 TEST(BeamParameters, TheRollAxisOfFourLinksJoinsTheIntersectionsOfBothPairs) {
-  const RigidAxle axle = four_link_axle();
+  const BeamAxle axle = four_link_axle();
   const auto lower = in_middle(axle.rods[0]), upper = in_middle(axle.rods[2]);
   const double slope = (upper[1] - lower[1]) / (upper[0] - lower[0]);
   const BeamParameters p = parameters(axle);
@@ -47,7 +48,7 @@ TEST(BeamParameters, TheRollAxisOfFourLinksJoinsTheIntersectionsOfBothPairs) {
 TEST(BeamParameters, ThePanhardRodAndParallelLinksGiveTheRollAxis) {
   // Parallel links meet at infinity: the axis has their direction and passes through the Panhard rod where
   // that crosses the middle plane. The upper link in the middle meets it, too, at that slope.
-  RigidAxle axle = bare_axle();
+  BeamAxle axle = bare_axle();
   test::add_pair(axle, "left", "right", {0.5, 0.52, 0.31}, {0, 0.52, 0.24});
   axle.rods.push_back({"upper", {0.34, 0, 0.45}, {-0.01, 0, 0.46}, {}});
   axle.rods.push_back({"Panhard rod", {-0.15, 0.48, 0.33}, {-0.15, -0.48, 0.27}, {}});
@@ -59,9 +60,9 @@ TEST(BeamParameters, ThePanhardRodAndParallelLinksGiveTheRollAxis) {
 }
 
 TEST(BeamParameters, TheLateralForceOfAPlanarAxleActsAlongThePanhardRod) {
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.rods.push_back({"Panhard rod", {0, 0.50, 0.36}, {0, -0.42, 0.27}, {}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   for (const double heave : {-0.06, 0.0, 0.05})
     for (const double roll : {-0.05, 0.0, 0.04}) {
       const BeamPosition position = position_at(plan, heave, roll);
@@ -78,7 +79,7 @@ TEST(BeamParameters, TheLateralForceOfAPlanarAxleActsAlongThePanhardRod) {
 }
 
 TEST(BeamParameters, TheRollCentreOfAWattLinkageIsItsPivot) {
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.watts.push_back(watt_axle().watts[0]);
   EXPECT_NEAR(parameters(axle).roll_centre_height, 0.30, 1e-12);
 }
@@ -91,7 +92,7 @@ TEST(BeamParameters, TheRollAxisOfAnAxleWithAnArmPassesThroughItsBallJoint) {
 }
 
 TEST(BeamParameters, TheRollAxisOfATorqueTubePassesThroughItsBallJoint) {
-  RigidAxle axle = bare_axle();
+  BeamAxle axle = bare_axle();
   axle.ball_joints.push_back({"torque tube", {0.9, 0, 0.40}});
   axle.rods.push_back({"Panhard rod", {-0.15, 0.48, 0.25}, {-0.15, -0.48, 0.25}, {}});
   const BeamParameters p = parameters(axle);
@@ -109,8 +110,8 @@ Eigen::Matrix<double, 6, 1> wrench(const Vec3& at, const Vec3& force) {
 }
 
 TEST(BeamParameters, RodsBalanceAForceThroughTheRollCentreWithoutSprings) {
-  for (const RigidAxle& axle : {four_link_axle(), panhard_axle(), arm_axle()}) {
-    const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  for (const BeamAxle& axle : {four_link_axle(), panhard_axle(), arm_axle()}) {
+    const BeamAxlePlan plan = prepare_beam_axle(axle);
     for (const double roll : {0.0, 0.05}) {
       const BeamPosition position = position_at(plan, 0.03, roll);
       const BeamParameters p = beam_parameters(plan, position);
@@ -140,11 +141,13 @@ TEST(BeamParameters, RodsBalanceAForceThroughTheRollCentreWithoutSprings) {
 
 TEST(BeamParameters, RatesAgreeWithDifferences) {
   constexpr double step = 1e-5;  // truncation 1e-9, rounding 1e-9
-  RigidAxle toed = panhard_axle();
+  BeamAxle toed = panhard_axle();
   toed.left.toe = toed.right.toe = 0.01;
   toed.left.camber = toed.right.camber = -0.02;
-  for (const RigidAxle& axle : {four_link_axle(), toed, watt_axle(), arm_axle()}) {
-    const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  BeamAxle toed_twist = twist_axle();
+  toed_twist.left = toed.left, toed_twist.right = toed.right;
+  for (const BeamAxle& axle : {four_link_axle(), toed, watt_axle(), arm_axle(), toed_twist}) {
+    const BeamAxlePlan plan = prepare_beam_axle(axle);
     const auto of = [&](double heave, double roll) {
       return beam_parameters(plan, position_at(plan, heave, roll));
     };
@@ -164,7 +167,7 @@ TEST(BeamParameters, RatesAgreeWithDifferences) {
 }
 
 TEST(BeamParameters, CamberAgainstTheRoadStaysWithTheBeam) {
-  RigidAxle axle = watt_axle();
+  BeamAxle axle = watt_axle();
   axle.left.camber = axle.right.camber = -0.02;
   const BeamParameters p = parameters(axle, 0.0, 0.06);
   EXPECT_NEAR(p.left.angles.camber, -0.02 - 0.06, 1e-3);  // leans with the beam against the body
@@ -176,7 +179,7 @@ TEST(BeamParameters, CamberAgainstTheRoadStaysWithTheBeam) {
 
 TEST(BeamParameters, AntiSquatIsTheSlopeOfTheLineToTheSideCentre) {
   // Links that lie in planes y = const: the side centre is where their side views meet.
-  RigidAxle axle = bare_axle();
+  BeamAxle axle = bare_axle();
   test::add_pair(axle, "left", "right", {0.5, 0.52, 0.31}, {0, 0.52, 0.24});
   axle.rods.push_back({"upper", {0.34, 0, 0.42}, {-0.01, 0, 0.46}, {}});
   axle.rods.push_back({"Panhard rod", {-0.15, 0.48, 0.30}, {-0.15, -0.48, 0.30}, {}});
@@ -194,10 +197,39 @@ TEST(BeamParameters, AntiSquatIsTheSlopeOfTheLineToTheSideCentre) {
   EXPECT_NEAR(a.drive_on_body, 100 * 2.6 / 0.55 * (z - 0.32) / x, 1e-9);
 }
 
+TEST(BeamParameters, ATwistBeamRollsAboutTheLinesFromItsBushingsToTheShearCentre) {
+  const BeamAxle axle = twist_axle();
+  const BeamParameters p = parameters(axle);
+  // In roll each half turns about the line from its bushing to the shear centre, as a semi-trailing arm does.
+  const Vec3 pivot = axle.twist->pivots[0], line = axle.twist->shear_centre - pivot, contact{0, 0.75, 0};
+  const Vec3 velocity = cross(line, contact - pivot);
+  EXPECT_NEAR(p.roll_centre_height, velocity.y / velocity.z * contact.y, 1e-12);
+  const double turning = contact.y / velocity.z;  // by which the contact rises by half the track at unit roll
+  EXPECT_NEAR(p.roll_steer, turning * line.z, 1e-12);
+  EXPECT_NEAR(p.twist_by_roll, 2 * turning * line.y, 1e-12);
+  EXPECT_NEAR(p.lateral_force_slope, 0, 1e-12);
+  // In heave it turns about the bushings.
+  EXPECT_NEAR(p.side_centre[0], 0.42, 1e-12);
+  EXPECT_NEAR(p.side_centre[1], 0.36, 1e-12);
+  // The wheels lean as those of semi-trailing arms: camber against the body by roll is the turning about x.
+  constexpr double step = 1e-5;
+  const double camber = (parameters(axle, 0, step).left.angles.camber - p.left.angles.camber) / step;
+  EXPECT_NEAR(camber, -turning * line.x, 1e-4);
+}
+
+TEST(BeamParameters, ATwistBeamWithItsShearCentreBetweenTheBushingsHasTrailingArms) {
+  BeamAxle axle = twist_axle();
+  axle.twist->shear_centre = {0.42, 0, 0.36};
+  const BeamParameters p = parameters(axle, 0, 0.03);
+  EXPECT_NEAR(p.roll_centre_height, 0, 1e-12);
+  EXPECT_NEAR(p.left.angles.toe, 0, 1e-12);
+  EXPECT_NEAR(p.left.angles.camber, 0, 1e-12);
+}
+
 TEST(BeamParameters, AShaftHasAnglesAndPlunge) {
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.rods.push_back({"Panhard rod", {0, 50, 0.3}, {0, -50, 0.3}, {}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   const BeamShaft shaft{{0, 0.2, 0.32}, {0, 0.7, 0.32}, {0, 1, 0}, {0, 1, 0}};
   const BeamShaftState state = shaft_state(plan, position_at(plan, 0.05, 0).place, shaft);
   EXPECT_NEAR(state.body_angle, std::atan(0.1), 1e-5);  // the long rod shifts it by 12 um

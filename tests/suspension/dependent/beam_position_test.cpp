@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "suspension/rigid_axles.h"
+#include "suspension/beam_axles.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -17,15 +17,16 @@ using test::four_link_axle;
 using test::panhard_axle;
 using test::planar_axle;
 using test::position_at;
+using test::twist_axle;
 using test::watt_axle;
 
 constexpr double rounding = 1e-13;  ///< m: residual 1e-14 m by the condition of these axles
 
 TEST(BeamPosition, ALevelPanhardRodShiftsAPlanarAxleByItsArc) {
   constexpr double length = 0.9;
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.rods.push_back({"Panhard rod", {0, 0.45, 0.3}, {0, -0.45, 0.3}, {}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   for (const double heave : {-0.12, -0.05, 0.03, 0.1}) {
     const BeamPosition p = position_at(plan, heave, 0);
     ASSERT_EQ(p.status, Status::done) << p.reason;
@@ -40,11 +41,11 @@ TEST(BeamPosition, ParallelLinksAndAPanhardRodKeepTheBeamParallel) {
   // Three equal parallel links of length a along x and a rod of length l along y: circles that meet in closed
   // form, x = -(l / a) y and (1 + l^2 / a^2) y^2 - 2 l y + z^2 = 0.
   constexpr double a = 0.5, l = 0.9;
-  RigidAxle axle = bare_axle();
+  BeamAxle axle = bare_axle();
   test::add_pair(axle, "left", "right", {a, 0.5, 0.25}, {0, 0.5, 0.25});
   axle.rods.push_back({"upper", {a, 0, 0.45}, {0, 0, 0.45}, {}});
   axle.rods.push_back({"Panhard rod", {0, 0.45, 0.3}, {0, -0.45, 0.3}, {}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   for (const double z : {-0.08, 0.04, 0.1}) {
     const BeamPosition p = position_at(plan, z, 0);
     ASSERT_EQ(p.status, Status::done) << p.reason;
@@ -56,8 +57,8 @@ TEST(BeamPosition, ParallelLinksAndAPanhardRodKeepTheBeamParallel) {
 }
 
 TEST(BeamPosition, RodsKeepTheirLengthsOverHeaveAndRoll) {
-  for (const RigidAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle()}) {
-    const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  for (const BeamAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle(), twist_axle()}) {
+    const BeamAxlePlan plan = prepare_beam_axle(axle);
     for (const double heave : {-0.08, 0.0, 0.08})
       for (const double roll : {-0.07, 0.0, 0.05}) {
         const BeamPosition p = position_at(plan, heave, roll);
@@ -73,6 +74,14 @@ TEST(BeamPosition, RodsKeepTheirLengthsOverHeaveAndRoll) {
           EXPECT_NEAR(norm(end - w.ends[k]), norm(w.crank[k] - w.ends[k]), rounding);
           EXPECT_NEAR(norm(end - on_beam(plan, p.place, w.pivot)), norm(w.crank[k] - w.pivot), rounding);
         }
+        for (std::size_t k = 0; k < 2 && axle.twist; ++k) {
+          const Vec3 moved = on_beam(plan, p.place, axle.twist->pivots[k]) - axle.twist->pivots[k];
+          EXPECT_NEAR(moved.x, 0, rounding);
+          EXPECT_NEAR(moved.z, 0, rounding);
+          const Vec3 other = on_beam(plan, p.place, axle.twist->pivots[1 - k]) - axle.twist->pivots[1 - k];
+          EXPECT_NEAR(moved.y, -other.y, rounding);  // both bushings give way alike
+          EXPECT_LT(std::abs(moved.y), 1e-3);
+        }
         const Vec3 left = contact_point(plan, p.place, Side::left),
                    right = contact_point(plan, p.place, Side::right);
         EXPECT_NEAR((left.z + right.z) / 2, heave, rounding);
@@ -82,8 +91,8 @@ TEST(BeamPosition, RodsKeepTheirLengthsOverHeaveAndRoll) {
 }
 
 TEST(BeamPosition, APositionDoesNotDependOnItsPathOrOnItsInputs) {
-  for (const RigidAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle()}) {
-    const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  for (const BeamAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle(), twist_axle()}) {
+    const BeamAxlePlan plan = prepare_beam_axle(axle);
     const BeamPosition direct = position_at(plan, 0.06, 0.05);
     const BeamPosition detour =
         solve_position(plan, {AxleInputs::heave_roll, 0.06, 0.05}, position_at(plan, -0.05, -0.04));
@@ -98,40 +107,40 @@ TEST(BeamPosition, APositionDoesNotDependOnItsPathOrOnItsInputs) {
 }
 
 TEST(BeamPosition, MirroredAxlesMoveAsMirrorImages) {
-  const RigidAxle axle = panhard_axle();
-  RigidAxle other = axle;
+  const BeamAxle axle = panhard_axle();
+  BeamAxle other = axle;
   for (AxleRod& r : other.rods) r.body = math::mirrored(r.body), r.beam = math::mirrored(r.beam);
-  const BeamPosition p = position_at(prepare_rigid_axle(axle), 0.05, 0.06),
-                     q = position_at(prepare_rigid_axle(other), 0.05, -0.06);
+  const BeamPosition p = position_at(prepare_beam_axle(axle), 0.05, 0.06),
+                     q = position_at(prepare_beam_axle(other), 0.05, -0.06);
   EXPECT_NEAR(norm(p.place.centre - math::mirrored(q.place.centre)), 0, rounding);
   EXPECT_NEAR(norm(math::turn_of(p.place.rotation) + math::mirrored(math::turn_of(q.place.rotation))), 0,
               rounding);
 }
 
 TEST(BeamPosition, AWattLinkageWithEqualRodsMovesItsPivotAlmostStraight) {
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.watts.push_back({.name = "Watt linkage",
                         .pivot_on_beam = true,
                         .pivot = {0, 0, 0.3},
                         .axis = {1, 0, 0},
                         .crank = {Vec3{0, 0, 0.37}, Vec3{0, 0, 0.23}},
                         .ends = {Vec3{0, 0.5, 0.37}, Vec3{0, -0.5, 0.23}}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   const double up = position_at(plan, 0.08, 0).place.centre.y,
                down = position_at(plan, -0.08, 0).place.centre.y;
   EXPECT_NEAR(up, -down, rounding);  // the curve of the pivot is point-symmetric
   EXPECT_LT(std::abs(up), 0.3e-3);   // a Panhard rod twice as long shifts it by 3.2 mm
   // With the pivot on the body and the rods on the beam it is the same linkage seen from the beam.
-  RigidAxle on_body = axle;
+  BeamAxle on_body = axle;
   on_body.watts[0].pivot_on_beam = false;
-  const double other = position_at(prepare_rigid_axle(on_body), -0.08, 0).place.centre.y;
+  const double other = position_at(prepare_beam_axle(on_body), -0.08, 0).place.centre.y;
   EXPECT_NEAR(other, -up, 1e-12);
 }
 
 TEST(BeamPosition, RatesAgreeWithDifferences) {
   constexpr double step = 1e-5;  // truncation 1e-9, rounding 1e-9
-  for (const RigidAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle()}) {
-    const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  for (const BeamAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle(), twist_axle()}) {
+    const BeamAxlePlan plan = prepare_beam_axle(axle);
     const BeamPosition p = position_at(plan, 0.04, 0.03);
     for (const AxleInputs inputs :
          {AxleInputs::heave_roll, AxleInputs::wheel_centres, AxleInputs::contacts}) {
@@ -156,9 +165,9 @@ TEST(BeamPosition, RatesAgreeWithDifferences) {
 }
 
 TEST(BeamPosition, BeyondTheReachOfTheLinksThereIsNone) {
-  RigidAxle axle = planar_axle();
+  BeamAxle axle = planar_axle();
   axle.rods.push_back({"Panhard rod", {0, 0.1, 0.3}, {0, -0.1, 0.3}, {}});
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   const BeamPosition p = position_at(plan, 0.3, 0);
   EXPECT_EQ(p.status, Status::no_assembly);
   EXPECT_NEAR(p.input.first, 0.2, 1e-8);  // the rod stands upright
@@ -171,16 +180,16 @@ TEST(BeamPosition, BeyondTheReachOfTheLinksThereIsNone) {
 }
 
 TEST(BeamPosition, APrescribedLengthMovesTheReference) {
-  RigidAxle axle = panhard_axle();
+  BeamAxle axle = panhard_axle();
   axle.rods[3].length = norm(axle.rods[3].body - axle.rods[3].beam) + 0.003;
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   const BeamPosition p = reference_position(plan);
   ASSERT_EQ(p.status, Status::done) << p.reason;
   EXPECT_NEAR(norm(on_beam(plan, p.place, axle.rods[3].beam) - axle.rods[3].body), *axle.rods[3].length,
               rounding);
   EXPECT_LT(p.place.centre.y, -0.0029);
   axle.rods[3].length = 2.5;
-  const BeamPosition far = reference_position(prepare_rigid_axle(axle));
+  const BeamPosition far = reference_position(prepare_beam_axle(axle));
   EXPECT_EQ(far.status, Status::no_assembly);
   EXPECT_NE(far.reason.find("'Panhard rod' is"), std::string::npos) << far.reason;
 }

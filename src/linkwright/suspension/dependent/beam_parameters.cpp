@@ -10,15 +10,16 @@ namespace {
 
 constexpr double no_support = 1e-12;  ///< relative: below, lateral force and roll do not determine a point
 
-BeamWheel wheel_at(const RigidAxlePlan& plan, const BeamPlace& place, Side side, double roll) {
+BeamWheel wheel_at(const BeamAxlePlan& plan, const BeamPlace& place, Side side, double roll) {
   const std::size_t i = side == Side::left ? 0 : 1;
   const CornerWheel& wheel = side == Side::left ? plan.axle.left : plan.axle.right;
   BeamWheel out;
-  out.angles = wheel_angles(side, wheel, place.rotation);
-  out.centre = place.centre + place.rotation * plan.wheel_centres[i];
+  const Mat3 rotation = half_rotation(plan, place, side);
+  out.angles = wheel_angles(side, wheel, rotation);
+  out.centre = on_beam(plan, place, wheel.centre);
   out.contact = contact_point(plan, place, side);
   // Against the road, whose normal leans by the roll: u . n = -sin(camber).
-  const Vec3 axis = place.rotation * plan.axes[i], normal{0, -std::sin(roll), std::cos(roll)};
+  const Vec3 axis = rotation * plan.axes[i], normal{0, -std::sin(roll), std::cos(roll)};
   out.road_camber = std::atan2(-dot(axis, normal), norm(cross(axis, normal)));
   out.travel = out.centre.z - wheel.centre.z;
   out.recession = wheel.centre.x - out.centre.x;
@@ -33,16 +34,21 @@ WheelAngles beam_rates(const Mat3& rotation, const Vec3& turning) {
 
 /// The point in the middle of the track through which lateral forces pass between axle and body. Neither
 /// heave nor roll moves it along the line of action, for else the force would have a power.
-void add_roll_centre(BeamParameters& p, const BeamPlace& place, const BeamRates& rates) {
+void add_roll_centre(BeamParameters& p, const BeamAxlePlan& plan, const BeamPlace& place,
+                     const BeamRates& rates) {
   const double c = std::cos(p.roll), s = std::sin(p.roll);
   const Vec3 along{0, c, s}, over{0, -s, c}, middle = 0.5 * (p.left.contact + p.right.contact);
   std::array<double, 2> across{}, up{}, tilt{};
   for (std::size_t k = 0; k < 2; ++k) {
     const BeamMotion& motion = k == 0 ? rates.first : rates.second;
-    const Vec3 velocity = motion.velocity + cross(motion.turning, middle - place.centre);
-    across[k] = dot(velocity, along);
-    up[k] = dot(velocity, over);
+    const Vec3 left = half_velocity(plan, place, motion, Side::left, p.left.contact),
+               right = half_velocity(plan, place, motion, Side::right, p.right.contact);
+    across[k] = dot(left + right, along) / 2;
+    up[k] = dot(left + right, over) / 2;
     tilt[k] = dot(cross(motion.turning, over), along);
+    // A beam that twists has no turning of its own: the couple of a force above the road is that of both
+    // loads.
+    if (plan.twist) tilt[k] = -dot(left - right, over) / dot(p.left.contact - p.right.contact, along);
   }
   // across + height tilt + slope up = 0 for both motions
   const double determinant = tilt[0] * up[1] - tilt[1] * up[0];
@@ -52,7 +58,7 @@ void add_roll_centre(BeamParameters& p, const BeamPlace& place, const BeamRates&
   p.roll_centre = middle + p.roll_centre_height * over;
 }
 
-void add_side_view(BeamParameters& p, const RigidAxlePlan& plan, const BeamPlace& place,
+void add_side_view(BeamParameters& p, const BeamAxlePlan& plan, const BeamPlace& place,
                    const BeamMotion& heave) {
   const Vec3 middle = 0.5 * (p.left.contact + p.right.contact);
   p.side_centre = {place.centre.x + heave.velocity.z / heave.turning.y,
@@ -66,9 +72,10 @@ void add_side_view(BeamParameters& p, const RigidAxlePlan& plan, const BeamPlace
   double beam = 0, beam_up = 0, free = 0, free_up = 0;
   for (const Side side : {Side::left, Side::right}) {
     BeamWheel& wheel = side == Side::left ? p.left : p.right;
-    const Vec3 velocity = heave.velocity + cross(heave.turning, wheel.centre - place.centre);
+    const Vec3 velocity = half_velocity(plan, place, heave, side, wheel.centre);
     const double diameter = (side == Side::left ? plan.axle.left : plan.axle.right).tyre_diameter;
-    const ContactVelocity contact = contact_velocity(side, diameter, wheel.angles, velocity, heave.turning);
+    const ContactVelocity contact =
+        contact_velocity(side, diameter, wheel.angles, velocity, half_turning(plan, place, heave, side));
     beam += contact.on_carrier.x, beam_up += contact.on_carrier.z;
     free += contact.geometric.x, free_up += contact.geometric.z;
     wheel.recession_rate = -velocity.x;
@@ -81,7 +88,7 @@ double angle_with(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a
 
 }  // namespace
 
-BeamParameters beam_parameters(const RigidAxlePlan& plan, const BeamPosition& position) {
+BeamParameters beam_parameters(const BeamAxlePlan& plan, const BeamPosition& position) {
   LINKWRIGHT_REQUIRE(position.status == Status::done, "the position is {}: {}", to_string(position.status),
                      position.reason);
   const BeamPlace& place = position.place;
@@ -99,24 +106,32 @@ BeamParameters beam_parameters(const RigidAxlePlan& plan, const BeamPosition& po
   const BeamRates rates = solve_rates(plan, position, AxleInputs::heave_roll);
   p.status = rates.status;
   if (rates.status != Status::done) return p;
-  const auto steer_rate = [&](const Vec3& turning) {
-    return (angle_rates(Side::right, p.right.angles, turning).toe -
-            angle_rates(Side::left, p.left.angles, turning).toe) /
+  const auto steer_rate = [&](const BeamMotion& motion) {
+    const Vec3 left = half_turning(plan, place, motion, Side::left),
+               right = half_turning(plan, place, motion, Side::right);
+    return (angle_rates(Side::right, p.right.angles, right).toe -
+            angle_rates(Side::left, p.left.angles, left).toe) /
            2;
   };
-  p.steer_by_heave = steer_rate(rates.first.turning);
-  p.roll_steer = steer_rate(rates.second.turning);
+  p.steer_by_heave = steer_rate(rates.first);
+  p.roll_steer = steer_rate(rates.second);
   p.pitch_by_heave = beam_rates(place.rotation, rates.first.turning).carrier_pitch;
-  p.roll_axis_inclination = std::atan(rates.second.turning.z / rates.second.turning.x);
+  if (plan.twist)
+    p.twist = place.cranks[0], p.twist_by_roll = rates.second.cranks[0];
+  else
+    p.roll_axis_inclination = std::atan(rates.second.turning.z / rates.second.turning.x);
   double shift = 0;
   for (const Side side : {Side::left, Side::right}) {
     const BeamWheel& wheel = side == Side::left ? p.left : p.right;
     const double diameter = (side == Side::left ? plan.axle.left : plan.axle.right).tyre_diameter;
-    const Vec3 velocity = rates.first.velocity + cross(rates.first.turning, wheel.centre - place.centre);
-    shift += contact_velocity(side, diameter, wheel.angles, velocity, rates.first.turning).geometric.y / 2;
+    const Vec3 velocity = half_velocity(plan, place, rates.first, side, wheel.centre);
+    shift +=
+        contact_velocity(side, diameter, wheel.angles, velocity, half_turning(plan, place, rates.first, side))
+            .geometric.y /
+        2;
   }
   p.shift_by_heave = shift;
-  add_roll_centre(p, place, rates);
+  add_roll_centre(p, plan, place, rates);
   add_side_view(p, plan, place, rates.first);
   return p;
 }
@@ -131,7 +146,7 @@ BeamAntiFeatures anti_features(const BeamParameters& axle, AxlePlace place, cons
   return {body.outboard_brake, body.inboard_brake, beam.inboard_drive, body.inboard_drive};
 }
 
-BeamShaftState shaft_state(const RigidAxlePlan& plan, const BeamPlace& place, const BeamShaft& shaft) {
+BeamShaftState shaft_state(const BeamAxlePlan& plan, const BeamPlace& place, const BeamShaft& shaft) {
   const Vec3 along = on_beam(plan, place, shaft.beam) - shaft.body;
   return {angle_with(along, shaft.body_axis), angle_with(along, place.rotation * shaft.beam_axis),
           norm(along) - norm(shaft.beam - shaft.body)};

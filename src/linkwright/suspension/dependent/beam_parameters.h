@@ -42,8 +42,10 @@ struct BeamParameters {
   /// rad/rad, mean steer angle by roll: at a rear axle negative values understeer, at a front axle positive
   /// ones.
   double roll_steer = nan;
-  /// rad, slope of the axis about which the axle rolls against the body, > 0: it rises forward.
+  /// rad, slope of the axis about which a rigid axle rolls against the body, > 0: it rises forward.
   double roll_axis_inclination = nan;
+  double twist = nan,       ///< rad, of a beam that twists, the left half forward at the top
+      twist_by_roll = nan;  ///< rad/rad
   /// Height above the road of the point in the middle of the track through which the lateral force between
   /// axle and body acts (m).
   double roll_centre_height = nan;
@@ -66,7 +68,7 @@ struct BeamParameters {
 /// @param position the position; it must be done
 /// @returns the parameters, with their status
 /// @throws ContractError if the position is not done
-BeamParameters beam_parameters(const RigidAxlePlan& plan, const BeamPosition& position);
+BeamParameters beam_parameters(const BeamAxlePlan& plan, const BeamPosition& position);
 
 /// The support of braking and driving of a rigid axle by its links.
 struct BeamAntiFeatures {
@@ -107,6 +109,6 @@ struct BeamShaftState {
 /// @param place place of the beam
 /// @param shaft the shaft
 /// @returns its state
-BeamShaftState shaft_state(const RigidAxlePlan& plan, const BeamPlace& place, const BeamShaft& shaft);
+BeamShaftState shaft_state(const BeamAxlePlan& plan, const BeamPlace& place, const BeamShaft& shaft);
 
 }  // namespace linkwright::suspension

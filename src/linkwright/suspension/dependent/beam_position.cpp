@@ -32,8 +32,7 @@ using BeamMatrix =
 /// Newton's method for the equations of an axle.
 class BeamSolver {
  public:
-  BeamSolver(const RigidAxlePlan& plan, AxleInputs inputs)
-      : plan_(plan), inputs_(inputs), n_(plan.unknowns) {}
+  BeamSolver(const BeamAxlePlan& plan, AxleInputs inputs) : plan_(plan), inputs_(inputs), n_(plan.unknowns) {}
 
   bool converge(BeamPlace& place, const std::array<double, 2>& values) {
     for (int i = 0;; ++i) {
@@ -86,7 +85,7 @@ class BeamSolver {
   const AxleEquations& equations() const { return equations_; }
 
  private:
-  const RigidAxlePlan& plan_;
+  const BeamAxlePlan& plan_;
   AxleInputs inputs_;
   int n_;
   AxleEquations equations_;
@@ -117,14 +116,14 @@ std::string input_in_words(const BeamInput& input) {
   return {};
 }
 
-std::string end_of_motion(const RigidAxlePlan& plan, const BeamPosition& at, const BeamInput& wanted) {
+std::string end_of_motion(const BeamAxlePlan& plan, const BeamPosition& at, const BeamInput& wanted) {
   const WeakestAxleMotion weakest = weakest_motion(plan, at.place, at.input.inputs);
   return fmt::format("the motion to {} ends at {}: there {} {} no further (smallest singular value {:.1g})",
                      input_in_words(wanted), input_in_words(at.input), fmt::join(weakest.parts, ", "),
                      weakest.parts.size() == 1 ? "reaches" : "reach", weakest.singular_value);
 }
 
-BeamPosition follow_beam(const RigidAxlePlan& plan, const BeamInput& wanted, const BeamPlace& from,
+BeamPosition follow_beam(const BeamAxlePlan& plan, const BeamInput& wanted, const BeamPlace& from,
                          const std::array<double, 2>& start) {
   BeamPosition out{.place = from, .input = {wanted.inputs, start[0], start[1]}, .reached = 0};
   BeamSolver solver(plan, wanted.inputs);
@@ -185,13 +184,13 @@ BeamPosition follow_beam(const RigidAxlePlan& plan, const BeamInput& wanted, con
 
 }  // namespace
 
-BeamPosition reference_position(const RigidAxlePlan& plan) {
+BeamPosition reference_position(const BeamAxlePlan& plan) {
   const BeamPlace reference{plan.centre, {}, {}};
   const std::array<double, 2> values = beam_inputs(plan, reference, AxleInputs::heave_roll);
   return follow_beam(plan, {AxleInputs::heave_roll, values[0], values[1]}, reference, values);
 }
 
-BeamPosition solve_position(const RigidAxlePlan& plan, const BeamInput& input, const BeamPosition& start) {
+BeamPosition solve_position(const BeamAxlePlan& plan, const BeamInput& input, const BeamPosition& start) {
   LINKWRIGHT_REQUIRE(start.status == Status::done, "the start is {}: {}", to_string(start.status),
                      start.reason);
   LINKWRIGHT_REQUIRE(std::isfinite(input.first) && std::isfinite(input.second), "inputs {} and {}",
@@ -199,7 +198,7 @@ BeamPosition solve_position(const RigidAxlePlan& plan, const BeamInput& input, c
   return follow_beam(plan, input, start.place, beam_inputs(plan, start.place, input.inputs));
 }
 
-BeamRates solve_rates(const RigidAxlePlan& plan, const BeamPosition& position, AxleInputs inputs) {
+BeamRates solve_rates(const BeamAxlePlan& plan, const BeamPosition& position, AxleInputs inputs) {
   BeamSolver solver(plan, inputs);
   solver.set(position.place, beam_inputs(plan, position.place, inputs));
   const auto motion = [](const BeamVector& x) {

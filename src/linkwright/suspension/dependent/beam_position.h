@@ -5,7 +5,7 @@
 #include <string>
 
 #include "linkwright/core/status.h"
-#include "linkwright/suspension/dependent/rigid_axle.h"
+#include "linkwright/suspension/dependent/beam_axle.h"
 
 namespace linkwright::suspension {
 
@@ -33,7 +33,7 @@ struct BeamPosition {
 ///
 /// @param plan the plan of the axle
 /// @returns the position, with its status
-BeamPosition reference_position(const RigidAxlePlan& plan);
+BeamPosition reference_position(const BeamAxlePlan& plan);
 
 /// The position at an input, followed from another one along the straight line between both inputs, by the
 /// tangent and Newton steps to a residual of 1e-14 m. As with wheel suspensions, a step counts only if it is
@@ -45,7 +45,7 @@ BeamPosition reference_position(const RigidAxlePlan& plan);
 /// @param start position from which it is followed; it must be done
 /// @returns the position, or the last one that was reached
 /// @throws ContractError if the start is not done or the input is not finite
-BeamPosition solve_position(const RigidAxlePlan& plan, const BeamInput& input, const BeamPosition& start);
+BeamPosition solve_position(const BeamAxlePlan& plan, const BeamInput& input, const BeamPosition& start);
 
 /// Both motions of an axle at a position.
 struct BeamRates {
@@ -60,6 +60,6 @@ struct BeamRates {
 /// @param position the position
 /// @param inputs the inputs whose rates are 1 and 0
 /// @returns both motions
-BeamRates solve_rates(const RigidAxlePlan& plan, const BeamPosition& position, AxleInputs inputs);
+BeamRates solve_rates(const BeamAxlePlan& plan, const BeamPosition& position, AxleInputs inputs);
 
 }  // namespace linkwright::suspension

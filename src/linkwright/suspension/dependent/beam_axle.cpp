@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/dependent/rigid_axle.h"
+#include "linkwright/suspension/dependent/beam_axle.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -20,27 +20,34 @@ constexpr Vec3 upward{0, 0, 1};
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
-/// The lowest point of a disc of this radius from its centre, and how it moves as the disc turns.
-struct LowestPoint {
-  Vec3 offset;                 ///< m
-  std::array<Vec3, 3> turned;  ///< m/rad, by a turn about x, y and z
-};
-
-LowestPoint lowest_point(const Vec3& axis, double radius) {
+/// The vector from the centre of a disc of this radius to its lowest point.
+Vec3 lowest_point(const Vec3& axis, double radius) {
+  return (-radius / std::sqrt(1 - axis.z * axis.z)) * (upward - axis.z * axis);
+}
+/// Its change as the axis changes by `swing`.
+Vec3 lowest_change(const Vec3& axis, double radius, const Vec3& swing) {
   const double rise = axis.z, flat = std::sqrt(1 - rise * rise);
-  const Vec3 across = upward - rise * axis;
-  LowestPoint out{(-radius / flat) * across, {}};
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 turn{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-    const Vec3 swing = cross(turn, axis);
-    const Vec3 change =
-        (-swing.z / flat) * axis + (-rise / flat) * swing + (rise * swing.z / (flat * flat * flat)) * across;
-    out.turned[static_cast<std::size_t>(k)] = -radius * change;
-  }
-  return out;
+  return -radius * ((-swing.z / flat) * axis + (-rise / flat) * swing +
+                    (rise * swing.z / (flat * flat * flat)) * (upward - rise * axis));
 }
 
-const CornerWheel& wheel_of(const RigidAxlePlan& plan, std::size_t side) {
+/// The turn of half of a beam that twists.
+Mat3 twist_turn(const BeamAxlePlan& plan, const BeamPlace& place, std::size_t side) {
+  return math::turn_about((side == 0 ? 0.5 : -0.5) * place.cranks[0] * plan.twist->axis);
+}
+/// A point on half of the beam, from the reference point of the beam in its present direction.
+struct HalfPoint {
+  Vec3 arm;      ///< m
+  Vec3 twisted;  ///< m/rad, its change by the twist
+};
+HalfPoint half_point(const BeamAxlePlan& plan, const BeamPlace& place, std::size_t side, const Vec3& local) {
+  if (!plan.twist) return {place.rotation * local, {}};
+  const Vec3 lever = twist_turn(plan, place, side) * (local - plan.twist->shear_centre);
+  return {place.rotation * (plan.twist->shear_centre + lever),
+          place.rotation * ((side == 0 ? 0.5 : -0.5) * cross(plan.twist->axis, lever))};
+}
+
+const CornerWheel& wheel_of(const BeamAxlePlan& plan, std::size_t side) {
   return side == 0 ? plan.axle.left : plan.axle.right;
 }
 
@@ -49,18 +56,26 @@ struct PlacedWheel {
   Vec3 from_centre;  ///< of the beam to that of the wheel, m
   Vec3 centre, contact;
   std::array<Vec3, 3> contact_turned;
+  Vec3 centre_twisted, contact_twisted;  ///< m/rad, by the twist of the beam
 };
 
-PlacedWheel placed_wheel(const RigidAxlePlan& plan, const BeamPlace& place, std::size_t side) {
+PlacedWheel placed_wheel(const BeamAxlePlan& plan, const BeamPlace& place, std::size_t side) {
   PlacedWheel out;
-  out.from_centre = place.rotation * plan.wheel_centres[side];
+  const HalfPoint centre = half_point(plan, place, side, plan.wheel_centres[side]);
+  out.from_centre = centre.arm;
   out.centre = place.centre + out.from_centre;
-  const LowestPoint lowest =
-      lowest_point(place.rotation * plan.axes[side], wheel_of(plan, side).tyre_diameter / 2);
-  out.contact = out.centre + lowest.offset;
+  const Vec3 local = plan.twist ? twist_turn(plan, place, side) * plan.axes[side] : plan.axes[side];
+  const Vec3 axis = place.rotation * local;
+  const double radius = wheel_of(plan, side).tyre_diameter / 2;
+  out.contact = out.centre + lowest_point(axis, radius);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 turn{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-    out.contact_turned[k] = cross(turn, out.from_centre) + lowest.turned[k];
+    out.contact_turned[k] = cross(turn, out.from_centre) + lowest_change(axis, radius, cross(turn, axis));
+  }
+  if (plan.twist) {
+    const Vec3 swing = place.rotation * ((side == 0 ? 0.5 : -0.5) * cross(plan.twist->axis, local));
+    out.centre_twisted = centre.twisted;
+    out.contact_twisted = out.centre_twisted + lowest_change(axis, radius, swing);
   }
   return out;
 }
@@ -79,10 +94,11 @@ Row contact_row(const PlacedWheel& wheel, const Vec3& along) {
   put(row, along,
       {dot(along, wheel.contact_turned[0]), dot(along, wheel.contact_turned[1]),
        dot(along, wheel.contact_turned[2])});
+  row[6] = dot(along, wheel.contact_twisted);
   return row;
 }
 
-void evaluate_inputs(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
+void evaluate_inputs(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
                      const std::array<double, 2>& values, std::size_t first, AxleEquations& out) {
   const std::array<PlacedWheel, 2> wheels{placed_wheel(plan, place, 0), placed_wheel(plan, place, 1)};
   out.label[first] = out.label[first + 1] = -1;
@@ -108,6 +124,7 @@ void evaluate_inputs(const RigidAxlePlan& plan, const BeamPlace& place, AxleInpu
     } else {
       out.residual[first + i] = wheels[i].centre.z - (plan.centre.z + start.z) - values[i];
       put(out.jacobian[first + i], upward, cross(wheels[i].from_centre, upward));
+      out.jacobian[first + i][6] = wheels[i].centre_twisted.z;
     }
   }
 }
@@ -121,12 +138,12 @@ std::vector<double> numbers_of(const AxleEquations& e, std::size_t n, bool trans
 }
 
 /// Equations whose turning is measured at the distance of a typical lever, so that all entries are alike.
-AxleEquations scaled(const RigidAxlePlan& plan, AxleEquations e) {
+AxleEquations scaled(const BeamAxlePlan& plan, AxleEquations e) {
   const double lever = std::max(norm(plan.wheel_centres[0]), norm(plan.wheel_centres[1]));
   for (auto& row : e.jacobian)
     for (std::size_t j = 3; j < 6; ++j) row[j] /= lever;
   // A bellcrank's angle has the length of its arm for a lever.
-  for (std::size_t w = 0; w < plan.cranks.size(); ++w) {
+  for (std::size_t w = 0; w + 6 < static_cast<std::size_t>(plan.unknowns); ++w) {
     double square = 0;
     for (const auto& row : e.jacobian) square += row[6 + w] * row[6 + w];
     for (auto& row : e.jacobian)
@@ -135,7 +152,7 @@ AxleEquations scaled(const RigidAxlePlan& plan, AxleEquations e) {
   return e;
 }
 
-std::string motion_in_words(const std::vector<double>& v) {
+std::string motion_in_words(const std::vector<double>& v, bool twists) {
   const auto largest = [&](std::size_t first) {
     std::size_t at = first;
     for (std::size_t k = first; k < first + 3; ++k)
@@ -145,13 +162,13 @@ std::string motion_in_words(const std::vector<double>& v) {
   const std::size_t shift = largest(0), turn = largest(3);
   const char* axes = "xyz";
   if (v.size() > 6 && std::abs(v[6]) > std::max(std::abs(v[shift]), std::abs(v[turn])))
-    return "turning of a bellcrank";
+    return twists ? "twist of the beam" : "turning of a bellcrank";
   if (std::abs(v[shift]) >= std::abs(v[turn])) return fmt::format("shifting along {}", axes[shift]);
   return fmt::format("turning about {}", axes[turn - 3]);
 }
 
 /// Checks that need no equations.
-AxleFault fault_of_points(const RigidAxle& a) {
+AxleFault fault_of_points(const BeamAxle& a) {
   if (!(a.left.centre.y > a.right.centre.y))
     return {fmt::format("the left wheel is at y = {:.6g} mm and the right one at y = {:.6g} mm",
                         a.left.centre.y * 1e3, a.right.centre.y * 1e3),
@@ -184,6 +201,15 @@ AxleFault fault_of_points(const RigidAxle& a) {
         return short_part(w.name, k == 0 ? "both joints of the first rod" : "both joints of the second rod");
     }
   }
+  if (a.twist) {
+    const AxleTwist& t = *a.twist;
+    if (!(norm(t.axis) > 0))
+      return {fmt::format("the axis of {} has no direction", quoted(t.name)), "for example axis = [0, 1, 0]"};
+    if (!(t.pivots[0].y > t.pivots[1].y))
+      return {fmt::format("the left pivot of {} is at y = {:.6g} mm and the right one at y = {:.6g} mm",
+                          quoted(t.name), t.pivots[0].y * 1e3, t.pivots[1].y * 1e3),
+              "y points to the left: the left pivot has the larger y"};
+  }
   for (const AxleGuide& g : a.guides)
     if (!(norm(g.normal) > 0))
       return {fmt::format("the normal of {} has no direction", quoted(g.name)),
@@ -191,8 +217,8 @@ AxleFault fault_of_points(const RigidAxle& a) {
   return {};
 }
 
-RigidAxlePlan plan_of(const RigidAxle& axle) {
-  RigidAxlePlan out{.axle = axle};
+BeamAxlePlan plan_of(const BeamAxle& axle) {
+  BeamAxlePlan out{.axle = axle};
   out.centre = 0.5 * (axle.left.centre + axle.right.centre);
   const auto from_centre = [&](const Vec3& at) { return at - out.centre; };
   const auto label = [&](const std::string& name) {
@@ -231,7 +257,12 @@ RigidAxlePlan plan_of(const RigidAxle& axle) {
     out.balls.push_back({b.at, from_centre(b.at)});
     out.ball_labels.push_back(label(b.name));
   }
-  out.unknowns = 6 + static_cast<int>(axle.watts.size());
+  if (axle.twist)
+    out.twist = BeamAxlePlan::Twist{{from_centre(axle.twist->pivots[0]), from_centre(axle.twist->pivots[1])},
+                                    from_centre(axle.twist->shear_centre),
+                                    unit(axle.twist->axis),
+                                    label(axle.twist->name)};
+  out.unknowns = 6 + static_cast<int>(axle.watts.size()) + (axle.twist ? 1 : 0);
   out.axes = {wheel_axis(Side::left, axle.left.toe, axle.left.camber),
               wheel_axis(Side::right, axle.right.toe, axle.right.camber)};
   out.wheel_centres = {from_centre(axle.left.centre), from_centre(axle.right.centre)};
@@ -240,7 +271,7 @@ RigidAxlePlan plan_of(const RigidAxle& axle) {
   return out;
 }
 
-std::string count_in_words(const RigidAxle& a) {
+std::string count_in_words(const BeamAxle& a) {
   std::string out;
   const auto add = [&](std::size_t count, const char* one, const char* several, std::size_t each) {
     if (count > 0)
@@ -252,17 +283,18 @@ std::string count_in_words(const RigidAxle& a) {
   add(a.watts.size(), "Watt linkage", "Watt linkages", 1);
   add(a.guides.size(), "guide", "guides", 1);
   add(a.ball_joints.size(), "ball joint", "ball joints", 3);
+  add(a.twist ? 1 : 0, "twist beam", "", 4);
   return out.empty() ? "there are none" : out;
 }
 
 }  // namespace
 
-int constraints_of(const RigidAxle& axle) {
+int constraints_of(const BeamAxle& axle) {
   return static_cast<int>(axle.rods.size() + 2 * axle.arms.size() + axle.watts.size() + axle.guides.size() +
-                          3 * axle.ball_joints.size());
+                          3 * axle.ball_joints.size() + (axle.twist ? 4 : 0));
 }
 
-AxleFault check_rigid_axle(const RigidAxle& axle) {
+AxleFault check_beam_axle(const BeamAxle& axle) {
   if (AxleFault fault = fault_of_points(axle); !fault.message.empty()) return fault;
   const int count = constraints_of(axle);
   if (count != 4) {
@@ -277,7 +309,7 @@ AxleFault check_rigid_axle(const RigidAxle& axle) {
                            "remove what bushings give way to; a leaf spring counts as a rod from its front "
                            "eye to the beam"};
   }
-  const RigidAxlePlan plan = plan_of(axle);
+  const BeamAxlePlan plan = plan_of(axle);
   const BeamPlace reference{plan.centre, {}, {}};
   const WeakestAxleMotion weakest = weakest_motion(plan, reference, AxleInputs::heave_roll);
   if (weakest.singular_value < no_axle_rank)
@@ -291,19 +323,19 @@ AxleFault check_rigid_axle(const RigidAxle& axle) {
   return {};
 }
 
-RigidAxlePlan prepare_rigid_axle(const RigidAxle& axle) {
-  const AxleFault fault = check_rigid_axle(axle);
+BeamAxlePlan prepare_beam_axle(const BeamAxle& axle) {
+  const AxleFault fault = check_beam_axle(axle);
   LINKWRIGHT_REQUIRE(fault.message.empty(), "{}", fault.message);
   return plan_of(axle);
 }
 
-void evaluate(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
+void evaluate(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
               const std::array<double, 2>& values, AxleEquations& out) {
   std::size_t row = 0;
-  for (const RigidAxlePlan::Distance& d : plan.distances) {
+  for (const BeamAxlePlan::Distance& d : plan.distances) {
     Vec3 body = d.body, local = d.beam, crank_rate{};
     if (d.watt >= 0) {
-      const RigidAxlePlan::Crank& crank = plan.cranks[static_cast<std::size_t>(d.watt)];
+      const BeamAxlePlan::Crank& crank = plan.cranks[static_cast<std::size_t>(d.watt)];
       const Mat3 turn = math::turn_about(place.cranks[static_cast<std::size_t>(d.watt)] * crank.axis);
       Vec3& end = crank.on_beam ? local : body;
       const Vec3 arm = turn * (end - crank.pivot);
@@ -318,7 +350,7 @@ void evaluate(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inpu
       out.jacobian[row][6 + static_cast<std::size_t>(d.watt)] = dot(along, crank_rate) / d.length;
     out.label[row++] = d.label;
   }
-  for (const RigidAxlePlan::Plane& p : plan.planes) {
+  for (const BeamAxlePlan::Plane& p : plan.planes) {
     const Vec3 arm = place.rotation * p.beam;
     out.residual[row] = dot(p.normal, place.centre + arm) - p.offset;
     put(out.jacobian[row], p.normal, cross(arm, p.normal));
@@ -333,10 +365,30 @@ void evaluate(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inpu
       out.label[row++] = plan.ball_labels[b];
     }
   }
+  if (plan.twist) {
+    std::array<HalfPoint, 2> at;
+    std::array<Vec3, 2> gap;
+    for (std::size_t side = 0; side < 2; ++side) {
+      at[side] = half_point(plan, place, side, plan.twist->pivots[side]);
+      gap[side] = place.centre + at[side].arm - plan.centre - plan.twist->pivots[side];
+      for (const Vec3& along : {Vec3{1, 0, 0}, upward}) {
+        out.residual[row] = dot(along, gap[side]);
+        put(out.jacobian[row], along, cross(at[side].arm, along));
+        out.jacobian[row][6] = dot(along, at[side].twisted);
+        out.label[row++] = plan.twist->label;
+      }
+    }
+    // Laterally both bushings give way to the growing distance of the pivots alike.
+    const Vec3 lateral{0, 1, 0};
+    out.residual[row] = (gap[0].y + gap[1].y) / 2;
+    put(out.jacobian[row], lateral, cross(0.5 * (at[0].arm + at[1].arm), lateral));
+    out.jacobian[row][6] = (at[0].twisted.y + at[1].twisted.y) / 2;
+    out.label[row++] = plan.twist->label;
+  }
   evaluate_inputs(plan, place, inputs, values, row, out);
 }
 
-std::array<double, 2> beam_inputs(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs) {
+std::array<double, 2> beam_inputs(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs) {
   const PlacedWheel left = placed_wheel(plan, place, 0), right = placed_wheel(plan, place, 1);
   if (inputs == AxleInputs::wheel_centres)
     return {left.centre.z - (plan.centre.z + plan.wheel_centres[0].z),
@@ -348,22 +400,43 @@ std::array<double, 2> beam_inputs(const RigidAxlePlan& plan, const BeamPlace& pl
           std::atan2(left.contact.z - right.contact.z, left.contact.y - right.contact.y)};
 }
 
-Vec3 on_beam(const RigidAxlePlan& plan, const BeamPlace& place, const Vec3& reference) {
-  return place.centre + place.rotation * (reference - plan.centre);
+Vec3 on_beam(const BeamAxlePlan& plan, const BeamPlace& place, const Vec3& reference) {
+  const std::size_t side = plan.twist && reference.y < plan.axle.twist->shear_centre.y ? 1 : 0;
+  return place.centre + half_point(plan, place, side, reference - plan.centre).arm;
 }
 
-Vec3 crank_end(const RigidAxlePlan& plan, const BeamPlace& place, std::size_t watt, std::size_t end) {
+Mat3 half_rotation(const BeamAxlePlan& plan, const BeamPlace& place, Side side) {
+  if (!plan.twist) return place.rotation;
+  return place.rotation * twist_turn(plan, place, side == Side::left ? 0 : 1);
+}
+
+Vec3 half_turning(const BeamAxlePlan& plan, const BeamPlace& place, const BeamMotion& motion, Side side) {
+  if (!plan.twist) return motion.turning;
+  return motion.turning +
+         (side == Side::left ? 0.5 : -0.5) * motion.cranks[0] * (place.rotation * plan.twist->axis);
+}
+
+Vec3 half_velocity(const BeamAxlePlan& plan, const BeamPlace& place, const BeamMotion& motion, Side side,
+                   const Vec3& at) {
+  const Vec3 velocity = motion.velocity + cross(motion.turning, at - place.centre);
+  if (!plan.twist) return velocity;
+  const Vec3 shear_centre = place.centre + place.rotation * plan.twist->shear_centre;
+  const Vec3 twisting = half_turning(plan, place, motion, side) - motion.turning;
+  return velocity + cross(twisting, at - shear_centre);
+}
+
+Vec3 crank_end(const BeamAxlePlan& plan, const BeamPlace& place, std::size_t watt, std::size_t end) {
   const AxleWatt& of = plan.axle.watts.at(watt);
   const Mat3 turn = math::turn_about(place.cranks[watt] * plan.cranks[watt].axis);
   const Vec3 at = of.pivot + turn * (of.crank.at(end) - of.pivot);
   return of.pivot_on_beam ? on_beam(plan, place, at) : at;
 }
 
-Vec3 contact_point(const RigidAxlePlan& plan, const BeamPlace& place, Side side) {
+Vec3 contact_point(const BeamAxlePlan& plan, const BeamPlace& place, Side side) {
   return placed_wheel(plan, place, side == Side::left ? 0 : 1).contact;
 }
 
-WeakestAxleMotion weakest_motion(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs) {
+WeakestAxleMotion weakest_motion(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs) {
   const auto n = static_cast<std::size_t>(plan.unknowns);
   AxleEquations e;
   evaluate(plan, place, inputs, beam_inputs(plan, place, inputs), e);
@@ -374,7 +447,7 @@ WeakestAxleMotion weakest_motion(const RigidAxlePlan& plan, const BeamPlace& pla
   const auto last = [n](const std::vector<double>& columns) {
     return std::vector<double>(columns.end() - static_cast<std::ptrdiff_t>(n), columns.end());
   };
-  out.motion = motion_in_words(last(forward.right));
+  out.motion = motion_in_words(last(forward.right), plan.twist.has_value());
   const std::vector<double> parts = last(backward.right);
   double largest = 0;
   for (std::size_t i = 0; i + 2 < n; ++i) largest = std::max(largest, std::abs(parts[i]));

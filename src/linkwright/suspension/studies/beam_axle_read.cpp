@@ -13,7 +13,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
-#include "linkwright/suspension/studies/rigid_axle.h"
+#include "linkwright/suspension/studies/beam_axle.h"
 #include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
@@ -36,11 +36,11 @@ std::string points_needed(std::size_t count) {
 std::string mm(double metres) { return fmt::format("{:.6g} mm", metres * 1e3); }
 
 /// Reads `[mechanism]`.
-class RigidAxleReader {
+class BeamAxleReader {
  public:
-  RigidAxleReader(study::ObjectReader& mechanism, RigidAxleStudy& out) : mechanism_(mechanism), out_(out) {}
+  BeamAxleReader(study::ObjectReader& mechanism, BeamAxleStudy& out) : mechanism_(mechanism), out_(out) {}
 
-  RigidAxleForm form;
+  BeamAxleForm form;
 
   bool read() {
     mechanism_.read(form);
@@ -61,10 +61,11 @@ class RigidAxleReader {
       near(t, "point", b.point);
       out_.axle.ball_joints.push_back({b.name, vector_of(b.point)});
     });
+    twist_beam();
     each("shaft", form.shafts,
          [&](const AxleShaftForm& s, study::ObjectReader& t, std::size_t) { shaft(s, t); });
     if (mechanism_.document().has_errors()) return false;
-    const AxleFault fault = check_rigid_axle(out_.axle);
+    const AxleFault fault = check_beam_axle(out_.axle);
     if (fault.message.empty()) return true;
     mechanism_.error("rod", fault.message, fault.hint);
     return false;
@@ -81,7 +82,7 @@ class RigidAxleReader {
     const auto wheel = [](const AxleWheelForm& w) {
       return CornerWheel{vector_of(w.centre), w.toe, w.camber, w.tyre_diameter};
     };
-    RigidAxle& axle = out_.axle;
+    BeamAxle& axle = out_.axle;
     axle.left = axle.right = wheel(form.wheel);
     axle.right.centre = math::mirrored(axle.left.centre);
     if (form.right_wheel) axle.right = wheel(*form.right_wheel);
@@ -197,6 +198,27 @@ class RigidAxleReader {
                                .ends = {vector_of(w.ends[0]), vector_of(w.ends[1])}});
   }
 
+  void twist_beam() {
+    if (!form.twist_beam) return;
+    auto table = mechanism_.table("twist_beam");
+    if (!table) return;
+    const TwistBeamForm& t = *form.twist_beam;
+    near(*table, "pivot", t.pivot);
+    near(*table, "shear_centre", t.shear_centre);
+    if (!(t.pivot[1] > 0))
+      table->error("pivot", fmt::format("y is {}, but this is that of the left arm", mm(t.pivot[1])),
+                   "y points to the left: write y > 0");
+    if (std::abs(t.shear_centre[1]) > 1e-9)
+      table->error("shear_centre",
+                   fmt::format("y is {}, but it is that of the middle", mm(t.shear_centre[1])),
+                   "write y = 0");
+    for (const char* key : {"rod", "arm", "watt_linkage", "guide", "ball_joint"})
+      if (mechanism_.has(key))
+        mechanism_.error(key, "a twist beam is held by its bushings alone", "remove it, or twist_beam");
+    const Vec3 pivot = vector_of(t.pivot);
+    out_.axle.twist = AxleTwist{t.name, {pivot, math::mirrored(pivot)}, vector_of(t.shear_centre)};
+  }
+
   void shaft(const AxleShaftForm& s, study::ObjectReader& table) {
     near(table, "body", s.body);
     near(table, "beam", s.beam);
@@ -223,14 +245,14 @@ class RigidAxleReader {
   }
 
   study::ObjectReader& mechanism_;
-  RigidAxleStudy& out_;
+  BeamAxleStudy& out_;
   std::vector<std::string> names_;
   double track_ = 0;
 };
 
 /// The mechanism with mirrored parts written out.
-RigidAxleForm written_form(const RigidAxleForm& read, const RigidAxleStudy& s) {
-  RigidAxleForm out = read;
+BeamAxleForm written_form(const BeamAxleForm& read, const BeamAxleStudy& s) {
+  BeamAxleForm out = read;
   out.rods.clear();
   for (const AxleRod& r : s.axle.rods)
     out.rods.push_back({r.name, array_of(r.body), array_of(r.beam), r.length, false});
@@ -245,18 +267,18 @@ RigidAxleForm written_form(const RigidAxleForm& read, const RigidAxleStudy& s) {
 
 }  // namespace
 
-std::optional<RigidAxleStudy> read_rigid_axle_study(study::ObjectReader& document,
-                                                    const study::Common& common, Value& canonical) {
-  RigidAxleStudy s;
+std::optional<BeamAxleStudy> read_beam_axle_study(study::ObjectReader& document, const study::Common& common,
+                                                  Value& canonical) {
+  BeamAxleStudy s;
   s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(),
                         [](study::Format f) { return f != study::Format::json && f != study::Format::csv; });
   auto mechanism = document.table(field::entry("mechanism").required());
-  std::optional<RigidAxleForm> form;
+  std::optional<BeamAxleForm> form;
   if (mechanism) {
-    RigidAxleReader reader(*mechanism, s);
+    BeamAxleReader reader(*mechanism, s);
     if (reader.read()) form = reader.form;
   }
-  RigidAxleSweep sweep;
+  BeamAxleSweep sweep;
   std::optional<std::vector<double>> heaves, rolls = std::vector{0.0}, singles = std::vector<double>{};
   if (auto table = document.table(field::entry("sweep").required())) {
     table->read(sweep);
@@ -267,7 +289,7 @@ std::optional<RigidAxleStudy> read_rigid_axle_study(study::ObjectReader& documen
       singles = values_of(*single, *sweep.single, "mm");
     if (heaves && rolls) {
       const std::size_t rows = heaves->size() * rolls->size();
-      const double bytes = sizeof(RigidAxleRow) + study::table_bytes(1, 50);
+      const double bytes = sizeof(BeamAxleRow) + study::table_bytes(1, 50);
       if (rows > max_axle_rows)
         table->error("heave", fmt::format("{} heaves with {} rolls make {} rows, at most {} are allowed",
                                           heaves->size(), rolls->size(), rows, max_axle_rows));
@@ -283,33 +305,33 @@ std::optional<RigidAxleStudy> read_rigid_axle_study(study::ObjectReader& documen
   s.rolls = *rolls;
   s.singles = *singles;
   canonical["mechanism"] = study::write_fields(written_form(*form, s));
-  RigidAxleSweep whole{listed<LengthValues>(s.heaves), listed<AngleValues>(s.rolls), std::nullopt};
+  BeamAxleSweep whole{listed<LengthValues>(s.heaves), listed<AngleValues>(s.rolls), std::nullopt};
   if (!s.singles.empty()) whole.single = listed<LengthValues>(s.singles);
   canonical["sweep"] = study::write_fields(whole);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   return s;
 }
 
-study::Kind rigid_axle_kind() {
+study::Kind beam_axle_kind() {
   study::Kind kind;
   kind.kind = "analysis";
-  kind.mechanism = "suspension.rigid_axle";
+  kind.mechanism = "suspension.beam_axle";
   kind.summary =
-      "rigid axle (live axle, de Dion axle) over heave and roll: roll centre, roll steer, anti-squat, ...";
-  kind.example = templates::analysis_rigid_axle();
+      "live axle, de Dion axle or twist beam over heave and roll: roll centre, roll steer, anti-squat, ...";
+  kind.example = templates::analysis_beam_axle();
   kind.schema = [](study::SchemaWriter& document) {
-    document.property(field::entry("mechanism", "the rigid axle with its links").required(),
-                      study::schema_fields<RigidAxleForm>());
+    document.property(field::entry("mechanism", "the axle with its links").required(),
+                      study::schema_fields<BeamAxleForm>());
     document.property(field::entry("sweep", "positions that are taken").required(),
-                      study::schema_fields<RigidAxleSweep>());
+                      study::schema_fields<BeamAxleSweep>());
     document.property(field::entry("vehicle", "what the axle is part of: anti-squat, anti-lift, anti-dive"),
-                      study::schema_fields<RigidAxleVehicle>());
+                      study::schema_fields<BeamAxleVehicle>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_rigid_axle_study(document, common, prepared.canonical)) {
-      prepared.tables = {rigid_axle_table(*s, {})};
-      prepared.run = [s = *std::move(s)](RunContext& context) { return run_rigid_axle_study(s, context); };
+    if (auto s = read_beam_axle_study(document, common, prepared.canonical)) {
+      prepared.tables = {beam_axle_table(*s, {})};
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_beam_axle_study(s, context); };
     }
     return prepared;
   };

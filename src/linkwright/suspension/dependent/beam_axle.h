@@ -10,9 +10,10 @@
 #include "linkwright/suspension/corner/suspension.h"
 
 /// @file
-/// Rigid axles: a beam that carries both wheels, and the links, arms and linkages between it and the body. A
+/// Beam axles: a beam that carries both wheels, and the links, arms and linkages between it and the body. A
 /// live axle has its differential on the beam, a de Dion axle has it on the body; their kinematics are the
-/// same. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle plane.
+/// same. The beam of a twist-beam axle twists between both wheels. Frame of the vehicle: x forward, y to the
+/// left, z up, y = 0 in the middle plane.
 namespace linkwright::suspension {
 
 /// A rod with a ball joint at each end: a trailing link, a diagonal link, a Panhard rod. One constraint.
@@ -54,8 +55,19 @@ struct AxleBallJoint {
   Vec3 at;           ///< the joint at the reference, m
 };
 
-/// A rigid axle with its location: plain data.
-struct RigidAxle {
+/// A twist beam: two rigid trailing arms on a cross member that is stiff but for torsion. The halves of the
+/// axle twist about the axis through its shear centre, the left one by half of the angle forward, the right
+/// one backward. Each arm is held by a bushing on the body. The distance of the bushings grows with the
+/// square of the twist; both give way to it alike, as least energy has it. Four constraints.
+struct AxleTwist {
+  std::string name;            ///< name for messages and tables
+  std::array<Vec3, 2> pivots;  ///< bushings of the left and of the right arm at the reference, m
+  Vec3 shear_centre,           ///< of the cross member in its middle at the reference, m
+      axis{0, 1, 0};           ///< direction of the cross member, of any length
+};
+
+/// A beam axle with its location: plain data.
+struct BeamAxle {
   CornerWheel left,                        ///< the left wheel at the reference
       right;                               ///< the right wheel at the reference
   std::vector<AxleRod> rods;               ///< rods
@@ -63,13 +75,14 @@ struct RigidAxle {
   std::vector<AxleWatt> watts;             ///< Watt linkages
   std::vector<AxleGuide> guides;           ///< guides
   std::vector<AxleBallJoint> ball_joints;  ///< ball joints
+  std::optional<AxleTwist> twist;          ///< the beam twists; nothing for a rigid one
 };
 
 /// The number of constraints of an axle.
 ///
 /// @param axle the axle
 /// @returns the number; heave and roll remain free with 4
-int constraints_of(const RigidAxle& axle);
+int constraints_of(const BeamAxle& axle);
 
 /// The largest number of Watt linkages: more constraints than that overdetermine an axle.
 constexpr std::size_t max_axle_watts = 4;
@@ -91,9 +104,10 @@ constexpr std::array<EnumName<AxleInputs>, 3> names(AxleInputs) {
 /// The place of the beam: its reference point, which is the middle of both wheel centres at the reference,
 /// its rotation from the reference, and the angles of the bellcranks.
 struct BeamPlace {
-  Vec3 centre;                                  ///< m
-  Mat3 rotation;                                ///< from the reference
-  std::array<double, max_axle_watts> cranks{};  ///< rad, of each bellcrank against the part with its pivot
+  Vec3 centre;    ///< m
+  Mat3 rotation;  ///< from the reference
+  /// rad, of each bellcrank against the part with its pivot; the first is the twist of a beam that twists
+  std::array<double, max_axle_watts> cranks{};
 };
 
 /// A motion of the beam: velocities by unit rate of an input.
@@ -105,7 +119,7 @@ struct BeamMotion {
 
 /// An axle made ready for solving: what is constant while it moves. Points of the beam are from its reference
 /// point.
-struct RigidAxlePlan {
+struct BeamAxlePlan {
   /// A distance between a point of the body and one of the beam; one of them may be on a bellcrank.
   struct Distance {
     Vec3 body, beam;    ///< m
@@ -124,14 +138,21 @@ struct RigidAxlePlan {
     double offset = 0;  ///< m, of the plane from the origin
     int label = 0;
   };
-  RigidAxle axle;
+  BeamAxle axle;
   Vec3 centre;                             ///< of the beam at the reference, m
   std::vector<Distance> distances;         ///< rods, A-arms and rods of Watt linkages
   std::vector<Crank> cranks;               ///< of the Watt linkages
   std::vector<Plane> planes;               ///< guides
   std::vector<std::array<Vec3, 2>> balls;  ///< ball joints: at the body, on the beam
   std::vector<int> ball_labels;
-  std::vector<std::string> labels;    ///< "'upper link'"
+  std::vector<std::string> labels;  ///< "'upper link'"
+  /// A cross member that twists; points are from the reference point.
+  struct Twist {
+    std::array<Vec3, 2> pivots;  ///< m, left, right
+    Vec3 shear_centre, axis;     ///< m; unit
+    int label = 0;               ///< index in `labels`
+  };
+  std::optional<Twist> twist;         ///< nothing for a rigid beam
   int unknowns = 6;                   ///< 6 of the beam and an angle for each bellcrank
   std::array<Vec3, 2> axes;           ///< unit, of the left and of the right wheel at the reference, outboard
   std::array<Vec3, 2> wheel_centres;  ///< left, right, from the reference point, m
@@ -142,8 +163,8 @@ struct RigidAxlePlan {
 ///
 /// @param axle the axle
 /// @returns the plan
-/// @throws ContractError if `check_rigid_axle` finds anything
-RigidAxlePlan prepare_rigid_axle(const RigidAxle& axle);
+/// @throws ContractError if `check_beam_axle` finds anything
+BeamAxlePlan prepare_beam_axle(const BeamAxle& axle);
 
 /// The reason why an axle does not move as an axle must.
 struct AxleFault {
@@ -156,7 +177,7 @@ struct AxleFault {
 ///
 /// @param axle the axle
 /// @returns the first fault that is found, with the links it is about
-AxleFault check_rigid_axle(const RigidAxle& axle);
+AxleFault check_beam_axle(const BeamAxle& axle);
 
 /// The equations of an axle at a place.
 struct AxleEquations {
@@ -174,7 +195,7 @@ struct AxleEquations {
 /// @param inputs the prescribed inputs
 /// @param values their values, as `beam_inputs` gives them
 /// @param out receives the equations
-void evaluate(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
+void evaluate(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs,
               const std::array<double, 2>& values, AxleEquations& out);
 
 /// The inputs at a place.
@@ -183,15 +204,43 @@ void evaluate(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inpu
 /// @param place place of the beam
 /// @param inputs which inputs
 /// @returns their values (m, rad); 0 at the reference, but for the roll of wheels at different heights
-std::array<double, 2> beam_inputs(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs);
+std::array<double, 2> beam_inputs(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs);
 
-/// The place of a point of the beam.
+/// The place of a point of the beam; of one that twists, on the half on its side of the shear centre.
 ///
 /// @param plan the plan of the axle
 /// @param place place of the beam
 /// @param reference the point at the reference (m)
 /// @returns the point (m)
-Vec3 on_beam(const RigidAxlePlan& plan, const BeamPlace& place, const Vec3& reference);
+Vec3 on_beam(const BeamAxlePlan& plan, const BeamPlace& place, const Vec3& reference);
+
+/// The rotation of the half of the beam that carries a wheel; that of the beam itself if it is rigid.
+///
+/// @param plan the plan of the axle
+/// @param place place of the beam
+/// @param side the wheel
+/// @returns the rotation from the reference
+Mat3 half_rotation(const BeamAxlePlan& plan, const BeamPlace& place, Side side);
+
+/// The turning of the half of the beam that carries a wheel.
+///
+/// @param plan the plan of the axle
+/// @param place place of the beam
+/// @param motion motion of the beam
+/// @param side the wheel
+/// @returns angular velocity (rad/s)
+Vec3 half_turning(const BeamAxlePlan& plan, const BeamPlace& place, const BeamMotion& motion, Side side);
+
+/// The velocity of a point that is fixed to the half of the beam with a wheel.
+///
+/// @param plan the plan of the axle
+/// @param place place of the beam
+/// @param motion motion of the beam
+/// @param side the wheel
+/// @param at the point where it is now (m)
+/// @returns velocity (m/s)
+Vec3 half_velocity(const BeamAxlePlan& plan, const BeamPlace& place, const BeamMotion& motion, Side side,
+                   const Vec3& at);
 
 /// The end of a bellcrank of a Watt linkage.
 ///
@@ -200,7 +249,7 @@ Vec3 on_beam(const RigidAxlePlan& plan, const BeamPlace& place, const Vec3& refe
 /// @param watt index of the linkage
 /// @param end 0 or 1
 /// @returns the point (m)
-Vec3 crank_end(const RigidAxlePlan& plan, const BeamPlace& place, std::size_t watt, std::size_t end);
+Vec3 crank_end(const BeamAxlePlan& plan, const BeamPlace& place, std::size_t watt, std::size_t end);
 
 /// The contact point of a wheel: the lowest point of its tyre, a thin disc.
 ///
@@ -208,7 +257,7 @@ Vec3 crank_end(const RigidAxlePlan& plan, const BeamPlace& place, std::size_t wa
 /// @param place place of the beam
 /// @param side the wheel
 /// @returns the point (m)
-Vec3 contact_point(const RigidAxlePlan& plan, const BeamPlace& place, Side side);
+Vec3 contact_point(const BeamAxlePlan& plan, const BeamPlace& place, Side side);
 
 /// Constraints that the free motion next to a place depends on most, and that motion in words.
 struct WeakestAxleMotion {
@@ -223,6 +272,6 @@ struct WeakestAxleMotion {
 /// @param place place of the beam
 /// @param inputs the prescribed inputs
 /// @returns the motion with what it depends on
-WeakestAxleMotion weakest_motion(const RigidAxlePlan& plan, const BeamPlace& place, AxleInputs inputs);
+WeakestAxleMotion weakest_motion(const BeamAxlePlan& plan, const BeamPlace& place, AxleInputs inputs);
 
 }  // namespace linkwright::suspension

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/studies/rigid_axle.h"
+#include "linkwright/suspension/studies/beam_axle.h"
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ using test::table;
 using ::testing::HasSubstr;
 
 const std::string rigid_head =
-    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.rigid_axle\"\n"
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.beam_axle\"\n"
     "[mechanism.wheel]\ncentre_mm = [0, 750, 320]\ntyre_diameter_mm = 640\n";
 const std::string lower =
     "[[mechanism.rod]]\nname = \"lower link\"\nbody_mm = [500, 520, 310]\nbeam_mm = [0, 520, 240]\n"
@@ -40,7 +40,7 @@ double cell(const Table& t, std::string_view key, std::size_t row) {
   return column ? column->values.at(row) : std::nan("");
 }
 
-TEST(RigidAxleStudy, ReportsTheGridOfHeaveAndRoll) {
+TEST(BeamAxleStudy, ReportsTheGridOfHeaveAndRoll) {
   const study::Result result = run_text(whole_axle + axle_vehicle);
   EXPECT_EQ(result.status, Status::done);
   EXPECT_THAT(to_string(result.headline), HasSubstr("Rigid axle on 4 rods: all 9 positions reached"));
@@ -62,7 +62,7 @@ TEST(RigidAxleStudy, ReportsTheGridOfHeaveAndRoll) {
   EXPECT_NEAR(cell(sweep, "anti_squat_percent", 4), 100 * 2.6 / 0.55 * z / x, 1e-9);
   EXPECT_NEAR(cell(sweep, "anti_lift_percent", 4), 35 * 2.6 / 0.55 * z / x, 1e-9);
   EXPECT_EQ(fact(result, "roll-centre height"), "321.00 mm");
-  EXPECT_EQ(fact(result, "location"), "4 rods");
+  EXPECT_EQ(fact(result, "axle"), "Rigid axle on 4 rods");
   EXPECT_EQ(fact(result, "anti-squat, differential on the beam"),
             fmt::format("{:.2f} %", 100 * 2.6 / 0.55 * z / x));
   EXPECT_EQ(table(result, "hard_points").rows(), 10U);
@@ -71,7 +71,7 @@ TEST(RigidAxleStudy, ReportsTheGridOfHeaveAndRoll) {
   EXPECT_EQ(result.scenes[0].discs.size(), 2U);
 }
 
-TEST(RigidAxleStudy, TheTorqueOfADeDionAxleActsOnTheBody) {
+TEST(BeamAxleStudy, TheTorqueOfADeDionAxleActsOnTheBody) {
   const Table beam = run_text(whole_axle + axle_vehicle).tables[0];
   const Table body =
       run_text(whole_axle + axle_vehicle + "differential = \"body\"\nbrakes = \"body\"\n").tables[0];
@@ -83,7 +83,7 @@ TEST(RigidAxleStudy, TheTorqueOfADeDionAxleActsOnTheBody) {
   EXPECT_NE(fact(front, "anti-lift under drive, differential on the beam"), "no fact");
 }
 
-TEST(RigidAxleStudy, RollsASymmetricAxleAlikeBothWays) {
+TEST(BeamAxleStudy, RollsASymmetricAxleAlikeBothWays) {
   // The lower links alone are not symmetric with a Panhard rod: an A-arm makes it so.
   const std::string arm =
       "[[mechanism.arm]]\nname = \"A-arm\"\nhinge_mm = [[300, 350, 460], [300, -350, 460]]\n"
@@ -98,7 +98,7 @@ TEST(RigidAxleStudy, RollsASymmetricAxleAlikeBothWays) {
   }
 }
 
-TEST(RigidAxleStudy, LiftsTheLeftWheelAlone) {
+TEST(BeamAxleStudy, LiftsTheLeftWheelAlone) {
   const study::Result result = run_text(whole_axle + "[sweep.single]\nvalues_mm = [-40, 0, 50]\n");
   const Table& single = table(result, "single");
   ASSERT_EQ(single.rows(), 3U);
@@ -109,11 +109,11 @@ TEST(RigidAxleStudy, LiftsTheLeftWheelAlone) {
   EXPECT_NEAR(cell(single, "left_road_camber_rad", 2), 0, 1e-4);
 }
 
-TEST(RigidAxleStudy, TurnsThePinionWithTheBeam) {
+TEST(BeamAxleStudy, TurnsThePinionWithTheBeam) {
   const std::string shaft =
       "[[mechanism.shaft]]\nname = \"propeller shaft\"\nbody_mm = [1450, 0, 340]\nbeam_mm = [250, 0, 330]\n";
-  const study::Result result = run_text(replaced(whole_axle, "type = \"suspension.rigid_axle\"\n",
-                                                 "type = \"suspension.rigid_axle\"\npinion_angle_deg = 2\n") +
+  const study::Result result = run_text(replaced(whole_axle, "type = \"suspension.beam_axle\"\n",
+                                                 "type = \"suspension.beam_axle\"\npinion_angle_deg = 2\n") +
                                         shaft);
   const Table& sweep = result.tables[0];
   EXPECT_NEAR(cell(sweep, "pinion_angle_rad", 4), 2 * M_PI / 180, 1e-12);
@@ -125,7 +125,7 @@ TEST(RigidAxleStudy, TurnsThePinionWithTheBeam) {
   EXPECT_GT(cell(sweep, "propeller_shaft_beam_angle_rad", 5), 0.01);
 }
 
-TEST(RigidAxleStudy, PositionsOutOfReachHaveTheirPlaceAndReason) {
+TEST(BeamAxleStudy, PositionsOutOfReachHaveTheirPlaceAndReason) {
   const study::Result result =
       run_text(replaced(replaced(whole_axle, "body_mm = [-150, 480, 300]", "body_mm = [-150, 30, 300]"),
                         "beam_mm = [-150, -480, 300]", "beam_mm = [-150, -40, 300]"));
@@ -141,7 +141,7 @@ TEST(RigidAxleStudy, PositionsOutOfReachHaveTheirPlaceAndReason) {
   EXPECT_THAT(messages, HasSubstr("'Panhard rod'"));
 }
 
-TEST(RigidAxleStudy, TheCanonicalStudyGivesTheSameAxle) {
+TEST(BeamAxleStudy, TheCanonicalStudyGivesTheSameAxle) {
   std::string messages;
   const auto first = test::prepare(whole_axle + axle_vehicle, messages);
   ASSERT_TRUE(first) << messages;
@@ -153,7 +153,31 @@ TEST(RigidAxleStudy, TheCanonicalStudyGivesTheSameAxle) {
   EXPECT_EQ(to_csv(a.tables[0]), to_csv(b.tables[0]));
 }
 
-TEST(RigidAxleStudy, CountsConstraintsInItsMessages) {
+const std::string twist_beam =
+    "[mechanism.twist_beam]\npivot_mm = [420, 520, 360]\nshear_centre_mm = [250, 0, 380]\n";
+
+TEST(BeamAxleStudy, TakesATwistBeam) {
+  const study::Result result = run_text(rigid_head + twist_beam + axle_sweep + axle_vehicle);
+  EXPECT_THAT(to_string(result.headline), HasSubstr("Twist-beam axle: all 9 positions reached"));
+  const Table& sweep = result.tables[0];
+  EXPECT_FALSE(sweep.find("roll_axis_inclination_rad"));
+  EXPECT_FALSE(sweep.find("pinion_angle_rad"));
+  EXPECT_NEAR(cell(sweep, "twist_rad", 1), -cell(sweep, "twist_rad", 7), 1e-12);
+  EXPECT_NEAR(cell(sweep, "twist_rad", 4), 0, 1e-12);
+  EXPECT_NEAR(cell(sweep, "anti_lift_percent", 4), 35 * 2.6 / 0.55 * 0.36 / 0.42, 1e-9);
+  EXPECT_NE(fact(result, "twist of the beam by roll"), "no fact");
+}
+
+TEST(BeamAxleStudy, ReportsWhatATwistBeamCannotHave) {
+  EXPECT_THAT(problems_of(rigid_head + twist_beam + panhard + axle_sweep),
+              HasSubstr("mechanism.rod: a twist beam is held by its bushings alone"));
+  EXPECT_THAT(problems_of(rigid_head + replaced(twist_beam, "420, 520", "420, -520") + axle_sweep),
+              HasSubstr("mechanism.twist_beam.pivot_mm: y is -520 mm, but this is that of the left arm"));
+  EXPECT_THAT(problems_of(rigid_head + replaced(twist_beam, "250, 0,", "250, 30,") + axle_sweep),
+              HasSubstr("mechanism.twist_beam.shear_centre_mm: y is 30 mm, but it is that of the middle"));
+}
+
+TEST(BeamAxleStudy, CountsConstraintsInItsMessages) {
   EXPECT_THAT(
       problems_of(rigid_head + lower + upper + axle_sweep),
       HasSubstr("the links take 3 of the six freedoms of the axle (3 rods: 3); four leave heave and roll: "
@@ -166,7 +190,7 @@ TEST(RigidAxleStudy, CountsConstraintsInItsMessages) {
               HasSubstr("constrain it alike"));
 }
 
-TEST(RigidAxleStudy, ReportsLeftAndRightMixedUp) {
+TEST(BeamAxleStudy, ReportsLeftAndRightMixedUp) {
   EXPECT_THAT(
       problems_of(replaced(whole_axle, "body_mm = [500, 520, 310]", "body_mm = [500, -520, 310]")),
       HasSubstr("mechanism.rod[0].body_mm: has y = -520 mm, but with both_sides the points are those of the "
@@ -181,7 +205,7 @@ TEST(RigidAxleStudy, ReportsLeftAndRightMixedUp) {
                 "right of the vehicle"));
 }
 
-TEST(RigidAxleStudy, ReportsWrongNumbers) {
+TEST(BeamAxleStudy, ReportsWrongNumbers) {
   EXPECT_THAT(
       problems_of(replaced(whole_axle, "body_mm = [340, 0, 420]", "body_m = [340, 0, 420]")),
       HasSubstr(

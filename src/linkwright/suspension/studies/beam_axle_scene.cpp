@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/suspension/studies/rigid_axle.h"
+#include "linkwright/suspension/studies/beam_axle.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -28,10 +28,10 @@ std::vector<std::size_t> some_of(const std::vector<double>& values, std::size_t 
 /// Draws a rigid axle over chosen rows of its grid.
 class AxleDrawing {
  public:
-  AxleDrawing(Scene& scene, const RigidAxlePlan& plan, std::vector<const RigidAxleRow*> rows)
+  AxleDrawing(Scene& scene, const BeamAxlePlan& plan, std::vector<const BeamAxleRow*> rows)
       : scene_(scene), plan_(plan), rows_(std::move(rows)) {}
 
-  void draw(const RigidAxleStudy& s) {
+  void draw(const BeamAxleStudy& s) {
     wheels();
     for (std::size_t i = 0; i < s.axle.rods.size(); ++i) {
       const AxleRod& r = s.axle.rods[i];
@@ -69,7 +69,7 @@ class AxleDrawing {
   template <class Place>
   int point(std::string name, Place&& place) {
     Scene::Point out{std::move(name), {}, {}};
-    for (const RigidAxleRow* row : rows_) {
+    for (const BeamAxleRow* row : rows_) {
       const Vec3 at = row->position.status == Status::done ? place(*row) : Vec3{nan, nan, nan};
       out.x.push_back(at.x);
       out.y.push_back(at.y);
@@ -86,7 +86,7 @@ class AxleDrawing {
   }
   int moving(std::string name, const Vec3& reference) {
     return point(std::move(name),
-                 [&](const RigidAxleRow& r) { return on_beam(plan_, r.position.place, reference); });
+                 [&](const BeamAxleRow& r) { return on_beam(plan_, r.position.place, reference); });
   }
   /// A joint on the beam, and the bracket from it to the line of the beam.
   int joint(const std::string& name, const Vec3& reference) {
@@ -111,7 +111,7 @@ class AxleDrawing {
       const int outboard = moving("", wheel.centre + 0.1 * plan_.axes[i]);
       scene_.discs.push_back({name + " wheel", centres[i], outboard, wheel.tyre_diameter / 2,
                               drawn_width_by_diameter * wheel.tyre_diameter});
-      const int contact = point(name + " contact point", [&](const RigidAxleRow& r) {
+      const int contact = point(name + " contact point", [&](const BeamAxleRow& r) {
         return i == 0 ? r.parameters.left.contact : r.parameters.right.contact;
       });
       scene_.joints.push_back({name + " contact point", contact, Scene::JointStyle::tracer});
@@ -119,7 +119,28 @@ class AxleDrawing {
     }
     scene_.handles.push_back({.key = "mechanism.wheel.centre_m", .point = centres[0]});
     beam_middle_ = moving("", plan_.centre);
-    bar("beam", {centres[0], centres[1]});
+    if (plan_.twist)
+      twist(centres);
+    else
+      bar("beam", {centres[0], centres[1]});
+  }
+
+  /// Both arms, and the cross member between them at the height of its shear centre.
+  void twist(const std::array<int, 2>& centres) {
+    const AxleTwist& t = *plan_.axle.twist;
+    std::array<int, 2> ends{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::string name = side == 0 ? "left" : "right";
+      const int pivot = moving(name + " pivot", t.pivots[side]);
+      scene_.joints.push_back({name + " pivot", pivot, Scene::JointStyle::ground_pivot});
+      ends[side] = moving("", {t.shear_centre.x, t.pivots[side].y, t.shear_centre.z});
+      bar(name + " arm", {pivot, ends[side], centres[side]});
+    }
+    const int middle = moving(t.name + ", shear centre", t.shear_centre);
+    scene_.joints.push_back({t.name + ", shear centre", middle, Scene::JointStyle::tracer});
+    bar("cross member", {ends[0], middle, ends[1]});
+    scene_.handles.push_back({.key = "mechanism.twist_beam.pivot_m", .point = ends[0] - 1});
+    scene_.handles.push_back({.key = "mechanism.twist_beam.shear_centre_m", .point = middle});
   }
 
   void watt(const AxleWatt& w, std::size_t index) {
@@ -129,7 +150,7 @@ class AxleDrawing {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::string number = std::to_string(k + 1);
       ends[k] = point(w.name + ", crank " + number,
-                      [&](const RigidAxleRow& r) { return crank_end(plan_, r.position.place, index, k); });
+                      [&](const BeamAxleRow& r) { return crank_end(plan_, r.position.place, index, k); });
       scene_.joints.push_back({w.name + ", crank " + number, ends[k], Scene::JointStyle::pivot});
       const std::string far = w.name + ", end " + number;
       bar(w.name + ", rod " + number,
@@ -139,28 +160,28 @@ class AxleDrawing {
   }
 
   void roll_centre() {
-    const int at = point("roll centre", [](const RigidAxleRow& r) {
+    const int at = point("roll centre", [](const BeamAxleRow& r) {
       return r.parameters.roll_centre.value_or(Vec3{nan, nan, nan});
     });
     scene_.joints.push_back({"roll centre", at, Scene::JointStyle::tracer});
   }
 
   Scene& scene_;
-  const RigidAxlePlan& plan_;
-  std::vector<const RigidAxleRow*> rows_;
+  const BeamAxlePlan& plan_;
+  std::vector<const BeamAxleRow*> rows_;
   int beam_middle_ = 0;
 };
 
 }  // namespace
 
-study::Scene rigid_axle_scene(const RigidAxleStudy& s, const RigidAxlePlan& plan,
-                              const std::vector<RigidAxleRow>& rows) {
+study::Scene beam_axle_scene(const BeamAxleStudy& s, const BeamAxlePlan& plan,
+                             const std::vector<BeamAxleRow>& rows) {
   Scene scene;
   scene.name = "heave";
   scene.title = "heave and roll";
   scene.input_key = "heave_m";
   scene.input_label = "heave";
-  std::vector<const RigidAxleRow*> chosen;
+  std::vector<const BeamAxleRow*> chosen;
   const auto heaves = some_of(s.heaves, max_scene_heaves), rolls = some_of(s.rolls, max_scene_rolls);
   for (const std::size_t h : heaves) scene.input.push_back(s.heaves[h]);
   for (const std::size_t r : rolls)
@@ -170,9 +191,9 @@ study::Scene rigid_axle_scene(const RigidAxleStudy& s, const RigidAxlePlan& plan
     scene.second_label = "roll";
     for (const std::size_t r : rolls) scene.second.push_back(s.rolls[r]);
   }
-  const auto reached = [](const RigidAxleRow* r) { return r->position.status == Status::done; };
+  const auto reached = [](const BeamAxleRow* r) { return r->position.status == Status::done; };
   if (!std::all_of(chosen.begin(), chosen.end(), reached))
-    for (const RigidAxleRow* r : chosen) scene.status.emplace_back(to_string(r->position.status));
+    for (const BeamAxleRow* r : chosen) scene.status.emplace_back(to_string(r->position.status));
   AxleDrawing(scene, plan, std::move(chosen)).draw(s);
   return scene;
 }

@@ -11,7 +11,7 @@
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/corner/hard_points.h"
-#include "linkwright/suspension/studies/rigid_axle.h"
+#include "linkwright/suspension/studies/beam_axle.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -19,10 +19,13 @@ namespace {
 using P = BeamParameters;
 constexpr const char* axle_scene_name = "heave";
 
-/// A column of the parameters of a rigid axle.
+/// Axles that have a column.
+enum class Has { every, rigid, twisting };
+/// A column of the parameters of an axle.
 struct BeamColumn {
   const char *key, *label;
   double (*value)(const P&);
+  Has axles = Has::every;
 };
 constexpr BeamColumn beam_columns[] = {
     {"left_travel_m", "travel of the left wheel centre (m)", [](const P& p) { return p.left.travel; }},
@@ -54,7 +57,11 @@ constexpr BeamColumn beam_columns[] = {
      [](const P& p) { return p.lateral_force_slope; }},
     {"roll_steer", "roll steer, axle steer by roll (rad/rad)", [](const P& p) { return p.roll_steer; }},
     {"roll_axis_inclination_rad", "inclination of the roll axis, rising forward (rad)",
-     [](const P& p) { return p.roll_axis_inclination; }},
+     [](const P& p) { return p.roll_axis_inclination; }, Has::rigid},
+    {"twist_rad", "twist of the beam, left half forward at the top (rad)", [](const P& p) { return p.twist; },
+     Has::twisting},
+    {"twist_by_roll", "twist of the beam by roll (rad/rad)", [](const P& p) { return p.twist_by_roll; },
+     Has::twisting},
     {"steer_by_heave_rad_per_m", "axle steer by heave (rad/m)", [](const P& p) { return p.steer_by_heave; }},
     {"shift_by_heave", "lateral shift by heave (m/m)", [](const P& p) { return p.shift_by_heave; }},
     {"recession_by_heave", "recession of the wheel centres by heave (m/m)",
@@ -73,23 +80,23 @@ constexpr BeamColumn beam_columns[] = {
 struct AntiNames {
   std::string brake, brake_words, drive, drive_words;
 };
-AntiNames anti_names(const RigidAxleVehicle& v) {
+AntiNames anti_names(const BeamAxleVehicle& v) {
   const bool front = v.axle == AxlePlace::front;
   return {front ? "anti_dive_percent" : "anti_lift_percent", front ? "anti-dive" : "anti-lift",
           front ? "anti_lift_drive_percent" : "anti_squat_percent",
           front ? "anti-lift under drive" : "anti-squat"};
 }
-std::pair<double, double> anti_percent(const RigidAxleVehicle& v, const P& p) {
+std::pair<double, double> anti_percent(const BeamAxleVehicle& v, const P& p) {
   if (p.status != Status::done) return {nan, nan};
   const BeamAntiFeatures a = anti_features(p, v.axle, v.layout);
   return {v.brakes == AxlePart::beam ? a.brake_on_beam : a.brake_on_body,
           v.differential == AxlePart::beam ? a.drive_on_beam : a.drive_on_body};
 }
 
-bool is_reached(const RigidAxleRow& row) { return row.position.status == Status::done; }
+bool is_reached(const BeamAxleRow& row) { return row.position.status == Status::done; }
 
-RigidAxleRow row_of(const RigidAxlePlan& plan, BeamPosition position) {
-  RigidAxleRow out{std::move(position), {}};
+BeamAxleRow row_of(const BeamAxlePlan& plan, BeamPosition position) {
+  BeamAxleRow out{std::move(position), {}};
   if (is_reached(out))
     out.parameters = beam_parameters(plan, out.position);
   else
@@ -98,44 +105,46 @@ RigidAxleRow row_of(const RigidAxlePlan& plan, BeamPosition position) {
 }
 
 /// Adds the columns of the parameters to a table that has those of the inputs.
-void add_beam_columns(Table& table, const RigidAxleStudy& s, const RigidAxlePlan* plan,
-                      const std::vector<RigidAxleRow>& rows) {
+void add_beam_columns(Table& table, const BeamAxleStudy& s, const BeamAxlePlan* plan,
+                      const std::vector<BeamAxleRow>& rows) {
   const auto add = [&](std::string key, std::string label, auto&& value) {
     std::vector<double> values;
-    for (const RigidAxleRow& r : rows) values.push_back(is_reached(r) ? value(r) : nan);
+    for (const BeamAxleRow& r : rows) values.push_back(is_reached(r) ? value(r) : nan);
     table.add(std::move(key), std::move(label), std::move(values));
   };
   for (const BeamColumn& c : beam_columns)
-    add(c.key, c.label, [&](const RigidAxleRow& r) { return c.value(r.parameters); });
-  add("pinion_angle_rad", "pinion angle, nose up (rad)",
-      [&](const RigidAxleRow& r) { return s.pinion_angle - r.parameters.pitch; });
+    if (c.axles == Has::every || (c.axles == Has::twisting) == s.axle.twist.has_value())
+      add(c.key, c.label, [&](const BeamAxleRow& r) { return c.value(r.parameters); });
+  if (!s.axle.twist)
+    add("pinion_angle_rad", "pinion angle, nose up (rad)",
+        [&](const BeamAxleRow& r) { return s.pinion_angle - r.parameters.pitch; });
   if (s.vehicle) {
     const AntiNames names = anti_names(*s.vehicle);
     add(names.brake, names.brake_words + " (%)",
-        [&](const RigidAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).first; });
+        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).first; });
     add(names.drive, names.drive_words + " (%)",
-        [&](const RigidAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).second; });
+        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).second; });
   }
   for (const NamedShaft& n : s.shafts) {
     const std::string key = plain_name(n.name);
-    const auto state = [&](const RigidAxleRow& r) {
+    const auto state = [&](const BeamAxleRow& r) {
       return plan ? shaft_state(*plan, r.position.place, n.shaft) : BeamShaftState{};
     };
     add(key + "_body_angle_rad", n.name + ", angle of the joint on the body (rad)",
-        [&](const RigidAxleRow& r) { return state(r).body_angle; });
+        [&](const BeamAxleRow& r) { return state(r).body_angle; });
     add(key + "_beam_angle_rad", n.name + ", angle of the joint on the beam (rad)",
-        [&](const RigidAxleRow& r) { return state(r).beam_angle; });
+        [&](const BeamAxleRow& r) { return state(r).beam_angle; });
     add(key + "_plunge_m", n.name + ", plunge, longer than at the reference (m)",
-        [&](const RigidAxleRow& r) { return state(r).plunge; });
+        [&](const BeamAxleRow& r) { return state(r).plunge; });
   }
   std::vector<double> residuals;
-  for (const RigidAxleRow& r : rows) residuals.push_back(r.position.residual);
+  for (const BeamAxleRow& r : rows) residuals.push_back(r.position.residual);
   table.add("closure_residual_m", "closure residual (m)", std::move(residuals));
   if (!std::all_of(rows.begin(), rows.end(), is_reached))
-    for (const RigidAxleRow& r : rows) table.status.emplace_back(to_string(r.position.status));
+    for (const BeamAxleRow& r : rows) table.status.emplace_back(to_string(r.position.status));
 }
 
-Table grid_of(const RigidAxleStudy& s, const RigidAxlePlan* plan, const std::vector<RigidAxleRow>& rows) {
+Table grid_of(const BeamAxleStudy& s, const BeamAxlePlan* plan, const std::vector<BeamAxleRow>& rows) {
   Table table{.name = "sweep"};
   std::vector<double> heaves, rolls;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -148,7 +157,7 @@ Table grid_of(const RigidAxleStudy& s, const RigidAxlePlan* plan, const std::vec
   return table;
 }
 
-void add_axle_plots(study::Result& result, const RigidAxleStudy& s) {
+void add_axle_plots(study::Result& result, const BeamAxleStudy& s) {
   const bool many_heaves = s.heaves.size() > 1, many_rolls = s.rolls.size() > 1;
   if (many_heaves) {
     study::AddPlot plot{result, {.table = "sweep", .x = "heave_m", .scene = axle_scene_name}};
@@ -174,12 +183,13 @@ void add_axle_plots(study::Result& result, const RigidAxleStudy& s) {
     if (many_heaves) plot.like.group = "heave_m";
     plot("roll-steer", "Axle steer over roll", {"steer_rad"});
     plot("roll-centre-roll", "Roll-centre height over roll", {"roll_centre_height_m"});
+    plot("roll-twist", "Twist of the beam over roll", {"twist_rad"});
     plot("roll-shift", "Lateral shift of the axle over roll", {"lateral_shift_m"});
   }
 }
 
-void add_axle_facts(study::Result& result, const RigidAxleStudy& s, const RigidAxlePlan& plan,
-                    const RigidAxleRow& row, double heave, double roll) {
+void add_axle_facts(study::Result& result, const BeamAxleStudy& s, const BeamAxlePlan& plan,
+                    const BeamAxleRow& row, double heave, double roll) {
   if (!is_reached(row) || row.parameters.status != Status::done) return;
   const P& p = row.parameters;
   const Sentence here = heave == 0 && roll == 0
@@ -190,12 +200,15 @@ void add_axle_facts(study::Result& result, const RigidAxleStudy& s, const RigidA
   static constexpr Unit angle_by_angle{"deg_per_deg"};
   fact("roll-centre height" + here, length(p.roll_centre_height));
   fact("roll steer (axle steer by roll)" + here, measured(angle_by_angle, p.roll_steer).fixed(4));
-  fact("inclination of the roll axis, rising forward" + here, degrees_of(p.roll_axis_inclination).fixed(3));
+  if (s.axle.twist)
+    fact("twist of the beam by roll" + here, measured(angle_by_angle, p.twist_by_roll).fixed(4));
+  else
+    fact("inclination of the roll axis, rising forward" + here, degrees_of(p.roll_axis_inclination).fixed(3));
   fact("lateral shift by heave" + here, plain_number(p.shift_by_heave).fixed(4));
   if (std::isfinite(p.side_swing_arm))
     fact("side-view swing arm" + here,
          say("{}, {} above the ground", length(p.side_swing_arm), degrees_of(p.side_swing_angle).fixed(3)));
-  if (!s.vehicle || s.vehicle->differential == AxlePart::beam)
+  if (!s.axle.twist && (!s.vehicle || s.vehicle->differential == AxlePart::beam))
     fact("pinion angle by heave, nose up" + here, measured("deg_per_m", -p.pitch_by_heave).fixed(3));
   if (s.vehicle) {
     const AntiNames names = anti_names(*s.vehicle);
@@ -214,9 +227,9 @@ void add_axle_facts(study::Result& result, const RigidAxleStudy& s, const RigidA
 }
 
 /// The left wheel centre alone, the right one held at its height.
-void add_single(study::Result& result, const RigidAxleStudy& s, const RigidAxlePlan& plan,
+void add_single(study::Result& result, const BeamAxleStudy& s, const BeamAxlePlan& plan,
                 const RunContext& context) {
-  std::vector<RigidAxleRow> rows;
+  std::vector<BeamAxleRow> rows;
   std::vector<double> travels;
   const BeamPosition reference = reference_position(plan);
   if (reference.status != Status::done) return;
@@ -228,7 +241,7 @@ void add_single(study::Result& result, const RigidAxleStudy& s, const RigidAxleP
     }
     rows.push_back(row_of(plan, solve_position(plan, {AxleInputs::wheel_centres, travel, right}, reference)));
     travels.push_back(travel);
-    const RigidAxleRow& row = rows.back();
+    const BeamAxleRow& row = rows.back();
     if (!is_reached(row))
       study::AddWarning{result.diagnostics}("sweep.single",
                                             say("travel {} of the left wheel: {}: {}", millimetres(travel, 6),
@@ -238,7 +251,7 @@ void add_single(study::Result& result, const RigidAxleStudy& s, const RigidAxleP
   Table table{.name = "single"};
   table.add("travel_m", "travel of the left wheel centre alone (m)", std::move(travels));
   std::vector<double> heaves, rolls;
-  for (const RigidAxleRow& r : rows) {
+  for (const BeamAxleRow& r : rows) {
     heaves.push_back(is_reached(r) ? r.parameters.heave : nan);
     rolls.push_back(is_reached(r) ? r.parameters.roll : nan);
   }
@@ -252,7 +265,7 @@ void add_single(study::Result& result, const RigidAxleStudy& s, const RigidAxleP
        {"left_camber_rad", "right_camber_rad"});
 }
 
-std::vector<HardPoint> points_of_axle(const RigidAxleStudy& s) {
+std::vector<HardPoint> points_of_axle(const BeamAxleStudy& s) {
   std::vector<HardPoint> out;
   const auto add = [&](const std::string& name, const char* what, const Vec3& at) {
     out.push_back({plain_name(name + " " + what), at});
@@ -273,11 +286,18 @@ std::vector<HardPoint> points_of_axle(const RigidAxleStudy& s) {
   }
   for (const AxleGuide& g : s.axle.guides) add(g.name, "beam", g.beam);
   for (const AxleBallJoint& b : s.axle.ball_joints) add(b.name, "point", b.at);
+  if (s.axle.twist) {
+    add(s.axle.twist->name, "left pivot", s.axle.twist->pivots[0]);
+    add(s.axle.twist->name, "right pivot", s.axle.twist->pivots[1]);
+    add(s.axle.twist->name, "shear centre", s.axle.twist->shear_centre);
+  }
   for (const NamedShaft& n : s.shafts) add(n.name, "body", n.shaft.body), add(n.name, "beam", n.shaft.beam);
   return out;
 }
 
-std::string location_of(const RigidAxle& a) {
+/// "Rigid axle on 3 rods, 1 Watt linkage".
+std::string location_of(const BeamAxle& a) {
+  if (a.twist) return "Twist-beam axle";
   const auto some = [](std::size_t count, const char* one, const char* several) {
     return count == 0 ? std::string() : fmt::format(", {} {}", count, count == 1 ? one : several);
   };
@@ -285,20 +305,20 @@ std::string location_of(const RigidAxle& a) {
                           some(a.watts.size(), "Watt linkage", "Watt linkages") +
                           some(a.guides.size(), "guide", "guides") +
                           some(a.ball_joints.size(), "ball joint", "ball joints");
-  return out.substr(2);
+  return "Rigid axle on " + out.substr(2);
 }
 
 }  // namespace
 
-std::vector<RigidAxleRow> solve_rigid_axle_grid(const RigidAxlePlan& plan, const std::vector<double>& heaves,
-                                                const std::vector<double>& rolls, const RunContext* context) {
-  std::vector<RigidAxleRow> out;
+std::vector<BeamAxleRow> solve_beam_axle_grid(const BeamAxlePlan& plan, const std::vector<double>& heaves,
+                                              const std::vector<double>& rolls, const RunContext* context) {
+  std::vector<BeamAxleRow> out;
   const BeamPosition reference = reference_position(plan);
   const auto middle = static_cast<std::ptrdiff_t>(next_to_zero(heaves)),
              end = static_cast<std::ptrdiff_t>(heaves.size());
   for (const double roll : rolls) {
     if (context && context->interrupted()) break;
-    std::vector<RigidAxleRow> row(heaves.size());
+    std::vector<BeamAxleRow> row(heaves.size());
     const auto from = [&](const BeamPosition& start, std::ptrdiff_t i) {
       const auto at = static_cast<std::size_t>(i);
       row[at] = row_of(plan, start.status == Status::done
@@ -317,17 +337,17 @@ std::vector<RigidAxleRow> solve_rigid_axle_grid(const RigidAxlePlan& plan, const
   return out;
 }
 
-Table rigid_axle_table(const RigidAxleStudy& study, const std::vector<RigidAxleRow>& rows) {
+Table beam_axle_table(const BeamAxleStudy& study, const std::vector<BeamAxleRow>& rows) {
   if (rows.empty()) return grid_of(study, nullptr, rows);
-  const RigidAxlePlan plan = prepare_rigid_axle(study.axle);
+  const BeamAxlePlan plan = prepare_beam_axle(study.axle);
   return grid_of(study, &plan, rows);
 }
 
-study::Result run_rigid_axle_study(const RigidAxleStudy& asked, RunContext& context) {
+study::Result run_beam_axle_study(const BeamAxleStudy& asked, RunContext& context) {
   study::Result result;
-  RigidAxleStudy s = asked;
-  const RigidAxlePlan plan = prepare_rigid_axle(s.axle);
-  const std::vector<RigidAxleRow> rows = solve_rigid_axle_grid(plan, s.heaves, s.rolls, &context);
+  BeamAxleStudy s = asked;
+  const BeamAxlePlan plan = prepare_beam_axle(s.axle);
+  const std::vector<BeamAxleRow> rows = solve_beam_axle_grid(plan, s.heaves, s.rolls, &context);
   if (rows.size() < s.heaves.size() * s.rolls.size()) {
     result.status = context.interruption();
     s.rolls.resize(rows.size() / s.heaves.size());
@@ -339,11 +359,11 @@ study::Result run_rigid_axle_study(const RigidAxleStudy& asked, RunContext& cont
   result.tables.push_back(grid_of(s, &plan, rows));
   result.tables.push_back(hard_point_table(points_of_axle(s)));
   add_axle_plots(result, s);
-  study::AddFact{result.facts}("location", location_of(s.axle));
+  study::AddFact{result.facts}("axle", location_of(s.axle));
   const std::size_t heave = next_to_zero(s.heaves), roll = next_to_zero(s.rolls);
   add_axle_facts(result, s, plan, rows[roll * s.heaves.size() + heave], s.heaves[heave], s.rolls[roll]);
   if (!s.singles.empty()) add_single(result, s, plan, context);
-  if (s.drawn) result.scenes.push_back(rigid_axle_scene(s, plan, rows));
+  if (s.drawn) result.scenes.push_back(beam_axle_scene(s, plan, rows));
 
   const study::AddWarning warn{result.diagnostics};
   std::size_t lost = 0;
@@ -361,11 +381,10 @@ study::Result run_rigid_axle_study(const RigidAxleStudy& asked, RunContext& cont
            "take positions within the reach of the links, or longer links");
   }
   if (lost > 5) warn(say("{} more positions are not reached", lost - 5));
-  result.headline = lost == 0
-                        ? say("Rigid axle on {}: all {} positions reached (largest closure residual {}).",
-                              location_of(s.axle), rows.size(), metres(worst, 1))
-                        : say("Rigid axle on {}: {} of {} positions are not reached.", location_of(s.axle),
-                              lost, rows.size());
+  result.headline =
+      lost == 0 ? say("{}: all {} positions reached (largest closure residual {}).", location_of(s.axle),
+                      rows.size(), metres(worst, 1))
+                : say("{}: {} of {} positions are not reached.", location_of(s.axle), lost, rows.size());
   return result;
 }
 

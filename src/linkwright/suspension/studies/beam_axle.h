@@ -12,7 +12,7 @@
 #include "linkwright/suspension/dependent/beam_parameters.h"
 #include "linkwright/suspension/studies/values.h"
 
-// The analysis of a rigid axle over heave and roll: what its file holds, how it is read, run and reported.
+// The analysis of a beam axle over heave and roll: what its file holds, how it is read, run and reported.
 namespace linkwright::suspension {
 
 using PointArray = std::array<double, 3>;
@@ -133,8 +133,20 @@ void fields(Visitor&& visit, AxleShaftForm& s) {
   visit(field::entry("both_sides", both_sides_summary), s.both_sides);
 }
 
+struct TwistBeamForm {
+  std::string name = "twist beam";
+  PointArray pivot{}, shear_centre{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, TwistBeamForm& t) {
+  visit(field::entry("name", "of the axle, for messages and tables"), t.name);
+  visit(axle_point("pivot", "bushing of the left arm; that of the right one mirrors it").required(), t.pivot);
+  visit(axle_point("shear_centre", "of the cross member, in the middle of the vehicle").required(),
+        t.shear_centre);
+}
+
 /// `[mechanism]`.
-struct RigidAxleForm {
+struct BeamAxleForm {
   AxleWheelForm wheel;
   std::optional<AxleWheelForm> right_wheel;
   std::vector<AxleRodForm> rods;
@@ -142,11 +154,12 @@ struct RigidAxleForm {
   std::vector<AxleWattForm> watts;
   std::vector<AxleGuideForm> guides;
   std::vector<AxleBallForm> ball_joints;
+  std::optional<TwistBeamForm> twist_beam;
   std::vector<AxleShaftForm> shafts;
   double pinion_angle = 0;
 };
 template <class Visitor>
-void fields(Visitor&& visit, RigidAxleForm& a) {
+void fields(Visitor&& visit, BeamAxleForm& a) {
   visit(field::entry("wheel", "the left wheel").required(), a.wheel);
   visit(field::entry("right_wheel", "the right wheel; default: the mirror image of the left one"),
         a.right_wheel);
@@ -155,6 +168,8 @@ void fields(Visitor&& visit, RigidAxleForm& a) {
   visit(field::entry("watt_linkage", "bellcranks with two rods"), a.watts);
   visit(field::entry("guide", "sliding blocks and slots"), a.guides);
   visit(field::entry("ball_joint", "ball joints between body and beam, as of a torque tube"), a.ball_joints);
+  visit(field::entry("twist_beam", "trailing arms on a cross member that twists, instead of all links"),
+        a.twist_beam);
   visit(field::entry("shaft", "propeller shaft, half-shafts of a de Dion axle: angles and plunge"), a.shafts);
   visit(field::angle("pinion_angle", "of the pinion above the horizontal at the reference, > 0: nose up")
             .between(-1, 1),
@@ -162,26 +177,26 @@ void fields(Visitor&& visit, RigidAxleForm& a) {
 }
 
 /// `[sweep]`.
-struct RigidAxleSweep {
+struct BeamAxleSweep {
   std::optional<LengthValues> heave;
   std::optional<AngleValues> roll;
   std::optional<LengthValues> single;
 };
 template <class Visitor>
-void fields(Visitor&& visit, RigidAxleSweep& s) {
+void fields(Visitor&& visit, BeamAxleSweep& s) {
   visit(field::entry("heave", "changes of the mean height of the contacts").required(), s.heave);
   visit(field::entry("roll", "angles by which the body leans to the left; default: upright"), s.roll);
   visit(field::entry("single", "travels of the left wheel centre alone"), s.single);
 }
 
 /// `[vehicle]`.
-struct RigidAxleVehicle {
+struct BeamAxleVehicle {
   AxlePlace axle = AxlePlace::rear;
   VehicleLayout layout;
   AxlePart brakes = AxlePart::beam, differential = AxlePart::beam;
 };
 template <class Visitor>
-void fields(Visitor&& visit, RigidAxleVehicle& v) {
+void fields(Visitor&& visit, BeamAxleVehicle& v) {
   visit(field::entry("axle", "where this axle is"), v.axle);
   const auto length = [](std::string_view key, std::string_view summary) {
     return field::length(key, summary).between(0.01, 1e3).required();
@@ -206,44 +221,44 @@ struct NamedShaft {
 };
 
 /// An analysis as read.
-struct RigidAxleStudy {
-  RigidAxle axle;
+struct BeamAxleStudy {
+  BeamAxle axle;
   std::vector<NamedShaft> shafts;
   std::vector<std::string> handles;   ///< keys of the rods in the file, empty for mirrored ones
   double pinion_angle = 0;            ///< rad
   std::vector<double> heaves, rolls;  ///< m, rad, ascending
   std::vector<double> singles;        ///< m, ascending; empty = no table
-  std::optional<RigidAxleVehicle> vehicle;
+  std::optional<BeamAxleVehicle> vehicle;
   bool drawn = true;  ///< true if a scene is wanted
 };
 
-/// "analysis" of "suspension.rigid_axle".
-study::Kind rigid_axle_kind();
+/// "analysis" of "suspension.beam_axle".
+study::Kind beam_axle_kind();
 
 /// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,
 /// which go to the reader.
-std::optional<RigidAxleStudy> read_rigid_axle_study(study::ObjectReader& document,
-                                                    const study::Common& common, Value& canonical);
+std::optional<BeamAxleStudy> read_beam_axle_study(study::ObjectReader& document, const study::Common& common,
+                                                  Value& canonical);
 
 /// A position of the grid and its parameters.
-struct RigidAxleRow {
+struct BeamAxleRow {
   BeamPosition position;
   BeamParameters parameters;  ///< singular where there is no position
 };
 /// Positions of every heave with every roll, the heave changing first. Each roll is gone to at the heave next
 /// to zero, and the heaves outwards from there. Interrupted: the rolls so far.
-std::vector<RigidAxleRow> solve_rigid_axle_grid(const RigidAxlePlan& plan, const std::vector<double>& heaves,
-                                                const std::vector<double>& rolls,
-                                                const RunContext* context = nullptr);
+std::vector<BeamAxleRow> solve_beam_axle_grid(const BeamAxlePlan& plan, const std::vector<double>& heaves,
+                                              const std::vector<double>& rolls,
+                                              const RunContext* context = nullptr);
 
 /// The table of a grid; without rows, its columns.
-Table rigid_axle_table(const RigidAxleStudy& study, const std::vector<RigidAxleRow>& rows);
+Table beam_axle_table(const BeamAxleStudy& study, const std::vector<BeamAxleRow>& rows);
 
 /// The axle over the grid, for the report.
-study::Scene rigid_axle_scene(const RigidAxleStudy& study, const RigidAxlePlan& plan,
-                              const std::vector<RigidAxleRow>& rows);
+study::Scene beam_axle_scene(const BeamAxleStudy& study, const BeamAxlePlan& plan,
+                             const std::vector<BeamAxleRow>& rows);
 
 /// Evaluates the grid and reports. Rows without a position hold NaN and their status.
-study::Result run_rigid_axle_study(const RigidAxleStudy& study, RunContext& context);
+study::Result run_beam_axle_study(const BeamAxleStudy& study, RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkwright/suspension/dependent/rigid_axle.h"
+#include "linkwright/suspension/dependent/beam_axle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "suspension/rigid_axles.h"
+#include "suspension/beam_axles.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -16,22 +16,24 @@ using test::bare_axle;
 using test::four_link_axle;
 using test::panhard_axle;
 using test::planar_axle;
+using test::twist_axle;
 using test::watt_axle;
 using test::with_lower_links;
 
-TEST(RigidAxleModel, CountsTheConstraintsOfItsParts) {
+TEST(BeamAxleModel, CountsTheConstraintsOfItsParts) {
   EXPECT_EQ(constraints_of(four_link_axle()), 4);
   EXPECT_EQ(constraints_of(panhard_axle()), 4);
   EXPECT_EQ(constraints_of(watt_axle()), 4);
   EXPECT_EQ(constraints_of(arm_axle()), 4);
-  for (const RigidAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle()})
-    EXPECT_EQ(check_rigid_axle(axle).message, "");
+  EXPECT_EQ(constraints_of(twist_axle()), 4);
+  for (const BeamAxle& axle : {four_link_axle(), panhard_axle(), watt_axle(), arm_axle(), twist_axle()})
+    EXPECT_EQ(check_beam_axle(axle).message, "");
 }
 
-TEST(RigidAxleModel, TooFewAndTooManyConstraintsAreCountedByName) {
-  RigidAxle axle = panhard_axle();
+TEST(BeamAxleModel, TooFewAndTooManyConstraintsAreCountedByName) {
+  BeamAxle axle = panhard_axle();
   axle.rods.pop_back();
-  AxleFault fault = check_rigid_axle(axle);
+  AxleFault fault = check_beam_axle(axle);
   EXPECT_EQ(
       fault.message,
       "the links take 3 of the six freedoms of the axle (3 rods: 3); four leave heave and roll: the axle is "
@@ -39,57 +41,57 @@ TEST(RigidAxleModel, TooFewAndTooManyConstraintsAreCountedByName) {
   EXPECT_EQ(fault.hint, "add 1 more, for example a Panhard rod");
   axle = arm_axle();
   axle.rods.push_back({"Panhard rod", {-0.14, 0.50, 0.33}, {-0.15, -0.48, 0.27}, {}});
-  fault = check_rigid_axle(axle);
+  fault = check_beam_axle(axle);
   EXPECT_EQ(
       fault.message,
       "the links take 5 of the six freedoms of the axle (3 rods: 3, 1 A-arm: 2); four leave heave and roll: "
       "the axle is overconstrained");
-  EXPECT_EQ(check_rigid_axle(bare_axle()).message,
+  EXPECT_EQ(check_beam_axle(bare_axle()).message,
             "the links take 0 of the six freedoms of the axle (there are none); four leave heave and roll: "
             "the axle "
             "is not located");
 }
 
-TEST(RigidAxleModel, FourParallelLinksDoNotLocateItLaterally) {
-  RigidAxle axle = with_lower_links();
+TEST(BeamAxleModel, FourParallelLinksDoNotLocateItLaterally) {
+  BeamAxle axle = with_lower_links();
   test::add_pair(axle, "left upper link", "right upper link", {0.50, 0.40, 0.51}, {-0.02, 0.40, 0.44});
-  const AxleFault fault = check_rigid_axle(axle);
+  const AxleFault fault = check_beam_axle(axle);
   EXPECT_EQ(
       fault.message,
       "the links leave the axle free in shifting along y at given heave and roll, since 'left lower link', "
       "'right lower link', 'left upper link', 'right upper link' constrain it alike");
   EXPECT_NE(fault.hint.find("Panhard"), std::string::npos);
-  EXPECT_THROW(prepare_rigid_axle(axle), ContractError);
+  EXPECT_THROW(prepare_beam_axle(axle), ContractError);
 }
 
-TEST(RigidAxleModel, ALinkThatRepeatsAnotherIsNamed) {
-  RigidAxle axle = panhard_axle();
+TEST(BeamAxleModel, ALinkThatRepeatsAnotherIsNamed) {
+  BeamAxle axle = panhard_axle();
   axle.rods[2] = axle.rods[0];
   axle.rods[2].name = "copy";
-  const AxleFault fault = check_rigid_axle(axle);
+  const AxleFault fault = check_beam_axle(axle);
   EXPECT_NE(fault.message.find("since 'left lower link', 'copy' constrain it alike"), std::string::npos)
       << fault.message;
 }
 
-TEST(RigidAxleModel, PointsInOnePlaceAndExchangedWheelsAreReported) {
-  RigidAxle axle = panhard_axle();
+TEST(BeamAxleModel, PointsInOnePlaceAndExchangedWheelsAreReported) {
+  BeamAxle axle = panhard_axle();
   axle.rods[3].beam = axle.rods[3].body;
-  EXPECT_EQ(check_rigid_axle(axle).message, "both joints of 'Panhard rod' are in one place");
+  EXPECT_EQ(check_beam_axle(axle).message, "both joints of 'Panhard rod' are in one place");
   axle = panhard_axle();
   std::swap(axle.left, axle.right);
-  EXPECT_EQ(check_rigid_axle(axle).message,
+  EXPECT_EQ(check_beam_axle(axle).message,
             "the left wheel is at y = -750 mm and the right one at y = 750 mm");
   axle = arm_axle();
   axle.arms[0].beam[0] = {0.30, 0.1, 0.46};
-  EXPECT_EQ(check_rigid_axle(axle).message, "the ball joint of 'A-arm' lies on the axis of its hinge");
+  EXPECT_EQ(check_beam_axle(axle).message, "the ball joint of 'A-arm' lies on the axis of its hinge");
   axle = watt_axle();
   axle.watts[0].crank[1] = {-0.3, 0, 0.30};
-  EXPECT_EQ(check_rigid_axle(axle).message, "end 2 of the bellcrank of 'Watt linkage' lies on its axis");
+  EXPECT_EQ(check_beam_axle(axle).message, "end 2 of the bellcrank of 'Watt linkage' lies on its axis");
 }
 
 /// Central differences of all equations against their derivatives, at a place off the reference.
-void compare_with_differences(const RigidAxle& axle, AxleInputs inputs) {
-  const RigidAxlePlan plan = prepare_rigid_axle(axle);
+void compare_with_differences(const BeamAxle& axle, AxleInputs inputs) {
+  const BeamAxlePlan plan = prepare_beam_axle(axle);
   BeamPlace place{plan.centre + Vec3{0.01, -0.02, 0.03}, math::turn_about(Vec3{0.05, -0.03, 0.02}), {0.1}};
   const std::array<double, 2> values{0.01, 0.04};
   AxleEquations at, low, high;
@@ -116,19 +118,23 @@ void compare_with_differences(const RigidAxle& axle, AxleInputs inputs) {
   }
 }
 
-TEST(RigidAxleModel, DerivativesAgreeWithDifferences) {
+TEST(BeamAxleModel, DerivativesAgreeWithDifferences) {
   for (const AxleInputs inputs : {AxleInputs::heave_roll, AxleInputs::wheel_centres, AxleInputs::contacts}) {
-    RigidAxle axle = watt_axle();
+    BeamAxle axle = watt_axle();
     axle.left.toe = axle.right.toe = 0.02;
     axle.left.camber = axle.right.camber = -0.03;
     compare_with_differences(axle, inputs);
     axle.watts[0].pivot_on_beam = false;  // the rods now lead from the body's bellcrank to the beam
     compare_with_differences(axle, inputs);
     compare_with_differences(arm_axle(), inputs);
-    RigidAxle planar = planar_axle();
+    BeamAxle twist = twist_axle();
+    twist.left.toe = twist.right.toe = 0.02;
+    twist.left.camber = twist.right.camber = -0.03;
+    compare_with_differences(twist, inputs);
+    BeamAxle planar = planar_axle();
     planar.rods.push_back({"Panhard rod", {0, 0.50, 0.33}, {0, -0.48, 0.27}, {}});
     compare_with_differences(planar, inputs);
-    RigidAxle tube = bare_axle();
+    BeamAxle tube = bare_axle();
     tube.ball_joints.push_back({"torque tube", {0.9, 0, 0.4}});
     tube.rods.push_back({"Panhard rod", {-0.14, 0.50, 0.33}, {-0.15, -0.48, 0.27}, {}});
     compare_with_differences(tube, inputs);
