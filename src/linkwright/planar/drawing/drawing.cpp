@@ -104,9 +104,10 @@ std::optional<DrawnLine> read_drawing(std::string_view text, const std::string& 
   return std::nullopt;
 }
 
-std::optional<Drawing> read_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+std::optional<DrawnShapes> read_shapes(std::string_view text, const std::string& file,
+                                       Diagnostics& diagnostics) {
   try {
-    Drawing out;
+    DrawnShapes out;
     const DrawingFormat format = drawing_format(text);
     if (format != DrawingFormat::svg && format != DrawingFormat::dxf)
       throw drawing::Fault{0, "this is neither an SVG file nor an ASCII DXF drawing",

@@ -55,7 +55,7 @@ struct DrawnShape {
   std::string name;                          ///< in messages: "LINE in line 12"
 };
 /// Everything that a drawing holds.
-struct Drawing {
+struct DrawnShapes {
   std::vector<DrawnShape> shapes;  ///< in the order of the file
   bool has_unit = true;  ///< the drawing says in which unit its numbers are; without one they are mm
 };
@@ -65,6 +65,7 @@ struct Drawing {
 /// @param file name of the file in diagnostics
 /// @param diagnostics receives the error, with its line where there is one
 /// @returns the drawing; none, with one error in `diagnostics`, where nothing is drawn
-std::optional<Drawing> read_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics);
+std::optional<DrawnShapes> read_shapes(std::string_view text, const std::string& file,
+                                       Diagnostics& diagnostics);
 
 }  // namespace linkwright::planar
