@@ -226,6 +226,15 @@ TEST(BeamParameters, ATwistBeamWithItsShearCentreBetweenTheBushingsHasTrailingAr
   EXPECT_NEAR(p.left.angles.camber, 0, 1e-12);
 }
 
+TEST(BeamParameters, TheAxesOfAVehicleJoinThoseOfItsAxles) {
+  // Lines from (0, 0) with the slope 0.1 and from (2.5, 0) with the slope 0.15 meet at 1.5 m, 0.15 m high.
+  const VehicleAxes axes = vehicle_axes({0.05, 0.1}, {0.30, 0.15}, 2.5);
+  EXPECT_NEAR(axes.roll_axis_inclination, std::atan(-0.1), 1e-15);
+  EXPECT_NEAR(axes.pitch_centre_behind, 1.5, 1e-15);
+  EXPECT_NEAR(axes.pitch_centre_height, 0.15, 1e-15);
+  EXPECT_TRUE(std::isnan(vehicle_axes({0, 0.1}, {0, -0.1}, 2.5).pitch_centre_height));
+}
+
 TEST(BeamParameters, AShaftHasAnglesAndPlunge) {
   BeamAxle axle = planar_axle();
   axle.rods.push_back({"Panhard rod", {0, 50, 0.3}, {0, -50, 0.3}, {}});

@@ -83,6 +83,23 @@ TEST(BeamAxleStudy, TheTorqueOfADeDionAxleActsOnTheBody) {
   EXPECT_NE(fact(front, "anti-lift under drive, differential on the beam"), "no fact");
 }
 
+TEST(BeamAxleStudy, JoinsTheOtherAxleOfTheVehicle) {
+  const study::Result result =
+      run_text(whole_axle + axle_vehicle +
+               "[vehicle.other_axle]\nroll_centre_height_mm = 60\nsupport_angle_deg = 5\n");
+  const Table& sweep = result.tables[0];
+  const double front = std::tan(5 * M_PI / 180),
+               rear = cell(sweep, "side_centre_z_m", 4) / cell(sweep, "side_centre_x_m", 4);
+  EXPECT_NEAR(cell(sweep, "vehicle_roll_axis_inclination_rad", 4), std::atan((0.06 - 0.321) / 2.6), 1e-9);
+  const double behind = cell(sweep, "pitch_centre_behind_m", 4),
+               height = cell(sweep, "pitch_centre_height_m", 4);
+  EXPECT_NEAR(height, front * behind, 1e-12);  // on the line of the front axle, and on that of the rear one
+  EXPECT_NEAR(height, rear * (2.6 - behind), 1e-9);
+  EXPECT_NE(fact(result, "pitch centre in braking"), "no fact");
+  EXPECT_THAT(problems_of(whole_axle + axle_vehicle + "[vehicle.other_axle]\nroll_centre_height_mm = 60\n"),
+              HasSubstr("vehicle.other_axle.support_angle_rad: this key is missing"));
+}
+
 TEST(BeamAxleStudy, RollsASymmetricAxleAlikeBothWays) {
   // The lower links alone are not symmetric with a Panhard rod: an A-arm makes it so.
   const std::string arm =

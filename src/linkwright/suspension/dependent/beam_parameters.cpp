@@ -146,6 +146,16 @@ BeamAntiFeatures anti_features(const BeamParameters& axle, AxlePlace place, cons
   return {body.outboard_brake, body.inboard_brake, beam.inboard_drive, body.inboard_drive};
 }
 
+VehicleAxes vehicle_axes(const AxleCentre& front, const AxleCentre& rear, double wheelbase) {
+  LINKWRIGHT_REQUIRE(wheelbase > 0, "wheelbase {} m", wheelbase);
+  VehicleAxes out{std::atan((front.roll_centre_height - rear.roll_centre_height) / wheelbase), nan, nan};
+  const double sum = front.support_slope + rear.support_slope;
+  if (!(std::abs(sum) > no_support)) return out;
+  out.pitch_centre_behind = wheelbase * rear.support_slope / sum;
+  out.pitch_centre_height = front.support_slope * out.pitch_centre_behind;
+  return out;
+}
+
 BeamShaftState shaft_state(const BeamAxlePlan& plan, const BeamPlace& place, const BeamShaft& shaft) {
   const Vec3 along = on_beam(plan, place, shaft.beam) - shaft.body;
   return {angle_with(along, shaft.body_axis), angle_with(along, place.rotation * shaft.beam_axis),

@@ -87,6 +87,31 @@ struct BeamAntiFeatures {
 /// @throws ContractError as `anti_features` does
 BeamAntiFeatures anti_features(const BeamParameters& axle, AxlePlace place, const VehicleLayout& layout);
 
+/// One of the two axles of a vehicle, for the axes about which the body rolls and pitches.
+struct AxleCentre {
+  double roll_centre_height = 0;  ///< m, above the road
+  /// Slope of the line from the contact points to the instant centre in side view, > 0: it rises towards the
+  /// middle of the vehicle.
+  double support_slope = 0;
+};
+
+/// The axes about which the body of a vehicle rolls and pitches.
+struct VehicleAxes {
+  double roll_axis_inclination = 0;  ///< rad, > 0: it rises forward
+  double pitch_centre_behind = nan,  ///< m, of the pitch centre behind the front axle; NaN of parallel lines
+      pitch_centre_height = nan;     ///< m, above the road; NaN of parallel lines
+};
+
+/// The axes of a vehicle: the roll axis joins both roll centres, and the lines to both side-view centres meet
+/// in the pitch centre.
+///
+/// @param front the front axle
+/// @param rear the rear axle
+/// @param wheelbase m, > 0
+/// @returns the axes
+/// @throws ContractError unless the wheelbase is positive
+VehicleAxes vehicle_axes(const AxleCentre& front, const AxleCentre& rear, double wheelbase);
+
 /// A shaft between body and beam with a joint at each end: the propeller shaft of a live axle, a half-shaft
 /// of a de Dion axle.
 struct BeamShaft {

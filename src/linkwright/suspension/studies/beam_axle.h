@@ -189,11 +189,29 @@ void fields(Visitor&& visit, BeamAxleSweep& s) {
   visit(field::entry("single", "travels of the left wheel centre alone"), s.single);
 }
 
+/// `[vehicle.other_axle]`.
+struct OtherAxleForm {
+  double roll_centre_height = 0, support_angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, OtherAxleForm& o) {
+  visit(field::length("roll_centre_height", "above the road").between(-10, 10).required(),
+        o.roll_centre_height);
+  visit(field::angle(
+            "support_angle",
+            "of the line from its contact points to its instant centre in side view above the ground, > 0: "
+            "it rises towards the middle of the vehicle")
+            .between(-1.5, 1.5)
+            .required(),
+        o.support_angle);
+}
+
 /// `[vehicle]`.
 struct BeamAxleVehicle {
   AxlePlace axle = AxlePlace::rear;
   VehicleLayout layout;
   AxlePart brakes = AxlePart::beam, differential = AxlePart::beam;
+  std::optional<OtherAxleForm> other_axle;
 };
 template <class Visitor>
 void fields(Visitor&& visit, BeamAxleVehicle& v) {
@@ -212,6 +230,8 @@ void fields(Visitor&& visit, BeamAxleVehicle& v) {
   visit(field::entry("differential",
                      "part that takes the driving torque: beam of a live axle, body of a de Dion axle"),
         v.differential);
+  visit(field::entry("other_axle", "the other axle of the vehicle: roll axis and pitch centre"),
+        v.other_axle);
 }
 
 /// A shaft with its name.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,6 +94,18 @@ std::pair<double, double> anti_percent(const BeamAxleVehicle& v, const P& p) {
           v.differential == AxlePart::beam ? a.drive_on_beam : a.drive_on_body};
 }
 
+/// The axes of the vehicle with its other axle; nothing where that is not given.
+std::optional<VehicleAxes> axes_of_vehicle(const BeamAxleStudy& s, const P& p) {
+  if (!s.vehicle || !s.vehicle->other_axle || p.status != Status::done) return std::nullopt;
+  const bool front = s.vehicle->axle == AxlePlace::front;
+  const double tangent =
+      s.vehicle->brakes == AxlePart::beam ? p.anti_pitch_tangent : p.anti_pitch_tangent_free;
+  const AxleCentre here{p.roll_centre_height, front ? tangent : -tangent},
+      other{s.vehicle->other_axle->roll_centre_height, std::tan(s.vehicle->other_axle->support_angle)};
+  return front ? vehicle_axes(here, other, s.vehicle->layout.wheelbase)
+               : vehicle_axes(other, here, s.vehicle->layout.wheelbase);
+}
+
 bool is_reached(const BeamAxleRow& row) { return row.position.status == Status::done; }
 
 BeamAxleRow row_of(const BeamAxlePlan& plan, BeamPosition position) {
@@ -124,6 +137,17 @@ void add_beam_columns(Table& table, const BeamAxleStudy& s, const BeamAxlePlan* 
         [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).first; });
     add(names.drive, names.drive_words + " (%)",
         [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).second; });
+  }
+  if (s.vehicle && s.vehicle->other_axle) {
+    const auto axes = [&](const BeamAxleRow& r) {
+      return axes_of_vehicle(s, r.parameters).value_or(VehicleAxes{.roll_axis_inclination = nan});
+    };
+    add("vehicle_roll_axis_inclination_rad", "inclination of the vehicle's roll axis, rising forward (rad)",
+        [&](const BeamAxleRow& r) { return axes(r).roll_axis_inclination; });
+    add("pitch_centre_behind_m", "pitch centre in braking, behind the front axle (m)",
+        [&](const BeamAxleRow& r) { return axes(r).pitch_centre_behind; });
+    add("pitch_centre_height_m", "pitch centre in braking, above the road (m)",
+        [&](const BeamAxleRow& r) { return axes(r).pitch_centre_height; });
   }
   for (const NamedShaft& n : s.shafts) {
     const std::string key = plain_name(n.name);
@@ -217,6 +241,14 @@ void add_axle_facts(study::Result& result, const BeamAxleStudy& s, const BeamAxl
          percent(brake / 100).fixed(2));
     fact(say("{}, differential on the {}", names.drive_words, name_of(s.vehicle->differential)) + here,
          percent(drive / 100).fixed(2));
+  }
+  if (const auto axes = axes_of_vehicle(s, p)) {
+    fact("inclination of the vehicle's roll axis, rising forward" + here,
+         degrees_of(axes->roll_axis_inclination).fixed(3));
+    if (std::isfinite(axes->pitch_centre_behind))
+      fact("pitch centre in braking" + here,
+           say("{} behind the front axle, {} above the road", length(axes->pitch_centre_behind),
+               length(axes->pitch_centre_height)));
   }
   for (const NamedShaft& n : s.shafts) {
     const BeamShaftState state = shaft_state(plan, row.position.place, n.shaft);
