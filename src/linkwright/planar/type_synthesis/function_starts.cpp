@@ -20,7 +20,7 @@ namespace linkwright::planar {
 namespace {
 
 constexpr std::uint64_t drawn_from = 20261128;
-constexpr std::size_t drawn_a_piece = 2000;
+constexpr std::size_t starts_a_piece = 2000;
 constexpr int begins_a_turn = 8;  // angles at which a function may begin that takes the whole turn
 
 std::size_t pieces_of(int links) { return links >= 8 ? 30 : links == 6 ? 20 : 10; }
@@ -99,14 +99,14 @@ std::vector<FunctionStart> function_starts(const MotionTarget& target, const Mac
   std::vector<std::vector<FunctionStart>> found(pieces);
   optimise::parallel_for(pieces, context.threads(), [&](std::size_t piece) {
     MachineFitter fitter(target, limits);
-    for (std::size_t k = 0; k < drawn_a_piece; ++k) {
+    for (std::size_t k = 0; k < starts_a_piece; ++k) {
       if (k % 64 == 0 && context.interrupted()) return;
       RandomStream random({.seed = drawn_from,
                            .run = static_cast<std::uint32_t>(family),
                            .generation = static_cast<std::uint32_t>(piece),
                            .individual = static_cast<std::uint32_t>(k)});
       FunctionStart start =
-          drawn_start(target, *programs[(piece * drawn_a_piece + k) % programs.size()], fitter, random);
+          drawn_start(target, *programs[(piece * starts_a_piece + k) % programs.size()], fitter, random);
       if (start.error < infinity) found[piece].push_back(std::move(start));
     }
     keep_best(found[piece]);

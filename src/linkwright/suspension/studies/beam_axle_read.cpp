@@ -15,6 +15,7 @@
 #include "linkwright/study/memory.h"
 #include "linkwright/suspension/studies/beam_axle.h"
 #include "linkwright/suspension/studies/templates.h"
+#include "linkwright/suspension/studies/values.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -23,7 +24,6 @@ constexpr std::size_t max_axle_rows = 200000;
 /// Distance from the middle of the axle, and length of a part, by the track: beyond them units are mixed.
 constexpr double farthest_by_track = 20, shortest_by_track = 0.002;
 
-Vec3 vector_of(const PointArray& p) { return {p[0], p[1], p[2]}; }
 PointArray array_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 bool has_word(const std::string& text, std::string_view word) {
   std::string small;

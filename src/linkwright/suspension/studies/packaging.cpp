@@ -12,14 +12,13 @@
 #include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/corner/hard_points.h"
+#include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/packaging.h"
 
 namespace linkwright::suspension {
 namespace {
 
 constexpr std::string_view spring_word = "spring", shaft_word = "half_shaft", tyre_word = "tyre";
-
-Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 int link_named(const Suspension& suspension, const std::string& name) {
   for (std::size_t i = 0; i < suspension.links.size(); ++i)

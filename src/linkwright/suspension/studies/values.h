@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/math/vector3.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 
 // Values of an input as studies of wheel suspensions list them.
 namespace linkwright::suspension {
+
+/// A point or direction as a file lists it.
+inline math::Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 /// Values of one input: from, to and step or samples; or listed (m, rad).
 struct InputValues {
