@@ -128,7 +128,7 @@ TEST(Geneva, AccelerationsLoadPinAndCrank) {
   EXPECT_NEAR(std::remainder(at("wheel_angle_rad", 0) - (pi + 24.183692917280943 * pi / 180), full_turn), 0,
               1e-12);
   EXPECT_NEAR(at("wheel_speed_rad_per_s", 0), -8.095278585190782, 1e-11);
-  EXPECT_NEAR(at("wheel_angular_acceleration_rad_per_s2", 0), -201.53717433358077, 1e-9);
+  EXPECT_NEAR(at("wheel_acceleration_rad_per_s2", 0), -201.53717433358077, 1e-9);
   EXPECT_NEAR(at("A_drive_torque_N_m", 0), 0.4327687024282194, 1e-11);
   EXPECT_NEAR(std::abs(at("drive_tangential_N", 0)), 8.555999305615218, 1e-9);
   // The bearings carry the force of the pin alone: it is the only other force on each body.

@@ -197,9 +197,10 @@ TEST(LinkagePath, CanonicalStudyIsReadAlike) {
   std::string messages;
   for (const std::string& text :
        {boom_and_stick({}),
-        two_links({{"3",
-                    "[[path.step]]\ntype = \"table\"\ntimes_s = [0, 1, 2]\npoints_mm = [[4200, 0], [3900, "
-                    "200], [3800, 0]]\n[[drive]]\njoint = \"O\"\nhighest_deg = 90\nstart_deg = 1\n"}})}) {
+        two_links(
+            {{"3",
+              "[[path.step]]\ntype = \"table\"\ntimes_s = [0, 1, 2]\npoints_mm = [[4200, 0], [3900, "
+              "200], [3800, 0]]\n[[drive]]\njoint = \"O\"\nhighest_deg = 90\npath_start_deg = 1\n"}})}) {
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;
     const auto second = prepare(study::to_toml(first->canonical), messages);
@@ -239,7 +240,7 @@ crank_mm = 50
 rod_mm   = 150
 [drive]
 joint     = "O"
-start_deg = 80
+path_start_deg = 80
 [path]
 point   = "slider.B"
 along   = "x"
@@ -256,7 +257,7 @@ quantities = ["position", "rates"]
   ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
   const Value& c = published_case("planar-machines.json", "slider-crank-inverse");
   EXPECT_NEAR(column(result, "O_angle_rad")[0] * 180 / pi, numbers(at(c, "computed.crank_deg"))[0], 1e-11);
-  const study::Result other = run_text(replaced(text, "start_deg = 80", "start_deg = -80"));
+  const study::Result other = run_text(replaced(text, "path_start_deg = 80", "path_start_deg = -80"));
   EXPECT_NEAR(column(other, "O_angle_rad")[0] * 180 / pi, numbers(at(c, "computed.crank_deg"))[1], 1e-11);
 }
 

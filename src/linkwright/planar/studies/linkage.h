@@ -222,7 +222,7 @@ void joint_fields(Visitor&& visit, bool rotary, LinkageDriveLimits& d) {
     visit(field::torque("torque_limit", "greatest torque of the drive").positive(), d.effort);
   else
     visit(field::force("force_limit", "greatest force of the drive").positive(), d.effort);
-  visit(drive_field(rotary, 0, "start", "value from which the drive goes to the beginning of a path"),
+  visit(drive_field(rotary, 0, "path_start", "value from which the drive goes to the beginning of a path"),
         d.start);
 }
 template <class Visitor>

@@ -221,8 +221,8 @@ bool find_path_start(study::ObjectReader& document, const LinkageDescription& de
     solve_position(plan, guess, inverse.motion);
     if (inverse.motion.status != Status::done) {
       table->error("from",
-                   "the linkage does not assemble with its drives as they are drawn or given by `start`",
-                   "correct the drawing, or `start` of the drives");
+                   "the linkage does not assemble with its drives as they are drawn or given by `path_start`",
+                   "correct the drawing, or `path_start` of the drives");
       return false;
     }
     at_guess = inverse.state();
@@ -263,7 +263,7 @@ bool find_path_start(study::ObjectReader& document, const LinkageDescription& de
                                   ? fmt::format("{:.6g} deg", path.angle * 180 / pi)
                                   : place_text(path.from);
     table->error("from", fmt::format("the linkage does not reach {}, where the path begins", where),
-                 "begin it within reach; `start` of the drives says from where they go there");
+                 "begin it within reach; `path_start` of the drives says from where they go there");
     return false;
   }
   path.start = std::move(*start);
