@@ -78,13 +78,13 @@ std::vector<Row> linkages() {
        {{"name   = \"B\"\n", "name   = \"B\"\ntype = \"hinge\"\n"}},
        {},
        "s.toml:42:8: error: mechanism.joint[2].type: is 'hinge', must be one of: revolute, prismatic, "
-       "pin_in_slot, fixed, gear, rack, screw; did you mean 'revolute' (the two points coincide)?\n"},
+       "pin_in_slot, fixed, gear, rack, screw, geneva; did you mean 'revolute' (the two points coincide)?\n"},
       {"type pin",
        linkage,
        {{"name   = \"B\"\n", "name   = \"B\"\ntype = \"pin\"\n"}},
        {},
        "s.toml:42:8: error: mechanism.joint[2].type: is 'pin', must be one of: revolute, prismatic, "
-       "pin_in_slot, fixed, gear, rack, screw; did you mean 'revolute' (the two points coincide)?\n"},
+       "pin_in_slot, fixed, gear, rack, screw, geneva; did you mean 'revolute' (the two points coincide)?\n"},
       {"joint missing",
        linkage,
        {{"[[mechanism.joint]]\nname   = \"B0\"\nfirst  = \"ground.B0\"\nsecond = \"rocker.B0\"\n", ""}},

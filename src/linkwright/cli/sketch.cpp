@@ -106,7 +106,7 @@ int sketch(const Arguments& arguments, std::span<const study::Kind> kinds) {
   // The study may need more than the drawing says, such as another drive.
   study::prepare(study::read_text(study, study::Syntax::toml, file, diagnostics), file, {}, kinds,
                  diagnostics);
-  print_diagnostics(diagnostics);
+  if (has_errors(diagnostics)) print_diagnostics(diagnostics);
   return 0;
 }
 
