@@ -74,6 +74,11 @@ TEST(Catalogue, EveryExampleReadsAndThoseThatTakeMillisecondsPassTheirChecks) {
       Diagnostics diagnostics;
       const Value document = study::read_file(entry.path(), diagnostics);
       const auto study = study::prepare(document, entry.path().string(), folder, catalogue(), diagnostics);
+      // Coupled wheels are told of the pin that is one too many.
+      if (entry.path().stem() == "coupled-wheels" && diagnostics.size() == 1) {
+        EXPECT_NE(to_string(diagnostics[0]).find("holds one direction too many"), std::string::npos);
+        diagnostics.clear();
+      }
       EXPECT_TRUE(diagnostics.empty()) << to_string(diagnostics[0]);
       ASSERT_TRUE(study) << entry.path();
       ++read;

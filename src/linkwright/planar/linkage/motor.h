@@ -96,7 +96,10 @@ void fields(Visitor&& visit, Motor& m) {
       m.gear_ratio);
   visit(field::entry("gear_efficiency", "share of the power that gear and screw pass on").between(0.01, 1),
         m.gear_efficiency);
-  visit(field::length("lead", "of the screw that moves a drive that slides").positive(), m.lead);
+  visit(field::length("lead",
+                      "of the screw that moves a drive that slides; if absent 0, the motor turns its drive")
+            .not_negative(),
+        m.lead);
 }
 
 }  // namespace linkwright::planar
