@@ -213,7 +213,7 @@ class BeamAxleReader {
                    fmt::format("y is {}, but it is that of the middle", mm(t.shear_centre[1])),
                    "write y = 0");
     for (const char* key : {"rod", "arm", "watt_linkage", "guide", "ball_joint"})
-      if (mechanism_.has(key))
+      if (!mechanism_.tables(key).empty())
         mechanism_.error(key, "a twist beam is held by its bushings alone", "remove it, or twist_beam");
     const Vec3 pivot = vector_of(t.pivot);
     out_.axle.twist = AxleTwist{t.name, {pivot, math::mirrored(pivot)}, vector_of(t.shear_centre)};
