@@ -92,7 +92,7 @@ std::optional<ConstraintRank> constraint_rank(const Linkage& l, double size,
                                               std::span<const PartState<double>> bodies,
                                               std::span<const int> as_pins) {
   const auto rows = rows_of_joints(l, size, bodies, as_pins);
-  if (!rows) return std::nullopt;
+  if (!rows || rows->empty() || l.bodies.size() < 2) return std::nullopt;
   ConstraintRank out{.coordinates = 3 * (static_cast<int>(l.bodies.size()) - 1),
                      .equations = static_cast<int>(rows->size())};
   // Transposed: one column an equation, so that the null space is that of forces which balance each other.
