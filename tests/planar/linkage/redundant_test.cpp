@@ -57,6 +57,16 @@ std::vector<PartState<double>> starts(const Linkage& l) {
   return out;
 }
 
+TEST(Redundant, WithoutJointsThereIsNoRank) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_body(l, "bar", {{"A", {0, 0}}, {"B", {1, 0}}});
+  for (LinkageBody& body : l.bodies) body.start = math::Pose{};
+  const std::vector<PartState<double>> bodies(2);
+  EXPECT_FALSE(constraint_rank(l, 1, bodies));
+  std::string why;
+  EXPECT_FALSE(relax_redundant(l, why));
+}
+
 TEST(Redundant, RanksOfCoupledWheelsAreThoseOfTheReference) {
   const Value& wanted = at(published_case("planar-machines.json", "coupled-wheels"), "computed.ranks");
   const struct {

@@ -28,8 +28,8 @@ struct ConstraintRank {
   std::vector<int> joints_in_stress() const;  ///< joints that take part in a self-stress, rising
 };
 
-/// Counts the equations of pins, slides, slots and welds; nothing for linkages with gears, racks or belts.
-/// Joints of `as_pins` count as pins, whatever their type.
+/// Counts the equations of pins, slides, slots and welds; nothing for linkages with gears, racks or belts, or
+/// without joints. Joints of `as_pins` count as pins, whatever their type.
 std::optional<ConstraintRank> constraint_rank(const Linkage& linkage, double size,
                                               std::span<const PartState<double>> bodies,
                                               std::span<const int> as_pins = {});
