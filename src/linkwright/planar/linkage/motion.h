@@ -272,7 +272,6 @@ using FreeAccelerations = std::function<void(std::span<const double> drives)>;
 /// @param answer for inputs that no drive prescribes: their accelerations give way to friction; empty if all
 ///   are driven
 /// @param states states of the joints with friction; null: the signs of their rates
-/// @throws ContractError when a body has no mass (see LinkagePlan::massless)
 ///
 /// @throws ContractError if a body has no mass (see LinkagePlan::massless)
 void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,

@@ -15,6 +15,22 @@
 // The tables `[vehicle]` and `[axle]`, by which an analysis of a wheel suspension covers the whole axle.
 namespace linkwright::suspension {
 
+/// The keys of `[vehicle]` that all axles have.
+template <class Visitor>
+void layout_fields(Visitor&& visit, AxlePlace& axle, VehicleLayout& layout) {
+  visit(field::entry("axle", "where this axle is"), axle);
+  const auto length = [](std::string_view key, std::string_view summary) {
+    return field::length(key, summary).between(0.01, 1e3).required();
+  };
+  visit(length("wheelbase", "between the axles"), layout.wheelbase);
+  visit(length("centre_height", "mass centre above the ground"), layout.centre_height);
+  const auto share = [](std::string_view key, std::string_view summary) {
+    return field::entry(key, summary).between(0, 1);
+  };
+  visit(share("front_brake_share", "of the braking force"), layout.front_brake_share);
+  visit(share("axle_drive_share", "of the driving force at this axle"), layout.axle_drive_share);
+}
+
 /// `[vehicle]`.
 struct VehicleForm {
   AxlePlace axle = AxlePlace::front;
@@ -23,17 +39,7 @@ struct VehicleForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, VehicleForm& v) {
-  visit(field::entry("axle", "where this axle is"), v.axle);
-  const auto length = [](std::string_view key, std::string_view summary) {
-    return field::length(key, summary).between(0.01, 1e3).required();
-  };
-  visit(length("wheelbase", "between the axles"), v.layout.wheelbase);
-  visit(length("centre_height", "mass centre above the ground"), v.layout.centre_height);
-  const auto share = [](std::string_view key, std::string_view summary) {
-    return field::entry(key, summary).between(0, 1);
-  };
-  visit(share("front_brake_share", "of the braking force"), v.layout.front_brake_share);
-  visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
+  layout_fields(visit, v.axle, v.layout);
   visit(field::length("front_overhang", "of the body ahead of the front axle, for the turning circle")
             .between(0, 1e3),
         v.front_overhang);

@@ -10,6 +10,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/dependent/beam_parameters.h"
+#include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/values.h"
 
 // The analysis of a beam axle over heave and roll: what its file holds, how it is read, run and reported.
@@ -215,17 +216,7 @@ struct BeamAxleVehicle {
 };
 template <class Visitor>
 void fields(Visitor&& visit, BeamAxleVehicle& v) {
-  visit(field::entry("axle", "where this axle is"), v.axle);
-  const auto length = [](std::string_view key, std::string_view summary) {
-    return field::length(key, summary).between(0.01, 1e3).required();
-  };
-  visit(length("wheelbase", "between the axles"), v.layout.wheelbase);
-  visit(length("centre_height", "mass centre above the ground"), v.layout.centre_height);
-  const auto share = [](std::string_view key, std::string_view summary) {
-    return field::entry(key, summary).between(0, 1);
-  };
-  visit(share("front_brake_share", "of the braking force"), v.layout.front_brake_share);
-  visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
+  layout_fields(visit, v.axle, v.layout);
   visit(field::entry("brakes", "part that takes the braking torque"), v.brakes);
   visit(field::entry("differential",
                      "part that takes the driving torque: beam of a live axle, body of a de Dion axle"),
