@@ -62,7 +62,7 @@ TEST(SerialPiArm, OfTheReference) {
     const Matrix2 j = jacobian(arm, q.angle);
     const SerialDrives drives = drives_at(arm, q.angle);
     EXPECT_EQ(drives.status, Status::done);
-    Vector2 values{};
+    PerArm values{};
     for (int k = 0; k < 2; ++k) {
       EXPECT_NEAR(q.angle[k], numbers("q_rad")[k], 1e-14);
       EXPECT_NEAR(drives.drive[k].angle, numbers("theta_rad")[k], 1e-14);
@@ -84,13 +84,13 @@ TEST(SerialPiArm, DirectUndoesInverse) {
     // 1e-2 rad from the arms in line, where an angle loses digits like 1/sin.
     const double turn = (trial % 2 ? 1 : -1) * random.uniform(0.01, pi - 0.01);
     const double first = random.uniform(-pi, pi);
-    const Vector2 angles{first, math::wrap_angle(first + turn)};
-    const Vector2 p = direct(arm, angles);
+    const PerArm angles{first, math::wrap_angle(first + turn)};
+    const math::Vec2 p = direct(arm, angles);
     const SerialAngles q = inverse(arm, p, turn > 0 ? 1 : -1);
     ASSERT_EQ(q.status, Status::done);
-    const Vector2 again = direct(arm, q.angle);
-    ASSERT_NEAR(again[0], p[0], 1e-12);
-    ASSERT_NEAR(again[1], p[1], 1e-12);
+    const math::Vec2 again = direct(arm, q.angle);
+    ASSERT_NEAR(again.x, p.x, 1e-12);
+    ASSERT_NEAR(again.y, p.y, 1e-12);
     // Rounding of the point is turned by 1/(a sin) at most; near the first pivot by 1/r.
     ASSERT_NEAR(math::wrap_angle(q.angle[0] - angles[0]), 0, 1e-12);
     ASSERT_NEAR(math::wrap_angle(q.angle[1] - angles[1]), 0, 1e-12);
@@ -101,7 +101,7 @@ TEST(SerialPiArm, DirectUndoesInverse) {
 TEST(SerialPiArm, Limits) {
   SerialPiArm arm = reference_arm();
   const auto at = [&](double r, int mode) {
-    return inverse(arm, {arm.offset[0] + r * 0.6, arm.offset[1] + r * 0.8}, mode);
+    return inverse(arm, {arm.offset.x + r * 0.6, arm.offset.y + r * 0.8}, mode);
   };
   for (double r : {0.55, 0.05})
     for (int mode : {1, -1}) {
@@ -138,24 +138,21 @@ TEST(SerialPiArm, Limits) {
 TEST(SerialPiArm, JacobianStaticsAndQuality) {
   const SerialPiArm arm = reference_arm();
   constexpr double h = 1e-6;
-  const Vector2 q{0.3, 1.1}, force{7, -20};
+  const PerArm q{0.3, 1.1};
+  const math::Vec2 force{7, -20};
   const Matrix2 j = jacobian(arm, q), total = total_jacobian(arm, q);
   const SerialLoads loads = static_loads(arm, q, force);
   const SerialDrives drives = drives_at(arm, q);
   for (int k = 0; k < 2; ++k) {
-    Vector2 up = q, down = q;
+    PerArm up = q, down = q;
     up[k] += h;
     down[k] -= h;
-    const Vector2 high = direct(arm, up), low = direct(arm, down);
-    double work = 0, effort = 0;
-    for (int i = 0; i < 2; ++i) {
-      EXPECT_NEAR(j[i][k], (high[i] - low[i]) / (2 * h), 1e-9);
-      work -= j[i][k] * force[i];
-      effort -= total[i][k] * force[i];
-      EXPECT_NEAR(total[i][k], j[i][k] / drives.drive[k].rate, 1e-15);
-    }
-    EXPECT_NEAR(loads.arm_torque[k], work, 1e-12);
-    EXPECT_NEAR(loads.drive_effort[k], effort, 1e-11);
+    const math::Vec2 slope = 1 / (2 * h) * (direct(arm, up) - direct(arm, down));
+    EXPECT_NEAR(j[0][k], slope.x, 1e-9);
+    EXPECT_NEAR(j[1][k], slope.y, 1e-9);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(total[i][k], j[i][k] / drives.drive[k].rate, 1e-15);
+    EXPECT_NEAR(loads.arm_torque[k], -(j[0][k] * force.x + j[1][k] * force.y), 1e-12);
+    EXPECT_NEAR(loads.drive_effort[k], -(total[0][k] * force.x + total[1][k] * force.y), 1e-11);
   }
   // Singular values by what they are: extremes of |J x|.
   const SerialQuality quality_at = quality(arm, q);
@@ -179,36 +176,35 @@ TEST(SerialPiArm, JacobianStaticsAndQuality) {
 
 TEST(SerialPiArm, StepsAndSpringsOfTheDrives) {
   SerialPiArm arm = reference_arm();
-  const Vector2 q{0.3, 1.1};
+  const PerArm q{0.3, 1.1};
   EXPECT_EQ(compliance(arm, q)[0][0], 0);  // rigid
   arm.drive[0].quantum = 1e-6;
   arm.drive[1].quantum = 2e-6;
   arm.drive[0].stiffness = 2e6;
   arm.drive[1].stiffness = 5e6;
   const SerialDrives drives = drives_at(arm, q);
-  const Vector2 start = direct(arm, q);
+  const math::Vec2 start = direct(arm, q);
   const auto moved = [&](double first, double second) {
     const SerialAngles at = arm_angles(arm, {drives.drive[0].value + first, drives.drive[1].value + second});
-    const Vector2 there = direct(arm, at.angle);
-    return Vector2{there[0] - start[0], there[1] - start[1]};
+    return direct(arm, at.angle) - start;
   };
   // By moves of the tool itself: over turns of some 3e-5 rad curvature is as much of them.
-  const Vector2 one = moved(1e-6, 2e-6), other = moved(1e-6, -2e-6);
+  const math::Vec2 one = moved(1e-6, 2e-6), other = moved(1e-6, -2e-6);
   const SerialResolution steps = resolution(arm, q);
-  EXPECT_NEAR(steps.worst, std::max(std::hypot(one[0], one[1]), std::hypot(other[0], other[1])), 1e-9);
-  for (int i = 0; i < 2; ++i)
-    EXPECT_NEAR(steps.along[i], std::max(std::abs(one[i]), std::abs(other[i])), 1e-9);
+  EXPECT_NEAR(steps.worst, std::max(norm(one), norm(other)), 1e-9);
+  EXPECT_NEAR(steps.along.x, std::max(std::abs(one.x), std::abs(other.x)), 1e-9);
+  EXPECT_NEAR(steps.along.y, std::max(std::abs(one.y), std::abs(other.y)), 1e-9);
   // The screws yield under the forces that hold a load, and so move the tool by the compliance.
-  const Vector2 force{7, -20};
+  const math::Vec2 force{7, -20};
   const SerialLoads loads = static_loads(arm, q, force);
-  const Vector2 shift = moved(-loads.drive_effort[0] / 2e6, -loads.drive_effort[1] / 5e6);
+  const math::Vec2 shift = moved(-loads.drive_effort[0] / 2e6, -loads.drive_effort[1] / 5e6);
   const Matrix2 c = compliance(arm, q);
   EXPECT_EQ(c[0][1], c[1][0]);
-  for (int i = 0; i < 2; ++i) {
-    const double give = c[i][0] * force[0] + c[i][1] * force[1];
-    EXPECT_GT(std::abs(give), 1e-6);
-    EXPECT_NEAR(shift[i], give, 1e-3 * std::abs(give));
-  }
+  const math::Vec2 give{c[0][0] * force.x + c[0][1] * force.y, c[1][0] * force.x + c[1][1] * force.y};
+  EXPECT_GT(std::abs(give.x), 1e-6);
+  EXPECT_GT(std::abs(give.y), 1e-6);
+  EXPECT_NEAR(shift.x, give.x, 1e-3 * std::abs(give.x));
+  EXPECT_NEAR(shift.y, give.y, 1e-3 * std::abs(give.y));
 }
 
 TEST(SerialPiArm, ReachableArea) {
@@ -227,11 +223,9 @@ TEST(SerialPiArm, ReachableArea) {
 
 TEST(SerialPiArm, RatesAgreeWithDifferences) {
   const SerialPiArm arm = reference_arm();
-  const Vector2 p{0.4, 0.22}, v{0.7, -0.4}, a{3, 5};
+  const math::Vec2 p{0.4, 0.22}, v{0.7, -0.4}, a{3, 5};
   constexpr double h = 1e-4;
-  const auto angles = [&](double t) {
-    return inverse(arm, {p[0] + t * v[0] + t * t / 2 * a[0], p[1] + t * v[1] + t * t / 2 * a[1]}, -1).angle;
-  };
+  const auto angles = [&](double t) { return inverse(arm, p + t * v + t * t / 2 * a, -1).angle; };
   const SerialRates rates = arm_rates(arm, angles(0), v, a);
   for (int k = 0; k < 2; ++k) {
     EXPECT_NEAR(rates.speed[k], (angles(h)[k] - angles(-h)[k]) / (2 * h), 1e-6);
@@ -243,19 +237,18 @@ TEST(SerialPiArm, RatesAgreeWithDifferences) {
 struct Energies {
   double kinetic = 0, potential = 0;
 };
-Energies energies(const SerialPiArm& arm, const SerialArmMasses& masses, const Vector2& q,
-                  const Vector2& speed) {
+Energies energies(const SerialPiArm& arm, const SerialArmMasses& masses, const PerArm& q,
+                  const PerArm& speed) {
   Energies out;
-  Vector2 pivot{}, v{};  // position of the frame of a joint
+  math::Vec2 pivot{}, v{};  // position of the frame of a joint
   const auto particle = [&](double mass, double x, double y, double vx, double vy) {
     out.kinetic += 0.5 * mass * (vx * vx + vy * vy);
-    out.potential -= mass * (masses.gravity[0] * x + masses.gravity[1] * y);
+    out.potential -= mass * (masses.gravity.x * x + masses.gravity.y * y);
   };
   // Mass at r along direction x from the pivot, r and x moving.
   const auto beside = [&](double mass, double r, double dr, double x, double dx) {
     const double c = std::cos(x), s = std::sin(x);
-    particle(mass, pivot[0] + r * c, pivot[1] + r * s, v[0] + dr * c - r * dx * s,
-             v[1] + dr * s + r * dx * c);
+    particle(mass, pivot.x + r * c, pivot.y + r * s, v.x + dr * c - r * dx * s, v.y + dr * s + r * dx * c);
   };
   for (int k = 0; k < 2; ++k) {
     const SerialMasses& m = masses.joint[k];
@@ -281,18 +274,19 @@ Energies energies(const SerialPiArm& arm, const SerialArmMasses& masses, const V
       out.kinetic += 0.5 * (m.arm_inertia - m.arm_mass * m.arm_centre * m.arm_centre) * w * w;
       beside(m.coupler_mass, length, 0, q[k], w);
     }
-    pivot[0] += length * std::cos(q[k]);
-    pivot[1] += length * std::sin(q[k]);
-    v[0] -= length * w * std::sin(q[k]);
-    v[1] += length * w * std::cos(q[k]);
+    pivot.x += length * std::cos(q[k]);
+    pivot.y += length * std::sin(q[k]);
+    v.x -= length * w * std::sin(q[k]);
+    v.y += length * w * std::cos(q[k]);
   }
-  particle(masses.payload, pivot[0], pivot[1], v[0], v[1]);
+  particle(masses.payload, pivot.x, pivot.y, v.x, v.y);
   return out;
 }
 
 TEST(SerialPiArm, TorquesAgreeWithLagrangesEquation) {
   const SerialPiArm arm = reference_arm();
-  const Vector2 q{0.3, 1.1}, speed{2.1, -1.4}, second{-12, 25}, force{6, -15};
+  const PerArm q{0.3, 1.1}, speed{2.1, -1.4}, second{-12, 25};
+  const math::Vec2 force{6, -15};
   SerialArmMasses mixed = pi_masses();
   mixed.joint[0] = reference_masses().joint[0];
   for (const SerialArmMasses& masses : {reference_masses(), pi_masses(), mixed}) {
@@ -304,23 +298,23 @@ TEST(SerialPiArm, TorquesAgreeWithLagrangesEquation) {
     const Matrix2 j = jacobian(arm, q);
     for (int k = 0; k < 2; ++k) {
       const auto momentum = [&](double t) {
-        Vector2 at{}, up{};
+        PerArm at{}, up{};
         for (int i = 0; i < 2; ++i) {
           at[i] = q[i] + t * speed[i] + t * t / 2 * second[i];
           up[i] = speed[i] + t * second[i];
         }
-        Vector2 down = up;
+        PerArm down = up;
         up[k] += 0.5;
         down[k] -= 0.5;
         return energies(arm, masses, at, up).kinetic - energies(arm, masses, at, down).kinetic;
       };
-      Vector2 up = q, down = q;
+      PerArm up = q, down = q;
       up[k] += h;
       down[k] -= h;
       const Energies high = energies(arm, masses, up, speed), low = energies(arm, masses, down, speed);
       const double torque = (momentum(h) - momentum(-h)) / (2 * h) -
                             (high.kinetic - low.kinetic - high.potential + low.potential) / (2 * h) -
-                            (j[0][k] * force[0] + j[1][k] * force[1]);
+                            (j[0][k] * force.x + j[1][k] * force.y);
       EXPECT_NEAR(loads.arm_torque[k], torque, 1e-8 * (1 + std::abs(torque)));
       EXPECT_NEAR(loads.drive_power[k], torque * speed[k], 1e-7 * (1 + std::abs(torque)));
     }

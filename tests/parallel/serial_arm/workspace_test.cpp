@@ -25,14 +25,14 @@ SerialConditions conditions() {
 }
 
 // The criteria in their order by the functions of the arm alone.
-SerialCriterion expected(const SerialConditions& c, const Vector2& point) {
+SerialCriterion expected(const SerialConditions& c, const math::Vec2& point) {
   const SerialAngles q = inverse(c.arm, point, c.mode);
   if (q.status != Status::done) return SerialCriterion::reach;
   for (std::size_t k = 0; k < 2; ++k)
     if (drive_at(c.arm.drive[k], c.arm.arm[k], q.angle[k]).status != Status::done)
       return SerialCriterion::travel;
   // By the law of cosines.
-  const double x = point[0] - c.arm.offset[0], y = point[1] - c.arm.offset[1];
+  const double x = point.x - c.arm.offset.x, y = point.y - c.arm.offset.y;
   const double elbow = std::acos((0.09 + 0.0625 - x * x - y * y) / 0.15);
   if (elbow < c.min_elbow || elbow > c.max_elbow) return SerialCriterion::elbow;
   const SerialQuality quality_at = quality(c.arm, q.angle);
@@ -47,9 +47,9 @@ TEST(SerialPiWorkspace, StopsAtTheFirstCriterion) {
   RandomStream random({.seed = 5});
   std::array<int, serial_criterion_count> seen{};
   for (int trial = 0; trial < 20'000; ++trial) {
-    const Vector2 point{1.3 * random.uniform() - 0.6, 1.3 * random.uniform() - 0.65};
+    const math::Vec2 point{1.3 * random.uniform() - 0.6, 1.3 * random.uniform() - 0.65};
     const SerialPlace place = look_at(c, point);
-    ASSERT_EQ(place.criterion, expected(c, point)) << point[0] << ' ' << point[1];
+    ASSERT_EQ(place.criterion, expected(c, point)) << point.x << ' ' << point.y;
     ++seen[static_cast<std::size_t>(place.criterion)];
     EXPECT_EQ(std::isnan(place[SerialIndex::sine]), place.criterion == SerialCriterion::reach);
   }
@@ -66,8 +66,8 @@ TEST(SerialPiWorkspace, MapCoversTheAnnulus) {
   const SerialMap map = workspace(c, grid, context);
   EXPECT_EQ(map.status, Status::done);
   EXPECT_EQ(map.nodes[0], 277u);
-  EXPECT_NEAR(map.position(map.place.size() / 2)[0], 1.06, 1e-12);
-  EXPECT_NEAR(map.position(map.place.size() - 1)[1], 1.98 + 0.552, 1e-12);
+  EXPECT_NEAR(map.position(map.place.size() / 2).x, 1.06, 1e-12);
+  EXPECT_NEAR(map.position(map.place.size() - 1).y, 1.98 + 0.552, 1e-12);
   // Some 870 cells of 16 mm2 lie on the edges and are counted or not at random.
   EXPECT_NEAR(static_cast<double>(map.count(SerialCriterion::none)) * map.cell(), reachable_area(c.arm),
               1e-3);

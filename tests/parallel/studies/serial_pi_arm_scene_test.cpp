@@ -17,7 +17,7 @@ SerialPiArm arm() {
   return out;
 }
 
-study::Scene drawn(const SerialPiArm& a, const Vector2& angle) {
+study::Scene drawn(const SerialPiArm& a, const PerArm& angle) {
   const std::vector<double> times{0, 1};
   const std::vector<SerialSample> samples{{Status::done, angle, {0.1, 0}}, {Status::no_assembly, angle, {}}};
   return serial_arm_scene(a, {"motion", "motion", "time_s", "time"}, times, samples);
@@ -37,7 +37,7 @@ double distance(const study::Scene& scene, int from, int to) {
 
 TEST(SerialArmScene, DrawsBothPiJoints) {
   const SerialPiArm a = arm();
-  const Vector2 angle{1.2518840494062884, -0.1804704686034535};
+  const PerArm angle{1.2518840494062884, -0.1804704686034535};
   const auto scene = drawn(a, angle);
   EXPECT_FALSE(scene.spatial());
   EXPECT_EQ(scene.samples(), 2u);

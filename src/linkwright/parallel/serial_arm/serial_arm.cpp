@@ -19,12 +19,7 @@ namespace {
 // Rounding of lengths near the limits of reach.
 constexpr double arm_rounding = 4 * std::numeric_limits<double>::epsilon();
 
-Vector2 operator+(const Vector2& a, const Vector2& b) { return {a[0] + b[0], a[1] + b[1]}; }
-Vector2 operator-(const Vector2& a, const Vector2& b) { return {a[0] - b[0], a[1] - b[1]}; }
-Vector2 operator*(double s, const Vector2& a) { return {s * a[0], s * a[1]}; }
-double dot(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
-Vector2 along(double q) { return {std::cos(q), std::sin(q)}; }
-Vector2 left_of(const Vector2& u) { return {-u[1], u[0]}; }
+using math::dot, math::perpendicular, math::unit, math::Vec2;
 
 // Motion of one arm.
 struct Turning {
@@ -34,50 +29,50 @@ struct Turning {
 // The needs of an arm with its coupler: torque on it, and force on its frame from the frame before.
 struct Need {
   double torque = 0;
-  Vector2 force{};
+  Vec2 force{};
 };
 
 // Second derivative of r u(x) for r and x that move.
-Vector2 second(const PiMotion& r, const PiMotion& x) {
-  const Vector2 u = along(x.value);
+Vec2 second(const PiMotion& r, const PiMotion& x) {
+  const Vec2 u = unit(x.value);
   return (r.acceleration - r.value * x.rate * x.rate) * u +
-         (2 * r.rate * x.rate + r.value * x.acceleration) * left_of(u);
+         (2 * r.rate * x.rate + r.value * x.acceleration) * perpendicular(u);
 }
 
 Need need_of_pi(double length, const Drive& drive, const DriveAt& at, const PiMasses& m, const Turning& q,
-                const Vector2& gravity) {
+                const Vec2& gravity) {
   if (at.status == Status::no_assembly) return {nan, {nan, nan}};
   const PiJoint joint{length, drive.ratio};
-  const Vector2 x = along(drive.mounting);
-  const Vector2 y = drive.mirror * left_of(x);
+  const Vec2 x = unit(drive.mounting);
+  const Vec2 y = double(drive.mirror) * perpendicular(x);
   const PiMotion theta{at.angle, drive.mirror * q.speed, drive.mirror * q.acceleration};
   const PiMotion d = diagonal_motion(joint, theta), phi = direction_motion(joint, theta);
   // First moments along arms and diagonal; their second derivatives give the load on the frame.
   const double arms = 2 * m.arm_mass * m.arm_centre + m.coupler_mass * length;
-  const Vector2 inertial =
+  const Vec2 inertial =
       second({arms, 0, 0}, theta) + second({m.nut_mass * m.nut_centre + m.rod_mass * (d.value - m.rod_centre),
                                             m.rod_mass * d.rate, m.rod_mass * d.acceleration},
                                            phi);
   const double mass = 2 * m.arm_mass + m.coupler_mass + m.nut_mass + m.rod_mass;
   return {drive.mirror *
               effort(joint, m, {.gravity_x = dot(gravity, x), .gravity_y = dot(gravity, y)}, theta).torque,
-          inertial[0] * x + inertial[1] * y - mass * gravity};
+          inertial.x * x + inertial.y * y - mass * gravity};
 }
 
 Need need_of(double length, const Drive& drive, const DriveAt& at, const SerialMasses& m, const Turning& q,
-             const Vector2& gravity) {
+             const Vec2& gravity) {
   if (m.pi) return need_of_pi(length, drive, at, *m.pi, q, gravity);
-  const Vector2 u = along(q.angle);
+  const Vec2 u = unit(q.angle);
   const double moment = m.arm_mass * m.arm_centre + m.coupler_mass * length;
   const double inertia = m.arm_inertia + m.coupler_mass * length * length;
   return {
-      inertia * q.acceleration - moment * dot(left_of(u), gravity),
+      inertia * q.acceleration - moment * dot(perpendicular(u), gravity),
       second({moment, 0, 0}, {q.angle, q.speed, q.acceleration}) - (m.arm_mass + m.coupler_mass) * gravity};
 }
 
 // Values and efforts of the drives for torques of the arms.
-SerialLoads with_efforts(const SerialDrives& drives, const Vector2& torques, const Vector2& speeds,
-                         const Vector2& accelerations, double limit) {
+SerialLoads with_efforts(const SerialDrives& drives, const PerArm& torques, const PerArm& speeds,
+                         const PerArm& accelerations, double limit) {
   SerialLoads out{.status = drives.status, .joint = drives.joint, .arm_torque = torques};
   for (int k = 1; k >= 0; --k) {
     const DriveAt& at = drives.drive[k];
@@ -108,8 +103,9 @@ std::optional<std::string> problem(const SerialMasses& m, const Drive& drive) {
 }  // namespace
 
 std::optional<std::string> problem(const SerialPiArm& arm) {
+  for (const double value : {arm.base.x, arm.base.y, arm.offset.x, arm.offset.y})
+    if (!std::isfinite(value)) return "base or offset is not finite";
   for (int k = 0; k < 2; ++k) {
-    if (!std::isfinite(arm.base[k]) || !std::isfinite(arm.offset[k])) return "base or offset is not finite";
     if (!(arm.arm[k] > 0 && std::isfinite(arm.arm[k])))
       return fmt::format("joint {}: arm = {} m", k + 1, arm.arm[k]);
     const Drive& drive = arm.drive[k];
@@ -130,12 +126,12 @@ std::optional<std::string> problem(const SerialPiArm& arm, const SerialArmMasses
   return {};
 }
 
-SerialAngles inverse(const SerialPiArm& arm, const Vector2& point, int mode) {
+SerialAngles inverse(const SerialPiArm& arm, const Vec2& point, int mode) {
   LINKWRIGHT_REQUIRE(mode == 1 || mode == -1, "mode is {}, not 1 or -1", mode);
   const auto [a, b] = arm.arm;
-  const Vector2 v = point - arm.base - arm.offset;
-  const double r = std::hypot(v[0], v[1]), far = a + b, near = std::abs(a - b);
-  const double slack = arm_rounding * (far + std::abs(point[0]) + std::abs(point[1]));
+  const Vec2 v = point - arm.base - arm.offset;
+  const double r = std::hypot(v.x, v.y), far = a + b, near = std::abs(a - b);
+  const double slack = arm_rounding * (far + std::abs(point.x) + std::abs(point.y));
   SerialAngles out{.angle = {nan, nan}};
   if (!(r <= far + slack && r >= near - slack)) {
     out.status = Status::no_assembly;
@@ -150,27 +146,27 @@ SerialAngles inverse(const SerialPiArm& arm, const Vector2& point, int mode) {
   const double low = std::max(0.0, (r - near) * (r + near)), high = std::max(0.0, (far - r) * (far + r));
   const double turn = 2 * mode * std::atan2(std::sqrt(high), std::sqrt(low));
   // The two arms as one link at an angle from the first.
-  const double first = std::atan2(v[1], v[0]) - std::atan2(b * std::sin(turn), a + b * std::cos(turn));
+  const double first = angle_of(v) - std::atan2(b * std::sin(turn), a + b * std::cos(turn));
   out.angle = {math::wrap_angle(first), math::wrap_angle(first + turn)};
   return out;
 }
 
-Vector2 direct(const SerialPiArm& arm, const Vector2& angles) {
-  return arm.base + arm.offset + arm.arm[0] * along(angles[0]) + arm.arm[1] * along(angles[1]);
+Vec2 direct(const SerialPiArm& arm, const PerArm& angles) {
+  return arm.base + arm.offset + arm.arm[0] * unit(angles[0]) + arm.arm[1] * unit(angles[1]);
 }
 
-Matrix2 jacobian(const SerialPiArm& arm, const Vector2& q) {
+Matrix2 jacobian(const SerialPiArm& arm, const PerArm& q) {
   return {std::array{-arm.arm[0] * std::sin(q[0]), -arm.arm[1] * std::sin(q[1])},
           {arm.arm[0] * std::cos(q[0]), arm.arm[1] * std::cos(q[1])}};
 }
 
-double determinant(const SerialPiArm& arm, const Vector2& q) {
+double determinant(const SerialPiArm& arm, const PerArm& q) {
   return arm.arm[0] * arm.arm[1] * std::sin(q[1] - q[0]);
 }
 
 double reachable_area(const SerialPiArm& arm) { return 4 * pi * arm.arm[0] * arm.arm[1]; }
 
-SerialDrives drives_at(const SerialPiArm& arm, const Vector2& angles) {
+SerialDrives drives_at(const SerialPiArm& arm, const PerArm& angles) {
   SerialDrives out;
   for (int k = 0; k < 2; ++k) {
     out.drive[k] = drive_at(arm.drive[k], arm.arm[k], angles[k]);
@@ -181,7 +177,7 @@ SerialDrives drives_at(const SerialPiArm& arm, const Vector2& angles) {
   return out;
 }
 
-SerialAngles arm_angles(const SerialPiArm& arm, const Vector2& values) {
+SerialAngles arm_angles(const SerialPiArm& arm, const PerArm& values) {
   SerialAngles out;
   for (int k = 0; k < 2; ++k) {
     const ArmAngle at = arm_angle(arm.drive[k], arm.arm[k], values[k]);
@@ -191,7 +187,7 @@ SerialAngles arm_angles(const SerialPiArm& arm, const Vector2& values) {
   return out;
 }
 
-Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles) {
+Matrix2 total_jacobian(const SerialPiArm& arm, const PerArm& angles) {
   Matrix2 out = jacobian(arm, angles);
   const SerialDrives drives = drives_at(arm, angles);
   for (auto& row : out)
@@ -199,21 +195,17 @@ Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles) {
   return out;
 }
 
-SerialResolution resolution(const SerialPiArm& arm, const Vector2& angles) {
+SerialResolution resolution(const SerialPiArm& arm, const PerArm& angles) {
   const Matrix2 total = total_jacobian(arm, angles);
   SerialResolution out;
-  Vector2 same{}, opposite{};
-  for (int r = 0; r < 2; ++r) {
-    const double first = total[r][0] * arm.drive[0].quantum, second = total[r][1] * arm.drive[1].quantum;
-    out.along[r] = std::abs(first) + std::abs(second);
-    same[r] = first + second;
-    opposite[r] = first - second;
-  }
-  out.worst = std::max(std::hypot(same[0], same[1]), std::hypot(opposite[0], opposite[1]));
+  const Vec2 first = arm.drive[0].quantum * Vec2{total[0][0], total[1][0]};
+  const Vec2 other = arm.drive[1].quantum * Vec2{total[0][1], total[1][1]};
+  out.along = {std::abs(first.x) + std::abs(other.x), std::abs(first.y) + std::abs(other.y)};
+  out.worst = std::max(norm(first + other), norm(first - other));
   return out;
 }
 
-Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles) {
+Matrix2 compliance(const SerialPiArm& arm, const PerArm& angles) {
   const Matrix2 total = total_jacobian(arm, angles);
   Matrix2 out{};
   for (int r = 0; r < 2; ++r)
@@ -222,11 +214,11 @@ Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles) {
   return out;
 }
 
-SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limit) {
+SerialQuality quality(const SerialPiArm& arm, const PerArm& angles, double limit) {
   SerialQuality out{.sine = std::sin(angles[1] - angles[0])};
   out.manipulability = std::abs(determinant(arm, angles));
   // Columns of lengths a1, a2: (s1 +- s2)^2 = a1^2 + a2^2 +- 2 |det|.
-  const double squares = dot(arm.arm, arm.arm), twice = 2 * out.manipulability;
+  const double squares = arm.arm[0] * arm.arm[0] + arm.arm[1] * arm.arm[1], twice = 2 * out.manipulability;
   const double sum = std::sqrt(squares + twice), difference = std::sqrt(std::max(0.0, squares - twice));
   out.singular_value[0] = 0.5 * (sum + difference);
   // By the product: no digits lost where it is small.
@@ -241,16 +233,16 @@ SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limi
   return out;
 }
 
-SerialLoads static_loads(const SerialPiArm& arm, const Vector2& angles, const Vector2& force, double limit) {
+SerialLoads static_loads(const SerialPiArm& arm, const PerArm& angles, const Vec2& force, double limit) {
   return inverse_dynamics(arm, {}, angles, {}, {}, force, limit);
 }
 
-SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& masses, const Vector2& angles,
-                             const Vector2& speeds, const Vector2& accelerations, const Vector2& force,
+SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& masses, const PerArm& angles,
+                             const PerArm& speeds, const PerArm& accelerations, const Vec2& force,
                              double limit) {
   const SerialDrives drives = drives_at(arm, angles);
   // The frame of each joint in turn, its acceleration as part of gravity.
-  Vector2 gravity = masses.gravity;
+  Vec2 gravity = masses.gravity;
   std::array<Need, 2> need;
   for (int k = 0; k < 2; ++k) {
     const Turning q{angles[k], speeds[k], accelerations[k]};
@@ -258,22 +250,23 @@ SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& mass
     gravity = gravity - second({arm.arm[k], 0, 0}, {q.angle, q.speed, q.acceleration});
   }
   // From the tool inwards: what an arm carries at its end.
-  Vector2 carried = -masses.payload * gravity - force, torques{};
+  Vec2 carried = -masses.payload * gravity - force;
+  PerArm torques{};
   for (int k = 1; k >= 0; --k) {
-    torques[k] = need[k].torque + arm.arm[k] * dot(left_of(along(angles[k])), carried);
+    torques[k] = need[k].torque + arm.arm[k] * dot(perpendicular(unit(angles[k])), carried);
     carried = carried + need[k].force;
   }
   return with_efforts(drives, torques, speeds, accelerations, limit);
 }
 
-SerialRates arm_rates(const SerialPiArm& arm, const Vector2& angles, const Vector2& velocity,
-                      const Vector2& acceleration, double limit) {
+SerialRates arm_rates(const SerialPiArm& arm, const PerArm& angles, const Vec2& velocity,
+                      const Vec2& acceleration, double limit) {
   const double sine = std::sin(angles[1] - angles[0]);
   if (!(std::abs(sine) > limit)) return {Status::singular, {nan, nan}, {nan, nan}};
   // a1 x1 u1' + a2 x2 u2' = w: across the other arm, u1' . u2 = sine = -u2' . u1.
-  const Vector2 u1 = along(angles[0]), u2 = along(angles[1]);
-  const auto solve = [&](const Vector2& w) {
-    return Vector2{dot(w, u2) / (arm.arm[0] * sine), -dot(w, u1) / (arm.arm[1] * sine)};
+  const Vec2 u1 = unit(angles[0]), u2 = unit(angles[1]);
+  const auto solve = [&](const Vec2& w) {
+    return PerArm{dot(w, u2) / (arm.arm[0] * sine), -dot(w, u1) / (arm.arm[1] * sine)};
   };
   SerialRates out{.speed = solve(velocity)};
   const auto& [w1, w2] = out.speed;

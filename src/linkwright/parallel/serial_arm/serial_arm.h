@@ -6,6 +6,7 @@
 #include <string>
 
 #include "linkwright/core/field.h"
+#include "linkwright/math/vector2.h"
 #include "linkwright/parallel/pi_joint/dynamics.h"
 #include "linkwright/parallel/robot/drives.h"
 
@@ -18,13 +19,14 @@
 /// Base axes x, y. SI units, radians.
 namespace linkwright::parallel {
 
-using Vector2 = std::array<double, 2>;
+/// One number for each of the two arms.
+using PerArm = std::array<double, 2>;
 using Matrix2 = std::array<std::array<double, 2>, 2>;
 
 struct SerialPiArm {
-  Vector2 base{};                ///< A: pivot of the first arm (m)
-  Vector2 offset{};              ///< c: all that couplers add between pivots and tool point, constant (m)
-  Vector2 arm{};                 ///< a1, a2 > 0 (m)
+  math::Vec2 base{};             ///< A: pivot of the first arm (m)
+  math::Vec2 offset{};           ///< c: all that couplers add between pivots and tool point, constant (m)
+  PerArm arm{};                  ///< a1, a2 > 0 (m)
   std::array<Drive, 2> drive{};  ///< Pi-joints, or motors beside a passive parallelogram
 };
 
@@ -36,20 +38,20 @@ struct SerialAngles {
   /// done; no_assembly: too far or too near; singular: arms of equal length with the tool over the pivot,
   /// where q1 is open.
   Status status = Status::done;
-  Vector2 angle{};       ///< q1, q2 (rad, in (-pi, pi]); NaN when not done
+  PerArm angle{};        ///< q1, q2 (rad, in (-pi, pi]); NaN when not done
   double shortfall = 0;  ///< length that the arms lack (m): > 0 too far, < 0 too near
 };
 /// `mode` 1 or -1: sign of sin(q2 - q1); 1 = the second arm turns to the left of the first. At the limits
 /// both meet; what rounding puts beyond them is taken as there.
-SerialAngles inverse(const SerialPiArm& arm, const Vector2& point, int mode);
+SerialAngles inverse(const SerialPiArm& arm, const math::Vec2& point, int mode);
 
 /// Tool point (m).
-Vector2 direct(const SerialPiArm& arm, const Vector2& angles);
+math::Vec2 direct(const SerialPiArm& arm, const PerArm& angles);
 
 /// J = [a1 u'(q1), a2 u'(q2)]: velocity by arm speeds (m).
-Matrix2 jacobian(const SerialPiArm& arm, const Vector2& angles);
+Matrix2 jacobian(const SerialPiArm& arm, const PerArm& angles);
 /// det J = a1 a2 sin(q2 - q1): its sign is the mode, 0 = arms in line (m2).
-double determinant(const SerialPiArm& arm, const Vector2& angles);
+double determinant(const SerialPiArm& arm, const PerArm& angles);
 
 /// Area of the tool points within reach, an annulus: 4 pi a1 a2 (m2), whatever the drives allow.
 double reachable_area(const SerialPiArm& arm);
@@ -60,34 +62,34 @@ struct SerialDrives {
   int joint = -1;
   std::array<DriveAt, 2> drive{};
 };
-SerialDrives drives_at(const SerialPiArm& arm, const Vector2& angles);
+SerialDrives drives_at(const SerialPiArm& arm, const PerArm& angles);
 /// Arm angles by values of the drives; no_assembly where a diagonal cannot be.
-SerialAngles arm_angles(const SerialPiArm& arm, const Vector2& values);
+SerialAngles arm_angles(const SerialPiArm& arm, const PerArm& values);
 /// J diag(1/j): velocity by rates of the drives' values; not finite where a Pi-joint is singular.
-Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles);
+Matrix2 total_jacobian(const SerialPiArm& arm, const PerArm& angles);
 
 /// The displacement of the tool point by one step of each drive; NaN or infinite where a Pi-joint is
 /// singular.
 struct SerialResolution {
-  Vector2 along{};   ///< bound along each axis (m)
-  double worst = 0;  ///< largest displacement over all combinations of signs (m)
+  math::Vec2 along{};  ///< bound along each axis (m)
+  double worst = 0;    ///< largest displacement over all combinations of signs (m)
 };
-SerialResolution resolution(const SerialPiArm& arm, const Vector2& angles);
+SerialResolution resolution(const SerialPiArm& arm, const PerArm& angles);
 
 /// Symmetric compliance of the tool point by the stiffnesses of the drives (m/N): a force moves it by this
 /// times the force. 0 with rigid drives; not finite where a Pi-joint is singular.
-Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles);
+Matrix2 compliance(const SerialPiArm& arm, const PerArm& angles);
 
 struct SerialQuality {
   double sine = 0;            ///< sin(q2 - q1), 0 = arms in line: the tool cannot move along them
-  Vector2 singular_value{};   ///< singular values of J, descending (m)
+  PerArm singular_value{};    ///< singular values of J, descending (m)
   double condition = 0;       ///< largest over least, infinite in line
   double manipulability = 0;  ///< |det J| (m2)
   /// Transmission indices of the drives: sin(mu) of a Pi-joint, 1 of a motor; NaN where it cannot be.
-  Vector2 transmission{};
+  PerArm transmission{};
   bool singular = false;  ///< sine or a transmission is at most the limit in magnitude
 };
-SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limit = 1e-6);
+SerialQuality quality(const SerialPiArm& arm, const PerArm& angles, double limit = 1e-6);
 
 /// Torques of the drives on the arms (N m), and their efforts (N m, N).
 struct SerialLoads {
@@ -95,13 +97,13 @@ struct SerialLoads {
   /// so far; limit_reached: a drive beyond its travel, all the same known.
   Status status = Status::done;
   int joint = -1;  ///< first with the trouble, from 0
-  Vector2 arm_torque{};
-  Vector2 drive_value{}, drive_speed{}, drive_acceleration{};
-  Vector2 drive_effort{};
-  Vector2 drive_power{};  ///< W
+  PerArm arm_torque{};
+  PerArm drive_value{}, drive_speed{}, drive_acceleration{};
+  PerArm drive_effort{};
+  PerArm drive_power{};  ///< W
 };
 /// Holds a force on the tool (N): tau = -J^T W. Never singular by the arms.
-SerialLoads static_loads(const SerialPiArm& arm, const Vector2& angles, const Vector2& force,
+SerialLoads static_loads(const SerialPiArm& arm, const PerArm& angles, const math::Vec2& force,
                          double limit = 1e-6);
 
 /// Masses of one joint.
@@ -128,8 +130,8 @@ void fields(Visitor&& visit, SerialMasses& m) {
 }
 struct SerialArmMasses {
   std::array<SerialMasses, 2> joint{};
-  double payload = 0;            ///< at the tool, not turning (kg)
-  Vector2 gravity{0, -9.80665};  ///< m/s2
+  double payload = 0;               ///< at the tool, not turning (kg)
+  math::Vec2 gravity{0, -9.80665};  ///< m/s2
 };
 /// Says what keeps them from being masses of this arm, with the joint (from 1) and the value; nothing if they
 /// are.
@@ -138,16 +140,16 @@ std::optional<std::string> problem(const SerialPiArm& arm, const SerialArmMasses
 /// Exact inverse dynamics: torques and efforts for a motion of the arms (rad, rad/s, rad/s2) with a force on
 /// the tool (N). Since couplers do not turn, the acceleration of its frame acts on the second joint as
 /// gravity.
-SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& masses, const Vector2& angles,
-                             const Vector2& speeds, const Vector2& accelerations, const Vector2& force = {},
+SerialLoads inverse_dynamics(const SerialPiArm& arm, const SerialArmMasses& masses, const PerArm& angles,
+                             const PerArm& speeds, const PerArm& accelerations, const math::Vec2& force = {},
                              double limit = 1e-6);
 
 /// Arm speeds and accelerations for those of the tool.
 struct SerialRates {
   Status status = Status::done;  ///< singular: arms in line within the limit
-  Vector2 speed{}, acceleration{};
+  PerArm speed{}, acceleration{};
 };
-SerialRates arm_rates(const SerialPiArm& arm, const Vector2& angles, const Vector2& velocity,
-                      const Vector2& acceleration, double limit = 1e-6);
+SerialRates arm_rates(const SerialPiArm& arm, const PerArm& angles, const math::Vec2& velocity,
+                      const math::Vec2& acceleration, double limit = 1e-6);
 
 }  // namespace linkwright::parallel

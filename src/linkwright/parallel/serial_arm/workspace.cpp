@@ -22,7 +22,7 @@ std::size_t nodes_along(double low, double high, double step) {
   return static_cast<std::size_t>(steps) + 1;
 }
 
-SerialCriterion criterion_of(const SerialConditions& c, const SerialDrives& drives, const Vector2& angles,
+SerialCriterion criterion_of(const SerialConditions& c, const SerialDrives& drives, const PerArm& angles,
                              const SerialPlace& place) {
   if (drives.status != Status::done) return SerialCriterion::travel;
   const double elbow = elbow_angle(angles);
@@ -35,9 +35,9 @@ SerialCriterion criterion_of(const SerialConditions& c, const SerialDrives& driv
 
 }  // namespace
 
-double elbow_angle(const Vector2& angles) { return pi - std::abs(math::wrap_angle(angles[1] - angles[0])); }
+double elbow_angle(const PerArm& angles) { return pi - std::abs(math::wrap_angle(angles[1] - angles[0])); }
 
-SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
+SerialPlace look_at(const SerialConditions& c, const math::Vec2& point) {
   SerialPlace out{.criterion = SerialCriterion::reach};
   out.index.fill(nan);
   const SerialAngles found = inverse(c.arm, point, c.mode);
@@ -51,10 +51,10 @@ SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
   return out;
 }
 
-Vector2 SerialMap::position(std::size_t node) const {
+math::Vec2 SerialMap::position(std::size_t node) const {
   const std::size_t column = node % nodes[0], row = node / nodes[0];
-  return {grid.low[0] + grid.step * static_cast<double>(column),
-          grid.low[1] + grid.step * static_cast<double>(row)};
+  return {grid.low.x + grid.step * static_cast<double>(column),
+          grid.low.y + grid.step * static_cast<double>(row)};
 }
 
 std::size_t SerialMap::count(SerialCriterion criterion) const {
@@ -65,7 +65,8 @@ std::size_t SerialMap::count(SerialCriterion criterion) const {
 SerialMap workspace(const SerialConditions& conditions, const SerialGrid& grid, const RunContext& context) {
   LINKWRIGHT_REQUIRE(grid.step > 0 && std::isfinite(grid.step), "grid step {} m must be positive", grid.step);
   SerialMap out{.grid = grid};
-  for (std::size_t i = 0; i < 2; ++i) out.nodes[i] = nodes_along(grid.low[i], grid.high[i], grid.step);
+  out.nodes = {nodes_along(grid.low.x, grid.high.x, grid.step),
+               nodes_along(grid.low.y, grid.high.y, grid.step)};
   const double all = static_cast<double>(out.nodes[0]) * static_cast<double>(out.nodes[1]);
   LINKWRIGHT_REQUIRE(all <= 1e8, "grid of {} nodes", all);
   out.place.resize(out.nodes[0] * out.nodes[1]);
@@ -83,13 +84,8 @@ SerialMap workspace(const SerialConditions& conditions, const SerialGrid& grid, 
 SerialGrid whole_reach(const SerialPiArm& arm, double step) {
   LINKWRIGHT_REQUIRE(step > 0 && std::isfinite(step), "grid step {} m must be positive", step);
   const double half = step * std::ceil((arm.arm[0] + arm.arm[1]) / step);
-  SerialGrid out{.step = step};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double middle = arm.base[i] + arm.offset[i];
-    out.low[i] = middle - half;
-    out.high[i] = middle + half;
-  }
-  return out;
+  const math::Vec2 middle = arm.base + arm.offset, corner{half, half};
+  return {.low = middle - corner, .high = middle + corner, .step = step};
 }
 
 }  // namespace linkwright::parallel

@@ -72,15 +72,15 @@ struct SerialPlace {
   double operator[](SerialIndex i) const { return index[static_cast<std::size_t>(i)]; }
 };
 /// The conditions' mode must be 1 or -1 (ContractError). Allocates nothing.
-SerialPlace look_at(const SerialConditions& conditions, const Vector2& point);
+SerialPlace look_at(const SerialConditions& conditions, const math::Vec2& point);
 
 /// Angle between the arms at their joint: 0 = folded, pi = stretched (rad).
-double elbow_angle(const Vector2& angles);
+double elbow_angle(const PerArm& angles);
 
 /// Nodes low + step i in a rectangle, ends included.
 struct SerialGrid {
-  Vector2 low{}, high{};  ///< m
-  double step = 0;        ///< > 0 (m)
+  math::Vec2 low{}, high{};  ///< m
+  double step = 0;           ///< > 0 (m)
 };
 struct SerialMap {
   Status status = Status::done;  ///< cancelled or deadline: some places are open
@@ -88,7 +88,7 @@ struct SerialMap {
   std::array<std::size_t, 2> nodes{};  ///< along x, y
   std::vector<SerialPlace> place;      ///< x changes fastest
 
-  Vector2 position(std::size_t node) const;              ///< m
+  math::Vec2 position(std::size_t node) const;           ///< m
   double cell() const { return grid.step * grid.step; }  ///< m2
   std::size_t count(SerialCriterion criterion) const;    ///< nodes that stop at it; none: those that pass
 };

@@ -52,10 +52,10 @@ Table node_table(const SerialMap& map, const std::vector<SerialIndex>& indices) 
   Table table{.name = "workspace"};
   std::vector<double> x, y;
   for (std::size_t i = 0; i < map.place.size(); ++i) {
-    const Vector2 at = map.position(i);
+    const math::Vec2 at = map.position(i);
     const SerialCriterion criterion = map.place[i].criterion;
-    x.push_back(at[0]);
-    y.push_back(at[1]);
+    x.push_back(at.x);
+    y.push_back(at.y);
     table.status.emplace_back(criterion == SerialCriterion::none ? "done" : name_of(criterion));
   }
   table.add("x_m", "x (m)", std::move(x));
@@ -112,7 +112,9 @@ std::optional<SerialDescription> read_arm(study::ObjectReader& document, Value& 
   Value written = study::write_fields(form);
   const auto drives = read_drives(*mechanism, 2, "joints", written);
   if (!drives || document.document().has_errors()) return std::nullopt;
-  SerialDescription out{.arm = {.base = form.base, .offset = form.offset, .arm = form.arms},
+  SerialDescription out{.arm = {.base = {form.base[0], form.base[1]},
+                                .offset = {form.offset[0], form.offset[1]},
+                                .arm = form.arms},
                         .mode = form.mode};
   for (std::size_t k = 0; k < 2; ++k) {
     out.arm.drive[k] = (*drives)[k].drive;
@@ -213,10 +215,14 @@ std::optional<SerialGrid> grid_of(study::ObjectReader& table, const SerialWorksp
       table.error("upper", fmt::format("is below lower along {}", "xyz"[i]), "exchange them");
       return std::nullopt;
     }
-    if (i < 2) out.low[i] = low, out.high[i] = high;
   }
-  double nodes = 1;
-  for (std::size_t i = 0; i < 2; ++i) nodes *= std::floor((out.high[i] - out.low[i]) / form.step + 1e-6) + 1;
+  if (form.lower) {
+    out.low = {(*form.lower)[0], (*form.lower)[1]};
+    out.high = {(*form.upper)[0], (*form.upper)[1]};
+  }
+  const math::Vec2 size = out.high - out.low;
+  const double nodes =
+      (std::floor(size.x / form.step + 1e-6) + 1) * (std::floor(size.y / form.step + 1e-6) + 1);
   if (nodes > max_arm_nodes) {
     table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, max_arm_nodes),
                 "take a larger step or a smaller box");

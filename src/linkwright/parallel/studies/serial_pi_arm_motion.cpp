@@ -19,7 +19,7 @@ namespace {
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t max_arm_samples = 1200;
 
-Vector2 plane(const Vec3& v) { return {v.x, v.y}; }
+math::Vec2 plane(const Vec3& v) { return {v.x, v.y}; }
 
 /// One instant of the motion.
 struct ArmInstant {
@@ -78,7 +78,7 @@ double judge_way(PathJudge& judge, const SerialAnalysis& s) {
   // Positive: inside the ring that the arms reach, by so much (m).
   const auto margin = [&](double t) {
     const Vec3 p = motion(t).position;
-    const double r = std::hypot(p.x - arm.base[0] - arm.offset[0], p.y - arm.base[1] - arm.offset[1]);
+    const double r = std::hypot(p.x - arm.base.x - arm.offset.x, p.y - arm.base.y - arm.offset.y);
     return std::min(far - r, r - near);
   };
   const std::vector<double> breaks = motion.breaks();

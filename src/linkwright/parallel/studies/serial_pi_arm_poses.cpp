@@ -19,9 +19,9 @@ namespace {
 struct SolvedArm {
   Status status = Status::done;
   Sentence reason;
-  Vector2 point{nan, nan};
-  Vector2 angle{nan, nan};
-  bool drawn() const { return std::isfinite(angle[0]) && std::isfinite(point[0]); }
+  math::Vec2 point{nan, nan};
+  PerArm angle{nan, nan};
+  bool drawn() const { return std::isfinite(angle[0]) && std::isfinite(point.x); }
 };
 
 SolvedArm solve(const SerialDescription& d, const AskedPose& asked) {
@@ -51,7 +51,7 @@ SolvedArm solve(const SerialDescription& d, const AskedPose& asked) {
   return out;
 }
 
-void of_arms(Rows& row, std::string_view key, std::string_view label, const Vector2& angle) {
+void of_arms(Rows& row, std::string_view key, std::string_view label, const PerArm& angle) {
   for (std::size_t k = 0; k < 2; ++k)
     row(fmt::format("{}_{}_rad", key, k + 1), fmt::format("{} {} (rad)", label, k + 1), angle[k]);
 }
@@ -59,8 +59,8 @@ void of_arms(Rows& row, std::string_view key, std::string_view label, const Vect
 /// One row of the table of poses.
 void measures(Rows& row, const SerialDescription& d, const AskedPose& asked, const SolvedArm& solved) {
   const SerialPiArm& arm = d.arm;
-  const Vector2& angle = solved.angle;
-  const Vector2 force{asked.force[0], asked.force[1]};
+  const PerArm& angle = solved.angle;
+  const math::Vec2 force{asked.force[0], asked.force[1]};
   const SerialDrives drives = drives_at(arm, angle);
   const SerialQuality q = quality(arm, angle);
   const SerialLoads loads = static_loads(arm, angle, force);
@@ -72,8 +72,8 @@ void measures(Rows& row, const SerialDescription& d, const AskedPose& asked, con
         row(fmt::format("{}_{}{}", key, k + 1, unit), fmt::format("{} {}{}", label, k + 1, unit_text),
             known(value(k)));
   };
-  row("x_m", "x (m)", known(solved.point[0]));
-  row("y_m", "y (m)", known(solved.point[1]));
+  row("x_m", "x (m)", known(solved.point.x));
+  row("y_m", "y (m)", known(solved.point.y));
   of_arms(row, "arm_angle", "arm angle", angle);
   by_joint("pi_angle", "angle of Pi-joint", "_rad", " (rad)", true,
            [&](std::size_t k) { return drives.drive[k].angle; });
@@ -87,8 +87,8 @@ void measures(Rows& row, const SerialDescription& d, const AskedPose& asked, con
   row("determinant_m2", "determinant of the Jacobian (m2)", known(determinant(arm, angle)));
   if (arm.drive[0].quantum > 0 || arm.drive[1].quantum > 0) {
     const SerialResolution step = resolution(arm, angle);
-    row("resolution_x_m", "resolution along x (m)", known(step.along[0]));
-    row("resolution_y_m", "resolution along y (m)", known(step.along[1]));
+    row("resolution_x_m", "resolution along x (m)", known(step.along.x));
+    row("resolution_y_m", "resolution along y (m)", known(step.along.y));
     row("resolution_worst_m", "largest displacement by one step of each drive (m)", known(step.worst));
   }
   by_joint("static_torque", "static torque at arm", "_N_m", " (N m)", false,
@@ -98,7 +98,7 @@ void measures(Rows& row, const SerialDescription& d, const AskedPose& asked, con
   if (std::isfinite(arm.drive[0].stiffness) || std::isfinite(arm.drive[1].stiffness)) {
     const Matrix2 c = compliance(arm, angle);
     row("displacement_m", "displacement by the load (m)",
-        known(std::hypot(c[0][0] * force[0] + c[0][1] * force[1], c[1][0] * force[0] + c[1][1] * force[1])));
+        known(std::hypot(c[0][0] * force.x + c[0][1] * force.y, c[1][0] * force.x + c[1][1] * force.y)));
   }
 }
 

@@ -13,6 +13,7 @@
 namespace linkwright::parallel {
 namespace {
 
+using math::Vec2;
 using study::Scene;
 
 class ArmDrawing {
@@ -22,11 +23,11 @@ class ArmDrawing {
 
   void all() {
     const int first = fixed("pivot 1", arm_.base);
-    const int first_up = fixed("second pivot 1", sum(arm_.base, up(0)));
+    const int first_up = fixed("second pivot 1", arm_.base + up(0));
     const auto [elbow, corner] = joint(0, first, first_up);
     // The frame of the second joint is mounted on the coupler of the first.
     const int second_up =
-        point("second pivot 2", [this](const SerialSample& s) { return sum(end(0, s), up(1)); });
+        point("second pivot 2", [this](const SerialSample& s) { return end(0, s) + up(1); });
     scene_.bodies.push_back({"coupler 1", {elbow, corner, second_up}, Scene::BodyStyle::plate});
     const auto [wrist, tip] = joint(1, elbow, second_up);
     const int tool = point("tool point", [this](const SerialSample& s) { return direct(arm_, s.angle); });
@@ -42,35 +43,32 @@ class ArmDrawing {
   }
 
  private:
-  static Vector2 sum(const Vector2& a, const Vector2& b) { return {a[0] + b[0], a[1] + b[1]}; }
-
   /// End of an arm.
-  Vector2 end(std::size_t k, const SerialSample& s) const {
-    Vector2 out = arm_.base;
-    for (std::size_t i = 0; i <= k; ++i)
-      out = sum(out, {arm_.arm[i] * std::cos(s.angle[i]), arm_.arm[i] * std::sin(s.angle[i])});
+  Vec2 end(std::size_t k, const SerialSample& s) const {
+    Vec2 out = arm_.base;
+    for (std::size_t i = 0; i <= k; ++i) out += arm_.arm[i] * math::unit(s.angle[i]);
     return out;
   }
   /// From the first to the second pivot of a joint: the direction of theta = 90 deg.
-  Vector2 up(std::size_t k) const {
+  Vec2 up(std::size_t k) const {
     const Drive& drive = arm_.drive[k];
     const double length = drive.mirror * drive.ratio * arm_.arm[k];
-    return {-length * std::sin(drive.mounting), length * std::cos(drive.mounting)};
+    return length * perpendicular(math::unit(drive.mounting));
   }
 
   template <class Place>
   int point(std::string name, Place&& place) {
     Scene::Point out{std::move(name), {}, {}};
     for (const SerialSample& s : samples_) {
-      const Vector2 at = s.status == Status::done ? place(s) : Vector2{nan, nan};
-      out.x.push_back(at[0]);
-      out.y.push_back(at[1]);
+      const Vec2 at = s.status == Status::done ? place(s) : Vec2{nan, nan};
+      out.x.push_back(at.x);
+      out.y.push_back(at.y);
     }
     scene_.points.push_back(std::move(out));
     return static_cast<int>(scene_.points.size()) - 1;
   }
-  int fixed(std::string name, const Vector2& at) {
-    scene_.points.push_back({std::move(name), {at[0]}, {at[1]}});
+  int fixed(std::string name, const Vec2& at) {
+    scene_.points.push_back({std::move(name), {at.x}, {at.y}});
     return static_cast<int>(scene_.points.size()) - 1;
   }
 
@@ -82,7 +80,7 @@ class ArmDrawing {
     };
     const int elbow = point(named("elbow"), [this, k](const SerialSample& s) { return end(k, s); });
     const int corner =
-        point(named("end of the screw"), [this, k](const SerialSample& s) { return sum(end(k, s), up(k)); });
+        point(named("end of the screw"), [this, k](const SerialSample& s) { return end(k, s) + up(k); });
     bar("base link", pivot, second);
     bar("arm", pivot, elbow);
     scene_.handles.push_back({.key = fmt::format("mechanism.arms_m[{}]", k),
@@ -96,14 +94,13 @@ class ArmDrawing {
   }
 
   void velocity(int tool) {
-    const auto size = [](const Vector2& v) { return std::hypot(v[0], v[1]); };
     if (std::none_of(samples_.begin(), samples_.end(),
-                     [&](const SerialSample& s) { return size(s.velocity) > 0; }))
+                     [](const SerialSample& s) { return norm(s.velocity) > 0; }))
       return;
     Scene::Vector out{"velocity of the tool point", Scene::Quantity::velocity, "m/s", tool, {}, {}, "v"};
     for (const SerialSample& s : samples_) {
-      out.x.push_back(s.status == Status::done ? s.velocity[0] : nan);
-      out.y.push_back(s.status == Status::done ? s.velocity[1] : nan);
+      out.x.push_back(s.status == Status::done ? s.velocity.x : nan);
+      out.y.push_back(s.status == Status::done ? s.velocity.y : nan);
     }
     scene_.vectors.push_back(std::move(out));
   }

@@ -11,8 +11,8 @@ namespace linkwright::parallel {
 /// A place of a serial arm to draw.
 struct SerialSample {
   Status status = Status::done;  ///< not drawn unless done
-  Vector2 angle{};               ///< angles of the arms (rad)
-  Vector2 velocity{};            ///< velocity of the tool point (m/s)
+  PerArm angle{};                ///< angles of the arms (rad)
+  math::Vec2 velocity{};         ///< velocity of the tool point (m/s)
 };
 
 /// A serial arm over samples: both parallelograms, the second on the coupler of the first, the screws of

@@ -87,7 +87,10 @@ AntiNames anti_names(const BeamAxleVehicle& v) {
           front ? "anti_lift_drive_percent" : "anti_squat_percent",
           front ? "anti-lift under drive" : "anti-squat"};
 }
-std::pair<double, double> anti_percent(const BeamAxleVehicle& v, const P& p) {
+struct AntiPercent {
+  double brake, drive;
+};
+AntiPercent anti_percent(const BeamAxleVehicle& v, const P& p) {
   if (p.status != Status::done) return {nan, nan};
   const BeamAntiFeatures a = anti_features(p, v.axle, v.layout);
   return {v.brakes == AxlePart::beam ? a.brake_on_beam : a.brake_on_body,
@@ -134,9 +137,9 @@ void add_beam_columns(Table& table, const BeamAxleStudy& s, const BeamAxlePlan* 
   if (s.vehicle) {
     const AntiNames names = anti_names(*s.vehicle);
     add(names.brake, names.brake_words + " (%)",
-        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).first; });
+        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).brake; });
     add(names.drive, names.drive_words + " (%)",
-        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).second; });
+        [&](const BeamAxleRow& r) { return anti_percent(*s.vehicle, r.parameters).drive; });
   }
   if (s.vehicle && s.vehicle->other_axle) {
     const auto axes = [&](const BeamAxleRow& r) {
