@@ -52,6 +52,22 @@ inline Suspension corner_from(const Value& mechanism) {
   return out;
 }
 
+/// The suspension with its rods on the centre link of a steering linkage in place of the rack. The arms, 150
+/// mm long, point forward; `unequal` shortens and turns the idler arm, and leans both shafts.
+inline Suspension with_steering_linkage(Suspension suspension, bool unequal) {
+  for (const CornerLink& link : suspension.links) {
+    if (!link.moved_by_rack) continue;
+    const Vec3 at = link.body[0], joint{at.x, std::abs(at.y) + 0.02, at.z}, idler = math::mirrored(joint);
+    suspension.steering_linkage = {
+        .axis = unequal ? Vec3{0.2, 0.1, 2} : Vec3{0, 0, 1},
+        .pitman_pivot = joint + Vec3{-0.15, 0, 0},
+        .pitman_joint = joint,
+        .idler_pivot = idler + (unequal ? Vec3{-0.12, 0.03, 0} : Vec3{-0.15, 0, 0}),
+        .idler_joint = idler};
+  }
+  return suspension;
+}
+
 /// The position at a travel, continued from the reference.
 inline CornerPosition solve(const CornerPlan& plan, double travel, double rack = 0,
                             Driver driver = Driver::wheel_centre_z) {

@@ -10,6 +10,7 @@
 
 #include "linkwright/suspension/compliance/statics.h"
 #include "linkwright/suspension/corner/suspension.h"
+#include "linkwright/suspension/indirect/link_poses.h"
 #include "linkwright/suspension/wheel/parameters.h"
 #include "support/message.h"
 #include "suspension/suspensions.h"
@@ -137,6 +138,30 @@ TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       EXPECT_NEAR(found.at_centre[i][j], expected(i, j), 1e-10 * std::sqrt(expected(i, i) * expected(j, j)));
+}
+
+// Reciprocity with tie rods on a centre link that is turned: a load pushes along the path of their inner
+// ends.
+TEST(Compliance, SteeringLinkageTakesWhatItGives) {
+  for (const bool unequal : {false, true}) {
+    const Suspension suspension = with_steering_linkage(corner_sample("2RS-US").suspension, unequal);
+    const double rack = 0.06, h = 1e-6;
+    const Compliance found = solve_compliance(suspension, solve(suspension, 0.03, rack).place, rack,
+                                              rubber(suspension), Support::spring);
+    ASSERT_EQ(found.status, Status::done) << found.reason;
+    for (int load = 0; load < 6; ++load) {
+      double on_arm = 0;
+      for (const JointTransfer& joint : found.joints)
+        if (!joint.joint.at_carrier && suspension.links[joint.joint.link].moved_by_rack) {
+          const int link = joint.joint.link;
+          const Vec3 path =
+              1 / (2 * h) *
+              (body_point(suspension, link, 0, rack + h) - body_point(suspension, link, 0, rack - h));
+          on_arm += dot(Vec3{joint.by[0][load], joint.by[1][load], joint.by[2][load]}, path);
+        }
+      EXPECT_NEAR(on_arm, -found.by_rack[load], 1e-8 * (1 + std::abs(on_arm)));
+    }
+  }
 }
 
 TEST(Compliance, SymmetricAndPositiveForEveryMechanism) {

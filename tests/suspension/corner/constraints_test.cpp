@@ -5,6 +5,7 @@
 #include "linkwright/suspension/corner/position.h"
 #include "linkwright/suspension/corner/suspension.h"
 #include "support/message.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -18,6 +19,25 @@ TEST(CornerConstraints, ReferenceIsAssembled) {
     for (int i = 0; i < plan.unknowns; ++i) EXPECT_NEAR(at.residual[i], 0, 5e-16) << sample.name << i;
     EXPECT_NEAR(worst_misfit(plan, {{sample.suspension.wheel.centre, {}}, 0}, 0).gap, 0, 5e-16);
   }
+}
+
+TEST(CornerConstraints, DerivativesWithASteeringLinkage) {
+  constexpr double h = 1e-6;
+  for (const bool unequal : {false, true})
+    for (const char* name : {"2RS-US", "RS-SP-US", "5US", "interconnected"}) {
+      Suspension suspension = with_steering_linkage(corner_sample(name).suspension, unequal);
+      if (!suspension.steering_linkage) continue;
+      SCOPED_TRACE(name);
+      const CornerPlan plan = prepare_suspension(suspension);
+      const CornerPlace place{
+          {plan.wheel.centre + Vec3{0.02, -0.01, 0.03}, math::turn_about({0.1, -0.2, 0.15})}, 0};
+      CornerEquations at, more, less;
+      evaluate(plan, place, 0.04, Driver::contact_z, 0, at);
+      evaluate(plan, place, 0.04 + h, Driver::contact_z, 0, more);
+      evaluate(plan, place, 0.04 - h, Driver::contact_z, 0, less);
+      for (int i = 0; i < plan.unknowns; ++i)
+        EXPECT_NEAR(at.by_rack[i], (more.residual[i] - less.residual[i]) / (2 * h), 1e-9) << i;
+    }
 }
 
 // Exact derivatives against central differences, at a place off the reference and off assembly, with the

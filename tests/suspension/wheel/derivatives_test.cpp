@@ -14,6 +14,7 @@
 #include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 #include "suspension/pushrod_corner.h"
+#include "suspension/suspensions.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -151,7 +152,11 @@ TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
 }
 
 TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
-  for (const CornerSample& sample : corner_samples()) {
+  std::vector<CornerSample> samples(corner_samples().begin(), corner_samples().end());
+  for (const bool unequal : {false, true})
+    samples.push_back({.name = "2RS-US with a steering linkage",
+                       .suspension = with_steering_linkage(corner_sample("2RS-US").suspension, unequal)});
+  for (const CornerSample& sample : samples) {
     const DerivativePlan plan = prepare_derivatives(sample.suspension, {});
     const CornerPosition reference = reference_position(plan.plan);
     for (const CornerInput& input : {CornerInput{0.04, 0.015}, CornerInput{-0.05, 0}}) {

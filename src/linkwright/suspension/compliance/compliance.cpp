@@ -201,11 +201,9 @@ MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
   MatrixXd out = MatrixXd::Zero(saddle.size(), 7);
   out.topLeftCorner<6, 6>().setIdentity();
   for (const ElasticJoint& joint : of.joints) {
-    if (joint.first != ground || !of.suspension->links[joint.link].moved_by_rack) continue;
+    if (joint.by_rack == Vec3{}) continue;
     for (int i = 0; i < 6; ++i) {
-      const auto along = [&](int k) {
-        return k < 3 ? dot(joint.axes.row[k], of.suspension->rack_direction) : 0.0;
-      };
+      const auto along = [&](int k) { return k < 3 ? dot(joint.axes.row[k], joint.by_rack) : 0.0; };
       if (joint.multiplier[i] >= 0) {
         out(joint.multiplier[i], 6) = along(i);
         continue;
@@ -250,10 +248,9 @@ SpringForce beyond_offset(const ElasticJoint& joint, int component, double relat
 std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
                                 double rack) {
   std::array<double, 6> relative{};
-  const bool moved = joint.first == ground && of.suspension->links[joint.link].moved_by_rack;
   for (int i = 0; i < 6; ++i) {
     relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x);
-    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.suspension->rack_direction);
+    if (i < 3) relative[i] -= rack * dot(joint.axes.row[i], joint.by_rack);
   }
   std::array<Vec3, 2> out{};
   for (int i = 0; i < 6; ++i) {
@@ -524,7 +521,6 @@ Compliance linear_answer(AtRest& rest, const std::optional<PointLoad>& preload) 
   out.at_contact = plain(shifted * centre * shifted.transpose());
   for (int i = 0; i < 6; ++i) out.by_rack[i] = x(i, 6);
 
-  const Suspension& suspension = *assembly.suspension;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const ElasticJoint& joint = assembly.joints[i];
     JointTransfer& transfer = out.joints.emplace_back();
@@ -534,8 +530,7 @@ Compliance linear_answer(AtRest& rest, const std::optional<PointLoad>& preload) 
       const std::array<double, 6> all{force.x, force.y, force.z, moment.x, moment.y, moment.z};
       for (int k = 0; k < 6; ++k) transfer.by[k][load] = all[k];
       // The rack pushes with what the links give to it.
-      if (load == 6 && joint.first == ground && suspension.links[joint.link].moved_by_rack)
-        out.rack_stiffness += dot(force, suspension.rack_direction);
+      if (load == 6) out.rack_stiffness += dot(force, joint.by_rack);
     }
   }
   constexpr double none = nan;

@@ -85,6 +85,7 @@ class Builder {
                            .at_carrier = carrier || direct,
                            .link = index,
                            .point = point,
+                           .by_rack = carrier ? Vec3{} : by_rack(*of_.suspension, index, point, rack_),
                            .axes = axes_of(stiffness, standard, rotation),
                            .stiffness = stiffness};
         for (int i = 0; i < 6; ++i)

@@ -22,7 +22,9 @@ struct ElasticJoint {
   bool at_carrier = false;
   int link = 0;
   Vec3 point;
-  Mat3 axes;  ///< its rows
+  Vec3 by_rack;  ///< derivative of the first body's point by the rack displacement; zero if the rack moves
+                 ///< none
+  Mat3 axes;     ///< its rows
   JointStiffness stiffness;
   std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< multipliers of rigid components; -1 = none
   /// Displacement on the characteristics from which motion counts (m, rad).

@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/small_lu.h"
+#include "linkwright/suspension/corner/detail/points_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -56,7 +57,7 @@ bool right_way_round(const CornerPlan& plan, const CornerPlace& place, double ra
     if (link.type == LinkType::RR)
       return dot(turned * link.carrier_axis, math::turn_about(place.arm * link.axis) * link.carrier_axis) > 0;
     if (link.type != LinkType::SP) return true;
-    const Vec3 body = link.body[0] + (link.moved_by_rack ? rack : 0) * plan.rack_direction;
+    const Vec3 body = kernel::Placed<double>{plan, place, rack}.body(link, 0);
     return dot(place.carrier.centre + turned * link.offset[0] - body, turned * link.axis) > 0;
   });
 }

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/minimum.h"
+#include "linkwright/suspension/corner/detail/steering_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -106,7 +107,7 @@ class Limits {
     const CornerLink& of = suspension_.links[link];
     MovedPoint out{of.body[point], std::vector<Vec3>(numbers_.size())};
     if (of.moved_by_rack && position >= 0)
-      out.at += positions_[position].input.rack * suspension_.rack_direction;
+      out.at = kernel::steered_point(suspension_, out.at, positions_[position].input.rack);
     for (std::size_t j = 0; j < numbers_.size(); ++j)
       if (is(j, DesignKind::body, link, point)) out.by[j] = unit_axes[numbers_[j].axis];
     return out;

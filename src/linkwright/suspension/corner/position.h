@@ -279,20 +279,21 @@ using SpringConstants = BasicSpringConstants<double>;
 /// A suspension made ready for solving. Make it with `prepare_suspension`.
 template <class T>
 struct BasicCornerPlan {
-  Side side = Side::left;                          ///< side of the vehicle
-  BasicCornerWheel<T> wheel;                       ///< wheel at the reference
-  Vector3<T> wheel_axis;                           ///< unit, outboard, at the reference
-  Vector3<T> contact;                              ///< point of the tyre at the reference, m
-  Vec3 rack_direction;                             ///< unit vector, as in Suspension
-  std::vector<BasicLinkConstants<T>> links;        ///< one a link
-  std::vector<BasicCouplerConstants<T>> couplers;  ///< one a coupler
-  std::optional<BasicSpringConstants<T>> spring;   ///< nothing without a spring
-  std::vector<BasicRockerConstants<T>> rockers;    ///< one a rocker
-  std::vector<BasicElementConstants<T>> elements;  ///< one an element
-  CornerConstruction construction;                 ///< ball joints of the carrier and planes of the arms
-  std::vector<std::string> labels;                 ///< names of the links and couplers
-  std::vector<std::string> rocker_labels;          ///< names of the rockers
-  int unknowns = 6;                                ///< 7 with an RR arm
+  Side side = Side::left;                           ///< side of the vehicle
+  BasicCornerWheel<T> wheel;                        ///< wheel at the reference
+  Vector3<T> wheel_axis;                            ///< unit, outboard, at the reference
+  Vector3<T> contact;                               ///< point of the tyre at the reference, m
+  Vec3 rack_direction;                              ///< unit vector, as in Suspension
+  std::optional<SteeringLinkage> steering_linkage;  ///< as in Suspension
+  std::vector<BasicLinkConstants<T>> links;         ///< one a link
+  std::vector<BasicCouplerConstants<T>> couplers;   ///< one a coupler
+  std::optional<BasicSpringConstants<T>> spring;    ///< nothing without a spring
+  std::vector<BasicRockerConstants<T>> rockers;     ///< one a rocker
+  std::vector<BasicElementConstants<T>> elements;   ///< one an element
+  CornerConstruction construction;                  ///< ball joints of the carrier and planes of the arms
+  std::vector<std::string> labels;                  ///< names of the links and couplers
+  std::vector<std::string> rocker_labels;           ///< names of the rockers
+  int unknowns = 6;                                 ///< 7 with an RR arm
 };
 /// A suspension made ready for solving, in numbers.
 using CornerPlan = BasicCornerPlan<double>;

@@ -147,7 +147,7 @@ Suspension mirrored(const Suspension& suspension) {
     coupler.point = math::mirrored(coupler.point);
     if (coupler.begin) coupler.begin = math::mirrored(*coupler.begin);
   }
-  // The same rack pulls one wheel and pushes the other.
+  // The same rack pulls one wheel and pushes the other; a steering linkage is the same for both wheels.
   out.rack_direction = -math::mirrored(suspension.rack_direction);
   if (out.spring) {
     out.spring->body = math::mirrored(out.spring->body);
@@ -226,6 +226,44 @@ void check_rod_point(const Suspension& suspension, const std::string& key, const
               "give the link cross_axis = [x, y, z]");
 }
 
+/// Arms and centre link have lengths, the loop is not at a dead centre, and the Pitman arm moves its joint
+/// sideways; only rods are joined to the centre link.
+void check_steering_linkage(const Suspension& suspension, bool moved, CornerFindings& found) {
+  const SteeringLinkage& l = *suspension.steering_linkage;
+  const auto add = [&](std::string text, std::string help) {
+    found.add("steering_linkage", std::move(text), std::move(help));
+  };
+  if (!moved)
+    return add("moves no link", "write moved_by = \"rack\" in the tie rod's table, or leave it out");
+  for (int i = 0; i < static_cast<int>(suspension.links.size()); ++i) {
+    const CornerLink& link = suspension.links[static_cast<std::size_t>(i)];
+    if (link.moved_by_rack && link.type != LinkType::US && link.type != LinkType::SS)
+      return add(fmt::format("{} is a {} link, and only rods (US, SS) are joined to a centre link",
+                             link_label(suspension, i), name_of(link.type)),
+                 "make it a rod, or steer by a rack");
+  }
+  if (!(norm(l.axis) > 1e-9)) return add("axis has no length", "for example [0, 0, 1]");
+  const Vec3 axis = unit(l.axis);
+  const auto across = [&](const Vec3& from, const Vec3& to) {
+    const Vec3 d = to - from;
+    return d - dot(axis, d) * axis;
+  };
+  const Vec3 pitman = across(l.pitman_pivot, l.pitman_joint), idler = across(l.idler_pivot, l.idler_joint),
+             link = across(l.pitman_joint, l.idler_joint);
+  for (const auto& [part, name] :
+       {std::pair{&pitman, "the Pitman arm"}, {&idler, "the idler arm"}, {&link, "the centre link"}})
+    if (!(norm(*part) > 1e-4))
+      return add(fmt::format("{} is {:.4g} mm long across the axis", name, 1e3 * norm(*part)),
+                 "move its joints apart");
+  constexpr double least_sine = 0.05;
+  if (!(std::abs(cross(axis, unit(pitman)).y) > least_sine))
+    return add("the Pitman arm lies across the vehicle, and its joint would not move sideways",
+               "let it point forward or backward");
+  if (!(norm(cross(unit(idler), unit(link))) > least_sine))
+    return add("the idler arm is in line with the centre link, and could turn either way",
+               "move the pivot of the idler arm");
+}
+
 }  // namespace
 
 Diagnostics check(const Suspension& suspension) {
@@ -241,9 +279,10 @@ Diagnostics check(const Suspension& suspension) {
   }
   bool moved = false;
   for (const CornerLink& link : suspension.links) moved = moved || link.moved_by_rack;
-  if (moved && !(std::abs(norm(suspension.rack_direction) - 1) < 1e-9))
+  if (moved && !suspension.steering_linkage && !(std::abs(norm(suspension.rack_direction) - 1) < 1e-9))
     found.add("rack",
               fmt::format("direction of length {}, needs a unit vector", norm(suspension.rack_direction)));
+  if (suspension.steering_linkage) check_steering_linkage(suspension, moved, found);
   if (!found.list.empty()) return found.list;  // the following checks look at the links
 
   const int links = static_cast<int>(suspension.links.size());

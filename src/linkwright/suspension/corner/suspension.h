@@ -59,7 +59,7 @@ struct BasicCornerLink {
   /// Length of a US or SS link (m) instead of the distance of its points: they then are no position, and
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
-  bool moved_by_rack = false;  ///< its body points move with the rack
+  bool moved_by_rack = false;  ///< its body points move with the rack, or with the centre link
   /// US: direction of the axis of its U joint that is fixed in the body; the other axis of the joint lies
   /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
   /// the rod off that line takes. Not given: level, and across the rod at the reference.
@@ -192,6 +192,21 @@ struct BasicCornerWheel {
 /// The wheel at the reference position, in numbers.
 using CornerWheel = BasicCornerWheel<double>;
 
+/// A steering linkage in place of a rack: a Pitman arm on the shaft of the steering box, an idler arm, and
+/// the centre link between them, to which the tie rods are joined. Both shafts are parallel. Its points are
+/// those of the vehicle, straight ahead; they are the same for both wheels.
+struct SteeringLinkage {
+  Vec3 axis{0, 0, 1};    ///< direction of both shafts, of any length
+  Vec3 pitman_pivot,     ///< a point of the shaft of the Pitman arm, m
+      pitman_joint,      ///< joint of the Pitman arm and the centre link, m
+      idler_pivot,       ///< a point of the shaft of the idler arm, m
+      idler_joint;       ///< joint of the idler arm and the centre link, m
+  double box_ratio = 0;  ///< turn of the steering wheel by that of the Pitman arm; 0 = not known
+
+  /// Compares two linkages. @returns true if all numbers are equal
+  friend bool operator==(const SteeringLinkage&, const SteeringLinkage&) = default;
+};
+
 /// A wheel suspension: plain data.
 template <class T>
 struct BasicSuspension {
@@ -203,6 +218,9 @@ struct BasicSuspension {
   std::optional<BasicCornerSpring<T>> spring;   ///< nothing without a spring
   std::vector<BasicRocker<T>> rockers;          ///< a rocker is driven by what stands before it
   std::vector<BasicCornerElement<T>> elements;  ///< dampers, torsion bars, arms of anti-roll bars
+  /// Moves the tie rods instead of a rack. What is called the rack displacement is then that of the Pitman
+  /// arm's joint along its arc (m, positive to the left).
+  std::optional<SteeringLinkage> steering_linkage;
 };
 /// A wheel suspension, in numbers.
 using Suspension = BasicSuspension<double>;

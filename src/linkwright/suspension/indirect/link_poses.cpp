@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/suspension/corner/detail/steering_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -26,7 +27,14 @@ Mat3 turn_between(const Vec3& a, const Vec3& b) {
 
 Vec3 body_point(const Suspension& suspension, int link, int point, double rack) {
   const CornerLink& of = suspension.links.at(link);
-  return of.moved_by_rack ? of.body.at(point) + rack * suspension.rack_direction : of.body.at(point);
+  const Vec3& at = of.body.at(point);
+  return of.moved_by_rack ? kernel::steered_point(suspension, at, rack) : at;
+}
+
+Vec3 by_rack(const Suspension& suspension, int link, const Vec3& now, double rack) {
+  if (!suspension.links.at(link).moved_by_rack) return {};
+  return suspension.steering_linkage ? kernel::centre_link(*suspension.steering_linkage, rack).speed(now)
+                                     : suspension.rack_direction;
 }
 
 Vec3 carrier_point(const Suspension& suspension, int link, int point, const CarrierPose& carrier) {

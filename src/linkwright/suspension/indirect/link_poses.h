@@ -24,6 +24,9 @@ constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
 /// is on it.
 Vec3 body_point(const Suspension& suspension, int link, int point, double rack);
 Vec3 carrier_point(const Suspension& suspension, int link, int point, const CarrierPose& carrier);
+/// The derivative by the rack displacement of a body point of a link, which is now at `now`; zero for a link
+/// that the rack does not move.
+Vec3 by_rack(const Suspension& suspension, int link, const Vec3& now, double rack);
 
 /// All links at a position of the carrier, `from` and `at` at the first body point. US links turn about their
 /// line as their U joint makes them, SS links do not, struts turn with the carrier, R and S are joints

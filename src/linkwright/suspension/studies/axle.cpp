@@ -14,6 +14,7 @@
 
 #include "linkwright/study/memory.h"
 #include "linkwright/study/remarks.h"
+#include "linkwright/suspension/corner/detail/steering_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -41,10 +42,15 @@ class Rows {
   void add_input(std::string key, std::string label, std::vector<double> values) {
     table_.add(std::move(key), std::move(label), std::move(values));
   }
-  void add_values(std::string key, std::string label) {
+  /// A column of a function of the value that was swept.
+  template <class Value>
+  void add_by_value(std::string key, std::string label, Value&& value) {
     std::vector<double> column;
-    for (const AxleRow& r : rows_) column.push_back(r.value);
+    for (const AxleRow& r : rows_) column.push_back(value(r.value));
     add_input(std::move(key), std::move(label), std::move(column));
+  }
+  void add_values(std::string key, std::string label) {
+    add_by_value(std::move(key), std::move(label), [](double value) { return value; });
   }
   Table take() { return std::move(table_); }
 
@@ -129,11 +135,30 @@ class SteeredAxle {
   double axes_ = WheelParameters::missing;
 };
 
+/// Travel of the rack by a turn of the steering wheel, or of the Pitman arm's joint (m); nothing if unknown.
+std::optional<double> rack_per_turn(const AxleForm& form, const Suspension& suspension) {
+  const auto& linkage = suspension.steering_linkage;
+  if (form.rack_per_turn || !linkage || !(linkage->box_ratio > 0)) return form.rack_per_turn;
+  return 2 * pi * kernel::pitman_length(*linkage) / linkage->box_ratio;
+}
+
+/// The angles of both arms of a steering linkage.
+void add_arm_angles(Rows& out, const SteeringLinkage& linkage) {
+  const auto add = [&](std::string key, std::string label, double kernel::CentreLink<double>::*angle) {
+    out.add_by_value(std::move(key), std::move(label),
+                     [&, angle](double rack) { return kernel::centre_link(linkage, rack).*angle; });
+  };
+  add("pitman_angle_rad", "turn of the Pitman arm (rad)", &kernel::CentreLink<double>::pitman);
+  add("idler_angle_rad", "turn of the idler arm (rad)", &kernel::CentreLink<double>::idler);
+}
+
 Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight, const AxleForm& form,
-                  const std::optional<VehicleForm>& vehicle) {
+                  const std::optional<VehicleForm>& vehicle, const Suspension& suspension) {
   using P = AxleParameters;
   Rows out("steer", rows);
   out.add_values("rack_m", "rack, to the left (m)");
+  if (suspension.steering_linkage) add_arm_angles(out, *suspension.steering_linkage);
+  const std::optional<double> per_turn = rack_per_turn(form, suspension);
   out.add("left_steer_rad", "left steer angle (rad)", [](const P& p) { return p.steer_left; });
   out.add("right_steer_rad", "right steer angle (rad)", [](const P& p) { return p.steer_right; });
   out.add("left_camber_rad", "left camber (rad)", [](const P& p) { return p.left.angles.camber; });
@@ -145,11 +170,11 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
   };
   of_left("left_steer_by_rack_rad_per_m", "left steer angle by rack (rad/m)",
           &SteeringParameters::steer_by_rack);
-  if (form.rack_per_turn)
+  if (per_turn)
     out.add("steering_ratio", "steering ratio, steering wheel by mean steer angle", [&](const P& p) {
       if (!p.steering_left || !p.steering_right) return WheelParameters::missing;
       return steering_ratio((p.steering_left->steer_by_rack + p.steering_right->steer_by_rack) / 2,
-                            *form.rack_per_turn);
+                            *per_turn);
     });
   of_left("left_brake_arm_m", "left brake moment arm, outboard brake (m)", &SteeringParameters::brake_arm);
   of_left("left_drive_arm_m", "left drive moment arm (m)", &SteeringParameters::drive_arm);
@@ -381,19 +406,20 @@ void add_axle(study::Result& result, const AxleDescription& both, const AxleForm
   }
   if (form.rack) {
     const auto rows = swept(AxleMotion::rack, *form.rack->values);
-    result.tables.push_back(steer_table(rows, straight, form, vehicle));
+    result.tables.push_back(steer_table(rows, straight, form, vehicle, both.left.suspension));
     const study::AddPlot plot{result, {.table = "steer", .x = "rack_m"}};
     plot("steer-angles", "Steer angles over rack", {"left_steer_rad", "right_steer_rad"});
     plot("ackermann", "Ackermann over rack", {"ackermann_percent"});
     plot("lever-arms", "Moment arms of the left wheel about its steering axis",
          {"left_brake_arm_m", "left_drive_arm_m", "left_lateral_arm_m", "left_load_arm_m"});
     remark_lost(result, rows, "rack (m)");
-    if (form.rack_per_turn && straight.steering_left && straight.steering_right)
+    const std::optional<double> per_turn = rack_per_turn(form, both.left.suspension);
+    if (per_turn && straight.steering_left && straight.steering_right)
       fact("steering ratio, rack centred",
            plain_number(
                steering_ratio(
                    (straight.steering_left->steer_by_rack + straight.steering_right->steer_by_rack) / 2,
-                   *form.rack_per_turn))
+                   *per_turn))
                .fixed(2));
     if (!rows.empty()) add_lock_facts(result, rows, straight, vehicle);
   }

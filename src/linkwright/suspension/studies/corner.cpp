@@ -48,6 +48,7 @@ class CornerReader {
                                       const std::string& name) { return named(table, key, name); };
     read_spring_parts(mechanism_, common_, form_, by_name, out_);
     rack();
+    steering_linkage();
     if (mechanism_.document().has_errors()) return std::nullopt;
     return std::move(out_);
   }
@@ -63,8 +64,9 @@ class CornerReader {
           study::suggestion(form_.sample, known));
       return std::nullopt;
     }
-    for (const char* key : {"hard_points", "wheel", "link", "coupler", "rocker", "spring", "damper",
-                            "torsion_bar", "anti_roll_bar", "bump_stop", "rebound_stop", "rack"})
+    for (const char* key :
+         {"hard_points", "wheel", "link", "coupler", "rocker", "spring", "damper", "torsion_bar",
+          "anti_roll_bar", "bump_stop", "rebound_stop", "rack", "steering_linkage"})
       if (mechanism_.has(key)) mechanism_.error(key, "a sample brings its own", "remove it, or the sample");
     out_.suspension = corner_sample(form_.sample).suspension;
     if (form_.side != out_.suspension.side) out_.suspension = mirrored(out_.suspension);
@@ -299,6 +301,14 @@ class CornerReader {
     out_.suspension.rack_direction = along == Vec3{0, 1, 0} ? along : unit(along);
   }
 
+  void steering_linkage() {
+    if (!form_.steering_linkage) return;
+    const SteeringLinkageForm& s = *form_.steering_linkage;
+    const auto point = [](const std::array<double, 3>& p) { return Vec3{p[0], p[1], p[2]}; };
+    out_.suspension.steering_linkage = {point(s.axis),        point(s.pitman_pivot), point(s.pitman_joint),
+                                        point(s.idler_pivot), point(s.idler_joint),  s.box_ratio};
+  }
+
   study::ObjectReader& mechanism_;
   const study::Common& common_;
   OpenPoints open_;
@@ -404,6 +414,11 @@ Value write_suspension(const CornerDescription& d) {
   }
   write_spring_parts(d, out);
   out.rack.direction = {g.rack_direction.x, g.rack_direction.y, g.rack_direction.z};
+  if (const auto& s = g.steering_linkage) {
+    const auto given = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
+    out.steering_linkage = {given(s->axis),        given(s->pitman_pivot), given(s->pitman_joint),
+                            given(s->idler_pivot), given(s->idler_joint),  s->box_ratio};
+  }
   Value value = study::write_fields(out);
   // Keys that name nothing.
   const auto drop = [](Value& table, std::string_view key) {

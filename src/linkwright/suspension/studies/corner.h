@@ -58,7 +58,7 @@ PointBox box_of(const Vec3& near, const Edges& edges, const Vec3& offset, std::s
 
 enum class MovedBy { rack };
 constexpr std::array<EnumName<MovedBy>, 1> names(MovedBy) {
-  return {{{MovedBy::rack, "rack", "its body points move along the rack"}}};
+  return {{{MovedBy::rack, "rack", "its body points move along the rack, or with the centre link"}}};
 }
 
 struct WheelForm {
@@ -354,6 +354,27 @@ void fields(Visitor&& visit, RackForm& r) {
         r.direction);
 }
 
+/// `[mechanism.steering_linkage]`: points straight ahead, the same for both wheels.
+struct SteeringLinkageForm {
+  std::array<double, 3> axis{0, 0, 1};
+  std::array<double, 3> pitman_pivot{}, pitman_joint{}, idler_pivot{}, idler_joint{};
+  double box_ratio = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SteeringLinkageForm& s) {
+  visit(field::entry("axis", "direction of both shafts, of any length").between(-1e6, 1e6), s.axis);
+  const auto point = [](std::string_view key, std::string_view summary) {
+    return field::length(key, summary).between(-1e6, 1e6).required();
+  };
+  visit(point("pitman_pivot", "a point of the shaft of the Pitman arm"), s.pitman_pivot);
+  visit(point("pitman_joint", "joint of the Pitman arm and the centre link"), s.pitman_joint);
+  visit(point("idler_pivot", "a point of the shaft of the idler arm"), s.idler_pivot);
+  visit(point("idler_joint", "joint of the idler arm and the centre link"), s.idler_joint);
+  visit(field::entry("box_ratio", "turn of the steering wheel by that of the Pitman arm; 0 = not known")
+            .between(0, 1e3),
+        s.box_ratio);
+}
+
 struct CornerForm {
   std::string sample;
   Side side = Side::left;
@@ -369,6 +390,7 @@ struct CornerForm {
   std::optional<AntiRollBarForm> anti_roll_bar;
   std::optional<StopForm> bump_stop, rebound_stop;
   RackForm rack;
+  std::optional<SteeringLinkageForm> steering_linkage;
 };
 template <class Visitor>
 void fields(Visitor&& visit, CornerForm& g) {
@@ -388,6 +410,9 @@ void fields(Visitor&& visit, CornerForm& g) {
   visit(field::entry("bump_stop", "engages as the spring or damper is compressed"), g.bump_stop);
   visit(field::entry("rebound_stop", "engages as the spring or damper is extended"), g.rebound_stop);
   visit(field::entry("rack", "of the steering"), g.rack);
+  visit(field::entry("steering_linkage",
+                     "Pitman arm, idler arm and centre link, which move the tie rods instead of a rack"),
+        g.steering_linkage);
 }
 
 /// The freedom that a study may leave to its points.

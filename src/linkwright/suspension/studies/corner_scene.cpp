@@ -12,6 +12,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/vector3.h"
+#include "linkwright/suspension/corner/detail/steering_kernel.h"
 #include "linkwright/suspension/indirect/link_poses.h"
 
 namespace linkwright::suspension {
@@ -56,11 +57,24 @@ class Drawing {
     scene_.joints.push_back({named("contact point"), contact, Scene::JointStyle::tracer});
     scene_.traces.push_back({contact, "path of the " + named("contact point"), false});
     steering_axis();
+    if (!other && suspension_.steering_linkage) steering_linkage(*suspension_.steering_linkage);
   }
 
+  /// True if the other wheel has, at every rack displacement, the mirror image of a position of this one.
   bool has_opposite() const {
+    if (suspension_.steering_linkage && !is_symmetric()) return false;
     return std::all_of(grid_.racks.begin(), grid_.racks.end(), [&](double r) {
       return std::any_of(grid_.racks.begin(), grid_.racks.end(), [&](double s) { return s == -r; });
+    });
+  }
+
+  /// True if the steering linkage moves to the right as it moves to the left.
+  bool is_symmetric() const {
+    const Vec3 at = suspension_.steering_linkage->pitman_joint;
+    return std::all_of(grid_.racks.begin(), grid_.racks.end(), [&](double rack) {
+      const Vec3 one = kernel::steered_point(suspension_, at, rack),
+                 other = kernel::steered_point(suspension_, math::mirrored(at), -rack);
+      return norm(one - math::mirrored(other)) < 1e-9;
     });
   }
 
@@ -111,8 +125,9 @@ class Drawing {
     return at_sample(std::move(name), [&](std::size_t i) { return place(grid_.positions[i]); });
   }
   int body_point(std::string name, const CornerLink& link, const Vec3& at) {
-    const Vec3 along = link.moved_by_rack ? suspension_.rack_direction : Vec3{};
-    return point(std::move(name), [=](const CornerPosition& p) { return at + p.input.rack * along; });
+    return point(std::move(name), [=, this, moved = link.moved_by_rack](const CornerPosition& p) {
+      return moved ? kernel::steered_point(suspension_, at, p.input.rack) : at;
+    });
   }
   int carrier_point(std::string name, const Vec3& at) {
     const Vec3 centre = suspension_.wheel.centre;
@@ -185,10 +200,12 @@ class Drawing {
 
   /// The position of a point fixed to a link: the frames of three of its points then and now.
   Vec3 link_point(const CornerLink& link, const CornerPosition& p, const Vec3& at) const {
-    const Vec3 centre = suspension_.wheel.centre,
-               along = link.moved_by_rack ? suspension_.rack_direction : Vec3{};
+    const Vec3 centre = suspension_.wheel.centre;
     std::vector<Vec3> then, now;
-    for (const Vec3& b : link.body) then.push_back(b), now.push_back(b + p.input.rack * along);
+    for (const Vec3& b : link.body) {
+      then.push_back(b);
+      now.push_back(link.moved_by_rack ? kernel::steered_point(suspension_, b, p.input.rack) : b);
+    }
     for (const Vec3& c : link.carrier) then.push_back(c), now.push_back(place(p.place.carrier, c, centre));
     const auto frame = [](const std::vector<Vec3>& q) {
       const Vec3 x = unit(q[1] - q[0]), z = unit(cross(x, q[2] - q[0]));
@@ -276,6 +293,28 @@ class Drawing {
     scene_.bodies.push_back({named("spring"), {top, bottom}, Scene::BodyStyle::spring});
     handle("mechanism.spring.body_m", top);
     handle("mechanism.spring.moving_m", bottom);
+  }
+
+  void steering_linkage(const SteeringLinkage& linkage) {
+    const auto fixed = [&](const char* name, const Vec3& at) {
+      const int made = point(name, [at](const CornerPosition&) { return at; });
+      scene_.joints.push_back({name, made, Scene::JointStyle::ground_pivot});
+      return made;
+    };
+    const auto moved = [&](const char* name, const Vec3& at) {
+      const int made = point(name, [at, this](const CornerPosition& p) {
+        return kernel::steered_point(suspension_, at, p.input.rack);
+      });
+      scene_.joints.push_back({name, made, Scene::JointStyle::pivot});
+      return made;
+    };
+    const int pitman = fixed("Pitman arm, pivot", linkage.pitman_pivot),
+              idler = fixed("idler arm, pivot", linkage.idler_pivot),
+              first = moved("Pitman arm, joint", linkage.pitman_joint),
+              second = moved("idler arm, joint", linkage.idler_joint);
+    scene_.bodies.push_back({"Pitman arm", {pitman, first}, Scene::BodyStyle::bar});
+    scene_.bodies.push_back({"idler arm", {idler, second}, Scene::BodyStyle::bar});
+    scene_.bodies.push_back({"centre link", {first, second}, Scene::BodyStyle::bar});
   }
 
   void steering_axis() {

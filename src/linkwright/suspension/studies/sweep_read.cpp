@@ -85,6 +85,9 @@ std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document,
     table->error("mechanism", fmt::format("both wheels are {} ones", name_of(one->suspension.side)),
                  fmt::format("write side = \"{}\" for the other one",
                              name_of(one->suspension.side == Side::left ? Side::right : Side::left)));
+  if (other->suspension.steering_linkage != one->suspension.steering_linkage)
+    table->error("mechanism", "the steering linkage is another one than at the first wheel",
+                 "it moves both tie rods: give the same [mechanism.steering_linkage] for both wheels");
   const auto &bar = one->springs.anti_roll_bar, &other_bar = other->springs.anti_roll_bar;
   if (bar.has_value() != other_bar.has_value())
     table->error("mechanism", "the anti-roll bar has an arm at one wheel alone",

@@ -32,7 +32,8 @@ BasicSuspension<D> constant(const Suspension& suspension) {
   BasicSuspension<D> out{.side = suspension.side,
                          .wheel = {constant<D>(suspension.wheel.centre), D(suspension.wheel.toe),
                                    D(suspension.wheel.camber), suspension.wheel.tyre_diameter},
-                         .rack_direction = suspension.rack_direction};
+                         .rack_direction = suspension.rack_direction,
+                         .steering_linkage = suspension.steering_linkage};
   for (const CornerLink& link : suspension.links) {
     out.links.push_back({.type = link.type,
                          .body = constants<D>(link.body),

@@ -43,20 +43,18 @@ LINKWRIGHT_KERNEL void write_distance(const Placed<T>& placed, const BasicLinkCo
   Row<T> row = to.row(distance_residual(d, length));
   const Vector3<T> weight = (1 / length) * d;
   row.point(weight, r);
-  row.by_rack = -dot(weight, placed.rack_speed(link));
+  row.by_rack = -placed.by_rack(link, body, weight);
 }
 
 template <class T>
 void write_meeting(const Placed<T>& placed, const BasicLinkConstants<T>& link, const Vector3<T>& r,
                    const Vector3<T>& target, Writer<T>& to) {
   const Vector3<T> miss = placed.point(r) - target;
-  const Vec3 speed = placed.rack_speed(link);
   const std::array<T, 3> residual{miss.x, miss.y, miss.z};
-  const std::array<double, 3> by_rack{-speed.x, -speed.y, -speed.z};
   for (int k = 0; k < 3; ++k) {
     Row<T> row = to.row(residual[k]);
     row.point(axes[k], r);
-    row.by_rack = by_rack[k];
+    row.by_rack = -placed.by_rack(link, 0, axes[k]);
   }
 }
 
@@ -82,7 +80,7 @@ LINKWRIGHT_KERNEL void write_link(const Placed<T>& placed, const BasicLinkConsta
         Row<T> row = to.row(dot(d, n));
         row.point(n, r);
         row.turn(cross(n, d));
-        row.by_rack = -dot(n, placed.rack_speed(link));
+        row.by_rack = -placed.by_rack(link, 0, n);
       }
       return;
     }
@@ -180,6 +178,7 @@ BasicCornerPlan<T> prepare(const BasicSuspension<T>& suspension) {
       .wheel = suspension.wheel,
       .wheel_axis = wheel_axis(suspension.side, suspension.wheel.toe, suspension.wheel.camber),
       .rack_direction = suspension.rack_direction,
+      .steering_linkage = suspension.steering_linkage,
       .construction = construction_of(suspension.links)};
   const Vector3<T>& centre = suspension.wheel.centre;
   plan.contact =

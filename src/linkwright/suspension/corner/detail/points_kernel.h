@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "linkwright/math/scalar.h"
+#include "linkwright/suspension/corner/detail/steering_kernel.h"
 #include "linkwright/suspension/corner/position.h"
 
 /// Points of links and of the carrier in a pose, and how they move.
@@ -49,14 +51,24 @@ struct Placed {
   const BasicCornerPlan<T>& plan;
   const BasicCornerPlace<T>& at;
   T rack;
+  std::optional<CentreLink<T>> centre_link;
+
+  Placed(const BasicCornerPlan<T>& of, const BasicCornerPlace<T>& place, const T& displacement)
+      : plan(of), at(place), rack(displacement) {
+    if (plan.steering_linkage) centre_link = kernel::centre_link(*plan.steering_linkage, rack);
+  }
 
   Vector3<T> offset(const Vector3<T>& reference) const { return at.carrier.rotation * reference; }
   Vector3<T> point(const Vector3<T>& turned) const { return at.carrier.centre + turned; }
   Vector3<T> body(const BasicLinkConstants<T>& link, int i) const {
-    return link.moved_by_rack ? link.body[i] + rack * plan.rack_direction : link.body[i];
+    if (!link.moved_by_rack) return link.body[i];
+    return centre_link ? centre_link->point(link.body[i]) : link.body[i] + rack * plan.rack_direction;
   }
-  Vec3 rack_speed(const BasicLinkConstants<T>& link) const {
-    return link.moved_by_rack ? plan.rack_direction : Vec3{};
+  /// weight . (derivative of a body point by the rack displacement)
+  template <class W>
+  T by_rack(const BasicLinkConstants<T>& link, int i, const Vector3<W>& weight) const {
+    if (!link.moved_by_rack) return T(0);
+    return centre_link ? dot(weight, centre_link->speed(body(link, i))) : T(dot(weight, plan.rack_direction));
   }
 };
 
@@ -160,20 +172,19 @@ LinkPoint<T> frame_point(const Placed<T>& placed, const BasicLinkConstants<T>& l
 template <class T>
 void add_point(const Placed<T>& placed, const LinkPoint<T>& point, const Vector3<T>& weight, Row<T>& row) {
   const BasicLinkConstants<T>& link = *point.link;
-  const Vec3 speed = placed.rack_speed(link);
   if (link.type == LinkType::SR) {
     const auto [w1, w2] = affine_weights(point.affine, weight, point.f1, point.f2);
     row.point(weight - w1 - w2, point.r1);
     row.point(w2, point.r2);
-    row.by_rack += dot(w1, speed);
+    row.by_rack += placed.by_rack(link, 0, w1);
   } else if (link.type == LinkType::RS) {
     const Vector3<T> w2 = affine_weights(point.affine, weight, point.f1, point.f2)[1];
     row.point(w2, point.r1);
-    row.by_rack += dot(weight - w2, speed);
+    row.by_rack += placed.by_rack(link, 0, weight - w2);
   } else {
     const Vector3<T> w1 = rod_weight(point, weight);
     row.point(w1, point.r1);
-    row.by_rack += dot(weight - w1, speed);
+    row.by_rack += placed.by_rack(link, 0, weight - w1);
   }
 }
 

@@ -120,7 +120,7 @@ void add_part_point(const Placed<T>& placed, const BasicPartPoint<T>& point, con
       if (link.type == LinkType::RR) {
         const Vector3<T> reach = math::turn_about(placed.at.arm * link.axis) * point.at;
         row.of[6] += dot(weight, cross(link.axis, reach));
-        row.by_rack += dot(weight, placed.rack_speed(link));
+        row.by_rack += placed.by_rack(link, 0, weight);
       } else {
         add_point(placed, link_point(placed, point), weight, row);
       }
@@ -190,7 +190,7 @@ T part_angle(const Placed<T>& placed, const BasicElementConstants<T>& element, R
   const Vector3<T> across = arm - dot(arm, axis) * axis;
   const Vector3<T> weight = (1 / dot(across, across)) * cross(axis, across);
   row.point(weight, r);
-  row.by_rack -= dot(weight, placed.rack_speed(link));
+  row.by_rack -= placed.by_rack(link, 0, weight);
   return atan2(dot(across, side), dot(across, element.mark));
 }
 
