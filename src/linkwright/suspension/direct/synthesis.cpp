@@ -183,14 +183,16 @@ struct Form {
   }
 };
 
-/// The objectives of which the largest is minimised, and those that keep to 1.
+/// The objectives of which the largest is minimised, and what each may come to: infinite where it may be
+/// anything.
 struct MinimaxGoal {
   const DirectModel& model;
-  std::span<const std::size_t> these, within;
-  bool has(std::span<const std::size_t> objectives, std::size_t row) const {
-    return std::find(objectives.begin(), objectives.end(), model.positions().rows[row].objective) !=
-           objectives.end();
+  std::span<const std::size_t> these;
+  std::span<const double> bounds;
+  bool minimises(std::size_t row) const {
+    return std::find(these.begin(), these.end(), model.positions().rows[row].objective) != these.end();
   }
+  double bound(std::size_t row) const { return bounds[model.positions().rows[row].objective]; }
 };
 /// The price of a missed limit is more than any deviation costs.
 constexpr double missed_price = 1e3;
@@ -199,8 +201,8 @@ double merit(const MinimaxGoal& goal, const DirectPoint& at) {
   if (!at.assembled) return infinity;
   double most = 0, over = 0;
   for (std::size_t r = 0; r < goal.model.rows(); ++r) {
-    if (goal.has(goal.these, r)) most = std::max(most, std::abs(at.deviations[r]));
-    if (goal.has(goal.within, r)) over = std::max(over, std::abs(at.deviations[r]) - 1);
+    if (goal.minimises(r)) most = std::max(most, std::abs(at.deviations[r]));
+    over = std::max(over, std::abs(at.deviations[r]) - goal.bound(r));
   }
   for (const double limit : at.limits) over = std::max(over, limit);
   return most + missed_price * over;
@@ -237,8 +239,9 @@ optimise::ConeProgramme step_programme(const MinimaxGoal& goal, const DirectPoin
   };
   for (std::size_t r = 0; r < goal.model.rows(); ++r)
     for (const double sign : {1.0, -1.0}) {
-      if (goal.has(goal.these, r)) add(reached, -sign * deviations[r], {sign, false, r});
-      if (goal.has(goal.within, r)) add(over, 1 - sign * deviations[r], {sign, false, r});
+      if (goal.minimises(r)) add(reached, -sign * deviations[r], {sign, false, r});
+      if (const double bound = goal.bound(r); std::isfinite(bound))
+        add(over, bound - sign * deviations[r], {sign, false, r});
     }
   for (std::size_t i = 0; i < goal.model.limits(); ++i) add(over, -limits[i], {1, true, i});
   programme.cones.push_back({.bound = {{over}, {1}, 0}});
@@ -279,17 +282,17 @@ void learn_curvature(const std::vector<Form>& forms, const std::vector<optimise:
   if (sbs > 0) curvature += y * y.transpose() / step.dot(y) - bs * bs.transpose() / sbs;
 }
 
-/// Minimises the largest of the objectives `these` while those of `within` keep to 1 and limits are met:
+/// Minimises the largest of the objectives `these` while each keeps to its bound and limits are met:
 /// quadratic programmes in a region that grows while they hold and shrinks where they do not, or
 /// where a design does not assemble. Their curvature is that of the Lagrange function, learnt from its
 /// gradients (BFGS with Powell's damping, 1978); limits may be missed at a price that is higher than any
 /// deviation's.
 std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& options,
-                                 std::span<const std::size_t> these, std::span<const std::size_t> within,
+                                 std::span<const std::size_t> these, std::span<const double> bounds,
                                  std::vector<double>& u, RunContext& context) {
   constexpr double smallest = 1e-10;
   const std::size_t n = model.size();
-  const MinimaxGoal goal{model, these, within};
+  const MinimaxGoal goal{model, these, bounds};
   DirectPoint at, trial, other;
   model.evaluate(u, true, at);
   std::int64_t evaluations = 1;
@@ -353,32 +356,42 @@ std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& 
 std::int64_t refine(const DirectModel& model, const DirectOptions& options, std::vector<double>& u,
                     RunContext& context) {
   const std::size_t count = model.task().objectives.size();
-  std::vector<std::size_t> all(count), others;
+  std::vector<std::size_t> all(count);
   for (std::size_t k = 0; k < count; ++k) all[k] = k;
+  std::vector<double> bounds(count, infinity);
   std::int64_t evaluations = 0;
-  const auto minimise = [&](std::span<const std::size_t> these, std::span<const std::size_t> within) {
-    evaluations += minimise_largest_of(model, options, these, within, u, context);
+  const auto minimise = [&](std::span<const std::size_t> these) {
+    evaluations += minimise_largest_of(model, options, these, bounds, u, context);
     return assessed(model, u);
   };
   if (options.goal == DirectGoal::least_squares) return 0;
-  DirectSynthesis at = minimise(all, {});
+  DirectSynthesis at = minimise(all);
   if (options.goal == DirectGoal::largest || !at.answer.assembled) return evaluations;
+  const std::span<const std::size_t> ordered(all);
   if (options.goal == DirectGoal::one) {
-    const std::vector<std::size_t> these{static_cast<std::size_t>(options.one)};
-    for (std::size_t k = 0; k < count; ++k)
-      if (k != these[0]) others.push_back(k);
-    minimise(these, others);
+    const auto one = static_cast<std::size_t>(options.one);
+    bounds.assign(count, 1);
+    bounds[one] = infinity;
+    minimise(ordered.subspan(one, 1));
     return evaluations;
   }
   // By priority: with all met the largest is what is left to improve. Else one after the other is brought
-  // within its tolerance, those before it held there, until one cannot be.
-  for (std::size_t k = 0; k < count && at.key.met < count; ++k) {
-    const std::span<const std::size_t> first(all);
-    if (at.key.met > k) continue;
-    at = minimise(first.subspan(k, 1), first.first(k));
-    if (at.key.met <= k) break;
+  // within its tolerance, those before it held there, until one cannot be. The minimum of that one may leave
+  // those after it anywhere, so it gives way a little, and the largest of them is minimised.
+  std::size_t next = at.key.met;
+  for (; next < count && at.answer.assembled; next = std::max(next + 1, at.key.met)) {
+    std::fill_n(bounds.begin(), next, 1.0);
+    at = minimise(ordered.subspan(next, 1));
+    if (at.key.met <= next) break;
   }
-  if (at.key.met == count) minimise(all, {});
+  if (!at.answer.assembled) return evaluations;
+  if (at.key.met == count) {
+    bounds.assign(count, infinity);
+    minimise(all);
+  } else if (next + 1 < count) {
+    bounds[next] = (1 + options.priority_margin) * at.objectives[next];
+    minimise(ordered.subspan(next + 1));
+  }
   return evaluations;
 }
 

@@ -32,13 +32,16 @@ constexpr std::array<EnumName<DirectGoal>, 4> names(DirectGoal) {
            {DirectGoal::least_squares, "least_squares", "half the sum of squared deviations"},
            {DirectGoal::priorities, "priorities",
             "as many objectives as possible within tolerances, most important first, then the largest "
-            "deviation"},
+            "deviation of those after the first that is not"},
            {DirectGoal::one, "one", "the largest deviation of one objective, all others within tolerances"}}};
 }
 
 struct DirectOptions {
   DirectGoal goal = DirectGoal::largest;
-  int one = 0;              ///< objective of the goal `one`
+  int one = 0;  ///< objective of the goal `one`
+  /// Goal `priorities`: share by which the first objective beyond its tolerance may exceed its least
+  /// deviation so that those after it come closer to theirs.
+  double priority_margin = 0.01;
   int starts = 50;          ///< local searches
   int draws = 30;           ///< random designs tried for a start, until one assembles
   int refined = 3;          ///< best different ends of the starts that continue to the goal

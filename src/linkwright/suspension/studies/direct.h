@@ -158,6 +158,12 @@ void fields(Visitor&& visit, RecommendedDirect& r) {
   visit(field::entry("refined", "best ends that are refined for the goal").between(1, 1e4),
         r.options.refined);
   visit(field::entry("evaluations", "of a local search, at most").between(1, 1e7), r.options.evaluations);
+  visit(
+      field::entry("priority_margin",
+                   "goal \"priorities\": share by which the first objective beyond its tolerance may exceed "
+                   "its least deviation, for the sake of those after it")
+          .between(0, 1e3),
+      r.options.priority_margin);
 }
 constexpr Word choice_word(const RecommendedDirect&) {
   return {"recommended", "least squares with exact gradients from many starts, then the goal"};
