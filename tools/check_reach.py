@@ -51,6 +51,7 @@ REASONS = {
     "planar/arm_counterweights": LIBRARY,
     "planar/arm_problem": LIBRARY,
     "planar/four_bar_sweep_kernel_name": KERNEL,
+    "planar/joint_reaction": LIBRARY,
     "planar/kernel_name": KERNEL,
     "planar/pair_machines": LIBRARY,
     "planar/path_curvature": LIBRARY,

@@ -30,9 +30,9 @@ int main() {
     planar::solve_motion(planned.plan, {&input, 1}, motion);
     planar::solve_forces(engine, planned.plan, motion, 0, input.value, forces);
     if (forces.status != Status::done) return 1;
-    const planar::PointMotion pin = planar::point_motion(planned.plan, motion, 3, 0.0);
+    const planar::PointMotion pin = planar::point_motion(engine, planned.plan, motion, "piston.B");
     lowest = std::min(lowest, pin.position.x), highest = std::max(highest, pin.position.x);
-    side = std::max(side, std::abs(forces.joints[3].force.y));
+    side = std::max(side, std::abs(planar::joint_reaction(engine, forces, "cylinder").force.y));
   }
   std::printf("stroke %.1f mm, side force on the cylinder %.1f N\n", (highest - lowest) * 1000, side);
   return std::abs(highest - lowest - 0.1) < 1e-12 ? 0 : 1;

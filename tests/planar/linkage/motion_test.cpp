@@ -23,6 +23,29 @@ namespace {
 using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 
+TEST(LinkageMotion, PointsAndJointsByName) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_bar(l, "crank", "O", "A", 2);
+  add_pin(l, "main", "ground.O", "crank.O");
+  add_drive(l, "main");
+  set_uniform(l, "crank", 3);
+  const LinkagePlan p = planned(l);
+  LinkageMotion m(p);
+  const InputMotion input{pi / 2, 4, 0};
+  solve_motion(p, {&input, 1}, m);
+  const PointMotion tip = point_motion(l, p, m, "crank.A");
+  EXPECT_NEAR(tip.position.y, 2, 1e-15);
+  EXPECT_NEAR(tip.velocity.x, -8, 1e-14);
+  EXPECT_NEAR(tip.acceleration.y, -32, 1e-13);
+  LinkageForces forces;
+  solve_forces(l, p, m, 0, input.value, forces);
+  // 3 kg on a circle of 1 m at 4 rad/s, and their weight.
+  EXPECT_NEAR(joint_reaction(l, forces, "main").force.y, -48 + 3 * 9.81, 1e-12);
+  EXPECT_THROW(point_motion(l, p, m, "crank.B"), ContractError);
+  EXPECT_THROW(point_motion(l, p, m, "A"), ContractError);
+  EXPECT_THROW(joint_reaction(l, forces, "O"), ContractError);
+}
+
 // Positions and speeds of all parts as functions of the time, with rates and accelerations as their
 // derivatives; the difference quotient sets its own tolerance from its step.
 TEST(LinkageMotion, RatesAreDerivatives) {

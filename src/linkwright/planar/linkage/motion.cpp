@@ -8,6 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/triangle.h"
@@ -199,6 +200,12 @@ PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, i
   const PartState<double> s = body_state(plan, motion, body);
   const math::Vec2 p = point_on(s, math::vec(there));
   return {p, velocity_at(s, p), acceleration_at(s, p)};
+}
+
+PointMotion point_motion(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                         std::string_view point) {
+  const BodyPoint found = point_named(linkage, point);
+  return point_motion(plan, motion, found.body, linkage.bodies[at(found.body)].points[at(found.point)].at);
 }
 
 void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/status.h"
@@ -110,6 +111,17 @@ struct PointMotion {
 /// @returns its motion in the global frame
 PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, int body,
                          std::complex<double> at);
+
+/// The motion of a point by its name.
+///
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion
+/// @param point name of the point, "body.point"
+/// @returns its motion in the global frame
+/// @throws ContractError if the linkage has no such point
+PointMotion point_motion(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                         std::string_view point);
 
 /// The frame of a body: origin and direction of its x axis, speeds and accelerations.
 ///
@@ -239,6 +251,16 @@ struct LinkageForces {
   std::vector<JointReaction> group_gears;  ///< memory: gears, racks and strands of a group
   std::vector<double> preload;             ///< memory: tension that all strands of a belt have in common
 };
+
+/// The force and the moment in a joint by its name.
+///
+/// @param linkage the linkage
+/// @param forces its forces
+/// @param joint name of the joint
+/// @returns what the first body exerts on the second one
+/// @throws ContractError if the linkage has no such joint
+const JointReaction& joint_reaction(const Linkage& linkage, const LinkageForces& forces,
+                                    std::string_view joint);
 
 /// Forces of springs, dampers, forces, torques and struts at the present motion, appended to `loads` in this
 /// order, two for each spring, torque and strut.

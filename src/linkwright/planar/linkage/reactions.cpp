@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -333,6 +334,13 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
     loads.push_back({s.first.body, span.first, -push * span.along, 0});
     loads.push_back({s.second.body, span.second, push * span.along, 0});
   }
+}
+
+const JointReaction& joint_reaction(const Linkage& linkage, const LinkageForces& forces,
+                                    std::string_view joint) {
+  const int found = joint_index(linkage, joint);
+  LINKWRIGHT_REQUIRE(found >= 0, "the linkage has no joint '{}'", joint);
+  return forces.joints[at(found)];
 }
 
 void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
