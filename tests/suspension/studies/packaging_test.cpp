@@ -64,6 +64,33 @@ TEST(PackagingStudy, TellsAnglesAndClearancesAtEveryPosition) {
   EXPECT_THAT(test::fact(result, "least clearance of tie rod and tyre"), HasSubstr(" mm, at travel "));
 }
 
+TEST(PackagingStudy, BoxesAreObstacles) {
+  const study::Result result = run_text(pushrod_study + packaging + R"(
+[[packaging.box]]
+name = "side member"
+lower_mm = [-400, 100, 180]
+upper_mm = [-250, 200, 260]
+[[packaging.clearance]]
+first = "tyre"
+second = "side member"
+least_mm = 150
+[[packaging.clearance]]
+first = "lower wishbone"
+second = "side member"
+first_radius_mm = 15
+)");
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+  // The rear pivot of the wishbone, (-160, 230, 118) mm, is nearest to the corner (-250, 200, 180) mm.
+  EXPECT_NEAR(column(result, "lower_wishbone_to_side_member_clearance_m").at(2),
+              std::sqrt(0.09 * 0.09 + 0.03 * 0.03 + 0.062 * 0.062) - 0.015, 1e-9);
+  EXPECT_GT(column(result, "tyre_to_side_member_clearance_m").at(2), 0.15);
+  // Half-shaft and box are drawn.
+  std::string drawn;
+  for (const auto& body : result.scenes.front().bodies) drawn += body.name + "\n";
+  EXPECT_THAT(drawn, HasSubstr("left half-shaft"));
+  EXPECT_THAT(drawn, HasSubstr("box"));
+}
+
 TEST(PackagingStudy, NamesWhatIsWrong) {
   const auto problem = [](const std::string& lines) { return problems_of(pushrod_study + lines); };
   EXPECT_THAT(problem("[[packaging.ball_joint]]\nlink = \"tie rd\"\nstud = [0, 0, 1]\n"),
@@ -79,6 +106,9 @@ TEST(PackagingStudy, NamesWhatIsWrong) {
               HasSubstr("packaging.clearance[0].first: there is no half-shaft; add [packaging.half_shaft]"));
   EXPECT_THAT(problem("[[packaging.clearance]]\nfirst = \"tie rod\"\nsecond = \"tie rod\"\n"),
               HasSubstr("packaging.clearance[0].second: is the same part as first"));
+  const std::string box = "[[packaging.box]]\nname = \"tyre\"\nlower_mm = [0, 0, 0]\nupper_mm = [1, -1, 1]\n";
+  EXPECT_THAT(problem(box), HasSubstr("packaging.box[0].upper: is below lower along y; exchange them"));
+  EXPECT_THAT(problem(box), HasSubstr("packaging.box[0].name: another part is called 'tyre'"));
 }
 
 }  // namespace

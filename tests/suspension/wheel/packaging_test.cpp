@@ -71,9 +71,10 @@ TEST(Packaging, BallJointsByTheAngleOfTheWishbone) {
 }
 
 TEST(Packaging, DistancesOfSegmentsAndCirclesAreThoseOfTheirPoints) {
-  EXPECT_NEAR(distance({{0, 0, 0}, {1, 0, 0}}, {{0.5, -1, 2}, {0.5, 1, 2}}), 2, 1e-15);
-  EXPECT_NEAR(distance({{0, 0, 0}, {1, 0, 0}}, {{2, 0, 1}, {3, 0, 1}}), std::sqrt(2), 1e-15);  // parallel
-  EXPECT_NEAR(distance({{0, 0, 0}, {0, 0, 0}}, {{1, 1, 0}, {1, 1, 0}}), std::sqrt(2), 1e-15);
+  EXPECT_NEAR(distance(Segment{{0, 0, 0}, {1, 0, 0}}, Segment{{0.5, -1, 2}, {0.5, 1, 2}}), 2, 1e-15);
+  EXPECT_NEAR(distance(Segment{{0, 0, 0}, {1, 0, 0}}, Segment{{2, 0, 1}, {3, 0, 1}}), std::sqrt(2),
+              1e-15);  // parallel
+  EXPECT_NEAR(distance(Segment{{0, 0, 0}, {0, 0, 0}}, Segment{{1, 1, 0}, {1, 1, 0}}), std::sqrt(2), 1e-15);
   EXPECT_NEAR(distance({{0, 0, -1}, {0, 0, 1}}, {0, 0, 0}, {0, 0, 1}, 0.3), 0.3, 1e-12);
   EXPECT_NEAR(distance({{-1, 0.4, 0}, {1, 0.4, 0}}, {0, 0, 0}, {0, 0, 1}, 0.5), 0, 1e-9);
   std::mt19937 random(1);
@@ -99,6 +100,40 @@ TEST(Packaging, DistancesOfSegmentsAndCirclesAreThoseOfTheirPoints) {
     EXPECT_GT(distance(a, b), lines - 0.012);
     EXPECT_LE(distance(a, centre, axis, radius), circle + 1e-9);
     EXPECT_GT(distance(a, centre, axis, radius), circle - 0.012);
+  }
+}
+
+TEST(Packaging, DistancesFromBoxesAreThoseOfTheirPoints) {
+  const Box box{{-0.2, -0.3, 0.1}, {0.4, 0.1, 0.5}};
+  EXPECT_NEAR(distance(Segment{{-1, 0, 0}, {1, 0, 0}}, box), 0.1, 1e-12);
+  EXPECT_NEAR(distance(Segment{{0.7, 0.5, 0.3}, {0.7, 0.5, 2}}, box), 0.5, 1e-12);
+  EXPECT_EQ(distance(Segment{{-1, 0, 0.3}, {1, 0, 0.3}}, box), 0);  // through it
+  EXPECT_NEAR(distance(TyreCircle{{0.1, 1, 0.3}, {0, 1, 0}, 0.3}, box), 0.9, 1e-12);
+  EXPECT_NEAR(distance(TyreCircle{{1.1, 0, 0.3}, {0, 1, 0}, 0.3}, box), 0.4, 1e-9);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto any = [&] { return Vec3{uniform(random), uniform(random), uniform(random)}; };
+  const auto from_box = [&](const Vec3& p) {
+    const Vec3 nearest{std::clamp(p.x, box.lower.x, box.upper.x), std::clamp(p.y, box.lower.y, box.upper.y),
+                       std::clamp(p.z, box.lower.z, box.upper.z)};
+    return norm(p - nearest);
+  };
+  for (int k = 0; k < 200; ++k) {
+    const Segment line{any(), any()};
+    const TyreCircle tyre{any(), unit(any()), 0.6};
+    const Vec3 across = unit(cross(tyre.axis, any())), third = cross(tyre.axis, across);
+    double straight = 10, round = 10;
+    constexpr int parts = 2000;
+    for (int i = 0; i <= parts; ++i) {
+      const double t = static_cast<double>(i) / parts, angle = 2 * pi * t;
+      straight = std::min(straight, from_box(line.from + t * (line.to - line.from)));
+      round = std::min(
+          round, from_box(tyre.centre + tyre.radius * (std::cos(angle) * across + std::sin(angle) * third)));
+    }
+    EXPECT_LE(distance(line, box), straight + 1e-12);
+    EXPECT_GT(distance(line, box), straight - 2e-3);
+    EXPECT_LE(distance(tyre, box), round + 1e-7);
+    EXPECT_GT(distance(tyre, box), round - 2e-3);
   }
 }
 

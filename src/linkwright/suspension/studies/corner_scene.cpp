@@ -57,6 +57,9 @@ class Drawing {
     scene_.joints.push_back({named("contact point"), contact, Scene::JointStyle::tracer});
     scene_.traces.push_back({contact, "path of the " + named("contact point"), false});
     steering_axis();
+    if (grid_.half_shaft) half_shaft(*grid_.half_shaft);
+    for (std::size_t i = 0; i < grid_.boxes.size() && !other; ++i)
+      box(numbered("box", i, grid_.boxes.size()), grid_.boxes[i]);
     if (!other && suspension_.steering_linkage) steering_linkage(*suspension_.steering_linkage);
   }
 
@@ -293,6 +296,31 @@ class Drawing {
     scene_.bodies.push_back({named("spring"), {top, bottom}, Scene::BodyStyle::spring});
     handle("mechanism.spring.body_m", top);
     handle("mechanism.spring.moving_m", bottom);
+  }
+
+  void half_shaft(const HalfShaft& shaft) {
+    const int inner =
+                  point(named("half-shaft, inner joint"), [&](const CornerPosition&) { return shaft.inner; }),
+              outer = carrier_point(named("half-shaft, outer joint"), shaft.outer);
+    for (const int at : {inner, outer})
+      scene_.joints.push_back(
+          {scene_.points[static_cast<std::size_t>(at)].name, at, Scene::JointStyle::pivot});
+    scene_.bodies.push_back({named("half-shaft"), {inner, outer}, Scene::BodyStyle::bar});
+  }
+
+  /// A box by its faces at the bottom and at the top, and the edges between them.
+  void box(const std::string& name, const Box& at) {
+    std::array<std::vector<int>, 2> faces;
+    for (const bool top : {false, true})
+      for (const auto& [right, front] :
+           {std::pair{false, false}, {false, true}, {true, true}, {true, false}}) {
+        const Vec3 corner{front ? at.upper.x : at.lower.x, right ? at.lower.y : at.upper.y,
+                          top ? at.upper.z : at.lower.z};
+        faces[top].push_back(point("", [corner](const CornerPosition&) { return corner; }));
+      }
+    for (const std::vector<int>& face : faces) scene_.bodies.push_back({name, face, Scene::BodyStyle::plate});
+    for (std::size_t k = 0; k < 4; ++k)
+      scene_.bodies.push_back({name, {faces[0][k], faces[1][k]}, Scene::BodyStyle::bar});
   }
 
   void steering_linkage(const SteeringLinkage& linkage) {

@@ -13,7 +13,6 @@
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/corner/hard_points.h"
 #include "linkwright/suspension/studies/values.h"
-#include "linkwright/suspension/wheel/packaging.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -32,10 +31,6 @@ bool holds_ball(const CornerLink& link, LinkEnd end) {
   return end == LinkEnd::carrier ? t == US || t == SS || t == RS : t == SS || t == SR;
 }
 
-HalfShaft shaft_of(const HalfShaftForm& form) {
-  return {vector_of(form.inner), vector_of(form.outer), vector_of(form.inner_axis)};
-}
-
 /// The lines of a part that a clearance names.
 std::vector<Segment> lines_named(const Suspension& suspension, const CornerPlan& plan,
                                  const PackagingForm& packaging, const std::string& name,
@@ -50,10 +45,24 @@ std::vector<Segment> lines_named(const Suspension& suspension, const CornerPlan&
   return {{shaft.inner, carrier.centre + carrier.rotation * (shaft.outer - plan.wheel.centre)}};
 }
 
+const BoxForm* box_named(const PackagingForm& packaging, const std::string& name) {
+  const auto found = std::find_if(packaging.boxes.begin(), packaging.boxes.end(),
+                                  [&](const BoxForm& box) { return box.name == name; });
+  return found == packaging.boxes.end() ? nullptr : &*found;
+}
+
 /// Clearance of two parts at a position.
 double clearance_at(const Suspension& suspension, const CornerPlan& plan, const PackagingForm& packaging,
                     const ClearanceForm& c, const CornerPosition& position) {
   double least = std::numeric_limits<double>::infinity();
+  if (const BoxForm* form = box_named(packaging, c.second)) {
+    const Box box = box_of(*form);
+    if (c.first == tyre_word)
+      return distance(tyre_circle(plan, *packaging.tyre_width, position), box) - *packaging.tyre_width / 2;
+    for (const Segment& a : lines_named(suspension, plan, packaging, c.first, position))
+      least = std::min(least, distance(a, box));
+    return least - c.first_radius;
+  }
   for (const Segment& a : lines_named(suspension, plan, packaging, c.first, position)) {
     if (c.second == tyre_word) {
       const TyreCircle tyre = tyre_circle(plan, *packaging.tyre_width, position);
@@ -123,7 +132,26 @@ class Packaging {
   std::span<const CornerPosition> positions_;
 };
 
+void check_boxes(study::ObjectReader& table, const PackagingForm& packaging, const Suspension& suspension) {
+  std::vector<study::ObjectReader> tables = table.tables("box");
+  for (std::size_t i = 0; i < packaging.boxes.size() && i < tables.size(); ++i) {
+    const BoxForm& box = packaging.boxes[i];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (box.upper[k] < box.lower[k])
+        tables[i].error("upper", fmt::format("is below lower along {}", "xyz"[k]), "exchange them");
+    if (box_named(packaging, box.name) != &box || link_named(suspension, box.name) >= 0 ||
+        box.name == spring_word || box.name == shaft_word || box.name == tyre_word)
+      tables[i].error("name", fmt::format("another part is called '{}'", box.name), "give it another name");
+  }
+}
+
 }  // namespace
+
+HalfShaft shaft_of(const HalfShaftForm& form) {
+  return {vector_of(form.inner), vector_of(form.outer), vector_of(form.inner_axis)};
+}
+
+Box box_of(const BoxForm& form) { return {vector_of(form.lower), vector_of(form.upper)}; }
 
 void check_packaging(study::ObjectReader& document, const PackagingForm& packaging,
                      const Suspension& suspension) {
@@ -156,6 +184,7 @@ void check_packaging(study::ObjectReader& document, const PackagingForm& packagi
       tables[i].error("link", "an SS link turns freely about its line, and so its studs have no angle",
                       "write type = \"US\"");
   }
+  check_boxes(*table, packaging, suspension);
   tables = table->tables("clearance");
   for (std::size_t i = 0; i < packaging.clearances.size() && i < tables.size(); ++i) {
     const ClearanceForm& c = packaging.clearances[i];
@@ -171,11 +200,15 @@ void check_packaging(study::ObjectReader& document, const PackagingForm& packagi
       } else if (*name == shaft_word) {
         if (!packaging.half_shaft)
           tables[i].error(key, "there is no half-shaft", "add [packaging.half_shaft]");
-      } else if (*name == tyre_word && name == &c.second) {
+      } else if (*name == tyre_word && (name == &c.second || box_named(packaging, c.second))) {
         if (!packaging.tyre_width)
           tables[i].error(key, "the width of the tyre is missing", "write tyre_width_mm");
-        if (c.second_radius != 0)
-          tables[i].error("second_radius", "a tyre has none", "its width and diameter are enough");
+        const bool second = name == &c.second;
+        if ((second ? c.second_radius : c.first_radius) != 0)
+          tables[i].error(second ? "second_radius" : "first_radius", "a tyre has none",
+                          "its width and diameter are enough");
+      } else if (name == &c.second && box_named(packaging, *name)) {
+        if (c.second_radius != 0) tables[i].error("second_radius", "a box has none", "make the box larger");
       } else {
         tables[i].no_such(key, "link or part", *name, links);
       }

@@ -12,6 +12,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/wheel/packaging.h"
 
 // The table `[packaging]`: angles of ball joints and of a half-shaft, and clearances, at every position.
 namespace linkwright::suspension {
@@ -61,11 +62,28 @@ struct ClearanceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, ClearanceForm& c) {
-  visit(field::entry("first", "name of a link, \"spring\" or \"half_shaft\"").required(), c.first);
-  visit(field::entry("second", "likewise, or \"tyre\"").required(), c.second);
+  visit(field::entry("first", "name of a link, \"spring\" or \"half_shaft\"; beside a box also \"tyre\"")
+            .required(),
+        c.first);
+  visit(field::entry("second", "likewise, or \"tyre\", or the name of a box").required(), c.second);
   visit(field::length("first_radius", "of the first part about its line").not_negative(), c.first_radius);
   visit(field::length("second_radius", "of the second part about its line").not_negative(), c.second_radius);
   visit(field::length("least", "clearance that there must be").not_negative(), c.least);
+}
+
+/// `[[packaging.box]]`.
+struct BoxForm {
+  std::string name;
+  std::array<double, 3> lower{}, upper{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, BoxForm& b) {
+  visit(field::entry("name", "by which clearances name it").required(), b.name);
+  const auto corner = [](std::string_view key, std::string_view summary) {
+    return field::length(key, summary).between(-1e3, 1e3).required();
+  };
+  visit(corner("lower", "corner with the least coordinates, in the frame of the vehicle"), b.lower);
+  visit(corner("upper", "opposite corner"), b.upper);
 }
 
 /// `[packaging]`.
@@ -73,6 +91,7 @@ struct PackagingForm {
   std::optional<double> tyre_width;
   std::optional<HalfShaftForm> half_shaft;
   std::vector<BallJointForm> ball_joints;
+  std::vector<BoxForm> boxes;
   std::vector<ClearanceForm> clearances;
 };
 template <class Visitor>
@@ -81,9 +100,14 @@ void fields(Visitor&& visit, PackagingForm& p) {
         p.tyre_width);
   visit(field::entry("half_shaft", "drive shaft between the body and the carrier"), p.half_shaft);
   visit(field::entry("ball_joint", "ball joints of links"), p.ball_joints);
+  visit(field::entry("box", "obstacles fixed to the body, with faces along the axes of the vehicle"),
+        p.boxes);
   visit(field::entry("clearance", "distances between parts"), p.clearances);
 }
 
+/// The half-shaft and the boxes that were read.
+HalfShaft shaft_of(const HalfShaftForm& form);
+Box box_of(const BoxForm& form);
 /// Checks what was read against the suspension; problems go to the reader.
 void check_packaging(study::ObjectReader& document, const PackagingForm& packaging,
                      const Suspension& suspension);

@@ -318,8 +318,12 @@ study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
       wheels.push_back(grid.solved.wheels[r * s.travels.size() + t]);
     }
   }
-  return corner_scene(s.description.suspension, scene_name, "wheel travel and rack",
-                      {s.travel, travel_values, rack_values, positions, wheels, s.lock});
+  CornerGrid shown{s.travel, travel_values, rack_values, positions, wheels, s.lock};
+  if (s.packaging) {
+    if (s.packaging->half_shaft) shown.half_shaft = shaft_of(*s.packaging->half_shaft);
+    for (const BoxForm& box : s.packaging->boxes) shown.boxes.push_back(box_of(box));
+  }
+  return corner_scene(s.description.suspension, scene_name, "wheel travel and rack", shown);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "linkwright/suspension/wheel/packaging.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -30,6 +31,36 @@ double distance_to_circle(const Vec3& point, const Vec3& centre, const Vec3& axi
   const Vec3 d = point - centre;
   const double along = dot(d, axis), across = norm(d - along * axis);
   return std::hypot(along, across - radius);
+}
+
+double distance_to_box(const Vec3& point, const Box& box) {
+  const auto beyond = [](double at, double lower, double upper) {
+    return std::max({lower - at, 0.0, at - upper});
+  };
+  return norm(Vec3{beyond(point.x, box.lower.x, box.upper.x), beyond(point.y, box.lower.y, box.upper.y),
+                   beyond(point.z, box.lower.z, box.upper.z)});
+}
+
+/// The least value of a function between two arguments where it has one minimum, by golden sections.
+template <class Function>
+double least_between(double low, double high, Function&& value) {
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 60; ++i) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    value(a) < value(b) ? high = b : low = a;
+  }
+  return value((low + high) / 2);
+}
+
+/// The least value of a function between 0 and 1 that may have several minima: the least of a row of points
+/// begins the search.
+template <class Function>
+double least_of_all(int points, Function&& value) {
+  int best = 0;
+  for (int i = 1; i <= points; ++i)
+    if (value(static_cast<double>(i) / points) < value(static_cast<double>(best) / points)) best = i;
+  return least_between(std::max(0, best - 1) / static_cast<double>(points),
+                       std::min(points, best + 1) / static_cast<double>(points), value);
 }
 
 }  // namespace
@@ -79,19 +110,22 @@ double distance(const Segment& line, const Vec3& centre, const Vec3& axis, doubl
   const auto at = [&](double s) {
     return distance_to_circle(line.from + s * (line.to - line.from), centre, axis, radius);
   };
-  // The distance has up to four minima along a line: the least of a row of points begins the search.
-  constexpr int points = 48;
-  int best = 0;
-  for (int i = 1; i <= points; ++i)
-    if (at(static_cast<double>(i) / points) < at(static_cast<double>(best) / points)) best = i;
-  double low = std::max(0, best - 1) / static_cast<double>(points),
-         high = std::min(points, best + 1) / static_cast<double>(points);
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 60; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    at(a) < at(b) ? high = b : low = a;
-  }
-  return at((low + high) / 2);
+  return least_of_all(48, at);
+}
+
+double distance(const Segment& line, const Box& box) {
+  // The distance from a box is convex along a line; at the ends no section comes to rest exactly.
+  const auto at = [&](double s) { return distance_to_box(line.from + s * (line.to - line.from), box); };
+  return std::min({at(0), at(1), least_between(0, 1, at)});
+}
+
+double distance(const TyreCircle& tyre, const Box& box) {
+  const std::array<Vec3, 2> across = math::across(tyre.axis);
+  return least_of_all(96, [&](double turn) {
+    const double angle = 2 * pi * turn;
+    return distance_to_box(
+        tyre.centre + tyre.radius * (std::cos(angle) * across[0] + std::sin(angle) * across[1]), box);
+  });
 }
 
 std::vector<Segment> lines_of(const CornerPlan& plan, int link, const CornerPosition& position) {

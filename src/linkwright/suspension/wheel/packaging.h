@@ -44,6 +44,13 @@ double distance(const Segment& a, const Segment& b);
 /// The least distance of a line and a circle about `centre` with the unit axis `axis`, m.
 double distance(const Segment& line, const Vec3& centre, const Vec3& axis, double radius);
 
+/// A box along the axes of the vehicle: a side member, an engine, a wheel house.
+struct Box {
+  Vec3 lower, upper;  ///< opposite corners, each coordinate of `lower` at most that of `upper`, m
+};
+/// The least distance of a line and a box, m; 0 where the line passes through the box.
+double distance(const Segment& line, const Box& box);
+
 /// The lines of a link at a position: one of a rod, two of a wishbone. Empty for links without any.
 std::vector<Segment> lines_of(const CornerPlan& plan, int link, const CornerPosition& position);
 
@@ -53,5 +60,7 @@ struct TyreCircle {
   double radius = 0;  ///< m, of the middle circle
 };
 TyreCircle tyre_circle(const CornerPlan& plan, double width, const CornerPosition& position);
+/// The least distance of the middle circle of a tyre and a box, m; 0 where the circle passes through the box.
+double distance(const TyreCircle& tyre, const Box& box);
 
 }  // namespace linkwright::suspension
