@@ -60,6 +60,33 @@ TEST(DimensionLimits, HaveTheGradientsOfTheirDifferences) {
   }
 }
 
+TEST(DimensionLimits, SayWhatIsMissingWithGradientsOfDifferences) {
+  for (const char* name : {"four_bar", "geared_five_bar:2", "stephenson_2:a", "watt_2:slide"}) {
+    const PointProgram& program = *program_named(name);
+    DimensionLimits limits(far_limits());
+    limits.set_program(program);
+    const std::vector<double> x = numbers_of(program);
+    const std::size_t n = x.size(), count = limits.count();
+    std::vector<double> values(count), above(count), below(count), gradients(count * n);
+    limits.missing(x, values, gradients);
+    LimitRows rows;
+    rows.clear(false);
+    limits.add_lengths(x, 1, rows);
+    double squares = 0;
+    const std::size_t of_lengths = count - 4 * ground_pivots(program).size();
+    for (std::size_t k = 0; k < of_lengths; ++k) squares += values[k] > 0 ? values[k] * values[k] : 0;
+    EXPECT_NEAR(squares, rows.squares, 1e-12 * rows.squares) << name;
+    for (std::size_t i = 0; i < n; ++i) {
+      constexpr double h = 1e-6;
+      std::vector<double> moved = x;
+      moved[i] = x[i] + h, limits.missing(moved, above, {});
+      moved[i] = x[i] - h, limits.missing(moved, below, {});
+      for (std::size_t k = 0; k < count; ++k)
+        EXPECT_NEAR(gradients[k * n + i], (above[k] - below[k]) / (2 * h), 1e-6) << name << k << ' ' << i;
+    }
+  }
+}
+
 TEST(DimensionLimits, MovePivotsOntoTheGivenOnes) {
   for (const char* name : {"four_bar", "inverted_slider", "geared_five_bar:2", "stephenson_3:a",
                            "stephenson_2:a", "stephenson_2:b"}) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/type_synthesis/search.h"
@@ -57,6 +59,74 @@ TEST(LeastGreatestErrors, ReachTheBestKnownOfFourBarsAndOfSixBars) {
     if (f.six_bar > 0) {
       EXPECT_LT(best_of({MachineFamily::watt_2, MachineFamily::stephenson_3}, 150'000), f.six_bar) << f.name;
     }
+  }
+}
+
+struct LimitedFunction {
+  const char* name;
+  MachineOutput output;
+  MachineLimits limits;
+};
+
+/// The greatest error of a machine at the samples.
+double greatest_error_of(const MotionTarget& target, const MachineMeasures& m) {
+  return target.placed() ? m.largest_deviation : m.largest_rotation;
+}
+
+// Limits that the least sum of squares has come to: the least greatest error keeps them, and is less.
+TEST(LeastGreatestErrors, KeepAllLimits) {
+  const double pair = math::radians(30);
+  const std::vector<LimitedFunction> all{
+      {"lengths of an angle",
+       MachineOutput::angle,
+       {.min_pair_angle = pair, .min_length = 0.5, .max_length = 1.4}},
+      {"box of an angle",
+       MachineOutput::angle,
+       {.min_pair_angle = pair, .ground_box = PlaneBox{-0.2, 0.2, -0.1, 0.3}}},
+      {"pivots of an angle",
+       MachineOutput::angle,
+       {.min_pair_angle = pair, .max_length = 1.5, .ground_pivots = {{0.5, 0.2}, {1.3, 0.4}}}},
+      {"lengths of a slider",
+       MachineOutput::slide,
+       {.min_pair_angle = pair, .min_length = 0.9, .max_length = 3}},
+      {"box of a slider",
+       MachineOutput::slide,
+       {.min_pair_angle = pair, .ground_box = PlaneBox{-1, 1, 0.4, 1.5}}},
+      {"pivot of a slider",
+       MachineOutput::slide,
+       {.min_pair_angle = pair, .max_length = 5, .ground_pivots = {{-1.0, 0.7}}}}};
+  for (const LimitedFunction& f : all) {
+    const bool slides = f.output == MachineOutput::slide;
+    const MotionTarget target =
+        function_target({.output = f.output, .range = pi / 2, .at = [&](double share) {
+                           return (slides ? 0.1 : 1.2) * share * share;
+                         }});
+    RunContext context;
+    const TypeSearchAnswer answer =
+        search_types(target,
+                     {.families = {slides ? MachineFamily::slider_crank : MachineFamily::four_bar,
+                                   MachineFamily::stephenson_3},
+                      .limits = f.limits,
+                      .max_curves = 15'000},
+                     context);
+    ASSERT_FALSE(answer.machines.empty()) << f.name;
+    MachineFitter fitter(target, f.limits);
+    int lessened = 0;
+    for (FoundMachine found : answer.machines) {
+      const double before = greatest_error_of(target, found.measures);
+      lessen_greatest_error(target, f.limits, found.machine, context);
+      const MachineMeasures now = fitter.measure(found.machine);
+      EXPECT_EQ(now.defect, MachineDefect::none) << f.name << ", " << found.machine.shape.program->name;
+      lessened += greatest_error_of(target, now) < 0.95 * before ? 1 : 0;
+      if (slides && greatest_error_of(target, now) < before) {
+        const PointProgram& p = *found.machine.shape.program;
+        const std::vector<double>& x = found.machine.shape.x;
+        const auto place = static_cast<std::size_t>(p.place()),
+                   height = static_cast<std::size_t>(p.steps.back().parameter) + 1;
+        EXPECT_NEAR(x[place + 1] + x[place + 2] * x[height], 0, 1e-9) << f.name;
+      }
+    }
+    EXPECT_GT(lessened, 0) << f.name;
   }
 }
 

@@ -127,6 +127,29 @@ double DimensionLimits::length_of(const LengthTerm& term, std::span<const double
   return out;
 }
 
+/// Adds the gradient of the logarithm of a length, times `by`.
+void DimensionLimits::add_log_gradient(const LengthTerm& term, std::span<const double> x, double by,
+                                       std::span<double> gradient) const {
+  const auto by_complex = [&](std::size_t i) {
+    const double square = std::max(x[i] * x[i] + x[i + 1] * x[i + 1], 1e-24);
+    gradient[i] += by * x[i] / square;
+    gradient[i + 1] += by * x[i + 1] / square;
+  };
+  by_complex(static_cast<std::size_t>(program_->scale()));
+  if (term.plate >= 0) by_complex(static_cast<std::size_t>(term.plate));
+  if (term.factor >= 0)
+    gradient[static_cast<std::size_t>(term.factor)] += by / x[static_cast<std::size_t>(term.factor)];
+  if (term.bar[0] >= 0) {
+    const std::complex<double> c = bar_at_start(term.bar, x);
+    const std::complex<double> along = by / std::max(std::norm(c), 1e-24) * c;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(term.bar[k]);
+      gradient[i] += k < 2 ? along.real() : -along.real();
+      gradient[i + 1] += k < 2 ? along.imag() : -along.imag();
+    }
+  }
+}
+
 void DimensionLimits::add_lengths(std::span<const double> x, double weight, LimitRows& out) const {
   const auto s = static_cast<std::size_t>(program_->scale());
   const double scale = std::hypot(x[s], x[s + 1]);
@@ -138,25 +161,7 @@ void DimensionLimits::add_lengths(std::span<const double> x, double weight, Limi
                                    : std::log(limits_.min_length / std::max(length, 1e-12));
     if (LimitRow* row = out.add(weight * beyond)) {
       std::fill_n(row->gradient.begin(), x.size(), 0.0);
-      const auto by_complex = [&](std::size_t i) {
-        const double square = std::max(x[i] * x[i] + x[i + 1] * x[i + 1], 1e-24);
-        row->gradient[i] += side * weight * x[i] / square;
-        row->gradient[i + 1] += side * weight * x[i + 1] / square;
-      };
-      by_complex(s);
-      if (term.plate >= 0) by_complex(static_cast<std::size_t>(term.plate));
-      if (term.factor >= 0)
-        row->gradient[static_cast<std::size_t>(term.factor)] +=
-            side * weight / x[static_cast<std::size_t>(term.factor)];
-      if (term.bar[0] >= 0) {
-        const std::complex<double> c = bar_at_start(term.bar, x);
-        const std::complex<double> by = side * weight / std::max(std::norm(c), 1e-24) * c;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto i = static_cast<std::size_t>(term.bar[k]);
-          row->gradient[i] += k < 2 ? by.real() : -by.real();
-          row->gradient[i + 1] += k < 2 ? by.imag() : -by.imag();
-        }
-      }
+      add_log_gradient(term, x, side * weight, row->gradient);
     }
   }
 }
@@ -167,22 +172,28 @@ std::vector<std::complex<double>> DimensionLimits::pivots(std::span<const double
   return out;
 }
 
+/// Adds the gradient of one coordinate of a pivot, times `by`.
+void DimensionLimits::add_coordinate_gradient(std::span<const double> x, std::size_t pivot, bool upright,
+                                              double by, std::span<double> gradient) const {
+  const auto p = static_cast<std::size_t>(program_->place()), s = static_cast<std::size_t>(program_->scale());
+  const GroundPivot& of = pivots_[pivot];
+  const std::complex<double> scale{x[s], x[s + 1]}, g = own_place_of(of, x);
+  gradient[p + (upright ? 1 : 0)] += by;
+  gradient[s] += by * (upright ? g.imag() : g.real());
+  gradient[s + 1] += by * (upright ? g.real() : -g.imag());
+  if (of.parameter < 0) return;
+  const auto i = static_cast<std::size_t>(of.parameter);
+  gradient[i] += by * (upright ? scale.imag() : scale.real());
+  if (!of.on_axis) gradient[i + 1] += by * (upright ? scale.real() : -scale.imag());
+}
+
 /// A row for one coordinate of a pivot: `value`, whose derivative by the coordinate is `by`.
 void DimensionLimits::add_coordinate(std::span<const double> x, std::size_t pivot, bool upright, double by,
                                      double value, LimitRows& out) const {
   LimitRow* row = out.add(value);
   if (!row) return;
   std::fill_n(row->gradient.begin(), x.size(), 0.0);
-  const auto p = static_cast<std::size_t>(program_->place()), s = static_cast<std::size_t>(program_->scale());
-  const GroundPivot& of = pivots_[pivot];
-  const std::complex<double> scale{x[s], x[s + 1]}, g = own_place_of(of, x);
-  row->gradient[p + (upright ? 1 : 0)] += by;
-  row->gradient[s] += by * (upright ? g.imag() : g.real());
-  row->gradient[s + 1] += by * (upright ? g.real() : -g.imag());
-  if (of.parameter < 0) return;
-  const auto i = static_cast<std::size_t>(of.parameter);
-  row->gradient[i] += by * (upright ? scale.imag() : scale.real());
-  if (!of.on_axis) row->gradient[i + 1] += by * (upright ? scale.real() : -scale.imag());
+  add_coordinate_gradient(x, pivot, upright, by, row->gradient);
 }
 
 void DimensionLimits::add_pivots(std::span<const double> x, double weight, LimitRows& out) const {
@@ -252,11 +263,37 @@ void DimensionLimits::scale_freely(std::span<double> x) const {
   x[s] *= by, x[s + 1] *= by;
 }
 
-void DimensionLimits::lengths(std::span<const double> x, std::vector<double>& out) const {
+std::size_t DimensionLimits::count() const {
+  return 2 * lengths_.size() + (limits_.ground_box ? 4 * pivots_.size() : 0);
+}
+
+void DimensionLimits::missing(std::span<const double> x, std::span<double> values,
+                              std::span<double> gradients) const {
   const auto s = static_cast<std::size_t>(program_->scale());
   const double scale = std::hypot(x[s], x[s + 1]);
-  out.clear();
-  for (const LengthTerm& term : lengths_) out.push_back(length_of(term, x, scale));
+  std::fill(gradients.begin(), gradients.end(), 0.0);
+  std::size_t row = 0;
+  const auto gradient = [&] { return gradients.subspan(row * x.size(), x.size()); };
+  for (const LengthTerm& term : lengths_) {
+    const double length = length_of(term, x, scale);
+    for (const bool shortest : {true, false}) {
+      values[row] = -std::log(shortest ? length / limits_.min_length : limits_.max_length / length);
+      if (!gradients.empty()) add_log_gradient(term, x, shortest ? -1 : 1, gradient());
+      ++row;
+    }
+  }
+  const auto& box = limits_.ground_box;
+  if (!box) return;
+  const std::vector<std::complex<double>> at = pivots(x);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const auto keep = [&](bool upright, double by, double value) {
+      values[row] = value;
+      if (!gradients.empty()) add_coordinate_gradient(x, k, upright, by, gradient());
+      ++row;
+    };
+    keep(false, -1, box->left - at[k].real()), keep(false, 1, at[k].real() - box->right);
+    keep(true, -1, box->bottom - at[k].imag()), keep(true, 1, at[k].imag() - box->top);
+  }
 }
 
 void DimensionLimits::measure_lengths(std::span<const double> x, MachineMeasures& out) const {

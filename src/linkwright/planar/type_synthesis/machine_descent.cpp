@@ -97,22 +97,12 @@ void MachineDescent::evaluate_limits(const FittedMachine& machine, std::vector<d
                  .quality = quality.data(),
                  .worst = worst.data()});
   const double sine = std::sin(std::min(limits.min_pair_angle + pair_margin, pi / 2));
-  std::vector<double> lengths;
   dimensions_.set_program(p);
-  dimensions_.lengths(x, lengths);
+  std::vector<double> missing(dimensions_.count());
+  dimensions_.missing(x, missing, {});
   out.clear();
   for (const double q : quality) out.push_back(q - sine * sine);
-  for (const double length : lengths) {
-    out.push_back(std::log(length / limits.min_length));
-    out.push_back(std::log(limits.max_length / length));
-  }
-  if (const auto& box = limits.ground_box)
-    for (const GroundPivot& pivot : ground_pivots(p)) {
-      const std::complex<double> at = place_of(pivot, p, x);
-      for (const double inside :
-           {at.real() - box->left, box->right - at.real(), at.imag() - box->bottom, box->top - at.imag()})
-        out.push_back(inside);
-    }
+  for (const double value : missing) out.push_back(-value);
 }
 
 void MachineDescent::choose_rows(const DescentAim& aim) {

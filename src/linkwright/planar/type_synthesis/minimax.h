@@ -6,9 +6,9 @@
 
 namespace linkwright::planar {
 
-/// From the least sum of squares to the least greatest error of a function, the pair angles kept: a
-/// sequential quadratic programme on the errors of all samples. The machine stays as it is where that finds
-/// nothing better; what else limits it is not looked at.
+/// From the least sum of squares to the least greatest error of a function, with all limits kept: a
+/// sequential quadratic programme on the errors of all samples. Given ground pivots are met at every step.
+/// The machine stays as it is where that finds nothing better.
 void lessen_greatest_error(const MotionTarget& target, const MachineLimits& limits, FittedMachine& machine,
                            RunContext& context);
 

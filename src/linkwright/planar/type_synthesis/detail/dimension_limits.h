@@ -70,8 +70,12 @@ class DimensionLimits {
   /// or as near to it as the limits of the lengths allow.
   void scale_freely(std::span<double> x) const;
 
-  /// The lengths themselves, in sizes, that of the crank first.
-  void lengths(std::span<const double> x, std::vector<double>& out) const;
+  /// Number of limits of `missing`.
+  std::size_t count() const;
+  /// What is missing of every limit, at most 0 where it is kept: of both limits of each length in logarithms,
+  /// then of the four sides of the box for each pivot; and the gradients, row after row, where they are
+  /// wanted.
+  void missing(std::span<const double> x, std::span<double> values, std::span<double> gradients) const;
   void measure_lengths(std::span<const double> x, MachineMeasures& out) const;
   bool pivots_in_box(std::span<const double> x) const;
   bool pivots_as_given(std::span<const double> x) const;
@@ -79,6 +83,10 @@ class DimensionLimits {
  private:
   double length_of(const LengthTerm& term, std::span<const double> x, double scale) const;
   std::vector<std::complex<double>> pivots(std::span<const double> x) const;
+  void add_log_gradient(const LengthTerm& term, std::span<const double> x, double by,
+                        std::span<double> gradient) const;
+  void add_coordinate_gradient(std::span<const double> x, std::size_t pivot, bool upright, double by,
+                               std::span<double> gradient) const;
   void add_coordinate(std::span<const double> x, std::size_t pivot, bool upright, double by, double value,
                       LimitRows& out) const;
 
