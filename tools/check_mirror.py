@@ -22,6 +22,7 @@ NO_TEST = {
     "core/tolerance.h": "named constants",
     "suspension/direct/detail/synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "planar/type_synthesis/detail/machine_descent.h": "part of refine, every aim of which is followed in refine_test.cpp",
+    "planar/type_synthesis/detail/machine_list.h": "part of search, whose lists and merged answers search_test.cpp compares",
     "planar/type_synthesis/detail/program_kernel.h": "part of curve, compiled for numbers and for registers, compared in curve_test.cpp",
     "planar/type_synthesis/detail/search_state.h": "part of search, saved and loaded in search_test.cpp",
     "suspension/corner/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",

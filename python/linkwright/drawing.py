@@ -66,7 +66,7 @@ def draw_study(points: ArrayLike, *, closed: Optional[bool] = None, seconds: Opt
     mechanism = {"type": "planar.any", "most_links": most_links}
     if families is not None:
         mechanism["families"] = list(families)
-    optimiser = {"seed": seed, "max_solutions": max_solutions}
+    optimiser = {"seeds": {"first": seed, "count": 1}, "max_solutions": max_solutions}
     if seconds is not None:
         optimiser["seconds"] = float(seconds)
     if evaluations is not None:

@@ -70,12 +70,9 @@ TEST(Shard, WhatOneKeepsAnotherTakes) {
   EXPECT_TRUE(stranger.find("seed 1").is_null());
 }
 
-class SharedRuns : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(SharedRuns, AnswerAsOneDoes) {
-  const std::string text = example_text(GetParam());
+/// Shards of a study, put together, are the study.
+void expect_as_one(std::string_view text, std::string_view edits) {
   ASSERT_FALSE(text.empty());
-  const std::string edits = R"({"edits":[{"key":"optimiser.seeds.count","value":5}]})";
   const View alone = run_part(text, edits);
   ASSERT_THAT(alone.json, HasSubstr("\"view\":"));
   for (const std::size_t count : {2u, 7u}) {
@@ -93,9 +90,20 @@ TEST_P(SharedRuns, AnswerAsOneDoes) {
     EXPECT_EQ(whole.numbers, alone.numbers) << count;
   }
 }
+
+class SharedRuns : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SharedRuns, AnswerAsOneDoes) {
+  expect_as_one(example_text(GetParam()), R"({"edits":[{"key":"optimiser.seeds.count","value":5}]})");
+}
 INSTANTIATE_TEST_SUITE_P(Examples, SharedRuns,
                          ::testing::Values("fourbar-18-points", "slider-crank-18-points",
                                            "balance-four-bar-case-1"));
+
+TEST(SharedRun, OfASearchOverTypesAnswersAsOneDoes) {
+  expect_as_one(example_text("press-that-rests"), R"({"edits":[{"key":"optimiser.seeds.count","value":3},
+      {"key":"optimiser.evaluations","value":3000},{"key":"mechanism.families","value":["slider_crank"]}]})");
+}
 
 TEST(SharedRun, WithNothingToShareIsTheWholeRun) {
   const std::string text = example_text("hoeken");

@@ -49,7 +49,12 @@ class Ranks : public test::ProgramFixture, public ::testing::WithParamInterface<
     return words;
   }
   static std::vector<std::string> study(const std::string& name) {
-    return {"run", LINKWRIGHT_STUDIES "/" + name, "--quiet", "--set", "output.formats=['json']"};
+    std::vector<std::string> out{"run", LINKWRIGHT_STUDIES "/" + name, "--quiet", "--set",
+                                 "output.formats=['json']"};
+    if (name == "press-that-rests.toml")  // its own search takes seconds
+      out = with(out, {"--set", "mechanism.families=['slider_crank','stephenson_3']", "--set",
+                       "optimiser.evaluations=4000"});
+    return out;
   }
   /// Text of result.json without `run`.
   std::string result_text(const std::string& folder) {
@@ -77,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Ranks,
                                            "balance-stephenson-six-bar.toml",
                                            "clearance-four-bar-lengths.toml", "suspension-5us-synthesis.toml",
                                            "strut-suspension-sensitivity.toml", "tolerances-hoeken.toml",
-                                           "jansen-leg.toml"));
+                                           "press-that-rests.toml", "jansen-leg.toml"));
 
 class RunOnRanks : public Ranks {};
 

@@ -34,8 +34,10 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
           "analysis/planar.cam", "synthesis/planar.cam"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                              "synthesis/planar.slider_crank/path_points",
-                                             "balancing/planar.four_bar", "balancing/planar.linkage",
-                                             "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
+                                             "synthesis/planar.any/path_points", "synthesis/planar.any/poses",
+                                             "synthesis/planar.any/function", "balancing/planar.four_bar",
+                                             "balancing/planar.linkage", "balancing/planar.slider_crank",
+                                             "balancing/planar.serial_arm"));
 }
 
 }  // namespace

@@ -6,11 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planar/studies.h"
+#include "support/memory_checkpoint.h"
 
 namespace linkwright::planar {
 namespace {
@@ -118,6 +123,9 @@ TEST(AnyPathStudies, SayWhatIsWrong) {
   EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"ten_bar\"]\n"}}),
               HasSubstr("ten_bar has 10 links, most_links allows 8"));
   EXPECT_THAT(problems({{"3", "[limits]\nleast_pair_angle_deg = 80\n"}}), HasSubstr("least_pair_angle_deg"));
+  EXPECT_THAT(problems({{"21", "orientation_length_mm = 4\n"}}), HasSubstr("a point has no rotation"));
+  EXPECT_THAT(problems({{"21", "dwell = [{ from_deg = 0, to_deg = 40 }]\n"}}),
+              HasSubstr("write type = \"function\""));
   EXPECT_THAT(problems({{"4", "[optimiser]\nevaluations = 20000\nseconds = 1\n"}}),
               HasSubstr("both seconds and evaluations"));
 }
@@ -314,6 +322,8 @@ TEST(AnyPosesStudies, SayWhatIsWrong) {
                "{ x_mm = 2, y_mm = 0, angle_deg = 9 }]"),
       HasSubstr("poses 1 and 2 are the same"));
   EXPECT_THAT(problems("file = \"none.csv\""), HasSubstr("none.csv"));
+  EXPECT_THAT(problems("points_mm = [[0, 0], [1, 0], [2, 1]]"),
+              HasSubstr("not for poses: write [[target.pose]]"));
 }
 
 /// An open stroke, and a drive that rocks.
@@ -428,6 +438,52 @@ TEST(AnyFunctionStudies, MoveASliderThroughATurnAndLetItRest) {
   EXPECT_NEAR(travel.front(), travel.back(), 1e-9) << "the turn ends where it began";
 }
 
+std::vector<std::uint64_t> bits_of(const std::vector<double>& values) {
+  std::vector<std::uint64_t> out;
+  for (const double v : values) out.push_back(std::bit_cast<std::uint64_t>(v));
+  return out;
+}
+
+// Two threads, and a run that was stopped between two saves, end with the bits of one thread without a stop.
+TEST(AnyFunctionStudies, WithSeveralSeedsHaveTheSameBitsHoweverTheyAreRun) {
+  const std::string text =
+      any_function({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\", \"watt_2\"]\n"},
+                    {"4", "[optimiser]\nevaluations = 8000\nseeds = { first = 4, count = 3 }\n"}});
+  std::string messages;
+  const auto prepared = test::prepare(text, messages);
+  ASSERT_TRUE(prepared) << messages;
+  const auto run = [&](int threads, Checkpoint* kept) {
+    RunContext context;
+    context.set_threads(threads);
+    context.set_checkpoint(kept);
+    return study::run_study(*prepared, context);
+  };
+  const study::Result one = run(1, nullptr), two = run(2, nullptr);
+  EXPECT_EQ(one.log.as_array().size(), 3U);
+  const auto same = [&](const study::Result& other) {
+    ASSERT_EQ(other.tables.size(), one.tables.size());
+    for (std::size_t i = 0; i < one.tables.size(); ++i)
+      for (std::size_t c = 0; c < one.tables[i].columns.size(); ++c)
+        EXPECT_EQ(bits_of(other.tables[i].columns[c].values), bits_of(one.tables[i].columns[c].values))
+            << one.tables[i].name << ' ' << one.tables[i].columns[c].key;
+  };
+  same(two);
+  test::MemoryCheckpoint kept;
+  {
+    RunContext stopped;
+    stopped.set_threads(1);
+    stopped.set_checkpoint(&kept);
+    int saves = 0;
+    kept.kept = [&](std::string_view) {
+      if (++saves == 7) stopped.cancel();
+    };
+    EXPECT_EQ(study::run_study(*prepared, stopped).status, Status::cancelled);
+    kept.kept = nullptr;
+  }
+  EXPECT_FALSE(kept.entries.empty());
+  same(run(2, &kept));
+}
+
 TEST(AnyFunctionStudies, SayWhatIsWrong) {
   const auto problems = [](std::map<std::string, std::string> changed) {
     return test::problems_of(any_function(std::move(changed)));
@@ -452,6 +508,18 @@ TEST(AnyFunctionStudies, SayWhatIsWrong) {
               HasSubstr("begins before the last one ends"));
   EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_1\"]\n"}}),
               HasSubstr("watt_1 does not generate functions"));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"slider_crank\"]\n"}}),
+              ::testing::AllOf(HasSubstr("mechanism.families"),
+                               HasSubstr("none of the families has a link that turns"),
+                               HasSubstr("write output_range_mm")));
+  EXPECT_THAT(problems({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"inverted_slider\"]\n"},
+                        {"23", "output_range_mm = 20\n"}}),
+              HasSubstr("none of the families has a slider on the ground as its output"));
+  EXPECT_THAT(problems({{"3", "[limits]\ncrank_turns = false\n"}}),
+              ::testing::AllOf(HasSubstr("limits.crank_turns"), HasSubstr("input_range says how far")));
+  EXPECT_THAT(problems({{"24", "tolerance_mm = 0.1\n"}}), HasSubstr("the least greatest error"));
+  EXPECT_THAT(problems({{"24", "timing = { mode = \"free\" }\n"}}),
+              HasSubstr("over the rotation of the crank"));
   EXPECT_THAT(
       test::problems_of(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"watt_2\"]\n"}})),
       HasSubstr("a smaller machine traces"));

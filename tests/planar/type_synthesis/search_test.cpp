@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
+#include "linkwright/planar/type_synthesis/detail/machine_list.h"
+#include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "planar/type_synthesis_cases.h"
 #include "support/memory_checkpoint.h"
 
@@ -77,6 +81,56 @@ TEST(TypeSearches, ContinueFromACheckpoint) {
     RunContext context;
     context.set_checkpoint(&wrong);
     EXPECT_THROW(search_types(target, options, context), CheckpointError) << key;
+  }
+}
+
+TEST(TypeSearches, MergeTheListsOfSeveralSeeds) {
+  const MotionTarget target(sampled_stroke(test::stroke_of(test::stroke_case("leg"))));
+  std::vector<TypeSearchAnswer> answers;
+  TypeSearchOptions options{.max_links = 6, .max_curves = 60'000};
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    options.seed = seed;
+    RunContext context;
+    answers.push_back(search_types(target, options, context));
+  }
+  const auto families = searched_families(target, options);
+  std::vector<TypeSearchAnswer> kept;
+  for (const TypeSearchAnswer& answer : answers)
+    kept.push_back(load_answer(saved_answer(answer), families, "seed"));
+  const TypeSearchAnswer merged = merged_answers(target, answers, 12),
+                         again = merged_answers(target, kept, 12);
+  EXPECT_EQ(merged.curves, answers[0].curves + answers[1].curves + answers[2].curves);
+  ASSERT_FALSE(merged.machines.empty());
+  ASSERT_EQ(again.machines.size(), merged.machines.size());
+  for (std::size_t i = 0; i < merged.machines.size(); ++i) {
+    EXPECT_EQ(again.machines[i].machine.shape.x, merged.machines[i].machine.shape.x);
+    EXPECT_EQ(again.machines[i].chamfer, merged.machines[i].chamfer);
+    for (const FoundMachine& other : merged.machines)
+      EXPECT_TRUE(&other == &merged.machines[i] || !dominates(other, merged.machines[i]));
+  }
+  double best = infinity;
+  for (const TypeSearchAnswer& answer : answers) best = std::min(best, answer.machines[0].measures.error);
+  EXPECT_EQ(merged.machines[0].measures.error, best);
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    double least = infinity;
+    std::int64_t curves = 0;
+    for (const TypeSearchAnswer& answer : answers)
+      least = std::min(least, answer.families[i].error), curves += answer.families[i].curves;
+    EXPECT_EQ(merged.families[i].error, least);
+    EXPECT_EQ(merged.families[i].curves, curves);
+    EXPECT_EQ(again.families[i].best_at, merged.families[i].best_at);
+  }
+  EXPECT_EQ(again.progress.size(), merged.progress.size());
+  // One search is its own list.
+  const TypeSearchAnswer one = merged_answers(target, {answers.data(), 1}, 12);
+  ASSERT_EQ(one.machines.size(), answers[0].machines.size());
+  for (std::size_t i = 0; i < one.machines.size(); ++i)
+    EXPECT_EQ(one.machines[i].machine.shape.x, answers[0].machines[i].machine.shape.x);
+
+  for (const char* key : {"curves", "families", "errors", "machines", "outside", "progress"}) {
+    Value changed = saved_answer(answers[0]);
+    changed[key] = "x";
+    EXPECT_THROW(load_answer(changed, families, "seed"), CheckpointError) << key;
   }
 }
 

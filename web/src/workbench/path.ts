@@ -127,7 +127,7 @@ longest_link         = ${longestLink}${rocks && !closed ? "\ncrank_turns        
 
 [optimiser]
 seconds       = ${seconds}
-seed          = 1
+seeds         = { first = 1, count = 1 }
 max_solutions = 12
 `;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,18 +14,11 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/parallel.h"
-#include "linkwright/planar/linkage/build.h"
-#include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/studies/any_machine.h"
-#include "linkwright/planar/studies/any_search_tables.h"
-#include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/any_report.h"
 #include "linkwright/planar/type_synthesis/curve.h"
-#include "linkwright/planar/type_synthesis/found_linkage.h"
 #include "linkwright/planar/type_synthesis/minimax.h"
 #include "linkwright/planar/type_synthesis/title.h"
-#include "linkwright/study/remarks.h"
-#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
@@ -39,40 +33,14 @@ struct FunctionFindings {
   std::vector<double> rest;  ///< value at which it rests, of each dwell: rad, or m
 };
 
-class FunctionReport {
+class FunctionReport final : public AnyReport {
  public:
-  FunctionReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
-                 TypeSearchAnswer answer)
-      : s_(s),
-        p_(s.function.problem),
-        common_(common),
-        motion_(*s.motion),
-        limits_(limits),
-        answer_(std::move(answer)) {}
-
-  study::Result make(RunContext& context) {
-    find_errors(context);
-    refine(context);
-    answer_.status = context.interruption();
-    result_.status = answer_.status;
-    if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
-    for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(i);
-    machine_table();
-    add_search_tables(answer_,
-                      {slider() ? "structural_error_rms_m" : "structural_error_rms_rad", unit(), scale()},
-                      result_);
-    if (figures_.refined) {
-      result_.statistics["refinements"] = figures_.descents;
-      result_.statistics["refinement_steps"] = figures_.steps;
-    }
-    findings();
-    return std::move(result_);
-  }
+  FunctionReport(const AnyStudy& s, const study::Common& common)
+      : AnyReport(s, common), p_(s.function.problem) {}
 
  private:
   bool slider() const { return motion_.output == MachineOutput::slide; }
   const char* unit() const { return slider() ? "m" : "rad"; }
-  double size() const { return motion_.stroke.size; }
   /// A size of the target, or a radian, in the unit of the output.
   double scale() const { return slider() ? size() : 1; }
   std::string key(const char* name) const { return fmt::format("{}_{}", name, unit()); }
@@ -80,7 +48,6 @@ class FunctionReport {
   Measured output(double value, int digits = 3) const {
     return slider() ? millimetres(value, digits) : degrees_of(value, digits);
   }
-  Measured length(double sizes) const { return millimetres(sizes * size(), 3); }
 
   double share_of(double turned) const { return turned / p_.input_range; }
   /// The dwell that a rotation of the crank is in, -1 for none.
@@ -149,14 +116,14 @@ class FunctionReport {
     return out;
   }
 
-  /// Brings each machine of the list to its least greatest error where that is asked for, and sorts the list
-  /// by what is asked for.
-  void find_errors(RunContext& context) {
+  /// Finds the errors of the list, and brings each machine to its least greatest error where that is asked
+  /// for; the refinement begins with such machines. Sorts by what is asked for.
+  void look_at_machines(RunContext& context, bool refined) override {
     std::vector<FoundMachine>& list = answer_.machines;
-    found_.resize(list.size());
+    found_.assign(list.size(), {});
     optimise::parallel_for(list.size(), context.threads(), [&](std::size_t i) {
       found_[i] = findings_of(list[i].machine);
-      if (s_.fit != FunctionFit::minimax || context.interrupted()) return;
+      if (refined || s_.fit != FunctionFit::minimax || context.interrupted()) return;
       FoundMachine lessened = list[i];
       RunContext part;
       part.set_part_of(context);
@@ -166,9 +133,14 @@ class FunctionReport {
       if (lessened.measures.defect == MachineDefect::none && now.greatest < found_[i].greatest)
         list[i] = lessened, found_[i] = now;
     });
-    std::vector<std::size_t> all(list.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    keep_sorted(std::move(all));
+    std::vector<std::size_t> kept(list.size());
+    std::iota(kept.begin(), kept.end(), 0u);
+    std::stable_sort(kept.begin(), kept.end(),
+                     [&](std::size_t a, std::size_t b) { return error_of(found_[a]) < error_of(found_[b]); });
+    std::vector<FunctionFindings> errors;
+    for (const std::size_t i : kept) errors.push_back(found_[i]);
+    found_ = std::move(errors);
+    keep(kept);
   }
 
   /// The error that machines are compared by.
@@ -176,89 +148,66 @@ class FunctionReport {
     return s_.fit == FunctionFit::minimax ? found.greatest : found.root_mean;
   }
 
-  /// Keeps machines of the list, sorted by their errors.
-  void keep_sorted(std::vector<std::size_t> kept) {
-    std::stable_sort(kept.begin(), kept.end(),
-                     [&](std::size_t a, std::size_t b) { return error_of(found_[a]) < error_of(found_[b]); });
-    std::vector<FoundMachine> sorted;
-    std::vector<FunctionFindings> errors;
-    for (const std::size_t i : kept) sorted.push_back(answer_.machines[i]), errors.push_back(found_[i]);
-    answer_.machines = std::move(sorted), found_ = std::move(errors);
-    keep_figures(figures_, kept);
+  /// Errors are limited over the whole range, closer than the samples.
+  FunctionErrorLimit error_limit() override {
+    return {.greatest = s_.fit == FunctionFit::minimax,
+            .whole_error = [&](const FittedMachine& m) { return error_of(findings_of(m)) / scale(); }};
+  }
+  SearchError search_error() const override {
+    return {slider() ? "structural_error_rms_m" : "structural_error_rms_rad", unit(), scale()};
+  }
+  std::string compared_by() const override { return key("structural_error"); }
+  Measured error_outside(const MachineMeasures& measures) const override {
+    return output(measures.error * scale());
+  }
+  Sentence error_in_words(std::size_t i) const override {
+    return say("greatest error {}", output(found_[i].greatest));
   }
 
-  /// Refines the list for the objectives: errors are limited over the whole range, closer than the samples.
-  void refine(RunContext& context) {
-    const FunctionErrorLimit limit{
-        .greatest = s_.fit == FunctionFit::minimax,
-        .whole_error = [&](const FittedMachine& m) { return error_of(findings_of(m)) / scale(); }};
-    figures_ = refine_list(s_.refinement, motion_, search_options(s_, limits_), common_.output.samples,
-                           answer_, context, limit);
-    if (!figures_.refined) return;
-    found_.clear();
-    std::vector<std::size_t> all;
-    for (const FoundMachine& found : answer_.machines)
-      all.push_back(all.size()), found_.push_back(findings_of(found.machine));
-    keep_sorted(std::move(all));
+  Sentence label_of(std::size_t i) const override {
+    const FoundMachine& found = machines()[i];
+    return say("{}, greatest error {}, pair angle {}", title_of(*found.machine.shape.program),
+               output(found_[i].greatest), degrees_of(found.measures.min_pair_angle).fixed(1));
   }
 
-  void solution(std::size_t i) {
-    const FoundMachine& found = answer_.machines[i];
-    const PointProgram& program = *found.machine.shape.program;
-    const MachineMeasures& m = found.measures;
-    study::Solution out;
-    out.label = say("{}, greatest error {}, pair angle {}", title_of(program), output(found_[i].greatest),
-                    degrees_of(m.min_pair_angle).fixed(1));
-    FoundLinkage of = found_linkage(found.machine, motion_.stroke);
-    if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
-    add_link_lengths(of.linkage, out);
+  void describe(std::size_t i, const FoundLinkage& of, study::Solution& out) const override {
+    const FittedMachine& machine = machines()[i].machine;
     out.objectives[key("structural_error")] = found_[i].greatest;
     out.objectives[key("structural_error_rms")] = found_[i].root_mean;
     if (!s_.dwells.empty()) out.objectives[key("rest_error")] = found_[i].worst_rest;
-    out.objectives["least_pair_angle_rad"] = m.min_pair_angle;
-    out.objectives["size_m"] = m.size * size();
-    out.objectives["longest_link_m"] = m.max_length * size();
-    out.classification["family"] = std::string(name_of(program.family));
-    out.classification["program"] = program.name;
-    out.classification["type"] = short_name_of(program);
-    out.classification["links"] = program.links;
     out.classification["output"] = of.traced.substr(0, of.traced.find('.'));
-    add_figures(figures_, i, out);
-    out.classification["crank_begins_rad"] = found.machine.angle[0] + of.crank_angle;
-    if (!slider()) out.classification["output_angle_on_link_rad"] = found.machine.body_angle;
-    drawing(i, of, out);
-    result_.solutions.push_back(std::move(out));
+    out.classification["crank_begins_rad"] = machine.angle[0] + of.crank_angle;
+    if (!slider()) out.classification["output_angle_on_link_rad"] = machine.body_angle;
   }
 
-  /// The output by the solver of any linkage, which knows nothing of the search.
-  void drawing(std::size_t i, const FoundLinkage& of, study::Solution& out) {
-    const FittedMachine& machine = answer_.machines[i].machine;
-    const PlanResult planned = plan_linkage(of.linkage);
-    LinkageMotion moving(planned.plan);
-    const std::string body = of.traced.substr(0, of.traced.find('.'));
-    int output_body = 0;
-    while (of.linkage.bodies[static_cast<std::size_t>(output_body)].name != body) ++output_body;
+  /// Rotation of the crank from the beginning, at a row of the tables.
+  double input_at(std::size_t row) const {
+    return p_.input_range * (static_cast<double>(row) / (common_.output.samples - 1));
+  }
+  std::vector<double> crank_angles(std::size_t i, const FoundLinkage& of) const override {
+    std::vector<double> out(static_cast<std::size_t>(common_.output.samples));
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = machines()[i].machine.angle[0] + of.crank_angle + input_at(k);
+    return out;
+  }
+
+  void add_motion(std::size_t i, const FoundLinkage& /*of*/, const std::vector<double>& crank,
+                  std::span<const PartState<double>> states, study::Scene& /*scene*/) override {
     const FunctionStudy& f = s_.function;
-    std::vector<double> x, input, crank, wanted, reached, error;
-    std::vector<LinkageRecord> records;
-    const int samples = common_.output.samples;
-    for (int k = 0; k < samples; ++k) {
-      const double share = static_cast<double>(k) / (samples - 1);
+    std::vector<double> x, input, wanted, reached, error;
+    for (std::size_t k = 0; k < crank.size(); ++k) {
+      input.push_back(input_at(k));
+      const double share = share_of(input.back());
       x.push_back(f.x_from + (f.x_to - f.x_from) * share);
-      input.push_back(p_.input_range * share);
-      crank.push_back(machine.angle[0] + of.crank_angle + input.back());
-      const InputMotion turned{crank.back(), 0, 0};
-      solve_motion(planned.plan, std::span(&turned, 1), moving);
-      records.push_back(record_of(of.linkage, planned.plan, moving, nullptr, crank.back()));
-      const PartState<double> state = body_state(planned.plan, moving, output_body);
       const int dwell = dwell_at(input.back());
       wanted.push_back(dwell < 0 ? p_.output(share) : found_[i].rest[static_cast<std::size_t>(dwell)]);
+      const PartState<double>& state = states[k];
       error.push_back(slider() ? state.origin.x - wanted.back()
                                : math::wrap_angle(std::atan2(state.direction.y, state.direction.x) +
-                                                  machine.body_angle - wanted.back()));
+                                                  machines()[i].machine.body_angle - wanted.back()));
       reached.push_back(wanted.back() + error.back());
     }
-    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1);
+    const std::string suffix = suffix_of(i);
     Table table{.name = "structural_error" + suffix};
     table.add("x", "x", std::move(x));
     table.add("input_rad", "rotation of the crank from the start (rad)", std::move(input));
@@ -270,62 +219,28 @@ class FunctionReport {
     const std::string which = i == 0 ? "" : fmt::format(" of solution {}", i + 1);
     plot("error" + suffix, "Structural error" + which, {key("error")});
     plot("output" + suffix, "Output, and what is wanted" + which, {key("output"), key("wanted")});
-    study::Scene scene =
-        linkage_scene(of.linkage, planned.plan, records, {point_named(of.linkage, of.traced)},
-                      "crank_angle_rad", "crank angle");
-    scene.name = fmt::format("solution-{}", i + 1);
-    scene.title = say("{}: {}", count_of(static_cast<double>(i + 1)), out.label);
-    out.scene = scene.name;
-    result_.scenes.push_back(std::move(scene));
-    out.study = motion_study(of.linkage, true, crank, of.traced);
-    load_design(s_.refinement, out.study);
   }
 
-  void machine_table() {
-    if (answer_.machines.empty()) return;
-    Table table{.name = "machines"};
-    const auto column = [&](std::string name, std::string text, auto&& value) {
-      std::vector<double> values;
-      for (std::size_t i = 0; i < found_.size(); ++i) values.push_back(value(answer_.machines[i], found_[i]));
-      table.add(std::move(name), std::move(text), std::move(values));
-    };
-    using M = const FoundMachine&;
-    using F = const FunctionFindings&;
-    for (const FoundMachine& found : answer_.machines)
-      table.names.push_back(found.machine.shape.program->name);
-    column("links", "links", [](M m, F) { return static_cast<double>(m.machine.shape.program->links); });
-    column(key("structural_error"), label("greatest error"), [](M, F f) { return f.greatest; });
-    column(key("structural_error_rms"), label("root mean square error"), [](M, F f) { return f.root_mean; });
+  void add_columns(Table& table) const override {
+    table.add(key("structural_error"), label("greatest error"),
+              column_of([&](std::size_t i) { return found_[i].greatest; }));
+    table.add(key("structural_error_rms"), label("root mean square error"),
+              column_of([&](std::size_t i) { return found_[i].root_mean; }));
     if (!s_.dwells.empty())
-      column(key("rest_error"), label("greatest departure from rest"), [](M, F f) { return f.worst_rest; });
-    column("least_pair_angle_rad", "least pair angle (rad)",
-           [](M m, F) { return m.measures.min_pair_angle; });
-    column("size_m", "larger side of the box of all pins (m)",
-           [&](M m, F) { return m.measures.size * size(); });
-    column("shortest_link_m", "shortest length (m)", [&](M m, F) { return m.measures.min_length * size(); });
-    column("longest_link_m", "longest length (m)", [&](M m, F) { return m.measures.max_length * size(); });
-    add_figure_columns(figures_, table);
-    result_.tables.push_back(std::move(table));
-    add_figure_plots(figures_, key("structural_error"), result_);
+      table.add(key("rest_error"), label("greatest departure from rest"),
+                column_of([&](std::size_t i) { return found_[i].worst_rest; }));
   }
 
-  void findings() {
-    const study::AddFact fact{result_.facts};
+  void introduce(const study::AddFact& fact) const override {
     fact("function", say("{}, x = {} to {}", s_.function.name, plain_number(s_.function.x_from),
                          plain_number(s_.function.x_to)));
-    if (answer_.machines.empty()) {
-      const FoundMachine* nearest = nearest_outside(answer_);
-      report_none_found(answer_, nearest ? output(nearest->measures.error * scale()) : Measured{}, result_);
-      return;
-    }
-    const FoundMachine& best = answer_.machines[0];
-    const PointProgram& program = *best.machine.shape.program;
-    const Measured greatest = output(found_[0].greatest),
-                   pair = degrees_of(best.measures.min_pair_angle).fixed(1);
+  }
+
+  void tell_of_best(const study::AddFact& fact, const Sentence& links, const Measured& pair_angle) override {
+    const Measured greatest = output(found_[0].greatest);
     result_.headline =
-        say("A machine of {} links generates the function within {}, pair angles of at least {}.",
-            count_of(program.links), greatest, pair);
-    fact("best machine", say("{} ({})", title_of(program), program.name));
+        say("A machine of {} links generates the function within {}, pair angles of at least {}.", links,
+            greatest, pair_angle);
     report_greatest_error(p_, greatest, result_);
     fact("root mean square error", output(found_[0].root_mean));
     for (std::size_t d = 0; d < s_.dwells.size(); ++d)
@@ -333,37 +248,16 @@ class FunctionReport {
                                  : fmt::format("value at which the output rests, dwell {}", d + 1),
            output(found_[0].rest[d], 4));
     if (!s_.dwells.empty()) fact("greatest departure from rest", output(found_[0].worst_rest));
-    fact(motion_.turns ? "least pair angle over the whole turn" : "least pair angle over the range", pair);
-    fact("box of the pins, larger side", length(best.measures.size));
-    const auto simplest = std::min_element(
-        answer_.machines.begin(), answer_.machines.end(), [](const FoundMachine& a, const FoundMachine& b) {
-          return a.machine.shape.program->links < b.machine.shape.program->links;
-        });
-    const auto at = static_cast<std::size_t>(simplest - answer_.machines.begin());
-    if (simplest->machine.shape.program->links < program.links)
-      fact("best machine with the fewest links",
-           say("{} links ({}), greatest error {}", count_of(simplest->machine.shape.program->links),
-               short_name_of(*simplest->machine.shape.program), output(found_[at].greatest)));
-    add_figure_facts(s_.refinement, figures_, *result_.table("machines"), motion_, fact);
-    fact("curves computed", count_of(static_cast<double>(answer_.curves)));
   }
 
-  const AnyStudy& s_;
   const FunctionProblem& p_;
-  const study::Common& common_;
-  const MotionTarget& motion_;
-  const MachineLimits& limits_;
-  TypeSearchAnswer answer_;
   std::vector<FunctionFindings> found_;  ///< of each machine of the list
-  ListFigures figures_;
-  study::Result result_;
 };
 
 }  // namespace
 
 study::Result run_any_function_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
-  const MachineLimits limits = limits_of(s.limits, s.motion->stroke);
-  return FunctionReport(s, common, limits, search_machines(s, limits, context)).make(context);
+  return FunctionReport(s, common).make(context);
 }
 
 }  // namespace linkwright::planar

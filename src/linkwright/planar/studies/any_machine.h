@@ -204,20 +204,19 @@ void fields(Visitor&& visit, AnyMotionLimits& l) {
 struct AnyOptimiser {
   std::optional<double> seconds;
   std::optional<std::int64_t> evaluations;
-  std::int64_t seed = 1;
   int max_solutions = 12;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyOptimiser& o) {
-  visit(field::entry("seconds", "time of the search (s); default: 10 unless evaluations are given")
+  visit(field::entry("seconds",
+                     "time of the search with each seed (s); default: 10 unless evaluations are given")
             .between(0.05, 86400),
         o.seconds);
-  visit(field::entry(
-            "evaluations",
-            "number of curves after which the search ends: then the same result on every number of threads")
+  visit(field::entry("evaluations",
+                     "number of curves after which the search with each seed ends: then the same result on "
+                     "every number of threads")
             .between(1000, std::int64_t{1} << 50),
         o.evaluations);
-  visit(field::entry("seed", "seed of the search").not_negative(), o.seed);
   visit(field::entry("max_solutions", "largest number of machines in the list").between(1, 100),
         o.max_solutions);
 }
@@ -244,11 +243,14 @@ study::Kind any_function_kind();
 /// The limits of a search, in sizes of the stroke from its mean.
 MachineLimits limits_of(const AnyLimits& form, const SampledStroke& target);
 
-/// What a study asks of the search.
-TypeSearchOptions search_options(const AnyStudy& study, const MachineLimits& limits);
+/// What a study asks of the search with its first seed.
+TypeSearchOptions search_options(const AnyStudy& study, const study::Common& common,
+                                 const MachineLimits& limits);
 
-/// The search of a study, which ends as done after its own time.
-TypeSearchAnswer search_machines(const AnyStudy& study, const MachineLimits& limits, RunContext& context);
+/// The searches of a study, one for each seed, and what they come to together. A search ends as done after
+/// its own time. Their outcomes go to the log of the result.
+TypeSearchAnswer search_machines(const AnyStudy& study, const study::Common& common,
+                                 const MachineLimits& limits, RunContext& context, study::Result& result);
 
 study::Result run_any_study(const AnyStudy& study, const study::Common& common, RunContext& context);
 study::Result run_any_function_study(const AnyStudy& study, const study::Common& common, RunContext& context);

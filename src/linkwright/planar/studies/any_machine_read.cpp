@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -25,6 +26,42 @@ namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t max_given_pivots = 4;  // machines of ten links have no more than five
+
+using study::Absent;
+
+constexpr std::string_view body_turns =
+    "not for strokes: a point has no rotation; write type = \"poses\" to lead a body";
+constexpr std::string_view of_functions =
+    "an output that is a function of the crank rotation is a target of its own: write type = \"function\"";
+constexpr std::string_view moves_no_point =
+    "not for functions: their output is a link that turns, or a slider; write type = \"path_points\" to "
+    "trace "
+    "a stroke";
+constexpr std::array not_of_strokes{
+    Absent{"target.pose", {}, body_turns}, Absent{"target.orientation_length", {}, body_turns},
+    Absent{"target.dwell", {}, of_functions}, Absent{"target.time_ratio", {}, of_functions}};
+constexpr std::array not_of_poses{
+    Absent{"target.points", {}, "not for poses: write [[target.pose]] with x_mm, y_mm, angle_deg for each"},
+    Absent{"target.points_file", {}, "not for poses: their file is file = \"poses.csv\""},
+    Absent{"target.tolerance",
+           {},
+           "not for poses: orientation_length says what a rotation error counts as beside the places"},
+    Absent{"target.dwell", {}, of_functions}, Absent{"target.time_ratio", {}, of_functions}};
+constexpr std::array not_of_functions{
+    Absent{"limits.crank_turns",
+           {},
+           "not for functions: input_range says how far the crank turns, 360 deg for a whole turn; over less "
+           "than that, limits hold over the range alone"},
+    Absent{"target.closed",
+           {},
+           "not for functions: one over a whole turn, input_range_deg = 360, ends as it begins"},
+    Absent{"target.timing", {}, "not for functions: they are given over the rotation of the crank"},
+    Absent{"target.points", {}, moves_no_point},
+    Absent{"target.pose", {}, moves_no_point},
+    Absent{
+        "target.tolerance",
+        {},
+        "not for functions: write fit = \"minimax\" for the least greatest error, which a check can limit"}};
 
 /// Remarks on strokes that a simpler device draws, or that are not what they seem. False where one is none.
 bool check_stroke(study::ObjectReader& target, const study::Common& common, const char* key,
@@ -286,6 +323,22 @@ void read_limits(study::ObjectReader& table, bool function, AnyMotionLimits& l) 
                   "move it inside, or widen ground_box");
 }
 
+/// Refuses families none of which has an output of the sort that a function asks for.
+void check_outputs(study::ObjectReader& document, const AnyStudy& s) {
+  if (!s.motion || !s.motion->is_function() || !s.mechanism.families || s.mechanism.families->empty()) return;
+  const auto& families = *s.mechanism.families;
+  const bool slides = s.motion->output == MachineOutput::slide;
+  if (std::any_of(families.begin(), families.end(),
+                  [&](MachineFamily family) { return !programs_of(family, s.motion->output).empty(); }))
+    return;
+  if (auto table = document.table("mechanism"))
+    table->error("families",
+                 fmt::format("none of the families has a {} as its output",
+                             slides ? "slider on the ground" : "link that turns about the ground"),
+                 slides ? "add slider_crank, or write output_range_deg for a link that turns"
+                        : "add four_bar, or write output_range_mm for a slider");
+}
+
 /// Lets the drive rock where the crank need not turn.
 void release_crank(study::ObjectReader& document, AnyStudy& s) {
   if (s.limits.crank_turns || !s.motion) return;
@@ -345,6 +398,7 @@ study::Kind any_kind(const char* target, const char* target_summary,
   kind.kind = "synthesis";
   kind.mechanism = "planar.any";
   kind.target = target;
+  kind.seeded = true;
   kind.schema = [target_summary](study::SchemaWriter& document) {
     document.property(field::entry("mechanism", "types of machines"), study::schema_fields<AnyMechanism>());
     document.property(field::entry("target", target_summary), study::schema_fields<Target>());
@@ -356,6 +410,7 @@ study::Kind any_kind(const char* target, const char* target_summary,
     AnyStudy s = read_search(document, function);
     Target form;
     if (auto table = document.table(field::entry("target").required())) read_target(*table, common, form, s);
+    check_outputs(document, s);
     release_crank(document, s);
     if (function && s.refinement.loads.torque != 0 && s.function.problem.slider)
       document.error("machine", "a torque acts on the output, which is a slider",
@@ -387,6 +442,7 @@ study::Kind any_path_kind() {
   study::Kind kind = any_kind<AnyTarget>("path_points", "the stroke", read_stroke_target);
   kind.summary = "machines of many types that trace a stroke, side by side";
   kind.example = templates::synthesis_any_path_points();
+  kind.absent = not_of_strokes;
   return kind;
 }
 
@@ -394,6 +450,7 @@ study::Kind any_poses_kind() {
   study::Kind kind = any_kind<AnyPosesTarget>("poses", "the poses of a body", read_poses_target);
   kind.summary = "machines of many types that lead a body through poses, side by side";
   kind.example = templates::synthesis_any_poses();
+  kind.absent = not_of_poses;
   return kind;
 }
 
@@ -401,6 +458,7 @@ study::Kind any_function_kind() {
   study::Kind kind = any_kind<AnyFunctionTarget>("function", "the function", read_function_target);
   kind.summary = "machines of many types that generate a function, or rest, side by side";
   kind.example = templates::synthesis_any_function();
+  kind.absent = not_of_functions;
   return kind;
 }
 

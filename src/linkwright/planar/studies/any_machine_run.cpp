@@ -13,14 +13,12 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage/build.h"
-#include "linkwright/planar/linkage/motion.h"
+#include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/studies/any_machine.h"
 #include "linkwright/planar/studies/any_machine_layouts.h"
-#include "linkwright/planar/studies/any_search_tables.h"
-#include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/any_report.h"
 #include "linkwright/planar/type_synthesis/curve.h"
+#include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/found_linkage.h"
 #include "linkwright/planar/type_synthesis/stroke_shape.h"
 #include "linkwright/planar/type_synthesis/title.h"
@@ -30,59 +28,50 @@
 namespace linkwright::planar {
 namespace {
 
-using Verdict = study::Fact::Verdict;
-
 constexpr double most_of_a_turn = 300 * pi / 180;  // of an open stroke: more is told
 
-class AnyReport {
- public:
-  AnyReport(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
-            TypeSearchAnswer answer, ListFigures figures)
-      : s_(s),
-        common_(common),
-        motion_(*s.motion),
-        target_(motion_.stroke),
-        limits_(limits),
-        answer_(std::move(answer)),
-        figures_(std::move(figures)) {}
+/// Of the best machine within the limits, infinite where there is none.
+double least_error(const TypeSearchAnswer& answer) {
+  double least = infinity;
+  for (const FamilyReport& f : answer.families) least = std::min(least, f.error);
+  return least;
+}
 
-  study::Result make() {
-    result_.status = answer_.status;
-    if (answer_.status == Status::done && answer_.machines.empty()) result_.status = Status::infeasible;
-    for (std::size_t i = 0; i < answer_.machines.size(); ++i) solution(answer_.machines[i], i + 1);
-    machine_table();
-    if (auto layouts = layout_table(answer_.machines, motion_)) result_.tables.push_back(std::move(*layouts));
-    add_search_tables(answer_, {error_key(), "m", size()}, result_);
-    if (figures_.refined) {
-      result_.statistics["refinements"] = figures_.descents;
-      result_.statistics["refinement_steps"] = figures_.steps;
-    }
-    findings();
-    return std::move(result_);
-  }
+/// A stroke, or the poses of a body.
+class MotionReport final : public AnyReport {
+ public:
+  using AnyReport::AnyReport;
 
  private:
-  double size() const { return target_.size; }
+  const SampledStroke& target() const { return motion_.stroke; }
   bool poses() const { return motion_.oriented; }
   /// The drive need not turn.
   bool rocks() const { return !motion_.turns; }
-  /// The error that machines are compared by.
-  const char* error_key() const { return poses() ? "pose_error_rms_m" : "path_error_rms_m"; }
-  Measured length(double sizes, int digits = 3) const { return millimetres(sizes * size(), digits); }
 
-  void solution(const FoundMachine& found, std::size_t number) {
-    const PointProgram& program = *found.machine.shape.program;
-    const MachineMeasures& m = found.measures;
-    study::Solution out;
+  /// The error that machines are compared by.
+  SearchError search_error() const override {
+    return {poses() ? "pose_error_rms_m" : "path_error_rms_m", "m", size()};
+  }
+  std::string compared_by() const override { return "path_error_rms_m"; }
+  Measured error_outside(const MachineMeasures& measures) const override { return length(measures.distance); }
+  Sentence error_in_words(std::size_t i) const override {
+    return say("root mean square error {}", length(machines()[i].measures.distance));
+  }
+
+  Sentence label_of(std::size_t i) const override {
+    const MachineMeasures& m = machines()[i].measures;
     const Measured pair_angle = degrees_of(m.min_pair_angle).fixed(1);
-    out.label =
-        poses() ? say("{}, rms errors {} and {}, pair angle {}", title_of(program), length(m.distance),
+    const Sentence title = title_of(*machines()[i].machine.shape.program);
+    const Sentence label =
+        poses() ? say("{}, rms errors {} and {}, pair angle {}", title, length(m.distance),
                       degrees_of(m.rotation, 3), pair_angle)
-                : say("{}, rms error {}, pair angle {}", title_of(program), length(m.distance), pair_angle);
-    if (rocks()) out.label = say("{}, drive over {}", out.label, degrees_of(m.span).fixed(0));
-    FoundLinkage of = found_linkage(found.machine, target_);
-    if (s_.refinement.loaded) add_loads(of, loads_of(s_.refinement));
-    add_link_lengths(of.linkage, out);
+                : say("{}, rms error {}, pair angle {}", title, length(m.distance), pair_angle);
+    return rocks() ? say("{}, drive over {}", label, degrees_of(m.span).fixed(0)) : label;
+  }
+
+  void describe(std::size_t i, const FoundLinkage& of, study::Solution& out) const override {
+    const FoundMachine& found = machines()[i];
+    const MachineMeasures& m = found.measures;
     out.objectives["path_error_rms_m"] = m.distance * size();
     out.objectives["path_error_share"] = m.distance;
     if (poses()) {
@@ -93,14 +82,7 @@ class AnyReport {
       out.objectives["chamfer_distance_share"] = found.chamfer;
     }
     out.objectives["largest_deviation_m"] = m.largest_deviation * size();
-    out.objectives["least_pair_angle_rad"] = m.min_pair_angle;
-    out.objectives["size_m"] = m.size * size();
-    out.objectives["longest_link_m"] = m.max_length * size();
     out.objectives["peak_acceleration_share"] = m.peak_acceleration;
-    out.classification["family"] = std::string(name_of(program.family));
-    out.classification["program"] = program.name;
-    out.classification["type"] = short_name_of(program);
-    out.classification["links"] = program.links;
     out.classification["traced_point"] = of.traced;
     if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
     out.classification["crank_range_rad"] = m.span;
@@ -109,61 +91,24 @@ class AnyReport {
       out.classification["drive_from_rad"] = from, out.classification["drive_to_rad"] = to;
     }
     out.classification["sense"] = found.machine.sense > 0 ? "positive" : "negative";
-    if (const std::string limit = limited_by(found); !limit.empty()) out.classification["limited_by"] = limit;
-    add_figures(figures_, number - 1, out);
-    drawing(found, of, out, number);
-    result_.solutions.push_back(std::move(out));
   }
 
-  /// The limits that the machine has come to.
-  std::string limited_by(const FoundMachine& found) const {
-    const MachineMeasures& m = found.measures;
-    std::vector<std::string> out;
-    if (m.min_pair_angle < limits_.min_pair_angle + 0.01) out.emplace_back("least_pair_angle");
-    if (m.max_length > limits_.max_length * 0.995) out.emplace_back("longest_link");
-    if (m.min_length < limits_.min_length * 1.01) out.emplace_back("shortest_link");
-    if (const auto& box = limits_.ground_box) {
-      const MachineShape& shape = found.machine.shape;
-      double inside = infinity;
-      for (const GroundPivot& pivot : ground_pivots(*shape.program)) {
-        const std::complex<double> at = place_of(pivot, *shape.program, shape.x);
-        inside = std::min({inside, at.real() - box->left, box->right - at.real(), at.imag() - box->bottom,
-                           box->top - at.imag()});
-      }
-      if (inside < 0.01) out.emplace_back("ground_box");
-    }
-    return fmt::format("{}", fmt::join(out, ", "));
+  std::vector<double> crank_angles(std::size_t i, const FoundLinkage& of) const override {
+    return design_rows(motion_, machines()[i].machine, of, common_.output.samples);
   }
 
-  /// The machine by the solver of any linkage, which knows nothing of the search.
-  void drawing(const FoundMachine& found, const FoundLinkage& of, study::Solution& out, std::size_t number) {
-    const PlanResult planned = plan_linkage(of.linkage);
-    LinkageMotion moving(planned.plan);
-    const std::vector<double> crank = design_rows(motion_, found.machine, of, common_.output.samples);
-    std::vector<LinkageRecord> records;
-    for (const double angle : crank) {
-      const InputMotion input{angle, 0, 0};
-      solve_motion(planned.plan, std::span(&input, 1), moving);
-      records.push_back(record_of(of.linkage, planned.plan, moving, nullptr, angle));
-    }
-    study::Scene scene =
-        linkage_scene(of.linkage, planned.plan, records, {point_named(of.linkage, of.traced)},
-                      "crank_angle_rad", "crank angle");
-    scene.name = fmt::format("solution-{}", number);
-    scene.title = say("{}: {}", count_of(static_cast<double>(number)), out.label);
+  void add_motion(std::size_t i, const FoundLinkage& of, const std::vector<double>& crank,
+                  std::span<const PartState<double>> /*states*/, study::Scene& scene) override {
+    const FoundMachine& found = machines()[i];
     if (poses()) {
       pose_scene(found, of, scene);
-      pose_table(found, of, number);
+      pose_table(found, of, i);
     } else {
-      study::Scene::Target stroke{"stroke", {}, {}, {}, {}, {}, target_.closed};
+      study::Scene::Target stroke{"stroke", {}, {}, {}, {}, {}, target().closed};
       for (const auto& p : drawn_points()) stroke.x.push_back(p.real()), stroke.y.push_back(p.imag());
       scene.targets.push_back(std::move(stroke));
     }
-    out.scene = scene.name;
-    result_.scenes.push_back(std::move(scene));
-    out.study = motion_study(of.linkage, true, crank, of.traced);
-    load_design(s_.refinement, out.study);
-    curve_table(found, of, crank, number);
+    curve_table(found, of, crank, i);
   }
 
   /// The stroke as it is drawn: thinned out where it has many points.
@@ -194,8 +139,8 @@ class AnyReport {
     if (poses()) task.bx = bx.data(), task.by = by.data();
     compute_curve(task);
     out.x.resize(count), out.y.resize(count);
-    for (double& v : out.x) v = target_.centre.real() + size() * v;
-    for (double& v : out.y) v = target_.centre.imag() + size() * v;
+    for (double& v : out.x) v = target().centre.real() + size() * v;
+    for (double& v : out.y) v = target().centre.imag() + size() * v;
     for (std::size_t k = 0; k < count && poses(); ++k) {
       const double angle = std::atan2(by[k], bx[k]) + found.machine.body_angle;
       out.angle.push_back(k == 0 ? math::wrap_angle(angle)
@@ -206,11 +151,11 @@ class AnyReport {
 
   /// The traced curve as the search has it.
   void curve_table(const FoundMachine& found, const FoundLinkage& of, const std::vector<double>& crank,
-                   std::size_t number) {
+                   std::size_t i) {
     std::vector<double> angle = crank;
     for (double& a : angle) a -= of.crank_angle;
     Motion motion = motion_at(found, std::move(angle));
-    Table table{.name = number == 1 ? "curve" : fmt::format("curve-{}", number)};
+    Table table{.name = "curve" + suffix_of(i)};
     table.add("crank_angle_rad", "crank angle (rad)", crank);
     table.add("point_x_m", "x of the traced point (m)", std::move(motion.x));
     table.add("point_y_m", "y of the traced point (m)", std::move(motion.y));
@@ -228,7 +173,7 @@ class AnyReport {
   }
 
   /// The poses and how the body meets them.
-  void pose_table(const FoundMachine& found, const FoundLinkage& of, std::size_t number) {
+  void pose_table(const FoundMachine& found, const FoundLinkage& of, std::size_t i) {
     std::vector<double> crank = crank_at_poses(found), x, y, apart, turned;
     const Motion motion = motion_at(found, crank);
     for (std::size_t k = 0; k < crank.size(); ++k) {
@@ -238,7 +183,7 @@ class AnyReport {
       turned.push_back(math::wrap_angle(motion.angle[k] - s_.angles[k]));
       crank[k] += of.crank_angle;
     }
-    Table table{.name = number == 1 ? "poses" : fmt::format("poses-{}", number)};
+    Table table{.name = "poses" + suffix_of(i)};
     table.add("crank_angle_rad", "crank angle (rad)", std::move(crank));
     table.add("pose_x_m", "x of the pose (m)", std::move(x));
     table.add("pose_y_m", "y of the pose (m)", std::move(y));
@@ -261,11 +206,11 @@ class AnyReport {
     scene.runs = {"linkage", "poses"};
     const std::vector<double> crank = crank_at_poses(found);
     const Motion motion = motion_at(found, crank);
-    study::Scene::Target target{"poses", {}, {}, motion.x, motion.y, {}, target_.closed};
+    study::Scene::Target places{"poses", {}, {}, motion.x, motion.y, {}, target().closed};
     for (std::size_t k = 0; k < crank.size(); ++k) {
       const std::complex<double> at = s_.drawn.points[k];
-      target.x.push_back(at.real()), target.y.push_back(at.imag());
-      target.achieved_input.push_back(crank[k] + of.crank_angle);
+      places.x.push_back(at.real()), places.y.push_back(at.imag());
+      places.achieved_input.push_back(crank[k] + of.crank_angle);
       const std::complex<double> turn = std::polar(1.0, s_.angles[k] - found.machine.body_angle);
       study::Scene::Body ghost{fmt::format("pose {}", k + 1), {}, study::Scene::BodyStyle::plate, 1};
       for (const LinkagePoint& point : body->points) {
@@ -275,73 +220,52 @@ class AnyReport {
       }
       scene.bodies.push_back(std::move(ghost));
     }
-    scene.targets.push_back(std::move(target));
+    scene.targets.push_back(std::move(places));
   }
 
-  void machine_table() {
-    if (answer_.machines.empty()) return;
-    Table table{.name = "machines"};
-    const auto column = [&](const char* key, const char* label, auto&& value) {
-      std::vector<double> values;
-      for (const FoundMachine& found : answer_.machines) values.push_back(value(found, found.measures));
-      table.add(key, label, std::move(values));
-    };
-    using F = const FoundMachine&;
+  void add_columns(Table& table) const override {
     using M = const MachineMeasures&;
-    for (const FoundMachine& found : answer_.machines)
-      table.names.push_back(found.machine.shape.program->name);
-    column("links", "links", [](F f, M) { return static_cast<double>(f.machine.shape.program->links); });
-    column("path_error_rms_m", "root mean square error (m)", [&](F, M m) { return m.distance * size(); });
+    table.add("path_error_rms_m", "root mean square error (m)",
+              measures_of([&](M m) { return m.distance * size(); }));
     if (motion_.tolerance > 0) {
-      column("beyond_tolerance_rms_m", "root mean square of the distances beyond the tolerance (m)",
-             [&](F, M m) { return m.error * size(); });
-      column("within_tolerance", "all points within the tolerance: 1, else 0",
-             [&](F, M m) { return within_tolerance(m) ? 1.0 : 0.0; });
+      table.add("beyond_tolerance_rms_m", "root mean square of the distances beyond the tolerance (m)",
+                measures_of([&](M m) { return m.error * size(); }));
+      table.add("within_tolerance", "all points within the tolerance: 1, else 0",
+                measures_of([&](M m) { return within_tolerance(m) ? 1.0 : 0.0; }));
     }
     if (poses()) {
-      column("pose_error_rms_m", "root mean square of distances and of rotations as lengths (m)",
-             [&](F, M m) { return m.error * size(); });
-      column("rotation_error_rms_rad", "root mean square error of the rotation (rad)",
-             [](F, M m) { return m.rotation; });
-      column("largest_rotation_error_rad", "largest error of the rotation (rad)",
-             [](F, M m) { return m.largest_rotation; });
+      table.add("pose_error_rms_m", "root mean square of distances and of rotations as lengths (m)",
+                measures_of([&](M m) { return m.error * size(); }));
+      table.add("rotation_error_rms_rad", "root mean square error of the rotation (rad)",
+                measures_of([](M m) { return m.rotation; }));
+      table.add("largest_rotation_error_rad", "largest error of the rotation (rad)",
+                measures_of([](M m) { return m.largest_rotation; }));
     } else {
-      column("chamfer_distance_share", "chamfer distance, of the size of the stroke",
-             [](F f, M) { return f.chamfer; });
+      table.add("chamfer_distance_share", "chamfer distance, of the size of the stroke",
+                column_of([&](std::size_t i) { return machines()[i].chamfer; }));
     }
-    column("largest_deviation_m", "largest deviation (m)",
-           [&](F, M m) { return m.largest_deviation * size(); });
-    column("least_pair_angle_rad", "least pair angle (rad)", [](F, M m) { return m.min_pair_angle; });
-    column("size_m", "larger side of the box of all pins (m)", [&](F, M m) { return m.size * size(); });
-    column("shortest_link_m", "shortest length (m)", [&](F, M m) { return m.min_length * size(); });
-    column("longest_link_m", "longest length (m)", [&](F, M m) { return m.max_length * size(); });
-    column("crank_range_rad", rocks() ? "range of the drive (rad)" : "crank rotation along the stroke (rad)",
-           [](F, M m) { return m.span; });
-    if (rocks()) {
-      column("drive_from_rad", "crank angle at which the motion begins (rad)",
-             [this](F f, M) { return drive_range(motion_, f.machine)[0]; });
-      column("drive_to_rad", "crank angle at which the motion ends (rad)",
-             [this](F f, M) { return drive_range(motion_, f.machine)[1]; });
-    }
-    column("peak_acceleration_share", "peak acceleration at unit crank speed, of the size of the stroke",
-           [](F, M m) { return m.peak_acceleration; });
-    add_figure_columns(figures_, table);
-    result_.tables.push_back(std::move(table));
-    add_figure_plots(figures_, "path_error_rms_m", result_);
+    table.add("largest_deviation_m", "largest deviation (m)",
+              measures_of([&](M m) { return m.largest_deviation * size(); }));
   }
 
-  void findings() {
-    const study::AddFact fact{result_.facts};
-    const study::AddWarning warn{result_.diagnostics};
-    if (answer_.machines.empty()) {
-      const FoundMachine* nearest = nearest_outside(answer_);
-      report_none_found(answer_, nearest ? length(nearest->measures.distance) : Measured{}, result_);
-      return;
+  void add_last_columns(Table& table) const override {
+    using M = const MachineMeasures&;
+    table.add("crank_range_rad",
+              rocks() ? "range of the drive (rad)" : "crank rotation along the stroke (rad)",
+              measures_of([](M m) { return m.span; }));
+    if (rocks()) {
+      table.add("drive_from_rad", "crank angle at which the motion begins (rad)",
+                column_of([&](std::size_t i) { return drive_range(motion_, machines()[i].machine)[0]; }));
+      table.add("drive_to_rad", "crank angle at which the motion ends (rad)",
+                column_of([&](std::size_t i) { return drive_range(motion_, machines()[i].machine)[1]; }));
     }
-    const FoundMachine& best = answer_.machines[0];
+    table.add("peak_acceleration_share", "peak acceleration at unit crank speed, of the size of the stroke",
+              measures_of([](M m) { return m.peak_acceleration; }));
+  }
+
+  void tell_of_best(const study::AddFact& fact, const Sentence& links, const Measured& pair_angle) override {
+    const FoundMachine& best = machines()[0];
     const MachineMeasures& m = best.measures;
-    const Measured pair_angle = degrees_of(m.min_pair_angle).fixed(1);
-    const Sentence links = count_of(best.machine.shape.program->links);
     if (poses())
       result_.headline =
           say("A machine of {} links leads the body through the poses with root mean square errors of {} and "
@@ -350,42 +274,32 @@ class AnyReport {
     else
       result_.headline =
           say("A machine of {} links follows the stroke with a root mean square error of {} and pair angles "
-              "of at "
-              "least {}.",
+              "of at least {}.",
               links, length(m.distance), pair_angle);
-    fact("best machine",
-         say("{} ({})", title_of(*best.machine.shape.program), best.machine.shape.program->name));
     fact("root mean square error", length(m.distance));
     if (poses()) fact("root mean square error of the rotation", degrees_of(m.rotation, 3));
     if (poses()) fact("largest error of the rotation", degrees_of(m.largest_rotation, 3));
     fact("largest deviation", length(m.largest_deviation));
     if (motion_.tolerance > 0) tolerance_fact(fact);
     if (!poses()) fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
-    const std::string over = rocks() ? "over the range of the drive" : "over the whole turn";
-    fact("least pair angle " + over, pair_angle);
-    fact("box of the pins " + over + ", larger side", length(m.size));
     if (rocks())
       drive_fact(best.machine, fact);
-    else if (!target_.closed)
+    else if (!target().closed)
       fact(poses() ? "crank rotation through the poses" : "crank rotation along the stroke",
            degrees_of(m.span).fixed(0));
-    const auto simplest = std::min_element(
-        answer_.machines.begin(), answer_.machines.end(), [](const FoundMachine& a, const FoundMachine& b) {
-          return a.machine.shape.program->links < b.machine.shape.program->links;
-        });
-    if (simplest->machine.shape.program->links < best.machine.shape.program->links)
-      fact("best machine with the fewest links",
-           say("{} links ({}), root mean square error {}", count_of(simplest->machine.shape.program->links),
-               short_name_of(*simplest->machine.shape.program), length(simplest->measures.distance)));
-    add_figure_facts(s_.refinement, figures_, *result_.table("machines"), motion_, fact);
-    fact("curves computed", count_of(static_cast<double>(answer_.curves)));
+  }
+
+  void add_remarks(const study::AddFact& fact) override {
+    if (auto layouts = layout_table(machines(), motion_)) result_.tables.push_back(std::move(*layouts));
     if (!poses()) stroke_facts(fact);
+    const study::AddWarning warn{result_.diagnostics};
+    const MachineMeasures& m = machines()[0].measures;
     if (m.peak_acceleration > 100 && !poses())
       warn("target",
            say("the best machine passes a corner with {} times the acceleration of a point on a circle",
                plain_number(m.peak_acceleration, 3)),
            "round the corners of the stroke where speed matters");
-    if (!rocks() && !target_.closed && m.span > most_of_a_turn)
+    if (!rocks() && !target().closed && m.span > most_of_a_turn)
       warn("limits",
            say("the best machine takes {} of its turn along the {}, and has {} to come back",
                degrees_of(m.span).fixed(0), poses() ? "poses" : "stroke",
@@ -407,71 +321,81 @@ class AnyReport {
   }
 
   void tolerance_fact(const study::AddFact& fact) const {
-    const auto inside =
-        std::count_if(answer_.machines.begin(), answer_.machines.end(),
-                      [&](const FoundMachine& found) { return within_tolerance(found.measures); });
+    const auto inside = std::count_if(machines().begin(), machines().end(), [&](const FoundMachine& found) {
+      return within_tolerance(found.measures);
+    });
     fact("machines within the tolerance", say("{} of {}", count_of(static_cast<double>(inside)),
-                                              count_of(static_cast<double>(answer_.machines.size()))));
+                                              count_of(static_cast<double>(machines().size()))));
   }
 
   void stroke_facts(const study::AddFact& fact) const {
-    const StrokeShape shape = stroke_shape_of(target_);
+    const StrokeShape shape = stroke_shape_of(target());
     if (shape.retraced > 0.03)
       fact("part of the stroke that is traced back and forth", percent(shape.retraced, 2));
     if (shape.crossings > 0)
       fact("crossings of the stroke with itself", count_of(static_cast<double>(shape.crossings)));
   }
-
-  const AnyStudy& s_;
-  const study::Common& common_;
-  const MotionTarget& motion_;
-  const SampledStroke& target_;
-  const MachineLimits& limits_;
-  const TypeSearchAnswer answer_;
-  const ListFigures figures_;
-  study::Result result_;
 };
 
 }  // namespace
 
-TypeSearchOptions search_options(const AnyStudy& s, const MachineLimits& limits) {
+TypeSearchOptions search_options(const AnyStudy& s, const study::Common& common,
+                                 const MachineLimits& limits) {
   TypeSearchOptions options;
   if (s.mechanism.families) options.families = *s.mechanism.families;
   options.max_links = s.mechanism.most_links;
   options.limits = limits;
-  options.seed = static_cast<std::uint64_t>(s.optimiser.seed);
+  options.seed = static_cast<std::uint64_t>(common.seeds.first);
   options.max_solutions = static_cast<std::size_t>(s.optimiser.max_solutions);
   options.max_curves = s.optimiser.evaluations.value_or(0);
   return options;
 }
 
-TypeSearchAnswer search_machines(const AnyStudy& s, const MachineLimits& limits, RunContext& context) {
-  // The time of the search is part of the study: it ends as done. Interruptions from outside end the run.
-  RunContext part;
-  part.set_part_of(context);
-  part.set_threads(context.threads());
-  part.set_checkpoint(context.checkpoint());
-  const auto began = RunContext::Clock::now();
-  part.set_progress([&](const Progress& progress) {
-    Progress shown = progress;
-    if (s.optimiser.seconds)
-      shown.fraction = std::min(1.0, std::chrono::duration<double>(RunContext::Clock::now() - began).count() /
-                                         *s.optimiser.seconds);
-    context.report(shown);
-  });
-  if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
-  TypeSearchAnswer answer = search_types(*s.motion, search_options(s, limits), part);
-  answer.status = context.interruption();
-  return answer;
+TypeSearchAnswer search_machines(const AnyStudy& s, const study::Common& common, const MachineLimits& limits,
+                                 RunContext& context, study::Result& result) {
+  const TypeSearchOptions options = search_options(s, common, limits);
+  const std::vector<MachineFamily> families = searched_families(*s.motion, options);
+  const bool alone = common.seeds.count == 1;
+  const auto search = [&](std::uint64_t seed) {
+    // The time of the search is part of the study: it ends as done. Interruptions from outside end the run.
+    RunContext part;
+    part.set_part_of(context);
+    part.set_threads(alone ? context.threads() : 1);
+    part.set_checkpoint(context.checkpoint());
+    const auto began = RunContext::Clock::now();
+    part.set_progress([&](const Progress& progress) {
+      Progress shown = progress;
+      if (s.optimiser.seconds)
+        shown.fraction =
+            std::min(1.0, std::chrono::duration<double>(RunContext::Clock::now() - began).count() /
+                              *s.optimiser.seconds);
+      if (alone) context.report(shown);
+    });
+    if (s.optimiser.seconds) part.set_time_limit(std::chrono::duration<double>(*s.optimiser.seconds));
+    TypeSearchOptions own = options;
+    own.seed = seed, own.saved_as = optimise::seed_name(seed) + "/types";
+    TypeSearchAnswer answer = search_types(*s.motion, own, part);
+    answer.status = context.interruption();
+    return answer;
+  };
+  const auto runs = study::run_seeds(
+      common.seeds, context, "search", search, [](const TypeSearchAnswer& answer) { return answer.status; },
+      [](const TypeSearchAnswer& answer) { return least_error(answer); },
+      [](const TypeSearchAnswer& answer) { return saved_answer(answer); },
+      [&](const Value& value, const std::string& what) { return load_answer(value, families, what); });
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const TypeSearchAnswer& answer = runs.answers[i];
+    const double least = least_error(answer);
+    result.log.push_back(study::seed_entry(runs.seeds[i], answer.status,
+                                           std::isfinite(least) ? least * s.motion->error_unit() : nan,
+                                           answer.curves));
+  }
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
+  return merged_answers(*s.motion, runs.answers, options.max_solutions);
 }
 
 study::Result run_any_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
-  const MachineLimits limits = limits_of(s.limits, s.motion->stroke);
-  TypeSearchAnswer answer = search_machines(s, limits, context);
-  ListFigures figures =
-      refine_list(s.refinement, *s.motion, search_options(s, limits), common.output.samples, answer, context);
-  answer.status = context.interruption();
-  return AnyReport(s, common, limits, std::move(answer), std::move(figures)).make();
+  return MotionReport(s, common).make(context);
 }
 
 }  // namespace linkwright::planar

@@ -7,7 +7,6 @@
 #include <complex>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "linkwright/planar/type_synthesis/atlas.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/detail/grow.h"
+#include "linkwright/planar/type_synthesis/detail/machine_list.h"
 #include "linkwright/planar/type_synthesis/detail/search_state.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
 #include "linkwright/planar/type_synthesis/function_starts.h"
@@ -29,8 +29,6 @@ constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 1500, arc
 constexpr std::ptrdiff_t max_kin = 2;  // machines of the elite that are of one kin
 constexpr double pool_patience = 4;    // a start may lie this much further off than a hop, and is kept
 constexpr int first_rounds = 3;        // of each family, before the better ones get more
-
-constexpr std::string_view saved_as = "types";
 
 enum class TrialKind { pool, hop, grow };
 
@@ -51,23 +49,6 @@ bool is_of_pairs(MachineFamily family, MachineOutput output) {
   return programs.empty() ? family == MachineFamily::ten_bar : !programs.front()->pairs.empty();
 }
 
-bool dominates(const FoundMachine& a, const FoundMachine& b) {
-  const auto& m = a.measures;
-  const auto& n = b.measures;
-  const int la = a.machine.shape.program->links, lb = b.machine.shape.program->links;
-  // Few poses are met by many machines to rounding, which is no difference.
-  constexpr double negligible = 1e-6;
-  return la <= lb && std::max(m.error, negligible) <= std::max(n.error, negligible) &&
-         m.min_pair_angle >= n.min_pair_angle && m.size <= n.size &&
-         m.peak_acceleration <= n.peak_acceleration;
-}
-
-/// The same machine up to what the polish leaves open.
-bool is_alike(const FoundMachine& a, const FoundMachine& b) {
-  return std::abs(a.measures.error - b.measures.error) <= 2e-3 * b.measures.error + 1e-7 &&
-         std::abs(a.measures.size - b.measures.size) <= 0.01 * b.measures.size;
-}
-
 /// One has come from the other by hops, or both are of one type on one branch.
 bool is_kin(const FoundMachine& a, const FoundMachine& b) {
   const MachineShape &s = a.machine.shape, &t = b.machine.shape;
@@ -80,20 +61,17 @@ class TypeSearch {
       : target_(target), options_(options), context_(context), last_save_(RunContext::Clock::now()) {
     state_.turns = target.turns;
     for (std::size_t k = 0; k < trials_a_round; ++k) fitters_.emplace_back(target, options.limits);
-    for (const auto& family : names(MachineFamily{})) {
-      const auto& wanted = options.families;
-      const bool asked =
-          wanted.empty() || std::find(wanted.begin(), wanted.end(), family.value) != wanted.end();
-      if (!asked || links_of(family.value) > options.max_links || !has_output(family.value)) continue;
+    for (const MachineFamily family : searched_families(target, options)) {
       FamilyState& state = state_.families.emplace_back();
-      state.report.family = family.value, state.links = links_of(family.value);
+      state.report.family = family, state.links = links_of(family);
     }
   }
 
   TypeSearchAnswer run() {
     Status status = Status::done;
     if (Checkpoint* checkpoint = context_.checkpoint())
-      if (const Value value = checkpoint->find(saved_as); !value.is_null()) load_state(value, state_);
+      if (const Value value = checkpoint->find(options_.saved_as); !value.is_null())
+        load_state(value, state_);
     while (!state_.families.empty()) {
       status = context_.interruption();
       if (status != Status::done || (options_.max_curves > 0 && state_.curves >= options_.max_curves)) break;
@@ -119,14 +97,8 @@ class TypeSearch {
     Checkpoint* checkpoint = context_.checkpoint();
     const auto now = RunContext::Clock::now();
     if (!checkpoint || now - last_save_ < checkpoint->interval() || context_.interrupted()) return;
-    checkpoint->keep(saved_as, saved_state(state_));
+    checkpoint->keep(options_.saved_as, saved_state(state_));
     last_save_ = now;
-  }
-
-  /// Machines of ten links are grown, and so not listed.
-  bool has_output(MachineFamily family) const {
-    return !programs_of(family, target_.output).empty() ||
-           (family == MachineFamily::ten_bar && target_.output == MachineOutput::point);
   }
 
   double best_error() const {
@@ -431,26 +403,9 @@ class TypeSearch {
       state_.progress.push_back(
           {.curves = state_.curves, .family = f.report.family, .error = found.measures.error});
     }
-    insert(f.archive, found, archive_size, true);
-    insert(f.elite, found, elite_size, false);
+    insert_machine(f.archive, found, archive_size, true);
+    insert_machine(f.elite, found, elite_size, false);
     keep_kin_apart(f.elite);
-  }
-
-  /// Keeps a list sorted by error, without machines that are alike and, for archives, without dominated ones.
-  static void insert(std::vector<FoundMachine>& list, const FoundMachine& found, std::size_t most,
-                     bool archive) {
-    for (const FoundMachine& other : list)
-      if (archive ? dominates(other, found)
-                  : is_alike(other, found) && other.measures.error <= found.measures.error)
-        return;
-    std::erase_if(list, [&](const FoundMachine& other) {
-      return archive ? dominates(found, other) : is_alike(found, other);
-    });
-    const auto place = std::upper_bound(
-        list.begin(), list.end(), found,
-        [](const FoundMachine& a, const FoundMachine& b) { return a.measures.error < b.measures.error; });
-    list.insert(place, found);
-    if (list.size() > most) list.pop_back();
   }
 
   /// Keeps few of each kin, so that hops do not all end in one optimum.
@@ -470,29 +425,11 @@ class TypeSearch {
     std::vector<FoundMachine> all;
     for (FamilyState& f : state_.families) {
       out.families.push_back(f.report);
-      // The best, and the best of those that are clearly kinder in another respect.
-      std::vector<FoundMachine> chosen;
-      for (const FoundMachine& found : f.archive) {
-        const bool close = found.measures.error <= 2 * f.report.error + 0.002;
-        const bool different = std::all_of(chosen.begin(), chosen.end(), [&](const FoundMachine& c) {
-          return found.measures.min_pair_angle > c.measures.min_pair_angle + 0.09 ||
-                 found.measures.size < 0.7 * c.measures.size ||
-                 found.measures.peak_acceleration < 0.6 * c.measures.peak_acceleration;
-        });
-        if (chosen.size() < 2 && close && different) chosen.push_back(found);
-      }
+      const std::vector<FoundMachine> chosen = chosen_of_family(f.archive);
       all.insert(all.end(), chosen.begin(), chosen.end());
       if (f.archive.empty() && f.outside) out.outside.push_back(*f.outside);
     }
-    for (const FoundMachine& found : all)
-      if (std::none_of(all.begin(), all.end(), [&](const FoundMachine& other) {
-            return &other != &found && dominates(other, found);
-          }))
-        out.machines.push_back(found);
-    std::sort(out.machines.begin(), out.machines.end(), [](const FoundMachine& a, const FoundMachine& b) {
-      return a.measures.error < b.measures.error;
-    });
-    if (out.machines.size() > options_.max_solutions) out.machines.resize(options_.max_solutions);
+    out.machines = chosen_of_all(all, options_.max_solutions);
     if (target_.dense)
       for (FoundMachine& found : out.machines) found.chamfer = chamfer_of(target_, found.machine);
     return out;
@@ -524,6 +461,20 @@ double chamfer_of(const MotionTarget& target, const FittedMachine& m) {
   std::vector<std::complex<double>> curve;
   for (std::size_t k = 0; k < count; ++k) curve.emplace_back(x[k], y[k]);
   return chamfer_distance(curve, target.stroke.closed, target.stroke.polyline, target.stroke.closed);
+}
+
+std::vector<MachineFamily> searched_families(const MotionTarget& target, const TypeSearchOptions& options) {
+  std::vector<MachineFamily> out;
+  for (const auto& family : names(MachineFamily{})) {
+    const auto& wanted = options.families;
+    const bool asked =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), family.value) != wanted.end();
+    // Machines of ten links are grown, and so have no programs of their own in the list.
+    const bool has_output = !programs_of(family.value, target.output).empty() ||
+                            (family.value == MachineFamily::ten_bar && target.output == MachineOutput::point);
+    if (asked && links_of(family.value) <= options.max_links && has_output) out.push_back(family.value);
+  }
+  return out;
 }
 
 TypeSearchAnswer search_types(const MotionTarget& target, const TypeSearchOptions& options,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct TypeSearchOptions {
       0;  ///< number of curves after which the search ends; 0 = only the context ends it
   std::uint64_t seed = 1;
   std::size_t max_solutions = 12;
+  std::string saved_as = "types";  ///< name of the search in a checkpoint
 };
 
 /// A machine of the list, in sizes of the stroke from its mean.
@@ -56,8 +58,16 @@ struct TypeSearchAnswer {
   std::int64_t curves = 0;
 };
 
+/// What searches of the same target in the same families with different seeds come to together: one list, the
+/// sums of what they did, and progress as if they had run one after the other.
+TypeSearchAnswer merged_answers(const MotionTarget& target, std::span<const TypeSearchAnswer> answers,
+                                std::size_t max_solutions);
+
 /// Chamfer distance of the curve of a measured machine and the stroke of a dense target, in sizes.
 double chamfer_of(const MotionTarget& target, const FittedMachine& machine);
+
+/// The families that a search looks in, in their order.
+std::vector<MachineFamily> searched_families(const MotionTarget& target, const TypeSearchOptions& options);
 
 /// Finds machines of many types that trace a stroke, whose body takes poses, or that generate a function. The
 /// sequence of its trials depends on the seed alone; the context or the number of curves says where it ends.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/value.h"
@@ -49,5 +51,11 @@ Value saved_state(const SearchState& state);
 /// Takes up a saved state of a search in the same families. Throws CheckpointError for what no search has
 /// saved.
 void load_state(const Value& value, SearchState& state);
+
+/// The answer of a search that came to its end, as a checkpoint keeps it, and back. Throws CheckpointError,
+/// naming `what`, for what no search in these families has saved.
+Value saved_answer(const TypeSearchAnswer& answer);
+TypeSearchAnswer load_answer(const Value& value, std::span<const MachineFamily> families,
+                             std::string_view what);
 
 }  // namespace linkwright::planar
