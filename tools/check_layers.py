@@ -34,7 +34,7 @@ FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS
 BASE, STUDIES = "", "studies"
 FOLDERS = {
     "planar": [[BASE], ["linkage", "serial_arm", "chains", "drawing", "cam"], ["four_bar", "sketch"],
-               ["simulation", "path", "balancing", "dyads", "type_synthesis"], ["function", "exact"]],
+               ["simulation", "path", "balancing", "dyads"], ["function", "exact", "type_synthesis"]],
     "suspension": [["corner"], ["wheel", "indirect"], ["compliance", "dependent"], ["direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
     "clearance": [[BASE]],

@@ -21,14 +21,16 @@
 #include "linkwright/planar/type_synthesis/draw_shape.h"
 #include "linkwright/planar/type_synthesis/function_starts.h"
 #include "linkwright/planar/type_synthesis/place.h"
+#include "linkwright/planar/type_synthesis/pose_starts.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t trials_a_round = 16, elite_size = 8, pool_size = 1500, archive_size = 40;
-constexpr std::ptrdiff_t max_kin = 2;  // machines of the elite that are of one kin
-constexpr double pool_patience = 4;    // a start may lie this much further off than a hop, and is kept
-constexpr int first_rounds = 3;        // of each family, before the better ones get more
+constexpr std::ptrdiff_t max_kin = 2;     // machines of the elite that are of one kin
+constexpr std::size_t exact_starts = 96;  // of dyads through poses
+constexpr double pool_patience = 4;       // a start may lie this much further off than a hop, and is kept
+constexpr int first_rounds = 3;           // of each family, before the better ones get more
 
 enum class TrialKind { pool, hop, grow };
 
@@ -39,6 +41,7 @@ struct Trial {
   double best = infinity;
   std::int64_t origin = 0;
   std::optional<CrankPart> part = {};  ///< of the turn, of a shape of the pool
+  bool placed = false;                 ///< a machine of the pool is where it belongs already
   bool accepted = false, inside = false;
   MachineMeasures measures;
   std::int64_t curves = 0;
@@ -152,6 +155,8 @@ class TypeSearch {
       if (!target_.turns) f.atlases.push_back(rocking_atlas(f.report.family, context_));
       if (!f.atlases.front() || !f.atlases.back()) return false;
       f.pool = pool_of(f);
+      if (target_.oriented && !target_.timed)
+        f.exact = pose_starts(target_, options_.limits, f.report.family, exact_starts, context_);
       if (context_.interrupted()) return false;
       f.report.atlas_entries = 0;
       for (const auto& atlas : f.atlases)
@@ -231,12 +236,14 @@ class TypeSearch {
   /// changed at random.
   void take_from_pool(FamilyState& f, Trial& t, RandomStream& random) const {
     const bool again = f.next_in_pool >= f.pooled();
-    const std::size_t next = f.next_in_pool++ % f.pooled();
+    const std::size_t next = f.next_in_pool++ % f.pooled(), of_pool = next - std::min(next, f.exact.size());
     t.kind = TrialKind::pool;
-    if (f.starts.empty())
-      t.machine.shape = shape_of(f, f.pool[next]), t.part = part_of(f, f.pool[next]);
+    if (next < f.exact.size())
+      t.machine = f.exact[next], t.placed = true;
+    else if (f.starts.empty())
+      t.machine.shape = shape_of(f, f.pool[of_pool]), t.part = part_of(f, f.pool[of_pool]);
     else
-      t.machine.shape = f.starts[next].shape, t.machine.angle[0] = f.starts[next].from;
+      t.machine.shape = f.starts[of_pool].shape, t.machine.angle[0] = f.starts[of_pool].from;
     if (again) hop(t.machine, random);
   }
 
@@ -296,7 +303,7 @@ class TypeSearch {
     const std::int64_t before = fitter.curves();
     const bool possible =
         ground_pivots(*t.machine.shape.program).size() >= options_.limits.ground_pivots.size();
-    const bool placed = possible && (t.kind != TrialKind::pool || place(t, fitter));
+    const bool placed = possible && (t.kind != TrialKind::pool || t.placed || place(t, fitter));
     // The body sits on another bar than before.
     if (placed && target_.oriented && t.kind != TrialKind::hop) fitter.turn_body(t.machine);
     if (placed && (!polished || fitter.polish(t.machine, t.best))) {

@@ -24,10 +24,11 @@ struct FamilyState {
   std::vector<std::shared_ptr<const FamilyAtlas>> atlases;  ///< of shapes that turn, and of others
   std::vector<AtlasMatch> pool;
   std::vector<FunctionStart> starts;  ///< the pool of a function
+  std::vector<FittedMachine> exact;   ///< of dyads through poses, before those of the pool
   std::size_t next_in_pool = 0;
   bool prepared = false;  ///< atlases and pool are there
 
-  std::size_t pooled() const { return std::max(pool.size(), starts.size()); }
+  std::size_t pooled() const { return exact.size() + std::max(pool.size(), starts.size()); }
   const FamilyAtlas& atlas_of(const AtlasMatch& match) const { return *atlases[match.atlas]; }
   int rounds = 0;
   double last_gain = 1;               ///< relative fall of the error in its last round
